@@ -1,0 +1,25 @@
+# Flags shared by all targets, through mpfem::options.
+add_library(mpfem_options INTERFACE)
+add_library(mpfem::options ALIAS mpfem_options)
+
+target_compile_options(mpfem_options INTERFACE
+  -Wall -Wextra -Wpedantic -Wconversion -Wshadow -Wnon-virtual-dtor -Wold-style-cast)
+if(MPFEM_WARNINGS_AS_ERRORS)
+  target_compile_options(mpfem_options INTERFACE -Werror)
+endif()
+
+# -ffp-contract=fast lets the compiler fuse multiply and add; -fno-math-errno and -fno-trapping-math cost no accuracy.
+# Nothing that reorders sums or assumes finite values (-ffast-math) is used: results must not depend on luck.
+target_compile_options(mpfem_options INTERFACE -ffp-contract=fast -fno-math-errno -fno-trapping-math)
+if(MPFEM_PORTABLE)
+  target_compile_options(mpfem_options INTERFACE -march=x86-64-v2)
+else()
+  target_compile_options(mpfem_options INTERFACE -march=native)
+endif()
+if(MPFEM_SANITIZE)
+  target_compile_options(mpfem_options INTERFACE -fsanitize=${MPFEM_SANITIZE} -fno-omit-frame-pointer
+                                                 -fno-sanitize-recover=all)
+  target_link_options(mpfem_options INTERFACE -fsanitize=${MPFEM_SANITIZE})
+endif()
+set(CMAKE_CXX_FLAGS_RELEASE "-O3 -DNDEBUG")
+set(CMAKE_CXX_FLAGS_DEBUG "-Og -g")

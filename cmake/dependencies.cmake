@@ -1,0 +1,15 @@
+# Every package that the toolkit uses, found once. Debian's names are listed in ./bootstrap.
+find_package(Threads REQUIRED)
+find_package(PkgConfig REQUIRED)
+find_package(Eigen3 3.4 REQUIRED NO_MODULE)
+find_package(fmt REQUIRED)
+find_package(CLI11 REQUIRED)
+find_package(nlohmann_json REQUIRED)
+pkg_check_modules(HDF5 REQUIRED IMPORTED_TARGET hdf5)
+pkg_check_modules(TOMLPLUSPLUS REQUIRED IMPORTED_TARGET tomlplusplus)
+
+find_path(GMSH_INCLUDE_DIR gmsh.h REQUIRED)
+find_library(GMSH_LIBRARY gmsh REQUIRED)
+add_library(gmsh_api INTERFACE IMPORTED)
+target_include_directories(gmsh_api INTERFACE ${GMSH_INCLUDE_DIR})
+target_link_libraries(gmsh_api INTERFACE ${GMSH_LIBRARY})
