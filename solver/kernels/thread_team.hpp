@@ -1,0 +1,45 @@
+#pragma once
+// A team of persistent threads that share a loop over grains. One of the few files that know threads.
+
+#include <atomic>
+#include <condition_variable>
+#include <cstddef>
+#include <functional>
+#include <mutex>
+#include <thread>
+#include <vector>
+
+namespace mpfem {
+
+/// Runs loops over independent items on a fixed number of threads. Items are handed out one by one, so which thread
+/// runs an item is not determined: an item must write to its own data only, and sums over items are made afterwards in
+/// item order, so that results do not depend on the number of threads.
+class ThreadTeam {
+public:
+  explicit ThreadTeam(int threads);
+  ~ThreadTeam();
+  ThreadTeam(const ThreadTeam&) = delete;
+  ThreadTeam& operator=(const ThreadTeam&) = delete;
+
+  int size() const { return static_cast<int>(workers_.size()) + 1; }
+
+  /// Calls body(item, thread) for item = 0 … count-1 and returns when all are done. The first exception thrown by a
+  /// body is rethrown here.
+  void for_each(int count, const std::function<void(int item, int thread)>& body);
+
+private:
+  void work(int thread);
+  void run_items(int thread);
+
+  std::vector<std::thread> workers_;
+  const std::function<void(int, int)>* body_ = nullptr;
+  int count_ = 0;
+  std::atomic<int> next_{0};
+  std::atomic<int> busy_{0};
+  std::atomic<unsigned> round_{0};
+  std::atomic<bool> stop_{false};
+  std::mutex error_mutex_;
+  std::exception_ptr error_;
+};
+
+} // namespace mpfem
