@@ -1,0 +1,278 @@
+#include "solver/model/model.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+#include <fmt/format.h>
+
+#include "common/errors.hpp"
+#include "common/hash.hpp"
+#include "results-schema/descriptors.hpp"
+#include "results-schema/file.hpp"
+
+namespace mpfem {
+
+namespace {
+
+using Index = std::int32_t;
+
+std::size_t at(Index i) { return static_cast<std::size_t>(i); }
+
+Vector3<double> point(const std::vector<double>& node, Index i) {
+  return {node[3 * at(i)], node[3 * at(i) + 1], node[3 * at(i) + 2]};
+}
+
+double tet_volume(const MeshedPacking& packing, Index tet) {
+  const Index* n = &packing.tet[4 * at(tet)];
+  const auto x0 = point(packing.node, n[0]);
+  return dot(point(packing.node, n[1]) - x0,
+             cross(point(packing.node, n[2]) - x0, point(packing.node, n[3]) - x0)) / 6.0;
+}
+
+/// Key that follows a Morton curve through the box of the grain: neighbours in space become neighbours in memory.
+std::uint64_t morton_key(const Vector3<double>& x, const Vector3<double>& low, double size) {
+  std::uint64_t key = 0;
+  const double scaled[3] = {(x.x - low.x) / size, (x.y - low.y) / size, (x.z - low.z) / size};
+  for (int axis = 0; axis < 3; ++axis) {
+    auto cell = static_cast<std::uint64_t>(std::clamp(scaled[axis], 0.0, 1.0) * 1023.0);
+    for (int bit = 0; bit < 10; ++bit) key |= ((cell >> bit) & 1U) << (3 * bit + axis);
+  }
+  return key;
+}
+
+struct Face {
+  std::array<Index, 3> sorted;
+  std::array<Index, 3> outward;
+  bool operator<(const Face& other) const { return sorted < other.sorted; }
+};
+
+/// Faces that belong to one tetrahedron only, outward counter-clockwise, for the tets [begin, end).
+std::vector<std::array<Index, 3>> boundary_faces(const std::vector<Index>& tet, Index begin, Index end) {
+  static constexpr int corner[4][3] = {{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}};
+  std::vector<Face> faces;
+  faces.reserve(4 * at(end - begin));
+  for (Index t = begin; t < end; ++t) {
+    for (const auto& c : corner) {
+      Face face;
+      for (std::size_t i = 0; i < 3; ++i) face.outward[i] = tet[4 * at(t) + static_cast<std::size_t>(c[i])];
+      face.sorted = face.outward;
+      std::sort(face.sorted.begin(), face.sorted.end());
+      faces.push_back(face);
+    }
+  }
+  std::sort(faces.begin(), faces.end());
+  std::vector<std::array<Index, 3>> boundary;
+  for (std::size_t i = 0; i < faces.size();) {
+    std::size_t j = i + 1;
+    while (j < faces.size() && faces[j].sorted == faces[i].sorted) ++j;
+    if (j == i + 1) boundary.push_back(faces[i].outward);
+    i = j;
+  }
+  return boundary;
+}
+
+FlowLaw make_flow_law(const MaterialParameters& p) {
+  const HardeningParameters& h = p.hardening;
+  switch (h.law) {
+  case HardeningLaw::elastic: return ElasticLaw{};
+  case HardeningLaw::power: return PowerLaw{h.yield_stress, h.coefficient, h.exponent};
+  case HardeningLaw::total_strain: return TotalStrainLaw{h.coefficient, h.exponent, p.youngs_modulus};
+  case HardeningLaw::table: {
+    if (h.table_plastic_strain.size() > static_cast<std::size_t>(TableLaw::max_points))
+      throw InputError(fmt::format("material.hardening: the table has {} points, allowed at most {}",
+                                   h.table_plastic_strain.size(), TableLaw::max_points));
+    TableLaw law;
+    law.points = static_cast<int>(h.table_plastic_strain.size());
+    std::copy(h.table_plastic_strain.begin(), h.table_plastic_strain.end(), law.strain.begin());
+    std::copy(h.table_flow_stress.begin(), h.table_flow_stress.end(), law.stress.begin());
+    return law;
+  }
+  }
+  return ElasticLaw{};
+}
+
+void check_packing(const MeshedPacking& packing, const std::string& name) {
+  const auto nodes = static_cast<Index>(packing.node.size() / 3);
+  const auto tets = static_cast<Index>(packing.tet.size() / 4);
+  const auto& no = packing.grain_node_offset;
+  const auto& to = packing.grain_tet_offset;
+  if (no.size() < 2 || no.size() != to.size() || no.front() != 0 || to.front() != 0 || no.back() != nodes ||
+      to.back() != tets || !std::is_sorted(no.begin(), no.end()) || !std::is_sorted(to.begin(), to.end()))
+    throw InputError(fmt::format("{}: /mesh/grain_node_offset and /mesh/grain_tet_offset do not divide {} nodes and {} "
+                                 "tets into grains", name, nodes, tets));
+  for (std::size_t g = 0; g + 1 < no.size(); ++g) {
+    if (to[g + 1] == to[g]) throw InputError(fmt::format("{}: grain {} has no tetrahedra", name, g));
+    for (Index t = to[g]; t < to[g + 1]; ++t) {
+      for (std::size_t i = 0; i < 4; ++i) {
+        const Index n = packing.tet[4 * at(t) + i];
+        if (n < no[g] || n >= no[g + 1])
+          throw InputError(fmt::format("{}: /mesh/tet row {}: node {} is not one of grain {} (allowed {} … {})", name, t,
+                                       n, g, no[g], no[g + 1] - 1));
+      }
+      const double volume = tet_volume(packing, t);
+      if (!(volume > 0))
+        throw InputError(fmt::format("{}: /mesh/tet row {} (grain {}) is inverted or degenerate: volume {:.3g} mm^3, "
+                                     "allowed > 0", name, t, g, volume));
+    }
+  }
+  for (Index i = 0; i < nodes; ++i)
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const double x = packing.node[3 * at(i) + axis];
+      if (!std::isfinite(x)) throw InputError(fmt::format("{}: /mesh/node row {} is not finite", name, i));
+    }
+}
+
+} // namespace
+
+double Model::total_reference_volume() const {
+  return std::accumulate(reference_volume.begin(), reference_volume.end(), 0.0);
+}
+
+SurfaceView Model::surface() const { return {position, node_offset, surface_node_count, facet, facet_offset}; }
+
+std::size_t Model::memory() const {
+  const auto bytes = [](const auto& v) { return v.size() * sizeof(v[0]); };
+  return bytes(position) + bytes(velocity) + bytes(force) + bytes(normal) + bytes(inverse_mass) + bytes(block) +
+         bytes(facet) + bytes(file_node) + bytes(file_tet);
+}
+
+MeshedPacking read_packing(const std::string& path) {
+  const schema::FileReader reader(path, schema::FileKind::packing);
+  if (!reader.has(schema::packing::mesh_tet))
+    throw InputError(fmt::format("{}: holds spheres without a mesh; make one with: pack-gen mesh {} --size MM -o "
+                                 "packing.h5", path, path));
+  MeshedPacking packing;
+  const auto lengths = reader.read(schema::packing::box_lengths);
+  std::copy_n(lengths.begin(), 3, packing.box_lengths.begin());
+  packing.node = reader.read(schema::packing::mesh_node);
+  packing.tet = reader.read(schema::packing::mesh_tet);
+  packing.grain_node_offset = reader.read(schema::packing::mesh_grain_node_offset);
+  packing.grain_tet_offset = reader.read(schema::packing::mesh_grain_tet_offset);
+  if (reader.has(schema::packing::packing_seed)) packing.seed = reader.read_scalar(schema::packing::packing_seed);
+  return packing;
+}
+
+Material make_material(const MaterialParameters& parameters, double mass_scaling) {
+  const ElasticModuli moduli = elastic_moduli(parameters.youngs_modulus, parameters.poissons_ratio);
+  const double density = parameters.density * mass_scaling;
+  return {moduli, density, std::sqrt(moduli.dilatational() / density), make_flow_law(parameters)};
+}
+
+Model build_model(const MeshedPacking& packing, const Scenario& scenario, const std::string& name) {
+  check_packing(packing, name);
+  Model model;
+  model.grains = static_cast<int>(packing.grain_node_offset.size()) - 1;
+  model.material = make_material(scenario.material, scenario.numerics.mass_scaling);
+  model.viscosity = {scenario.numerics.bulk_viscosity_linear, scenario.numerics.bulk_viscosity_quadratic};
+  model.node_offset = packing.grain_node_offset;
+  model.tet_offset = packing.grain_tet_offset;
+  model.seed = packing.seed;
+  model.mesh_hash = hash_values(std::span<const double>(packing.node));
+  model.mesh_hash = hash_values(std::span<const Index>(packing.tet), model.mesh_hash);
+  model.box_low = {0, 0, 0};
+  model.box_high = packing.box_lengths;
+
+  const std::size_t nodes = packing.node.size() / 3;
+  const std::size_t tets = packing.tet.size() / 4;
+  model.file_node.resize(nodes);
+  model.file_tet.resize(tets);
+  model.block_offset.assign(1, 0);
+  model.facet_offset.assign(1, 0);
+  model.position.assign(4 * nodes, 0.0);
+  model.velocity.assign(4 * nodes, 0.0);
+  model.force.assign(4 * nodes, 0.0);
+  model.normal.assign(4 * nodes, 0.0);
+  model.inverse_mass.assign(nodes, 0.0);
+
+  const double initial_flow_stress = std::visit([](const auto& law) { return law.initial_flow_stress(); },
+                                                model.material.flow);
+  std::vector<Index> new_index(nodes); // file node -> model node
+  for (int g = 0; g < model.grains; ++g) {
+    const auto gs = static_cast<std::size_t>(g);
+    const Index n0 = model.node_offset[gs], n1 = model.node_offset[gs + 1];
+    const Index t0 = model.tet_offset[gs], t1 = model.tet_offset[gs + 1];
+
+    // 1. Surface, then nodes: surface nodes first, each group along a Morton curve.
+    const auto faces = boundary_faces(packing.tet, t0, t1);
+    std::vector<char> on_surface(at(n1 - n0), 0);
+    for (const auto& face : faces)
+      for (Index n : face) on_surface[at(n - n0)] = 1;
+    Vector3<double> low = point(packing.node, n0), high = low;
+    for (Index n = n0; n < n1; ++n) {
+      const auto x = point(packing.node, n);
+      low = {std::min(low.x, x.x), std::min(low.y, x.y), std::min(low.z, x.z)};
+      high = {std::max(high.x, x.x), std::max(high.y, x.y), std::max(high.z, x.z)};
+    }
+    const double size = std::max({high.x - low.x, high.y - low.y, high.z - low.z});
+    std::vector<std::pair<std::uint64_t, Index>> order;
+    for (Index n = n0; n < n1; ++n) {
+      const std::uint64_t interior = on_surface[at(n - n0)] ? 0U : 1U;
+      order.emplace_back((interior << 40U) | morton_key(point(packing.node, n), low, size), n);
+    }
+    std::sort(order.begin(), order.end());
+    Index surface_nodes = 0;
+    for (std::size_t i = 0; i < order.size(); ++i) {
+      const Index model_node = n0 + static_cast<Index>(i);
+      new_index[at(order[i].second)] = model_node;
+      model.file_node[at(model_node)] = order[i].second;
+      surface_nodes += on_surface[at(order[i].second - n0)];
+      for (std::size_t axis = 0; axis < 3; ++axis)
+        model.position[4 * at(model_node) + axis] = packing.node[3 * at(order[i].second) + axis];
+    }
+    model.surface_node_count.push_back(surface_nodes);
+
+    double edge_sum = 0;
+    for (const auto& face : faces) {
+      for (std::size_t i = 0; i < 3; ++i) {
+        model.facet.push_back(new_index[at(face[i])]);
+        edge_sum += norm(point(packing.node, face[i]) - point(packing.node, face[(i + 1) % 3]));
+      }
+    }
+    model.facet_offset.push_back(static_cast<Index>(model.facet.size() / 3));
+    const double h = edge_sum / (3.0 * static_cast<double>(faces.size()));
+    model.element_size.push_back(h);
+    model.penalty_stiffness.push_back(scenario.contact.stiffness_factor * scenario.material.youngs_modulus / h);
+
+    // 2. Tets along the same curve, in blocks.
+    std::vector<std::pair<std::uint64_t, Index>> tet_order;
+    for (Index t = t0; t < t1; ++t) {
+      Vector3<double> centre{0, 0, 0};
+      for (std::size_t i = 0; i < 4; ++i) centre = centre + 0.25 * point(packing.node, packing.tet[4 * at(t) + i]);
+      tet_order.emplace_back(morton_key(centre, low, size), t);
+    }
+    std::sort(tet_order.begin(), tet_order.end());
+    double volume = 0;
+    for (Index i = 0; i < t1 - t0; i += TetBlock::lanes) {
+      TetBlock block{};
+      for (int lane = 0; lane < TetBlock::lanes; ++lane) {
+        const Index position = std::min(i + lane, t1 - t0 - 1);
+        const Index t = tet_order[at(position)].second;
+        for (int c = 0; c < 4; ++c)
+          block.node[c][lane] = new_index[at(packing.tet[4 * at(t) + static_cast<std::size_t>(c)])] - n0;
+        const double tet_v = tet_volume(packing, t);
+        block.reference_volume[lane] = tet_v;
+        block.flow_stress[lane] = initial_flow_stress;
+        if (i + lane < t1 - t0) {
+          model.file_tet[at(t0 + i + lane)] = t;
+          volume += tet_v;
+          for (int c = 0; c < 4; ++c) // mass here; inverted below
+            model.inverse_mass[at(n0 + block.node[c][lane])] += 0.25 * model.material.density * tet_v;
+        }
+      }
+      model.block.push_back(block);
+    }
+    model.block_offset.push_back(static_cast<Index>(model.block.size()));
+    model.reference_volume.push_back(volume);
+    model.mass.push_back(volume * model.material.density);
+    for (Index n = n0; n < n1; ++n) {
+      double& m = model.inverse_mass[at(n)];
+      if (!(m > 0)) throw InputError(fmt::format("{}: node {} belongs to no tetrahedron", name, model.file_node[at(n)]));
+      m = 1.0 / m;
+    }
+  }
+  return model;
+}
+
+} // namespace mpfem

@@ -1,0 +1,107 @@
+#pragma once
+// The grains: nodes, tetrahedra, surfaces and their state. A grain owns a contiguous range of everything.
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "solver/kernels/contact_search.hpp"
+#include "solver/model/aligned.hpp"
+#include "solver/physics/elasticity.hpp"
+#include "solver/physics/hardening.hpp"
+#include "solver/physics/stable_step.hpp"
+#include "solver/scenario/scenario.hpp"
+
+namespace mpfem {
+
+/// One pack of tetrahedra: connectivity and state side by side, so that an element pass streams through memory once.
+/// 88 bytes a tet. The last block of a grain repeats its last tet in unused lanes.
+struct alignas(64) TetBlock {
+  static constexpr int lanes = native_lanes;
+  std::int32_t node[4][lanes];       ///< relative to the grain's first node
+  double reference_volume[lanes];    ///< mm^3
+  double deviator[5][lanes];         ///< Cauchy deviator xx, yy, xy, yz, zx, MPa
+  double flow_stress[lanes];         ///< MPa
+  double plastic_strain[lanes];
+  double length[lanes];              ///< c_d times the undamped critical step 2/omega_e, mm; set at each step estimate
+};
+
+using FlowLaw = std::variant<ElasticLaw, PowerLaw, TotalStrainLaw, TableLaw>;
+
+struct Material {
+  ElasticModuli moduli;     ///< MPa
+  double density;           ///< tonne/mm^3, mass scaling included
+  double wave_speed;        ///< dilatational, mm/s, with the scaled density
+  FlowLaw flow;
+};
+
+/// Node arrays hold rows of four doubles (x, y, z, spare); the surface nodes of a grain are its first ones.
+struct Model {
+  int grains = 0;
+  Material material;
+  BulkViscosity viscosity{};
+
+  std::vector<std::int32_t> node_offset;         ///< [grains + 1]
+  std::vector<std::int32_t> surface_node_count;  ///< [grains]
+  std::vector<std::int32_t> tet_offset;          ///< [grains + 1]
+  std::vector<std::int32_t> block_offset;        ///< [grains + 1]
+  std::vector<std::int32_t> facet_offset;        ///< [grains + 1]
+  std::vector<std::int32_t> facet;               ///< [facets * 3], outward counter-clockwise
+  std::vector<std::int32_t> file_node;           ///< [nodes]: index in the packing file
+  std::vector<std::int32_t> file_tet;            ///< [tets]: index in the packing file, in block order
+
+  AlignedVector<double> position;    ///< mm
+  AlignedVector<double> velocity;    ///< mm/s, at the half step before the position
+  AlignedVector<double> force;       ///< N, internal and contact forces at the position
+  AlignedVector<double> normal;      ///< unit outward normal of surface nodes and, fourth, tributary area mm^2
+  AlignedVector<double> inverse_mass;///< [nodes], 1/tonne
+  std::vector<TetBlock> block;
+
+  std::vector<double> reference_volume;   ///< [grains], mm^3
+  std::vector<double> mass;               ///< [grains], tonne (scaled)
+  std::vector<double> element_size;       ///< [grains], h: mean edge length of the surface facets, mm
+  std::vector<double> penalty_stiffness;  ///< [grains], K = factor E / h, MPa/mm
+
+  std::array<double, 3> box_low{};        ///< mm, at the start
+  std::array<double, 3> box_high{};
+  std::int64_t seed = -1;                 ///< of the packing, -1 where unknown
+  std::uint64_t mesh_hash = 0;            ///< of nodes and tets as read
+
+  std::int32_t nodes() const { return node_offset.back(); }
+  std::int32_t tets() const { return tet_offset.back(); }
+  std::int32_t facets() const { return facet_offset.back(); }
+  int tets_in_block(int grain, int block_index) const {
+    const int left = tet_offset[std::size_t(grain) + 1] - tet_offset[std::size_t(grain)] -
+                     TetBlock::lanes * (block_index - block_offset[std::size_t(grain)]);
+    return left < TetBlock::lanes ? left : TetBlock::lanes;
+  }
+  double total_reference_volume() const;
+  SurfaceView surface() const;
+  /// Bytes of all arrays.
+  std::size_t memory() const;
+};
+
+/// A meshed packing, as read from its file.
+struct MeshedPacking {
+  std::array<double, 3> box_lengths{};
+  std::vector<double> node;                    ///< [nodes * 3], mm
+  std::vector<std::int32_t> tet;               ///< [tets * 4]
+  std::vector<std::int32_t> grain_node_offset; ///< [grains + 1]
+  std::vector<std::int32_t> grain_tet_offset;  ///< [grains + 1]
+  std::int64_t seed = -1;
+};
+
+/// Reads a meshed packing file. Throws InputError where it is missing, damaged or not meshed.
+MeshedPacking read_packing(const std::string& path);
+
+/// Material constants of the kernels from the scenario's.
+Material make_material(const MaterialParameters& parameters, double mass_scaling);
+
+/// Builds the model: surfaces found, nodes and tets renumbered for locality, masses lumped. `name` stands for the file
+/// in messages. Throws InputError: inverted or degenerate tetrahedron, nodes out of range, open surface, node outside
+/// the box.
+Model build_model(const MeshedPacking& packing, const Scenario& scenario, const std::string& name);
+
+} // namespace mpfem

@@ -1,0 +1,36 @@
+#pragma once
+// J2 plasticity: radial return of a trial deviator onto the von Mises cylinder (Simo & Hughes 1998, box 3.1).
+
+#include "solver/physics/hardening.hpp"
+#include "solver/physics/tensor.hpp"
+
+namespace mpfem {
+
+template <class S> struct ReturnedStress {
+  Deviator<S> deviator;          ///< MPa
+  HardeningState<S> hardening;
+  S plastic_work;                ///< plastic work per volume in the increment, MPa
+};
+
+/// 1. trial von Mises stress; 2. admissible where it does not exceed the flow stress; 3. else scale the deviator back to
+/// the flow stress at the end of the increment. `shear` in MPa.
+template <class S, class Law>
+ReturnedStress<S> radial_return(const Law& law, double shear, const Deviator<S>& trial, const HardeningState<S>& old) {
+  if constexpr (!Law::yields) {
+    return {trial, old, S(0.0)};
+  } else {
+    const S q_squared = S(1.5) * double_contraction(trial);
+    const auto yielding = q_squared > old.flow_stress * old.flow_stress;
+    if (!any(yielding)) return {trial, old, S(0.0)};
+    const S q = select(yielding, sqrt(q_squared), old.flow_stress);
+    const HardeningState<S> end = law.end_of_increment(q, old, 3.0 * shear);
+    const S factor = select(yielding, end.flow_stress / max(q, S(1e-300)), S(1.0));
+    const S increment = select(yielding, end.plastic_strain - old.plastic_strain, S(0.0));
+    // Mean of the flow stresses at both ends: second order in the increment.
+    return {{factor * trial.xx, factor * trial.yy, factor * trial.xy, factor * trial.yz, factor * trial.zx},
+            {select(yielding, end.flow_stress, old.flow_stress), old.plastic_strain + increment},
+            S(0.5) * (end.flow_stress + old.flow_stress) * increment};
+  }
+}
+
+} // namespace mpfem
