@@ -157,12 +157,12 @@ BadTet find_bad_tet(const Model& model, int grain) {
   return {};
 }
 
-double stable_step(Model& model, int grain, std::span<const double> nodal_stiffness_rate, double strain_rate) {
+StableStep stable_step(Model& model, int grain, std::span<const double> nodal_stiffness_rate, double strain_rate) {
   const auto g = static_cast<std::size_t>(grain);
   const std::int32_t first_node = model.node_offset[g];
   const double* position = model.position.data() + 4 * first_node;
   const Material& material = model.material;
-  S smallest_step(std::numeric_limits<double>::infinity());
+  S smallest_step(std::numeric_limits<double>::infinity()), smallest_no_contact = smallest_step;
   for (std::int32_t b = model.block_offset[g]; b < model.block_offset[g + 1]; ++b) {
     TetBlock& block = model.block[static_cast<std::size_t>(b)];
     const auto geometry = current_geometry(block, position);
@@ -177,10 +177,11 @@ double stable_step(Model& model, int grain, std::span<const double> nodal_stiffn
           contact.v[i] = std::max(contact.v[i], nodal_stiffness_rate[static_cast<std::size_t>(first_node + node[i])]);
     }
     const S quadratic = S(model.viscosity.quadratic * model.viscosity.quadratic * strain_rate / material.wave_speed) * length;
-    const S step = S(2.0) / sqrt(element + contact) * damped_step_factor(S(model.viscosity.linear) + quadratic);
-    smallest_step = min(smallest_step, step);
+    const S damped = S(2.0) * damped_step_factor(S(model.viscosity.linear) + quadratic);
+    smallest_step = min(smallest_step, damped / sqrt(element + contact));
+    smallest_no_contact = min(smallest_no_contact, damped / sqrt(element));
   }
-  return smallest(smallest_step);
+  return {smallest(smallest_step), smallest(smallest_no_contact)};
 }
 
 TetFields tet_fields(const Model& model) {

@@ -30,11 +30,15 @@ struct BadTet {
 };
 BadTet find_bad_tet(const Model& model, int grain);
 
-/// Stable step (s) of a grain's tets, damping by bulk viscosity included; sets the tets' length. `nodal_stiffness_rate`
+/// Stable step of a grain's tets, damping by bulk viscosity included; sets the tets' length. `nodal_stiffness_rate`
 /// holds for each node the contact's share kappa/m of the frequency squared (1/s^2) or is empty. By the element
 /// eigenvalue inequality omega^2 <= max over tets of (omega_e^2 + max over its nodes of kappa/m).
 /// `strain_rate` 1/s bounds the volumetric rate for the quadratic viscosity.
-double stable_step(Model& model, int grain, std::span<const double> nodal_stiffness_rate, double strain_rate);
+struct StableStep {
+  double step;            ///< s
+  double step_no_contact; ///< s, of the elements alone
+};
+StableStep stable_step(Model& model, int grain, std::span<const double> nodal_stiffness_rate, double strain_rate);
 
 /// Fields of one tet for output, in file order of the whole packing.
 struct TetFields {

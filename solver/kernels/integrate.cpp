@@ -55,12 +55,11 @@ AdvanceSums advance(Model& model, int grain, const Advance& p) {
   AdvanceSums sums;
   double largest = 0;
   for (std::size_t n = first; n < end; ++n) {
-    double product = 0, square = 0, drag_work = 0, drag_square = 0;
+    double square = 0, drag_work = 0, drag_square = 0;
     for (std::size_t axis = 0; axis < 4; ++axis) {
       const std::size_t i = 4 * n + axis;
       const double before = v[i];
       const double after = keep * before + gain * inverse_mass[n] * f[i] + pull * target[axis];
-      product += before * after;
       square += after * after;
       if (damped) {
         const double mean = 0.5 * (before + after), drag = mean - target[axis];
@@ -70,9 +69,8 @@ AdvanceSums advance(Model& model, int grain, const Advance& p) {
       v[i] = after;
       x[i] += p.step * after;
     }
-    const double mass = 1.0 / inverse_mass[n];
-    sums.kinetic_energy += 0.5 * mass * product;
     if (damped) {
+      const double mass = 1.0 / inverse_mass[n];
       sums.damping_work += p.damping_rate * p.step_mean * mass * drag_work;
       sums.damping_force += p.damping_rate * mass * std::sqrt(drag_square);
     }
@@ -80,6 +78,20 @@ AdvanceSums advance(Model& model, int grain, const Advance& p) {
   }
   sums.largest_speed = std::sqrt(largest);
   return sums;
+}
+
+double kinetic_energy(const Model& model, int grain, double step_mean) {
+  const auto g = static_cast<std::size_t>(grain);
+  double energy = 0;
+  for (auto n = static_cast<std::size_t>(model.node_offset[g]); n < static_cast<std::size_t>(model.node_offset[g + 1]); ++n) {
+    double square = 0, work = 0;
+    for (std::size_t i = 4 * n; i < 4 * n + 3; ++i) {
+      square += model.velocity[i] * model.velocity[i];
+      work += model.velocity[i] * model.force[i];
+    }
+    energy += 0.5 * (square / model.inverse_mass[n] + step_mean * work);
+  }
+  return energy;
 }
 
 } // namespace mpfem

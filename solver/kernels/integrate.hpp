@@ -13,8 +13,6 @@ struct Walls {
   bool present = true;
   std::array<double, 3> low{};           ///< mm
   std::array<double, 3> high{};
-  std::array<double, 3> low_velocity{};  ///< mm/s
-  std::array<double, 3> high_velocity{};
 };
 
 /// Work and force of walls on one grain.
@@ -37,7 +35,6 @@ struct Advance {
 };
 
 struct AdvanceSums {
-  double kinetic_energy = 0;  ///< mJ, time-centred: sum of m v- . v+ / 2, the form that central differences conserve
   double damping_work = 0;    ///< mJ dissipated in this update
   double damping_force = 0;   ///< N, sum of nodal magnitudes
   double largest_speed = 0;   ///< mm/s
@@ -45,5 +42,9 @@ struct AdvanceSums {
 
 /// v+ = v- + dt f/m with damping towards the affine velocity at the grain's centre, then x + dt v+.
 AdvanceSums advance(Model& model, int grain, const Advance& parameters);
+
+/// Kinetic energy (mJ) at the time of the positions: sum of m v- . v+ / 2, the form that central differences conserve,
+/// with the v+ that `advance` would reach from the present forces without damping.
+double kinetic_energy(const Model& model, int grain, double step_mean);
 
 } // namespace mpfem

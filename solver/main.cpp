@@ -1,0 +1,85 @@
+// mpfem: explicit finite-strain elasto-plastic finite elements of every grain of a packing.
+
+#include <filesystem>
+#include <thread>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include "common/errors.hpp"
+#include "common/table_reader.hpp"
+#include "common/version.hpp"
+#include "solver/run/run_scenario.hpp"
+
+namespace {
+
+using namespace mpfem;
+
+struct Arguments {
+  std::string scenario;
+  std::vector<std::string> assignments;
+  RunOptions run;
+};
+
+Scenario load_scenario(const Arguments& arguments) {
+  TomlDocument document = TomlDocument::from_file(arguments.scenario);
+  for (const std::string& assignment : arguments.assignments) document.set(assignment);
+  return read_scenario(document);
+}
+
+void add_common(CLI::App& command, Arguments& arguments) {
+  command.add_option("scenario", arguments.scenario, "Scenario file (TOML)")->required();
+  command.add_option("--set", arguments.assignments, "Override a value: KEY=VALUE, e.g. stages.0.wall_speed=2000")->take_all();
+  command.add_option("--threads", arguments.run.threads, "Threads (default: all cores)")->check(CLI::Range(1, 1024));
+  command.add_flag("--quiet", arguments.run.quiet, "No progress");
+}
+
+int body(int argc, char** argv) {
+  CLI::App app("mpfem: compacts a meshed packing of deformable grains.\n"
+               "Examples:\n"
+               "  mpfem check compaction.toml\n"
+               "  mpfem run compaction.toml -o run.h5\n"
+               "  mpfem run compaction.toml -o run.h5 --set stages.0.wall_speed=2000 --threads 2\n"
+               "  mpfem run compaction.toml -o run.h5 --resume\n"
+               "Exit codes: 0 done, 2 bad usage or input, 3 simulation failed (state saved), 4 storage failed, "
+               "5 interrupted (resumable).");
+  app.set_version_flag("--version", std::string(version()));
+  app.require_subcommand(1);
+
+  Arguments arguments;
+  arguments.run.threads = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
+
+  CLI::App* run = app.add_subcommand("run", "Run a scenario.\nExample: mpfem run compaction.toml -o run.h5 --resume");
+  add_common(*run, arguments);
+  run->add_option("-o,--output", arguments.run.output, "Run file to write (HDF5)")->required();
+  run->add_flag("--resume", arguments.run.resume, "Go on from the run's checkpoint if there is one");
+  std::string from;
+  run->add_option("--from", from, "Begin at the state of this checkpoint")->check(CLI::ExistingFile);
+  run->add_option("--time-limit", arguments.run.time_limit, "Stop resumably after so many seconds of wall-clock time")
+      ->check(CLI::PositiveNumber);
+
+  CLI::App* check = app.add_subcommand("check", "Validate a scenario and print its plan.\nExample: mpfem check compaction.toml");
+  add_common(*check, arguments);
+
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? 0 : static_cast<int>(ExitCode::bad_input);
+  }
+
+  const Scenario scenario = load_scenario(arguments);
+  if (run->parsed()) {
+    if (!from.empty()) arguments.run.from = from;
+    const auto folder = std::filesystem::absolute(arguments.run.output).parent_path();
+    if (!std::filesystem::is_directory(folder))
+      throw InputError(fmt::format("--output {}: the folder does not exist", arguments.run.output));
+    run_scenario(scenario, arguments.run);
+  } else if (check->parsed()) {
+    check_scenario(scenario, arguments.run.threads);
+  }
+  return 0;
+}
+
+} // namespace
+
+int main(int argc, char** argv) { return mpfem::run_program("mpfem", body, argc, argv); }

@@ -1,0 +1,28 @@
+#pragma once
+// The complete state of a run on disk. A resumed run goes on bitwise as if nothing had happened.
+
+#include <string>
+#include <vector>
+
+#include "solver/run/simulation.hpp"
+
+namespace mpfem {
+
+/// What a run carries besides the simulation.
+struct RunRecord {
+  std::vector<HistoryRow> history;
+  std::vector<std::string> snapshot_files;
+  double wall_time = 0;                  ///< s, of all parts of the run so far
+  std::array<double, profile_parts> profile_seconds{};
+};
+
+/// Writes the state after an advance() (before the next evaluate_forces()). Written beside and renamed.
+void write_checkpoint(const std::string& path, const Simulation& simulation, const RunRecord& record,
+                      const std::string& scenario_text);
+
+/// Replaces the simulation's state. Throws InputError where the file is damaged (checksum), belongs to another mesh, to
+/// another scenario text (unless `any_scenario`), or was written by a build with another block width.
+void read_checkpoint(const std::string& path, Simulation& simulation, RunRecord& record, const std::string& scenario_text,
+                     bool any_scenario);
+
+} // namespace mpfem

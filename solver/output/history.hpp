@@ -1,0 +1,18 @@
+#pragma once
+// The history: rows in memory until a file is written; its columns are those of /history in results-schema.
+
+#include <vector>
+
+#include "results-schema/file.hpp"
+#include "solver/run/simulation.hpp"
+
+namespace mpfem {
+
+/// Writes all rows as /history of a run file.
+void write_history(schema::FileWriter& file, const std::vector<HistoryRow>& rows);
+
+/// Rows as plain numbers, one after another, and back (for checkpoints).
+std::vector<double> flatten(const std::vector<HistoryRow>& rows);
+std::vector<HistoryRow> unflatten(const std::vector<double>& values);
+
+} // namespace mpfem

@@ -1,0 +1,160 @@
+#include "solver/output/run_file.hpp"
+
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "common/hash.hpp"
+#include "common/physical_host.hpp"
+#include "common/version.hpp"
+#include "results-schema/descriptors.hpp"
+
+namespace mpfem {
+
+namespace {
+
+namespace run = schema::run;
+
+/// Rows of four doubles in the solver's order to rows of three floats in file order.
+std::vector<float> in_file_order(const Model& model, const AlignedVector<double>& rows) {
+  std::vector<float> result(3 * static_cast<std::size_t>(model.nodes()));
+  for (std::size_t n = 0; n < model.file_node.size(); ++n)
+    for (std::size_t axis = 0; axis < 3; ++axis)
+      result[3 * static_cast<std::size_t>(model.file_node[n]) + axis] = static_cast<float>(rows[4 * n + axis]);
+  return result;
+}
+
+/// Normal traction at surface nodes: contact points' forces along the node's normal over its tributary area.
+std::vector<float> contact_pressure(const Simulation& simulation) {
+  const Model& model = simulation.model();
+  const Contact& contact = simulation.contact();
+  const RunState& state = simulation.state();
+  std::vector<double> force(static_cast<std::size_t>(model.nodes()), 0.0);
+  for (std::size_t pair = 0; pair < contact.active.size(); ++pair)
+    for (const ContactForce& point : contact.active_points(static_cast<std::int32_t>(pair))) {
+      const double magnitude = std::sqrt(point.force[0] * point.force[0] + point.force[1] * point.force[1] +
+                                         point.force[2] * point.force[2]);
+      force[static_cast<std::size_t>(point.node)] += magnitude;
+      for (std::size_t c = 0; c < 3; ++c)
+        force[static_cast<std::size_t>(model.facet[3 * static_cast<std::size_t>(point.facet) + c])] += point.weight[c] * magnitude;
+    }
+  std::vector<float> pressure(force.size(), 0.0F);
+  for (int grain = 0; grain < model.grains; ++grain) {
+    const auto g = static_cast<std::size_t>(grain);
+    for (std::int32_t n = model.node_offset[g]; n < model.node_offset[g] + model.surface_node_count[g]; ++n) {
+      const auto node = static_cast<std::size_t>(n);
+      const double area = model.normal[4 * node + 3];
+      double value = area > 0 ? force[node] / area : 0.0;
+      if (simulation.has_walls())
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+          const double x = model.position[4 * node + axis];
+          value += model.penalty_stiffness[g] * (std::max(state.low[axis] - x, 0.0) + std::max(x - state.high[axis], 0.0));
+        }
+      pressure[static_cast<std::size_t>(model.file_node[node])] = static_cast<float>(value);
+    }
+  }
+  return pressure;
+}
+
+template <class T, int R>
+void copy(schema::FileWriter& to, const schema::FileReader& from, const schema::Dataset<T, R>& dataset,
+          const std::string& source, const std::string& target) {
+  if constexpr (R == 0) {
+    to.write_scalar(dataset, from.read_scalar(dataset, source), target);
+  } else {
+    const auto values = from.read(dataset, source);
+    to.write(dataset, std::span<const T>(values), from.rows(dataset, source), target);
+  }
+}
+
+} // namespace
+
+void write_snapshot_file(const std::string& path, Simulation& simulation) {
+  const Model& model = simulation.model();
+  const RunState& state = simulation.state();
+  const std::string name = "0000";
+  schema::FileWriter file(path, schema::FileKind::run, creator());
+  file.write_scalar(run::snapshots_time, state.time, name);
+  file.write_scalar(run::snapshots_step, state.step, name);
+  file.write_scalar(run::snapshots_relative_density, simulation.relative_density(), name);
+  file.write_scalar(run::snapshots_mean_stress, state.mean_stress, name);
+  file.write(run::snapshots_box_low, std::span<const double>(state.low), 3, name);
+  file.write(run::snapshots_box_high, std::span<const double>(state.high), 3, name);
+  const auto nodes = static_cast<std::size_t>(model.nodes()), tets = static_cast<std::size_t>(model.tets());
+  const auto position = in_file_order(model, model.position), velocity = in_file_order(model, model.velocity);
+  file.write(run::snapshots_node, std::span<const float>(position), nodes, name);
+  file.write(run::snapshots_velocity, std::span<const float>(velocity), nodes, name);
+  const TetFields fields = tet_fields(model);
+  file.write(run::snapshots_von_mises, std::span<const float>(fields.von_mises), tets, name);
+  file.write(run::snapshots_pressure, std::span<const float>(fields.pressure), tets, name);
+  file.write(run::snapshots_plastic_strain, std::span<const float>(fields.plastic_strain), tets, name);
+  const auto pressure = contact_pressure(simulation);
+  file.write(run::snapshots_contact_pressure, std::span<const float>(pressure), nodes, name);
+  std::vector<std::int32_t> grains;
+  std::vector<double> force, area;
+  for (const PairContact& pair : pair_contacts(model, simulation.contact())) {
+    grains.insert(grains.end(), {pair.first, pair.second});
+    force.insert(force.end(), std::begin(pair.force), std::end(pair.force));
+    area.push_back(pair.area);
+  }
+  file.write(run::snapshots_pair_grains, std::span<const std::int32_t>(grains), area.size(), name);
+  file.write(run::snapshots_pair_force, std::span<const double>(force), area.size(), name);
+  file.write(run::snapshots_pair_area, std::span<const double>(area), area.size(), name);
+  file.commit();
+}
+
+void write_run_file(const std::string& path, const Model& model, const std::vector<HistoryRow>& history,
+                    const std::vector<std::string>& snapshot_files, const Provenance& provenance) {
+  schema::FileWriter file(path, schema::FileKind::run, creator());
+  write_history(file, history);
+
+  // Connectivity back in file order.
+  std::vector<std::int32_t> tet(4 * static_cast<std::size_t>(model.tets()));
+  for (int grain = 0; grain < model.grains; ++grain) {
+    const auto g = static_cast<std::size_t>(grain);
+    for (std::int32_t t = model.tet_offset[g]; t < model.tet_offset[g + 1]; ++t) {
+      const std::int32_t local = t - model.tet_offset[g];
+      const TetBlock& block = model.block[static_cast<std::size_t>(model.block_offset[g] + local / TetBlock::lanes)];
+      for (std::size_t c = 0; c < 4; ++c)
+        tet[4 * static_cast<std::size_t>(model.file_tet[static_cast<std::size_t>(t)]) + c] =
+            model.file_node[static_cast<std::size_t>(model.node_offset[g] + block.node[c][local % TetBlock::lanes])];
+    }
+  }
+  file.write(run::mesh_tet, std::span<const std::int32_t>(tet), static_cast<std::size_t>(model.tets()));
+  file.write(run::mesh_grain_node_offset, std::span<const std::int32_t>(model.node_offset), model.node_offset.size());
+  file.write(run::mesh_grain_tet_offset, std::span<const std::int32_t>(model.tet_offset), model.tet_offset.size());
+
+  for (std::size_t i = 0; i < snapshot_files.size(); ++i) {
+    const schema::FileReader from(snapshot_files[i], schema::FileKind::run);
+    const std::string source = "0000", target = fmt::format("{:04}", i);
+    copy(file, from, run::snapshots_time, source, target);
+    copy(file, from, run::snapshots_step, source, target);
+    copy(file, from, run::snapshots_relative_density, source, target);
+    copy(file, from, run::snapshots_mean_stress, source, target);
+    copy(file, from, run::snapshots_box_low, source, target);
+    copy(file, from, run::snapshots_box_high, source, target);
+    copy(file, from, run::snapshots_node, source, target);
+    copy(file, from, run::snapshots_velocity, source, target);
+    copy(file, from, run::snapshots_von_mises, source, target);
+    copy(file, from, run::snapshots_pressure, source, target);
+    copy(file, from, run::snapshots_plastic_strain, source, target);
+    copy(file, from, run::snapshots_contact_pressure, source, target);
+    copy(file, from, run::snapshots_pair_grains, source, target);
+    copy(file, from, run::snapshots_pair_force, source, target);
+    copy(file, from, run::snapshots_pair_area, source, target);
+  }
+
+  file.write_scalar(run::provenance_version, std::string(version()));
+  file.write_scalar(run::provenance_scenario, provenance.scenario_text);
+  file.write_scalar(run::provenance_packing_hash, hash_text(model.mesh_hash));
+  file.write_scalar(run::provenance_seed, model.seed);
+  file.write_scalar(run::provenance_host, physical_host());
+  file.write_scalar(run::provenance_threads, std::int32_t{provenance.threads});
+  file.write_scalar(run::provenance_wall_time, provenance.wall_time);
+  file.write(run::provenance_profile_name, std::span<const std::string>(provenance.profile_name), provenance.profile_name.size());
+  file.write(run::provenance_profile_seconds, std::span<const double>(provenance.profile_seconds), provenance.profile_seconds.size());
+  file.write_scalar(run::provenance_status, provenance.status);
+  file.commit();
+}
+
+} // namespace mpfem

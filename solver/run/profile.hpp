@@ -1,0 +1,61 @@
+#pragma once
+// Wall-clock time of the parts of a step, measured on every thread.
+
+#include <array>
+#include <chrono>
+#include <cstddef>
+#include <vector>
+
+namespace mpfem {
+
+enum class Part : std::size_t { elements, contact, contact_search, integration, surface, step_estimate, output };
+inline constexpr std::size_t profile_parts = 7;
+inline constexpr std::array<const char*, profile_parts> part_names = {
+    "element forces", "contact forces", "contact search", "integration and walls", "surface normals", "step estimate",
+    "output"};
+
+/// Adds up seconds per part and thread. Parts that run on the calling thread alone count for all threads (the others
+/// wait), so that the sum over parts, divided by the threads, plus waiting, is the wall-clock time.
+class Profile {
+public:
+  explicit Profile(int threads) : seconds_(static_cast<std::size_t>(threads)) {}
+
+  using Clock = std::chrono::steady_clock;
+  static double since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
+
+  void add(Part part, int thread, double seconds) { seconds_[static_cast<std::size_t>(thread)].part[index(part)] += seconds; }
+  void add_serial(Part part, double seconds) {
+    for (auto& thread : seconds_) thread.part[index(part)] += seconds;
+  }
+  /// Seconds of wall-clock time in a part.
+  double seconds(Part part) const {
+    double total = 0;
+    for (const auto& thread : seconds_) total += thread.part[index(part)];
+    return total / static_cast<double>(seconds_.size());
+  }
+
+private:
+  static std::size_t index(Part part) { return static_cast<std::size_t>(part); }
+  struct alignas(64) PerThread {
+    std::array<double, profile_parts> part{};
+  };
+  std::vector<PerThread> seconds_;
+};
+
+/// Measures one part after another on one thread: mark(part) closes the part that began at the last mark.
+class Stopwatch {
+public:
+  Stopwatch(Profile& profile, int thread) : profile_(profile), thread_(thread), start_(Profile::Clock::now()) {}
+  void mark(Part part) {
+    const auto now = Profile::Clock::now();
+    profile_.add(part, thread_, std::chrono::duration<double>(now - start_).count());
+    start_ = now;
+  }
+
+private:
+  Profile& profile_;
+  int thread_;
+  Profile::Clock::time_point start_;
+};
+
+} // namespace mpfem

@@ -1,0 +1,322 @@
+#include "solver/run/run_scenario.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <csignal>
+#include <cstdio>
+#include <filesystem>
+#include <set>
+
+#include <fmt/format.h>
+
+#include "common/errors.hpp"
+#include "common/progress.hpp"
+#include "solver/output/checkpoint.hpp"
+#include "solver/output/history.hpp"
+#include "solver/output/run_file.hpp"
+#include "solver/run/simulation.hpp"
+
+namespace mpfem {
+
+namespace {
+
+volatile std::sig_atomic_t interrupt_requested = 0;
+extern "C" void request_interrupt(int) { interrupt_requested = 1; }
+
+/// Catches SIGINT and SIGTERM while it lives; a second signal acts as usual.
+class InterruptGuard {
+public:
+  InterruptGuard() {
+    interrupt_requested = 0;
+    struct sigaction action {};
+    action.sa_handler = request_interrupt;
+    action.sa_flags = static_cast<int>(SA_RESETHAND);
+    sigaction(SIGINT, &action, &old_int_);
+    sigaction(SIGTERM, &action, &old_term_);
+  }
+  ~InterruptGuard() {
+    sigaction(SIGINT, &old_int_, nullptr);
+    sigaction(SIGTERM, &old_term_, nullptr);
+  }
+  InterruptGuard(const InterruptGuard&) = delete;
+  InterruptGuard& operator=(const InterruptGuard&) = delete;
+
+private:
+  struct sigaction old_int_ {}, old_term_ {};
+};
+
+std::string stem(const std::string& run_file) {
+  return run_file.ends_with(".h5") ? run_file.substr(0, run_file.size() - 3) : run_file;
+}
+
+std::string parts_folder(const std::string& run_file) { return stem(run_file) + ".parts"; }
+
+/// The time loop and its records.
+class Runner {
+public:
+  Runner(const Scenario& scenario, const RunOptions& options)
+      : scenario_(scenario), options_(options), team_(options.threads),
+        simulation_(build_model(read_packing(scenario.packing_file), scenario, scenario.packing_file), scenario, team_),
+        progress_("mpfem", options.quiet) {
+    check_grain_lists();
+    begin();
+  }
+
+  void run() {
+    const InterruptGuard guard;
+    start_ = last_checkpoint_ = Profile::Clock::now();
+    steps_at_start_ = simulation_.state().step;
+    try {
+      loop();
+    } catch (const SimulationError& error) {
+      // The failed state is worth looking at: a snapshot of it, and everything recorded so far.
+      save_snapshot();
+      write_result(fmt::format("failed: {}", error.what()));
+      throw SimulationError(fmt::format("{}; history and last state are in {}", error.what(), options_.output));
+    }
+    write_result("complete");
+    remove_parts();
+    progress_.finish(fmt::format("{} steps, D_r = {:.4f}, p = {:.4g} MPa, {}", simulation_.state().step,
+                                 simulation_.relative_density(), simulation_.state().mean_stress, options_.output));
+    if (!options_.quiet) print_profile();
+  }
+
+private:
+  void check_grain_lists() const {
+    const auto grains = static_cast<std::size_t>(simulation_.model().grains);
+    for (const auto* list : {&scenario_.grain_velocity, &scenario_.grain_angular_velocity})
+      if (!list->empty() && list->size() != grains)
+        throw InputError(fmt::format("{}: key 'initial': found {} rows for {} grains, allowed one row a grain",
+                                     scenario_.packing_file, list->size(), grains));
+  }
+
+  void begin() {
+    const std::string rolling = checkpoint_path(options_.output);
+    if (options_.resume && std::filesystem::exists(rolling)) {
+      read_checkpoint(rolling, simulation_, record_, scenario_.text, false);
+      if (!options_.quiet) fmt::print(stderr, "mpfem: resumed {} at step {}\n", rolling, simulation_.state().step);
+    } else if (options_.from) {
+      RunRecord earlier;
+      read_checkpoint(*options_.from, simulation_, earlier, scenario_.text, true);
+      // A branch begins its own programme and history at the state of the checkpoint.
+      RunState& state = simulation_.state();
+      state.stage = 0;
+      state.snapshots_passed = 0;
+      simulation_.begin_stage_at_present_box();
+    }
+  }
+
+  void loop() {
+    for (;;) {
+      simulation_.evaluate_forces();
+      RunState& state = simulation_.state();
+      const bool stage_end = simulation_.stage_complete();
+      if (stage_end || row_due()) record_row();
+      take_snapshots(stage_end);
+      if (stage_end) {
+        if (state.stage + 1 == static_cast<std::int64_t>(scenario_.stages.size())) return;
+        ++state.stage;
+        simulation_.begin_stage();
+      }
+      simulation_.advance();
+      save_checkpoints();
+      report_progress();
+    }
+  }
+
+  double next_row_time() const {
+    return simulation_.stage_duration() * static_cast<double>(simulation_.state().rows_in_stage) / scenario_.output.history_rows;
+  }
+  bool row_due() const { return simulation_.state().stage_time >= next_row_time(); }
+
+  void record_row() {
+    const auto start = Profile::Clock::now();
+    record_.history.push_back(simulation_.observe());
+    RunState& state = simulation_.state();
+    while (row_due() && state.rows_in_stage <= scenario_.output.history_rows) ++state.rows_in_stage;
+    simulation_.profile().add_serial(Part::output, Profile::since(start));
+    if (!options_.quiet) report_row(record_.history.back());
+  }
+
+  void take_snapshots(bool stage_end) {
+    RunState& state = simulation_.state();
+    const auto& densities = scenario_.output.snapshot_relative_densities;
+    bool due = stage_end && scenario_.output.snapshot_at_stage_end;
+    while (state.snapshots_passed < static_cast<std::int64_t>(densities.size()) &&
+           simulation_.relative_density() >= densities[static_cast<std::size_t>(state.snapshots_passed)] * (1 - 1e-9)) {
+      ++state.snapshots_passed;
+      due = true;
+    }
+    if (due) save_snapshot();
+  }
+
+  void save_snapshot() {
+    const auto start = Profile::Clock::now();
+    std::filesystem::create_directories(parts_folder(options_.output));
+    const std::string path = fmt::format("{}/snapshot-{:04}.h5", parts_folder(options_.output), record_.snapshot_files.size());
+    write_snapshot_file(path, simulation_);
+    record_.snapshot_files.push_back(path);
+    simulation_.profile().add_serial(Part::output, Profile::since(start));
+  }
+
+  void save_checkpoints() {
+    const bool stage_end = simulation_.stage_complete();
+    const bool interrupted = interrupt_requested != 0;
+    const bool out_of_time = options_.time_limit > 0 && Profile::since(start_) > options_.time_limit;
+    if (!stage_end && !interrupted && !out_of_time && Profile::since(last_checkpoint_) < scenario_.output.checkpoint_interval)
+      return;
+    const auto start = Profile::Clock::now();
+    save_checkpoint(checkpoint_path(options_.output));
+    if (stage_end) save_checkpoint(stage_checkpoint_path(options_.output, scenario_.stages[static_cast<std::size_t>(simulation_.state().stage)].name));
+    last_checkpoint_ = Profile::Clock::now();
+    simulation_.profile().add_serial(Part::output, Profile::since(start));
+    if (interrupted || out_of_time) {
+      write_result("interrupted");
+      throw Interrupted(fmt::format("{} at step {}, D_r = {:.4f}; go on with --resume",
+                                    interrupted ? "interrupted" : "out of time", simulation_.state().step,
+                                    simulation_.relative_density()));
+    }
+  }
+
+  void save_checkpoint(const std::string& path) {
+    RunRecord record = record_;
+    add_times(record);
+    write_checkpoint(path, simulation_, record, scenario_.text);
+  }
+
+  /// Adds this process's share of wall-clock time to what earlier parts of the run took.
+  void add_times(RunRecord& record) const {
+    record.wall_time += Profile::since(start_);
+    for (std::size_t i = 0; i < profile_parts; ++i) record.profile_seconds[i] += simulation_.profile().seconds(static_cast<Part>(i));
+  }
+
+  void write_result(const std::string& status) {
+    RunRecord record = record_;
+    add_times(record);
+    Provenance provenance{scenario_.text, status, options_.threads, record.wall_time, {}, {}};
+    double accounted = 0;
+    for (std::size_t i = 0; i < profile_parts; ++i) {
+      provenance.profile_name.emplace_back(part_names[i]);
+      provenance.profile_seconds.push_back(record.profile_seconds[i]);
+      accounted += record.profile_seconds[i];
+    }
+    provenance.profile_name.emplace_back("waiting and rest");
+    provenance.profile_seconds.push_back(record.wall_time - accounted);
+    write_run_file(options_.output, simulation_.model(), record_.history, record_.snapshot_files, provenance);
+  }
+
+  void remove_parts() {
+    std::error_code ignored;
+    std::filesystem::remove_all(parts_folder(options_.output), ignored);
+    std::filesystem::remove(checkpoint_path(options_.output), ignored);
+  }
+
+  double nanoseconds_per_tet_step() const {
+    const auto steps = static_cast<double>(simulation_.state().step - steps_at_start_);
+    return steps > 0 ? 1e9 * Profile::since(start_) / (steps * static_cast<double>(simulation_.model().tets())) : 0.0;
+  }
+
+  double fraction_done() const {
+    const RunState& state = simulation_.state();
+    const double inside = simulation_.stage_duration() > 0 ? state.stage_time / simulation_.stage_duration() : 1.0;
+    return (static_cast<double>(state.stage) + inside) / static_cast<double>(scenario_.stages.size());
+  }
+
+  void report_progress() {
+    const RunState& state = simulation_.state();
+    if (state.step % 16 != 0) return;
+    progress_.update(fraction_done(), fmt::format("step {}  D_r {:.4f}  p {:.4g} MPa  {:.0f} ns/tet-step", state.step,
+                                                  simulation_.relative_density(), state.mean_stress,
+                                                  nanoseconds_per_tet_step()));
+  }
+
+  /// Fixed-width report lines, twenty a stage.
+  void report_row(const HistoryRow& row) {
+    const std::int64_t every = std::max(1, scenario_.output.history_rows / 20);
+    if ((simulation_.state().rows_in_stage - 1) % every != 0 && !simulation_.stage_complete()) return;
+    if (reported_lines_++ % 20 == 0)
+      fmt::print(stderr, "{:>8} {:>10} {:>10} {:>8} {:>7} {:>9} {:>9} {:>8} {:>9} {:>7} {:>8}\n", "step", "t/us", "dt/ns",
+                 "limit", "D_r", "p/MPa", "q/MPa", "KE/IE", "residual", "pen/h", "ns/tet");
+    const double internal = row.elastic_energy + row.plastic_dissipation;
+    fmt::print(stderr, "{:>8.0f} {:>10.4f} {:>10.4f} {:>8} {:>7.4f} {:>9.4g} {:>9.3g} {:>8.2e} {:>9.2e} {:>7.4f} {:>8.1f}\n",
+               row.step, row.time * 1e6, row.time_step * 1e9, simulation_.state().controlled_by_contact ? "contact" : "element",
+               row.relative_density, row.mean_stress, row.deviatoric_stress, internal > 0 ? row.kinetic_energy / internal : 0.0,
+               row.external_work > 0 ? row.energy_residual / row.external_work : 0.0, row.max_penetration,
+               nanoseconds_per_tet_step());
+  }
+
+  void print_profile() const {
+    RunRecord record = record_;
+    add_times(record);
+    fmt::print(stderr, "{:<24} {:>10} {:>8} {:>12}\n", "part", "wall s", "share", "ns/tet-step");
+    const double tet_steps = static_cast<double>(simulation_.state().step) * static_cast<double>(simulation_.model().tets());
+    double accounted = 0;
+    const auto line = [&](const char* name, double seconds) {
+      fmt::print(stderr, "{:<24} {:>10.2f} {:>7.1f}% {:>12.2f}\n", name, seconds, 100 * seconds / record.wall_time, 1e9 * seconds / tet_steps);
+    };
+    for (std::size_t i = 0; i < profile_parts; ++i) {
+      line(part_names[i], record.profile_seconds[i]);
+      accounted += record.profile_seconds[i];
+    }
+    line("waiting and rest", record.wall_time - accounted);
+    line("total", record.wall_time);
+  }
+
+  const Scenario& scenario_;
+  const RunOptions& options_;
+  ThreadTeam team_;
+  Simulation simulation_;
+  Progress progress_;
+  RunRecord record_;
+  Profile::Clock::time_point start_, last_checkpoint_;
+  std::int64_t steps_at_start_ = 0;
+  int reported_lines_ = 0;
+};
+
+} // namespace
+
+std::string checkpoint_path(const std::string& run_file) { return stem(run_file) + ".checkpoint.h5"; }
+
+std::string stage_checkpoint_path(const std::string& run_file, const std::string& stage) {
+  return fmt::format("{}.{}.checkpoint.h5", stem(run_file), stage);
+}
+
+void run_scenario(const Scenario& scenario, const RunOptions& options) { Runner(scenario, options).run(); }
+
+void check_scenario(const Scenario& scenario, int threads) {
+  ThreadTeam team(threads);
+  Simulation simulation(build_model(read_packing(scenario.packing_file), scenario, scenario.packing_file), scenario, team);
+  const Model& model = simulation.model();
+  fmt::print("packing        {}: {} grains, {} tets, {} nodes, {} facets\n", scenario.packing_file, model.grains, model.tets(),
+             model.nodes(), model.facets());
+  fmt::print("relative density at the start  {:.4f}\n", simulation.relative_density());
+  fmt::print("memory         {:.1f} MB of model data ({:.0f} B a tet)\n", 1e-6 * static_cast<double>(model.memory()),
+             static_cast<double>(model.memory()) / model.tets());
+  fmt::print("stable step    {:.4g} s, set by {}\n", simulation.state().stable_step,
+             simulation.state().controlled_by_contact ? "contact" : "elements");
+
+  // The steps of all stages at the present stable step, and the time of a few steps measured here.
+  std::array<double, 3> low = model.box_low, high = model.box_high;
+  double steps = 0;
+  for (const Stage& stage : scenario.stages) {
+    const StageMotion motion(stage, low, high, model.total_reference_volume());
+    Walls walls;
+    motion.place(walls, motion.duration());
+    low = walls.low, high = walls.high;
+    steps += motion.duration() / simulation.state().stable_step;
+    fmt::print("stage          {}: {:.4g} s, {:.0f} steps at the present step\n", stage.name, motion.duration(),
+               motion.duration() / simulation.state().stable_step);
+  }
+  constexpr int measured = 20;
+  const auto start = Profile::Clock::now();
+  for (int i = 0; i < measured && !simulation.stage_complete(); ++i) {
+    simulation.evaluate_forces();
+    simulation.advance();
+  }
+  const double seconds = Profile::since(start) / measured;
+  fmt::print("estimate       {:.3g} ms a step measured here on {} threads; {:.0f} steps: {:.0f} s. Dense packings take about "
+             "half as long again (contact), and the step shrinks as tets flatten.\n",
+             1e3 * seconds, threads, steps, seconds * steps);
+}
+
+} // namespace mpfem

@@ -1,0 +1,31 @@
+#pragma once
+// The time loop: stages, rows, snapshots, checkpoints, progress, and the end of a run, good or bad.
+
+#include <optional>
+#include <string>
+
+#include "solver/scenario/scenario.hpp"
+
+namespace mpfem {
+
+struct RunOptions {
+  std::string output;                    ///< RUN.h5
+  bool resume = false;                   ///< go on from the rolling checkpoint if there is one
+  std::optional<std::string> from;       ///< begin the first stage from this checkpoint's state
+  int threads = 1;
+  bool quiet = false;
+  double time_limit = 0;                 ///< s of wall-clock time, 0 none
+};
+
+/// Runs a scenario to its end and writes the run file. Throws SimulationError (a readable run file with the last state
+/// was written), Interrupted (checkpoint and run file written), StorageError, InputError.
+void run_scenario(const Scenario& scenario, const RunOptions& options);
+
+/// Prints what a run would do: grains, tets, memory, stages, steps, estimated time from steps measured here.
+void check_scenario(const Scenario& scenario, int threads);
+
+/// Name of the rolling checkpoint of a run file, and of that at the end of a stage.
+std::string checkpoint_path(const std::string& run_file);
+std::string stage_checkpoint_path(const std::string& run_file, const std::string& stage);
+
+} // namespace mpfem

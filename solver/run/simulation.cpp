@@ -1,0 +1,303 @@
+#include "solver/run/simulation.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <set>
+
+#include <fmt/format.h>
+
+#include "common/errors.hpp"
+
+namespace mpfem {
+
+namespace {
+
+// The estimate of the stable step is renewed when tets may have strained by this much since, or after so many steps.
+constexpr double strain_between_estimates = 0.01;
+constexpr int steps_between_estimates = 50;
+
+/// A packing may start with nodes inside a neighbour by rounding, not by more.
+constexpr double overlap_tolerance = 1e-6; // of h
+
+double smooth_fade(double value, double full) {
+  if (full <= 0) return value > 0 ? 0.0 : 1.0;
+  const double s = std::clamp(value / full, 0.0, 1.0);
+  return 1.0 - s * s * (3.0 - 2.0 * s);
+}
+
+} // namespace
+
+Simulation::Simulation(Model model, const Scenario& scenario, ThreadTeam& team)
+    : model_(std::move(model)), scenario_(scenario), team_(team), profile_(team.size()) {
+  const auto grains = static_cast<std::size_t>(model_.grains);
+  bounds_.resize(grains);
+  contact_sums_.resize(grains);
+  wall_sums_.resize(grains);
+  advance_sums_.resize(grains);
+  element_sums_.resize(grains);
+  stable_steps_.resize(grains);
+  stiffness_rate_.resize(static_cast<std::size_t>(model_.nodes()));
+  walls_.present = scenario.walls;
+  margin_ = scenario.contact.search_margin * *std::max_element(model_.element_size.begin(), model_.element_size.end());
+  state_.low = state_.stage_low = walls_.low = model_.box_low;
+  state_.high = state_.stage_high = walls_.high = model_.box_high;
+  for (std::size_t axis = 0; axis < 3; ++axis) state_.initial_lengths[axis] = state_.high[axis] - state_.low[axis];
+
+  for (std::size_t g = 0; g < grains; ++g) {
+    const auto first = static_cast<std::size_t>(model_.node_offset[g]), end = static_cast<std::size_t>(model_.node_offset[g + 1]);
+    const auto& linear = scenario.grain_velocity.empty() ? scenario.initial_velocity : scenario.grain_velocity[g];
+    const std::array<double, 3> spin =
+        scenario.grain_angular_velocity.empty() ? std::array<double, 3>{} : scenario.grain_angular_velocity[g];
+    std::array<double, 3> centre{};
+    for (std::size_t n = first; n < end; ++n)
+      for (std::size_t axis = 0; axis < 3; ++axis)
+        centre[axis] += model_.position[4 * n + axis] / (model_.inverse_mass[n] * model_.mass[g]);
+    for (std::size_t n = first; n < end; ++n) {
+      const double* x = &model_.position[4 * n];
+      const double r[3] = {x[0] - centre[0], x[1] - centre[1], x[2] - centre[2]};
+      double* v = &model_.velocity[4 * n];
+      v[0] = linear[0] + spin[1] * r[2] - spin[2] * r[1];
+      v[1] = linear[1] + spin[2] * r[0] - spin[0] * r[2];
+      v[2] = linear[2] + spin[0] * r[1] - spin[1] * r[0];
+      for (int axis = 0; axis < 3; ++axis)
+        state_.initial_energy += 0.5 * v[axis] * v[axis] / model_.inverse_mass[n];
+    }
+  }
+
+  team_.for_each(model_.grains, [&](int grain, int) { bounds_[static_cast<std::size_t>(grain)] = update_surface(model_, grain); });
+  renew_candidates(model_, margin_, team_, contact_);
+  for (int grain = 0; grain < model_.grains; ++grain) {
+    const ContactSums sums = contact_forces(model_, contact_, grain);
+    if (sums.penetration > overlap_tolerance) {
+      const ContactCandidates& c = contact_.candidates;
+      const auto g = static_cast<std::size_t>(grain);
+      for (std::int32_t pair = c.outgoing_offset[g]; pair < c.outgoing_offset[g + 1]; ++pair)
+        if (!contact_.active_points(pair).empty())
+          throw InputError(fmt::format("{}: grains {} and {} overlap at the start by {:.3g} of the element size, allowed "
+                                       "none: pack with a larger smallest_gap",
+                                       scenario.packing_file, grain, c.pair_second[static_cast<std::size_t>(pair)],
+                                       sums.penetration));
+    }
+    const auto& b = bounds_[static_cast<std::size_t>(grain)];
+    for (std::size_t axis = 0; walls_.present && axis < 3; ++axis)
+      if (b.low[axis] < walls_.low[axis] - 1e-9 || b.high[axis] > walls_.high[axis] + 1e-9)
+        throw InputError(fmt::format("{}: grain {} spans {:.6g} … {:.6g} mm along axis {}, allowed within the box {:.6g} … {:.6g}",
+                                     scenario.packing_file, grain, b.low[axis], b.high[axis], axis, walls_.low[axis],
+                                     walls_.high[axis]));
+  }
+  std::fill(model_.force.begin(), model_.force.end(), 0.0);
+  estimate_stable_step();
+  begin_stage();
+}
+
+void Simulation::restored() {
+  walls_.low = state_.low;
+  walls_.high = state_.high;
+  motion_.emplace(stage(), state_.stage_low, state_.stage_high, model_.total_reference_volume());
+  team_.for_each(model_.grains, [&](int grain, int) { bounds_[static_cast<std::size_t>(grain)] = update_surface(model_, grain); });
+}
+
+void Simulation::begin_stage() {
+  state_.stage_time = 0;
+  state_.rows_in_stage = 0;
+  state_.stage_low = walls_.low;
+  state_.stage_high = walls_.high;
+  motion_.emplace(stage(), state_.stage_low, state_.stage_high, model_.total_reference_volume());
+}
+
+void Simulation::begin_stage_at_present_box() {
+  walls_.low = state_.low;
+  walls_.high = state_.high;
+  begin_stage();
+}
+
+double Simulation::relative_density() const {
+  double volume = 1;
+  for (std::size_t axis = 0; axis < 3; ++axis) volume *= walls_.high[axis] - walls_.low[axis];
+  return model_.total_reference_volume() / volume;
+}
+
+double Simulation::next_step() const {
+  // The last steps of a stage are shortened equally, so that the stage ends at its time without a tiny step.
+  const double left = motion_->duration() - state_.stage_time;
+  const double steps = std::ceil(left / state_.stable_step * (1.0 - 1e-12));
+  return steps <= 2 ? left / std::max(steps, 1.0) : state_.stable_step;
+}
+
+double Simulation::damping_rate() const {
+  const DampingParameters& damping = stage().damping;
+  return damping.rate > 0 ? damping.rate * smooth_fade(state_.mean_stress, damping.fade_stress) : 0.0;
+}
+
+void Simulation::estimate_stable_step() {
+  const auto start = Profile::Clock::now();
+  team_.for_each(model_.grains, [&](int grain, int) {
+    contact_stiffness_rate(model_, contact_, grain, stiffness_rate_);
+    stable_steps_[static_cast<std::size_t>(grain)] = mpfem::stable_step(model_, grain, stiffness_rate_, state_.strain_rate);
+  });
+  double step = std::numeric_limits<double>::infinity(), no_contact = step;
+  for (const StableStep& grain : stable_steps_) {
+    step = std::min(step, grain.step);
+    no_contact = std::min(no_contact, grain.step_no_contact);
+  }
+  state_.stable_step = scenario_.numerics.time_step_factor * step;
+  state_.controlled_by_contact = step < 0.95 * no_contact ? 1 : 0;
+  state_.steps_since_estimate = 0;
+  state_.strain_since_estimate = 0;
+  profile_.add_serial(Part::step_estimate, Profile::since(start));
+}
+
+void Simulation::evaluate_forces() {
+  if (search_is_due(contact_)) {
+    const auto start = Profile::Clock::now();
+    renew_candidates(model_, margin_, team_, contact_);
+    ++state_.searches;
+    profile_.add_serial(Part::contact_search, Profile::since(start));
+  }
+  team_.for_each(model_.grains, [&](int grain, int thread) {
+    Stopwatch watch(profile_, thread);
+    contact_sums_[static_cast<std::size_t>(grain)] = contact_forces(model_, contact_, grain);
+    watch.mark(Part::contact);
+  });
+  team_.for_each(model_.grains, [&](int grain, int thread) {
+    const auto g = static_cast<std::size_t>(grain);
+    Stopwatch watch(profile_, thread);
+    contact_reactions(model_, contact_, grain);
+    watch.mark(Part::contact);
+    wall_sums_[g] = wall_forces(model_, walls_, bounds_[g], grain);
+    watch.mark(Part::integration);
+  });
+
+  // Work of the walls since the time level before, by the trapezoidal rule, which central differences conserve.
+  std::array<double, 6> force{};
+  for (const WallSums& sums : wall_sums_)
+    for (std::size_t side = 0; side < 6; ++side) force[side] += sums.force[side];
+  double stress = 0;
+  for (std::size_t side = 0; side < 6; ++side) {
+    state_.external_work += 0.5 * (force[side] + state_.last_wall_force[side]) * state_.last_wall_move[side];
+    const std::size_t b = (side / 2 + 1) % 3, c = (side / 2 + 2) % 3;
+    stress += force[side] / ((walls_.high[b] - walls_.low[b]) * (walls_.high[c] - walls_.low[c])) / 6.0;
+  }
+  state_.last_wall_force = force;
+  state_.last_wall_move = {};
+  state_.mean_stress = stress;
+}
+
+void Simulation::advance() {
+  const double step = next_step();
+  const Walls before = walls_;
+  motion_->place(walls_, state_.stage_time + step);
+  Advance parameters{.step_mean = 0.5 * (state_.last_step + step), .step = step, .damping_rate = damping_rate()};
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const double length = before.high[axis] - before.low[axis];
+    parameters.centre[axis] = 0.5 * (before.high[axis] + before.low[axis]);
+    parameters.rate[axis] = ((walls_.high[axis] - walls_.low[axis]) / length - 1.0) / step;
+    state_.last_wall_move[2 * axis] = walls_.low[axis] - before.low[axis];
+    state_.last_wall_move[2 * axis + 1] = before.high[axis] - walls_.high[axis];
+  }
+
+  team_.for_each(model_.grains, [&](int grain, int thread) {
+    const auto g = static_cast<std::size_t>(grain);
+    Stopwatch watch(profile_, thread);
+    advance_sums_[g] = mpfem::advance(model_, grain, parameters);
+    watch.mark(Part::integration);
+    bounds_[g] = update_surface(model_, grain);
+    watch.mark(Part::surface);
+    element_sums_[g] = element_forces(model_, grain, step);
+    watch.mark(Part::elements);
+  });
+
+  double strain = 0;
+  state_.damping_force = 0;
+  for (std::size_t g = 0; g < element_sums_.size(); ++g) {
+    if (!element_sums_[g].admissible) report_bad_grain(static_cast<int>(g));
+    state_.plastic_dissipation += element_sums_[g].plastic_work;
+    state_.viscous_dissipation += element_sums_[g].viscous_work;
+    state_.damping_dissipation += advance_sums_[g].damping_work;
+    state_.damping_force += advance_sums_[g].damping_force;
+    contact_.travel[g] += advance_sums_[g].largest_speed * step;
+    strain = std::max(strain, element_sums_[g].largest_strain);
+  }
+  state_.low = walls_.low;
+  state_.high = walls_.high;
+  state_.time += step;
+  state_.stage_time = step >= motion_->duration() - state_.stage_time ? motion_->duration() : state_.stage_time + step;
+  state_.last_step = step;
+  state_.strain_rate = strain / step;
+  state_.strain_since_estimate += strain;
+  ++state_.step;
+  if (++state_.steps_since_estimate >= steps_between_estimates || state_.strain_since_estimate > strain_between_estimates)
+    estimate_stable_step();
+}
+
+void Simulation::report_bad_grain(int grain) const {
+  const BadTet bad = find_bad_tet(model_, grain);
+  if (bad.file_tet >= 0)
+    throw SimulationError(fmt::format("step {}, t = {:.4g} s, D_r = {:.4f}: tet {} of grain {} is inverted (volume ratio {:.3g})",
+                                      state_.step, state_.time, relative_density(), bad.file_tet, grain, bad.volume_ratio));
+  throw SimulationError(fmt::format("step {}, t = {:.4g} s, D_r = {:.4f}: a stress of grain {} is not finite", state_.step,
+                                    state_.time, relative_density(), grain));
+}
+
+HistoryRow Simulation::observe() {
+  const auto grains = static_cast<std::size_t>(model_.grains);
+  const double step_mean = 0.5 * (state_.last_step + (stage_complete() ? state_.last_step : next_step()));
+  std::vector<double> kinetic(grains), elastic(grains), volume(grains), surface(grains);
+  team_.for_each(model_.grains, [&](int grain, int) {
+    const auto g = static_cast<std::size_t>(grain);
+    // At the very first time level the velocity is that of the level itself.
+    kinetic[g] = kinetic_energy(model_, grain, state_.last_step > 0 ? step_mean : 0.0);
+    elastic[g] = elastic_energy(model_, grain);
+    volume[g] = current_volume(model_, grain);
+    surface[g] = surface_area(model_, grain);
+  });
+
+  HistoryRow row{};
+  double total_volume = 0, penetration = 0, box_volume = 1, wall_force = 0;
+  for (std::size_t g = 0; g < grains; ++g) {
+    row.kinetic_energy += kinetic[g];
+    row.elastic_energy += elastic[g];
+    total_volume += volume[g];
+    row.surface_area += surface[g];
+    row.contact_area += contact_sums_[g].area;
+    row.contact_energy += contact_sums_[g].energy + wall_sums_[g].energy;
+    penetration = std::max({penetration, contact_sums_[g].penetration, wall_sums_[g].penetration});
+  }
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    row.box_lengths[axis] = walls_.high[axis] - walls_.low[axis];
+    box_volume *= row.box_lengths[axis];
+  }
+  for (std::size_t side = 0; side < 6; ++side) {
+    row.wall_stress[side] = state_.last_wall_force[side] * row.box_lengths[side / 2] / box_volume;
+    wall_force += state_.last_wall_force[side];
+  }
+  row.time = state_.time;
+  row.step = static_cast<double>(state_.step);
+  row.stage = static_cast<double>(state_.stage);
+  row.relative_density = model_.total_reference_volume() / box_volume;
+  row.relative_density_current = total_volume / box_volume;
+  row.mean_stress = state_.mean_stress;
+  const auto& s = row.wall_stress;
+  row.deviatoric_stress = 0.5 * (s[4] + s[5]) - 0.25 * (s[0] + s[1] + s[2] + s[3]);
+  row.axial_strain = std::log(state_.initial_lengths[2] / row.box_lengths[2]);
+  for (std::size_t axis = 0; axis < 3; ++axis)
+    row.volumetric_strain += std::log(state_.initial_lengths[axis] / row.box_lengths[axis]);
+  row.plastic_dissipation = state_.plastic_dissipation;
+  row.viscous_dissipation = state_.viscous_dissipation;
+  row.damping_dissipation = state_.damping_dissipation;
+  row.external_work = state_.external_work;
+  row.energy_residual = state_.external_work + state_.initial_energy - row.kinetic_energy - row.elastic_energy -
+                        row.plastic_dissipation - row.contact_energy - row.viscous_dissipation - row.damping_dissipation;
+  std::set<std::pair<std::int32_t, std::int32_t>> touching;
+  const ContactCandidates& c = contact_.candidates;
+  for (std::size_t p = 0; p < c.pair_first.size(); ++p)
+    if (contact_.active[p] > 0) touching.insert(std::minmax(c.pair_first[p], c.pair_second[p]));
+  row.coordination_number = 2.0 * static_cast<double>(touching.size()) / static_cast<double>(grains);
+  row.max_penetration = penetration;
+  row.damping_drag_ratio = wall_force > 0 ? state_.damping_force / wall_force : 0.0;
+  row.time_step = state_.last_step;
+  return row;
+}
+
+} // namespace mpfem

@@ -1,0 +1,134 @@
+#pragma once
+// The explicit time integration of a packing: state, one step, and what can be observed between two halves of a step.
+//
+// Time level n: positions x_n, stresses and internal forces at x_n, velocities of the half step n - 1/2. A step is
+//   evaluate_forces()   contact and walls at x_n added to the internal forces
+//   advance()           v_{n+1/2}, x_{n+1}, stresses and internal forces at x_{n+1}
+// and everything is observed between the two, where all terms of the energy balance belong to time n.
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "solver/kernels/contact_forces.hpp"
+#include "solver/kernels/element_forces.hpp"
+#include "solver/kernels/integrate.hpp"
+#include "solver/kernels/surface.hpp"
+#include "solver/kernels/thread_team.hpp"
+#include "solver/model/model.hpp"
+#include "solver/run/profile.hpp"
+#include "solver/run/programme.hpp"
+#include "solver/scenario/scenario.hpp"
+
+namespace mpfem {
+
+/// Everything of a run besides the model and its contact points. Plain numbers: a checkpoint stores them as they are.
+struct RunState {
+  // counters
+  std::int64_t step = 0;
+  std::int64_t stage = 0;
+  std::int64_t rows_in_stage = 0;         ///< history rows written in this stage
+  std::int64_t snapshots_passed = 0;      ///< relative densities of output.snapshot_relative_densities already passed
+  std::int64_t steps_since_estimate = 0;  ///< since the stable step was estimated
+  std::int64_t controlled_by_contact = 0; ///< 1: contact lowers the step by more than 5 %
+  std::int64_t searches = 0;
+  // times
+  double time = 0;           ///< s
+  double stage_time = 0;     ///< s, since the stage began
+  double stable_step = 0;    ///< s, estimate times safety factor
+  double last_step = 0;      ///< s, the step that led to the present positions; 0 at the start
+  double strain_since_estimate = 0;
+  double strain_rate = 0;    ///< 1/s, largest in the last step
+  // energies, mJ
+  double initial_energy = 0;
+  double plastic_dissipation = 0;
+  double viscous_dissipation = 0;
+  double damping_dissipation = 0;
+  double external_work = 0;
+  double damping_force = 0;  ///< N, sum of magnitudes at the last advance
+  double mean_stress = 0;    ///< MPa, at the last evaluation
+  // walls
+  std::array<double, 3> initial_lengths{}; ///< mm
+  std::array<double, 3> stage_low{};       ///< mm, box when the stage began
+  std::array<double, 3> stage_high{};
+  std::array<double, 3> low{};             ///< mm, now
+  std::array<double, 3> high{};
+  std::array<double, 6> last_wall_force{}; ///< N, at the time level before
+  std::array<double, 6> last_wall_move{};  ///< mm inward, in the last step
+};
+
+/// One line of the history; the columns are those of /history in results-schema.
+struct HistoryRow {
+  double time, step, stage, relative_density, relative_density_current;
+  std::array<double, 3> box_lengths;
+  std::array<double, 6> wall_stress;
+  double mean_stress, deviatoric_stress, axial_strain, volumetric_strain;
+  double kinetic_energy, elastic_energy, plastic_dissipation, damage_dissipation, bond_energy, contact_energy,
+      viscous_dissipation, damping_dissipation, external_work, energy_residual;
+  double contact_area, surface_area, bonded_area, mean_damage, coordination_number, max_penetration, damping_drag_ratio,
+      time_step;
+};
+
+class Simulation {
+public:
+  /// Begins at rest apart from the scenario's initial velocities. Throws InputError where grains overlap at the start.
+  Simulation(Model model, const Scenario& scenario, ThreadTeam& team);
+
+  Model& model() { return model_; }
+  const Model& model() const { return model_; }
+  Contact& contact() { return contact_; }
+  const Contact& contact() const { return contact_; }
+  RunState& state() { return state_; }
+  const RunState& state() const { return state_; }
+  Profile& profile() { return profile_; }
+
+  /// Takes up model, contact and state that were replaced from a checkpoint.
+  void restored();
+
+  /// Begins the stage `state().stage` at the present box.
+  void begin_stage();
+  /// After a checkpoint of another run: the box, time and energies of that run are the beginning of this one.
+  void begin_stage_at_present_box();
+  double stage_duration() const { return motion_->duration(); }
+  /// True when the present time level is the stage's last.
+  bool stage_complete() const { return state_.stage_time >= motion_->duration(); }
+
+  /// Adds contact and wall forces at the present positions.
+  void evaluate_forces();
+  /// One step of central differences. Throws SimulationError naming the element or grain that failed.
+  void advance();
+
+  /// All observed quantities; valid between evaluate_forces() and advance().
+  HistoryRow observe();
+  double relative_density() const;
+  bool has_walls() const { return walls_.present; }
+
+private:
+  const Stage& stage() const { return scenario_.stages[static_cast<std::size_t>(state_.stage)]; }
+  double next_step() const;
+  void estimate_stable_step();
+  double damping_rate() const;
+  [[noreturn]] void report_bad_grain(int grain) const;
+
+  Model model_;
+  const Scenario& scenario_;
+  ThreadTeam& team_;
+  Contact contact_;
+  Walls walls_;
+  RunState state_;
+  Profile profile_;
+  std::optional<StageMotion> motion_;
+  double margin_ = 0; ///< mm, of the contact search
+
+  // per grain, summed in grain order
+  std::vector<Bounds> bounds_;
+  std::vector<ContactSums> contact_sums_;
+  std::vector<WallSums> wall_sums_;
+  std::vector<AdvanceSums> advance_sums_;
+  std::vector<ElementSums> element_sums_;
+  std::vector<StableStep> stable_steps_;
+  std::vector<double> stiffness_rate_;
+};
+
+} // namespace mpfem
