@@ -31,30 +31,40 @@ struct Range {
   std::string text() const; ///< "> 0", "0 … 1", …
 };
 
-/// A TOML document with the values of `--set key=value` laid over it.
+/// A TOML document with the values of `--set key=value` laid over it. It can be moved, not copied: copies would lose
+/// the lines and columns of its values.
 class TomlDocument {
 public:
+  TomlDocument(TomlDocument&&) = default;
+  TomlDocument& operator=(TomlDocument&&) = default;
+  TomlDocument(const TomlDocument&) = delete;
+  TomlDocument& operator=(const TomlDocument&) = delete;
+
   /// Reads and parses a file. Throws InputError (missing file, syntax error with line and column).
   static TomlDocument from_file(const std::string& path);
   /// Parses text; `name` stands for the file in messages.
   static TomlDocument from_text(std::string_view text, const std::string& name);
 
-  /// Applies "a.b.c=value" (value: TOML syntax; a bare word is taken as a string; array elements by number:
-  /// "stages.0.speed=…"). Throws InputError.
+  /// Applies "a.b.c=value" (value: TOML syntax; what is no TOML value, as a bare word or a path, is taken as a string;
+  /// array elements by number: "stages.0.wall_speed=…"). Tables that do not exist yet are made; array elements are not.
+  /// Messages about the value name the assignment in place of line and column. Throws InputError.
   void set(std::string_view assignment);
 
   const toml::table& root() const { return root_; }
   const std::string& name() const { return name_; }
-  /// The document as TOML text, assignments included.
+  /// The document as TOML text, assignments included (keys in alphabetical order, without comments).
   std::string text() const;
 
 private:
+  TomlDocument(toml::table root, std::string name);
+
   toml::table root_;
   std::string name_;
 };
 
-/// Strict reader of one table. Call `finish()` when all known keys were asked for: it throws on unknown keys and names
-/// the nearest known one.
+/// Strict reader of one table of a document that must outlive it. Call `finish()` when all known keys were asked for:
+/// it throws on unknown keys and names the nearest known one. Numbers are finite: "nan" and "inf" are refused. Every
+/// function throws InputError.
 class TableReader {
 public:
   explicit TableReader(const TomlDocument& document);
@@ -64,7 +74,7 @@ public:
   double number(std::string_view key, Range range = {});                           ///< required
   double number_or(std::string_view key, double fallback, Range range = {});       ///< optional with default
   std::optional<double> optional_number(std::string_view key, Range range = {});
-  std::int64_t integer(std::string_view key, Range range = {});
+  std::int64_t integer(std::string_view key, Range range = {}); ///< a whole number without decimal point
   std::int64_t integer_or(std::string_view key, std::int64_t fallback, Range range = {});
   bool boolean_or(std::string_view key, bool fallback);
   std::string string(std::string_view key);
@@ -74,7 +84,10 @@ public:
   std::string choice_or(std::string_view key, std::string_view fallback, const std::vector<std::string>& allowed);
   std::vector<double> numbers(std::string_view key, Range range = {});                        ///< required array
   std::vector<double> numbers_or(std::string_view key, std::vector<double> fallback, Range range = {});
-  std::array<double, 3> vector3(std::string_view key, Range range = {});
+  std::array<double, 3> vector3(std::string_view key, Range range = {}); ///< required array of three numbers
+  std::array<double, 3> vector3_or(std::string_view key, std::array<double, 3> fallback, Range range = {});
+  /// An array of arrays of three numbers; empty when absent.
+  std::vector<std::array<double, 3>> vectors3(std::string_view key, Range range = {});
   std::vector<std::string> strings_or(std::string_view key, std::vector<std::string> fallback);
 
   /// A required sub-table; an absent one is reported as a missing key.
@@ -91,7 +104,17 @@ public:
 private:
   TableReader(const toml::table& table, std::string file, std::string path);
   const toml::node* find(std::string_view key);
-  const toml::node& require(std::string_view key);
+  const toml::node& require(std::string_view key, std::string_view allowed);
+  std::string full_key(std::string_view key) const;
+  [[noreturn]] void fail_at(const toml::source_region& source, std::string_view key, std::string_view message) const;
+
+  double read_number(const toml::node& node, std::string_view key, const Range& range) const;
+  std::int64_t read_integer(const toml::node& node, std::string_view key, const Range& range) const;
+  std::string read_string(const toml::node& node, std::string_view key) const;
+  std::string read_choice(const toml::node& node, std::string_view key, const std::vector<std::string>& allowed) const;
+  const toml::array& read_array(const toml::node& node, std::string_view key, std::string_view expected) const;
+  std::vector<double> read_numbers(const toml::node& node, std::string_view key, const Range& range) const;
+  std::array<double, 3> read_vector3(const toml::node& node, std::string_view key, const Range& range) const;
 
   const toml::table* table_;
   std::string file_;

@@ -1,0 +1,19 @@
+#pragma once
+// The word that someone who mistyped another probably meant.
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace mpfem {
+
+/// Number of single-letter insertions, deletions, substitutions and swaps of neighbours that turn `a` into `b`
+/// (optimal string alignment distance).
+std::size_t edit_distance(std::string_view a, std::string_view b);
+
+/// The nearest of `known` when it is at most a third of the longer word's letters (and at least one) away, else
+/// nothing; nor is a word that shares no letter with it. The first of equals wins.
+std::optional<std::string> nearest_word(std::string_view word, const std::vector<std::string>& known);
+
+} // namespace mpfem

@@ -1,0 +1,11 @@
+#pragma once
+
+#include <string>
+
+namespace mpfem {
+
+/// Operating system, architecture, processor model and number of logical processors, in one line; no host name.
+/// What the system does not tell is "unknown".
+std::string physical_host();
+
+} // namespace mpfem
