@@ -22,14 +22,6 @@ Vector3<double> row(const AlignedVector<double>& rows, std::int32_t node) {
   return {r[0], r[1], r[2]};
 }
 
-/// Weights may exceed [0, 1] by rounding only, so that no node falls between two facets.
-constexpr double weight_tolerance = 1e-9;
-
-bool inside(const FacetProjection<double>& p) {
-  return p.weight1 >= -weight_tolerance && p.weight2 >= -weight_tolerance &&
-         p.weight1 + p.weight2 <= 1.0 + weight_tolerance;
-}
-
 struct Facet {
   Vector3<double> x[3], n[3];
 };
@@ -44,44 +36,27 @@ Facet facet_geometry(const Model& model, std::int32_t facet) {
   return result;
 }
 
-/// Where a node meets a surface, if it does.
-struct Met {
+/// The closest of the candidate facets, and by how much the second closest is further.
+struct Nearest {
   std::int32_t facet = -1;
-  FacetProjection<double> projection{};
-  double distance = std::numeric_limits<double>::infinity(); ///< to the closest candidate, mm
+  double distance = std::numeric_limits<double>::infinity();        ///< mm
+  double second_distance = std::numeric_limits<double>::infinity(); ///< mm
 };
 
-/// Looks at all candidates: the facet whose projection holds the node, and the distance to the closest one. A node that
-/// no projection holds though it lies behind its closest point (a sharp dent) is pushed back to that point.
-Met scan(const Model& model, const Vector3<double>& node, std::span<const std::int32_t> facets, double depth) {
-  Met met;
-  double smallest_gap = std::numeric_limits<double>::infinity();
-  std::int32_t closest_facet = -1;
-  ClosestPoint<double> closest{};
+Nearest nearest_facet(const Model& model, const Vector3<double>& node, std::span<const std::int32_t> facets) {
+  Nearest nearest;
   for (const std::int32_t facet : facets) {
     const Facet geometry = facet_geometry(model, facet);
-    const auto candidate = closest_point_on_triangle(node, geometry.x);
-    const double distance = norm(node - candidate.point);
-    if (distance < met.distance) met.distance = distance, closest_facet = facet, closest = candidate;
-    if (distance > depth) continue;
-    const auto projection = project_on_facet(node, geometry.x, geometry.n);
-    if (inside(projection) && std::abs(projection.gap) < std::min(smallest_gap, 2.0 * depth)) {
-      smallest_gap = std::abs(projection.gap);
-      met.facet = facet;
-      met.projection = projection;
+    const double distance = norm(node - closest_point_on_triangle(node, geometry.x).point);
+    if (distance < nearest.distance) {
+      nearest.second_distance = nearest.distance;
+      nearest.distance = distance;
+      nearest.facet = facet;
+    } else {
+      nearest.second_distance = std::min(nearest.second_distance, distance);
     }
   }
-  if (met.facet < 0 && closest_facet >= 0 && met.distance < 0.5 * depth && met.distance > 0) {
-    const Facet geometry = facet_geometry(model, closest_facet);
-    const auto normal = geometry.n[0] + closest.weight1 * (geometry.n[1] - geometry.n[0]) +
-                        closest.weight2 * (geometry.n[2] - geometry.n[0]);
-    if (dot(node - closest.point, normal) < 0) {
-      met.facet = closest_facet;
-      met.projection = {closest.weight1, closest.weight2, -met.distance,
-                        (1.0 / met.distance) * (closest.point - node)};
-    }
-  }
-  return met;
+  return nearest;
 }
 
 } // namespace
@@ -92,6 +67,7 @@ void renew_candidates(const Model& model, double margin, ThreadTeam& team, Conta
   const std::size_t points = contact.candidates.point_node.size();
   contact.point_facet.assign(points, -1);
   contact.point_wake.assign(points, -1.0);
+  contact.point_sure.assign(points, -1.0);
   contact.force.resize(points);
   contact.active.assign(contact.candidates.pair_first.size(), 0);
   if (contact.travel.empty()) contact.travel.assign(static_cast<std::size_t>(model.grains), 0.0);
@@ -110,10 +86,10 @@ ContactSums contact_forces(Model& model, Contact& contact, int grain) {
   ContactSums sums;
   const auto g = static_cast<std::size_t>(grain);
   const double h = model.element_size[g];
-  const double depth = contact.margin;
   for (std::int32_t pair = candidates.outgoing_offset[g]; pair < candidates.outgoing_offset[g + 1]; ++pair) {
     const std::size_t other = at(candidates.pair_second[at(pair)]);
     const double travel = contact.travel[g] + contact.travel[other];
+    const double limit = contact.travel_at_search[g] + contact.travel_at_search[other] + contact.margin;
     // Harmonic mean of both grains' penalties; half of it in each of the two passes.
     const double stiffness = model.penalty_stiffness[g] * model.penalty_stiffness[other] /
                              (model.penalty_stiffness[g] + model.penalty_stiffness[other]);
@@ -123,47 +99,43 @@ ContactSums contact_forces(Model& model, Contact& contact, int grain) {
       if (travel < contact.point_wake[at(point)]) continue;
       const std::int32_t node_index = candidates.point_node[at(point)];
       const Vector3<double> node = row(model.position, node_index);
-      std::int32_t facet = contact.point_facet[at(point)];
-      FacetProjection<double> projection{};
-      bool met = false;
-      if (facet >= 0) {
-        const Facet geometry = facet_geometry(model, facet);
-        projection = project_on_facet(node, geometry.x, geometry.n);
-        met = inside(projection) && projection.gap < 0.05 * h && projection.gap > -depth;
-      }
-      if (!met) {
+      // 1. The closest facet. It stays the closest until both grains' travel could make up its lead on the second.
+      std::int32_t& facet = contact.point_facet[at(point)];
+      if (facet < 0 || travel >= contact.point_sure[at(point)]) {
         const std::int32_t first = candidates.point_facet_offset[at(point)],
                            last = candidates.point_facet_offset[at(point) + 1];
-        const Met found = scan(model, node, {candidates.point_facet.data() + first, static_cast<std::size_t>(last - first)}, depth);
-        facet = found.facet;
-        projection = found.projection;
-        contact.point_facet[at(point)] = facet;
-        const bool away = facet < 0 || projection.gap >= 0;
-        // Surfaces that are further apart than the travel of both grains need not be looked at before. Facets that are
-        // no candidates were further than the margin at the search.
-        if (away) {
-          const double searched = contact.travel_at_search[g] + contact.travel_at_search[other];
-          contact.point_wake[at(point)] = std::min(travel + found.distance, searched + contact.margin);
-          continue;
-        }
+        const Nearest nearest = nearest_facet(
+            model, node, {candidates.point_facet.data() + first, static_cast<std::size_t>(last - first)});
+        facet = nearest.facet;
+        // Facets that are no candidates were further than the margin at the search.
+        const double others = std::min(nearest.second_distance, limit - travel);
+        contact.point_sure[at(point)] = travel + 0.5 * (others - nearest.distance);
       }
-      if (!(projection.gap < 0)) continue;
-      if (projection.gap < -0.9 * depth)
+      const Facet geometry = facet_geometry(model, facet);
+      const ClosestPoint closest = closest_point_on_triangle(node, geometry.x);
+      const Vector3<double> offset = node - closest.point;
+      const double distance = norm(offset);
+      // 2. Outside: asleep until the grains could have met.
+      if (dot(offset, outward_direction(closest, geometry.x, geometry.n)) >= 0 || distance == 0) {
+        contact.point_wake[at(point)] = std::min(travel + distance, limit);
+        continue;
+      }
+      if (distance > 0.9 * contact.margin)
         throw SimulationError(fmt::format("contact: a node of grain {} is {:.3g} mm inside grain {}, allowed up to {:.3g} "
                                           "mm: raise contact.stiffness_factor or lower the speed",
-                                          grain, -projection.gap, other, 0.9 * depth));
-      const double area = model.normal[4 * at(node_index) + 3];
-      const double k = stiffness * area;
-      const double magnitude = -k * projection.gap;
+                                          grain, distance, other, 0.9 * contact.margin));
+      // 3. Inside: pushed back to the closest point.
+      const double k = stiffness * model.reference_area[at(node_index)];
+      const Vector3<double> push = -(k * offset);
       ContactForce& record = contact.force[at(begin + active++)];
-      record = {{magnitude * projection.normal.x, magnitude * projection.normal.y, magnitude * projection.normal.z},
-                {1.0 - projection.weight1 - projection.weight2, projection.weight1, projection.weight2},
+      record = {{push.x, push.y, push.z},
+                {1.0 - closest.weight1 - closest.weight2, closest.weight1, closest.weight2},
                 k, node_index, facet};
       double* force = model.force.data() + 4 * at(node_index);
       for (int axis = 0; axis < 3; ++axis) force[axis] += record.force[axis];
-      sums.energy += 0.5 * magnitude * -projection.gap;
-      sums.area += area;
-      sums.penetration = std::max(sums.penetration, -projection.gap / h);
+      sums.energy += 0.5 * k * distance * distance;
+      sums.area += model.normal[4 * at(node_index) + 3];
+      sums.penetration = std::max(sums.penetration, distance / h);
     }
     contact.active[at(pair)] = active;
     sums.active_points += active;
@@ -199,7 +171,7 @@ void contact_stiffness_rate(const Model& model, const Contact& contact, int grai
       for (std::size_t c = 0; c < 3; ++c) add(model.facet[3 * at(point.facet) + c], point.weight[c] * point.stiffness);
   for (std::int32_t node = first; node < first + model.surface_node_count[g]; ++node) {
     // As a node with stiffness K/2 A and, by symmetry, a facet's share of the same size; against a wall K A alone.
-    const double expected = 2.0 * model.penalty_stiffness[g] * model.normal[4 * at(node) + 3] * model.inverse_mass[at(node)];
+    const double expected = 2.0 * model.penalty_stiffness[g] * model.reference_area[at(node)] * model.inverse_mass[at(node)];
     rate[at(node)] = std::max(rate[at(node)], expected);
   }
 }

@@ -2,8 +2,9 @@
 // Penalty contact between grains: every surface node against the facets of the grains near it, both surfaces alike.
 //
 // Each of the two passes (nodes of A on facets of B, nodes of B on facets of A) carries half of the penalty stiffness.
-// A node's force is   f = K/2 A (-gap) n   with its current tributary area A; the facet's nodes receive -w_i f, so that
-// action equals reaction exactly. The pass is split so that every grain writes to its own nodes only: a grain computes
+// A node's force is   f = K/2 A (-gap) n   with its tributary area A in the reference state, so that the energy
+// K/2 A gap^2 / 2 is an exact potential (with the current area it would not be); the facet's nodes receive -w_i f, so
+// that action equals reaction exactly. The pass is split so that every grain writes to its own nodes only: a grain computes
 // the points of its own nodes, and after a barrier every grain collects the reactions on its facets in a fixed order.
 
 #include <cstdint>
@@ -38,6 +39,7 @@ struct Contact {
   double margin = 0;                       ///< mm, of the search that made the candidates
   std::vector<std::int32_t> point_facet;   ///< [points]: facet met last, -1 none
   std::vector<double> point_wake;          ///< [points], mm: asleep until the two grains' travel adds up to this
+  std::vector<double> point_sure;          ///< [points], mm: point_facet is the closest until travel adds up to this
   std::vector<ContactForce> force;         ///< [points]: active points first within every pair's range
   std::vector<std::int32_t> active;        ///< [pairs]: number of active points
   std::vector<double> travel;              ///< [grains], mm: bound of any node's path length since the run began

@@ -53,7 +53,7 @@ ElementSums element_pass(Model& model, int grain, double time_step, const Law& l
   const Material& material = model.material;
   const ElasticModuli moduli = material.moduli;
   const BulkViscosity viscosity = model.viscosity;
-  const double wave_speed = material.wave_speed, density = material.density, shear = moduli.shear;
+  const double wave_speed = material.wave_speed, density = material.density;
   const S step(time_step), rate_factor(1.0 / time_step), sixth(1.0 / 6.0), half(0.5);
   S plastic_work(0.0), viscous_work(0.0), largest_strain(0.0), smallest_ratio(1.0), check(0.0);
 
@@ -71,12 +71,11 @@ ElementSums element_pass(Model& model, int grain, double time_step, const Law& l
       middle_edge[i] = edge[i] - half * du[i];
     }
 
-    // 2. Strain increment and rotation at the half step; trial deviator; return.
+    // 2. Strain increment and rotation at the half step; deviator.
     const auto increment = displacement_increment(tet_geometry(middle_edge[0], middle_edge[1], middle_edge[2]), du);
     const S reference_volume = S::load(block.reference_volume);
-    const auto trial = elastic_predictor(moduli, rotated(load_deviator(block), increment.rotation), increment.strain);
     const HardeningState<S> old{S::load(block.flow_stress), S::load(block.plastic_strain)};
-    const auto returned = radial_return(law, shear, trial, old);
+    const auto returned = update_deviator(law, moduli, load_deviator(block), old, increment);
     store_deviator(block, returned.deviator);
     if constexpr (Law::yields) {
       returned.hardening.flow_stress.store(block.flow_stress);

@@ -21,7 +21,7 @@ WallSums wall_forces(Model& model, const Walls& walls, const Bounds& bounds, int
     for (std::size_t node = first; node < first + count; ++node) {
       const double gap = inward * (model.position[4 * node + axis] - plane);
       if (!(gap < 0)) continue;
-      const double force = -gap * stiffness * model.normal[4 * node + 3];
+      const double force = -gap * stiffness * model.reference_area[node];
       model.force[4 * node + axis] += inward * force;
       sums.force[side] += force;
       sums.energy += -0.5 * force * gap;

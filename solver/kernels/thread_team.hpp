@@ -2,8 +2,7 @@
 // A team of persistent threads that share a loop over grains. One of the few files that know threads.
 
 #include <atomic>
-#include <condition_variable>
-#include <cstddef>
+#include <exception>
 #include <functional>
 #include <mutex>
 #include <thread>
@@ -16,6 +15,8 @@ namespace mpfem {
 /// item order, so that results do not depend on the number of threads.
 class ThreadTeam {
 public:
+  /// `threads` >= 1, the calling thread included. Throws std::invalid_argument, or std::system_error where the system
+  /// has no more threads.
   explicit ThreadTeam(int threads);
   ~ThreadTeam();
   ThreadTeam(const ThreadTeam&) = delete;
@@ -23,23 +24,27 @@ public:
 
   int size() const { return static_cast<int>(workers_.size()) + 1; }
 
-  /// Calls body(item, thread) for item = 0 … count-1 and returns when all are done. The first exception thrown by a
-  /// body is rethrown here.
+  /// Calls body(item, thread) for item = 0 … count-1, thread in 0 … size()-1, and returns when all are done. Items
+  /// begin in ascending order. After an exception no further items begin, and the exception of the lowest failing item
+  /// is rethrown here: the same one for any number of threads. Not to be called by two threads at once, nor by a body.
   void for_each(int count, const std::function<void(int item, int thread)>& body);
 
 private:
   void work(int thread);
   void run_items(int thread);
+  void stop_workers();
 
   std::vector<std::thread> workers_;
   const std::function<void(int, int)>* body_ = nullptr;
   int count_ = 0;
-  std::atomic<int> next_{0};
-  std::atomic<int> busy_{0};
-  std::atomic<unsigned> round_{0};
+  // Apart, so that handing out items does not disturb threads that wait for the next round.
+  alignas(64) std::atomic<int> next_{0};
+  alignas(64) std::atomic<int> busy_{0};
+  alignas(64) std::atomic<unsigned> round_{0};
   std::atomic<bool> stop_{false};
   std::mutex error_mutex_;
   std::exception_ptr error_;
+  int error_item_ = 0;
 };
 
 } // namespace mpfem

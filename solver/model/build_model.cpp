@@ -9,8 +9,6 @@
 
 #include "common/errors.hpp"
 #include "common/hash.hpp"
-#include "results-schema/descriptors.hpp"
-#include "results-schema/file.hpp"
 
 namespace mpfem {
 
@@ -134,24 +132,8 @@ SurfaceView Model::surface() const { return {position, node_offset, surface_node
 
 std::size_t Model::memory() const {
   const auto bytes = [](const auto& v) { return v.size() * sizeof(v[0]); };
-  return bytes(position) + bytes(velocity) + bytes(force) + bytes(normal) + bytes(inverse_mass) + bytes(block) +
+  return bytes(position) + bytes(velocity) + bytes(force) + bytes(normal) + bytes(inverse_mass) + bytes(reference_area) + bytes(block) +
          bytes(facet) + bytes(file_node) + bytes(file_tet);
-}
-
-MeshedPacking read_packing(const std::string& path) {
-  const schema::FileReader reader(path, schema::FileKind::packing);
-  if (!reader.has(schema::packing::mesh_tet))
-    throw InputError(fmt::format("{}: holds spheres without a mesh; make one with: pack-gen mesh {} --size MM -o "
-                                 "packing.h5", path, path));
-  MeshedPacking packing;
-  const auto lengths = reader.read(schema::packing::box_lengths);
-  std::copy_n(lengths.begin(), 3, packing.box_lengths.begin());
-  packing.node = reader.read(schema::packing::mesh_node);
-  packing.tet = reader.read(schema::packing::mesh_tet);
-  packing.grain_node_offset = reader.read(schema::packing::mesh_grain_node_offset);
-  packing.grain_tet_offset = reader.read(schema::packing::mesh_grain_tet_offset);
-  if (reader.has(schema::packing::packing_seed)) packing.seed = reader.read_scalar(schema::packing::packing_seed);
-  return packing;
 }
 
 Material make_material(const MaterialParameters& parameters, double mass_scaling) {
@@ -185,6 +167,7 @@ Model build_model(const MeshedPacking& packing, const Scenario& scenario, const 
   model.force.assign(4 * nodes, 0.0);
   model.normal.assign(4 * nodes, 0.0);
   model.inverse_mass.assign(nodes, 0.0);
+  model.reference_area.assign(nodes, 0.0);
 
   const double initial_flow_stress = std::visit([](const auto& law) { return law.initial_flow_stress(); },
                                                 model.material.flow);
@@ -225,7 +208,10 @@ Model build_model(const MeshedPacking& packing, const Scenario& scenario, const 
 
     double edge_sum = 0;
     for (const auto& face : faces) {
+      const auto x0 = point(packing.node, face[0]);
+      const double area = 0.5 * norm(cross(point(packing.node, face[1]) - x0, point(packing.node, face[2]) - x0));
       for (std::size_t i = 0; i < 3; ++i) {
+        model.reference_area[at(new_index[at(face[i])])] += area / 3.0;
         model.facet.push_back(new_index[at(face[i])]);
         edge_sum += norm(point(packing.node, face[i]) - point(packing.node, face[(i + 1) % 3]));
       }

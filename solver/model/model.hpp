@@ -56,6 +56,7 @@ struct Model {
   AlignedVector<double> velocity;    ///< mm/s, at the half step before the position
   AlignedVector<double> force;       ///< N, internal and contact forces at the position
   AlignedVector<double> normal;      ///< unit outward normal of surface nodes and, fourth, tributary area mm^2
+  std::vector<double> reference_area;///< [nodes]: tributary area of surface nodes at the start, mm^2
   AlignedVector<double> inverse_mass;///< [nodes], 1/tonne
   std::vector<TetBlock> block;
 

@@ -78,12 +78,12 @@ struct Contents {
   std::vector<double> travel, travel_at_search;
   std::vector<std::int32_t> pair_first, pair_second, pair_point_offset, point_node, point_facet_offset, candidate_facet,
       point_facet;
-  std::vector<double> point_wake;
+  std::vector<double> point_wake, point_sure;
 
   std::uint64_t checksum() const {
     std::uint64_t hash = add(integers, hash_seed);
     for (const auto* v : {&numbers, &history, &position, &velocity, &force, &tet.deviator, &tet.flow_stress,
-                          &tet.plastic_strain, &tet.length, &travel, &travel_at_search, &point_wake})
+                          &tet.plastic_strain, &tet.length, &travel, &travel_at_search, &point_wake, &point_sure})
       hash = add(*v, hash);
     for (const auto* v : {&pair_first, &pair_second, &pair_point_offset, &point_node, &point_facet_offset,
                           &candidate_facet, &point_facet})
@@ -111,9 +111,9 @@ void write_checkpoint(const std::string& path, const Simulation& simulation, con
   c.pair_first = candidates.pair_first, c.pair_second = candidates.pair_second;
   c.pair_point_offset = candidates.pair_point_offset, c.point_node = candidates.point_node;
   c.point_facet_offset = candidates.point_facet_offset, c.candidate_facet = candidates.point_facet;
-  c.point_facet = contact.point_facet, c.point_wake = contact.point_wake;
+  c.point_facet = contact.point_facet, c.point_wake = contact.point_wake, c.point_sure = contact.point_sure;
 
-  schema::FileWriter file(path, schema::FileKind::checkpoint, creator());
+  schema::FileWriter file(path, schema::FileKind::checkpoint, fmt::format("mpfem {}", version()));
   const auto write = [&file](const auto& dataset, const auto& values, std::size_t rows) {
     using T = typename std::decay_t<decltype(values)>::value_type;
     file.write(dataset, std::span<const T>(values), rows);
@@ -144,6 +144,7 @@ void write_checkpoint(const std::string& path, const Simulation& simulation, con
   write(check::contact_candidate_facet, c.candidate_facet, c.candidate_facet.size());
   write(check::contact_point_facet, c.point_facet, c.point_facet.size());
   write(check::contact_point_wake, c.point_wake, c.point_wake.size());
+  write(check::contact_point_sure, c.point_sure, c.point_sure.size());
   file.commit();
 }
 
@@ -169,6 +170,7 @@ void read_checkpoint(const std::string& path, Simulation& simulation, RunRecord&
   c.candidate_facet = file.read(check::contact_candidate_facet);
   c.point_facet = file.read(check::contact_point_facet);
   c.point_wake = file.read(check::contact_point_wake);
+  c.point_sure = file.read(check::contact_point_sure);
   if (file.read_scalar(check::checksum) != hash_text(c.checksum()))
     throw InputError(fmt::format("{}: the checkpoint is damaged: its numbers do not match its checksum", path));
 
@@ -214,7 +216,7 @@ void read_checkpoint(const std::string& path, Simulation& simulation, RunRecord&
   k.point_node = c.point_node, k.point_facet_offset = c.point_facet_offset, k.point_facet = c.candidate_facet;
   index_pairs(k, model.grains);
   contact.travel = c.travel, contact.travel_at_search = c.travel_at_search;
-  contact.point_facet = c.point_facet, contact.point_wake = c.point_wake;
+  contact.point_facet = c.point_facet, contact.point_wake = c.point_wake, contact.point_sure = c.point_sure;
   contact.force.resize(k.point_node.size());
   contact.active.assign(k.pair_first.size(), 0);
   simulation.restored();

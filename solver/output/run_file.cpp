@@ -48,7 +48,8 @@ std::vector<float> contact_pressure(const Simulation& simulation) {
       if (simulation.has_walls())
         for (std::size_t axis = 0; axis < 3; ++axis) {
           const double x = model.position[4 * node + axis];
-          value += model.penalty_stiffness[g] * (std::max(state.low[axis] - x, 0.0) + std::max(x - state.high[axis], 0.0));
+          value += model.penalty_stiffness[g] * model.reference_area[node] / std::max(area, 1e-300) *
+                   (std::max(state.low[axis] - x, 0.0) + std::max(x - state.high[axis], 0.0));
         }
       pressure[static_cast<std::size_t>(model.file_node[node])] = static_cast<float>(value);
     }
@@ -73,7 +74,7 @@ void write_snapshot_file(const std::string& path, Simulation& simulation) {
   const Model& model = simulation.model();
   const RunState& state = simulation.state();
   const std::string name = "0000";
-  schema::FileWriter file(path, schema::FileKind::run, creator());
+  schema::FileWriter file(path, schema::FileKind::run, fmt::format("mpfem {}", version()));
   file.write_scalar(run::snapshots_time, state.time, name);
   file.write_scalar(run::snapshots_step, state.step, name);
   file.write_scalar(run::snapshots_relative_density, simulation.relative_density(), name);
@@ -105,7 +106,7 @@ void write_snapshot_file(const std::string& path, Simulation& simulation) {
 
 void write_run_file(const std::string& path, const Model& model, const std::vector<HistoryRow>& history,
                     const std::vector<std::string>& snapshot_files, const Provenance& provenance) {
-  schema::FileWriter file(path, schema::FileKind::run, creator());
+  schema::FileWriter file(path, schema::FileKind::run, fmt::format("mpfem {}", version()));
   write_history(file, history);
 
   // Connectivity back in file order.

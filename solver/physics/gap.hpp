@@ -1,56 +1,29 @@
 #pragma once
-// Geometry of a contact point: the signed gap of a node over a facet along the field of interpolated nodal normals.
+// Geometry of a contact point: signed distance of a node to a surface of facets, through its closest point.
 //
-// Neighbouring facets share their edge's nodes and nodal normals, so the foot point, the gap and the direction are
-// continuous as the node slides from facet to facet, over convex edges and into dents alike. The normal force and its
-// reaction act along one line through the node and the foot point: linear and angular momentum are kept exactly.
+// The signed distance is the one gap function whose gradient is known exactly: the unit vector through the closest
+// point, with the facet's shape functions for its nodes. A penalty energy k gap^2 / 2 built on it is conservative, and
+// force and reaction act along one line, so that linear and angular momentum are kept exactly. The gap is continuous
+// as the node slides from facet to facet; its direction turns by the dihedral angle where the next facet becomes the
+// closest. (Projection along interpolated nodal normals turns smoothly but is not a gradient: it changed the energy of
+// a collision of two elastic grains by 1 to 7 per cent.)
 
 #include "solver/physics/tensor.hpp"
 
 namespace mpfem {
 
-template <class S> struct FacetProjection {
-  S weight1, weight2;  ///< foot point = (1 - weight1 - weight2) x0 + weight1 x1 + weight2 x2
-  S gap;               ///< mm; negative where the node has penetrated
-  Vector3<S> normal;   ///< unit, out of the facet's grain
-};
-
-/// Finds weights w and gap parameter g with   node = sum_i w_i (x_i + g n_i),   n_i the unit nodal normals.
-/// For a fixed g the offset triangle x_i + g n_i spans a plane; the node lies in it where a cubic in g vanishes. The
-/// root next to zero is found by Newton's method. The weights are inside [0, 1] where this facet is met.
-template <class S>
-FacetProjection<S> project_on_facet(const Vector3<S>& node, const Vector3<S> (&x)[3], const Vector3<S> (&n)[3]) {
-  const Vector3<S> e1 = x[1] - x[0], e2 = x[2] - x[0], m1 = n[1] - n[0], m2 = n[2] - n[0];
-  const Vector3<S> d0 = x[0] - node;
-  const Vector3<S> a0 = cross(e1, e2), a1 = cross(e1, m2) + cross(m1, e2), a2 = cross(m1, m2);
-  const S c0 = dot(a0, d0), c1 = dot(a1, d0) + dot(a0, n[0]), c2 = dot(a2, d0) + dot(a1, n[0]), c3 = dot(a2, n[0]);
-  S g(0.0);
-  for (int iteration = 0; iteration < 4; ++iteration) {
-    const S value = ((c3 * g + c2) * g + c1) * g + c0;
-    const S slope = (S(3.0) * c3 * g + S(2.0) * c2) * g + c1;
-    g = g - value / slope;
-  }
-  const Vector3<S> plane = a0 + g * (a1 + g * a2);
-  const Vector3<S> p = -(d0 + g * n[0]);
-  const S inverse = S(1.0) / dot(plane, plane);
-  const S weight1 = dot(cross(p, e2 + g * m2), plane) * inverse;
-  const S weight2 = dot(cross(e1 + g * m1, p), plane) * inverse;
-  const Vector3<S> direction = n[0] + weight1 * m1 + weight2 * m2;
-  const S length = norm(direction);
-  return {weight1, weight2, g * length, (S(1.0) / length) * direction};
-}
-
-/// Closest point of a triangle, with its weights as above.
-template <class S> struct ClosestPoint {
-  Vector3<S> point;
-  S weight1, weight2;
+/// Closest point of a triangle x0 x1 x2: (1 - weight1 - weight2) x0 + weight1 x1 + weight2 x2.
+struct ClosestPoint {
+  Vector3<double> point;
+  double weight1, weight2;
+  bool inside; ///< in the facet's interior, not on an edge or corner
 };
 
 /// Closest point of the triangle x0 x1 x2 to `p`, by the Voronoi regions of its corners, edges and face (Ericson,
 /// Real-Time Collision Detection, 2005, section 5.1.5). Plain doubles: the regions branch.
-inline ClosestPoint<double> closest_point_on_triangle(const Vector3<double>& p, const Vector3<double> (&x)[3]) {
-  const auto result = [&x](double weight1, double weight2) {
-    return ClosestPoint<double>{x[0] + weight1 * (x[1] - x[0]) + weight2 * (x[2] - x[0]), weight1, weight2};
+inline ClosestPoint closest_point_on_triangle(const Vector3<double>& p, const Vector3<double> (&x)[3]) {
+  const auto result = [&x](double weight1, double weight2, bool inside = false) {
+    return ClosestPoint{x[0] + weight1 * (x[1] - x[0]) + weight2 * (x[2] - x[0]), weight1, weight2, inside};
   };
   const Vector3<double> ab = x[1] - x[0], ac = x[2] - x[0], ap = p - x[0];
   const double d1 = dot(ab, ap), d2 = dot(ac, ap);
@@ -71,7 +44,16 @@ inline ClosestPoint<double> closest_point_on_triangle(const Vector3<double>& p, 
     return result(1 - weight, weight);
   }
   const double sum = va + vb + vc;
-  return result(vb / sum, vc / sum);
+  return result(vb / sum, vc / sum, true);
+}
+
+/// Outward direction at a closest point, not normalised: the facet's own normal in its interior, the interpolated nodal
+/// normal on edges and corners. A node is inside the grain where (node - closest point) . direction < 0.
+inline Vector3<double> outward_direction(const ClosestPoint& closest, const Vector3<double> (&x)[3],
+                                         const Vector3<double> (&nodal_normal)[3]) {
+  if (closest.inside) return cross(x[1] - x[0], x[2] - x[0]);
+  return nodal_normal[0] + closest.weight1 * (nodal_normal[1] - nodal_normal[0]) +
+         closest.weight2 * (nodal_normal[2] - nodal_normal[0]);
 }
 
 } // namespace mpfem

@@ -19,9 +19,24 @@ inline constexpr int native_lanes = 4;
 inline constexpr int native_lanes = 2;
 #endif
 
-/// Lane-wise truth values of a Pack<double, W>.
+/// The compiler's vector types. Written out per width: gcc drops the attribute where the width is a template parameter.
+template <int W> struct NativeVector;
+template <> struct NativeVector<2> {
+  typedef double Numbers __attribute__((vector_size(16)));
+  typedef std::int64_t Truths __attribute__((vector_size(16)));
+};
+template <> struct NativeVector<4> {
+  typedef double Numbers __attribute__((vector_size(32)));
+  typedef std::int64_t Truths __attribute__((vector_size(32)));
+};
+template <> struct NativeVector<8> {
+  typedef double Numbers __attribute__((vector_size(64)));
+  typedef std::int64_t Truths __attribute__((vector_size(64)));
+};
+
+/// Lane-wise truth values of a Pack<W>.
 template <int W> struct Mask {
-  typedef std::int64_t Native __attribute__((vector_size(W * 8)));
+  using Native = typename NativeVector<W>::Truths;
   Native v;
   friend Mask operator&(Mask a, Mask b) { return {a.v & b.v}; }
   friend Mask operator|(Mask a, Mask b) { return {a.v | b.v}; }
@@ -29,7 +44,7 @@ template <int W> struct Mask {
 };
 
 template <int W> struct Pack {
-  typedef double Native __attribute__((vector_size(W * 8)));
+  using Native = typename NativeVector<W>::Numbers;
   static constexpr int lanes = W;
   Native v;
 

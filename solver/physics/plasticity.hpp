@@ -1,7 +1,9 @@
 #pragma once
 // J2 plasticity: radial return of a trial deviator onto the von Mises cylinder (Simo & Hughes 1998, box 3.1).
 
+#include "solver/physics/elasticity.hpp"
 #include "solver/physics/hardening.hpp"
+#include "solver/physics/kinematics.hpp"
 #include "solver/physics/tensor.hpp"
 
 namespace mpfem {
@@ -31,6 +33,15 @@ ReturnedStress<S> radial_return(const Law& law, double shear, const Deviator<S>&
             {select(yielding, end.flow_stress, old.flow_stress), old.plastic_strain + increment},
             S(0.5) * (end.flow_stress + old.flow_stress) * increment};
   }
+}
+
+/// The constitutive step of a material point: rotate the deviator with the material (Hughes-Winget), add the elastic
+/// predictor, return.
+template <class S, class Law>
+ReturnedStress<S> update_deviator(const Law& law, const ElasticModuli& moduli, const Deviator<S>& old,
+                                  const HardeningState<S>& hardening, const Increment<S>& increment) {
+  return radial_return(law, moduli.shear, elastic_predictor(moduli, rotated(old, increment.rotation), increment.strain),
+                       hardening);
 }
 
 } // namespace mpfem

@@ -1,0 +1,111 @@
+#pragma once
+// Small meshes made without a mesher: boxes and balls of Kuhn tetrahedra, several grains side by side.
+
+#include <array>
+#include <cmath>
+#include <map>
+#include <vector>
+
+#include "solver/model/model.hpp"
+
+namespace mpfem::test {
+
+struct GrainMesh {
+  std::vector<std::array<double, 3>> node;
+  std::vector<std::array<std::int32_t, 4>> tet;
+};
+
+/// The cube [-1, 1]^3 in n^3 cells of six tetrahedra each (Kuhn), all with positive volume.
+inline GrainMesh cube_mesh(int n) {
+  GrainMesh mesh;
+  const auto id = [n](int i, int j, int k) { return static_cast<std::int32_t>((i * (n + 1) + j) * (n + 1) + k); };
+  for (int i = 0; i <= n; ++i)
+    for (int j = 0; j <= n; ++j)
+      for (int k = 0; k <= n; ++k) mesh.node.push_back({-1 + 2.0 * i / n, -1 + 2.0 * j / n, -1 + 2.0 * k / n});
+  static constexpr int order[6][3] = {{0, 1, 2}, {1, 2, 0}, {2, 0, 1}, {0, 2, 1}, {2, 1, 0}, {1, 0, 2}};
+  for (int i = 0; i < n; ++i)
+    for (int j = 0; j < n; ++j)
+      for (int k = 0; k < n; ++k)
+        for (int p = 0; p < 6; ++p) {
+          int corner[3] = {i, j, k};
+          std::array<std::int32_t, 4> tet{id(i, j, k)};
+          for (std::size_t step = 0; step < 3; ++step) {
+            ++corner[order[p][step]];
+            tet[step + 1] = id(corner[0], corner[1], corner[2]);
+          }
+          if (p >= 3) std::swap(tet[2], tet[3]); // odd permutations
+          mesh.tet.push_back(tet);
+        }
+  return mesh;
+}
+
+/// A ball of the given radius: the cube's shells mapped to spheres. With `grading` > 1 shells crowd at the surface.
+inline GrainMesh ball_mesh(int n, double radius, double grading = 1) {
+  GrainMesh mesh = cube_mesh(n);
+  for (auto& x : mesh.node) {
+    const double shell = std::max({std::abs(x[0]), std::abs(x[1]), std::abs(x[2])});
+    if (shell == 0) continue;
+    // equal angles rather than equal distances on the faces
+    double length = 0;
+    std::array<double, 3> direction{};
+    for (std::size_t a = 0; a < 3; ++a) {
+      direction[a] = std::tan(x[a] / shell * M_PI / 4);
+      length += direction[a] * direction[a];
+    }
+    const double size = radius * (1 - std::pow(1 - shell, grading));
+    for (std::size_t a = 0; a < 3; ++a) x[a] = size * direction[a] / std::sqrt(length);
+  }
+  return mesh;
+}
+
+inline void move(GrainMesh& mesh, const std::array<double, 3>& shift) {
+  for (auto& x : mesh.node)
+    for (std::size_t a = 0; a < 3; ++a) x[a] += shift[a];
+}
+
+inline void scale(GrainMesh& mesh, double factor) {
+  for (auto& x : mesh.node)
+    for (double& c : x) c *= factor;
+}
+
+/// Rotation about an axis (unit vector) by an angle in rad.
+inline void rotate(GrainMesh& mesh, const std::array<double, 3>& axis, double angle) {
+  const double c = std::cos(angle), s = std::sin(angle);
+  for (auto& x : mesh.node) {
+    const double d = axis[0] * x[0] + axis[1] * x[1] + axis[2] * x[2];
+    const std::array<double, 3> k = {axis[1] * x[2] - axis[2] * x[1], axis[2] * x[0] - axis[0] * x[2],
+                                     axis[0] * x[1] - axis[1] * x[0]};
+    for (std::size_t a = 0; a < 3; ++a) x[a] = c * x[a] + s * k[a] + (1 - c) * d * axis[a];
+  }
+}
+
+inline MeshedPacking pack(const std::vector<GrainMesh>& grains, const std::array<double, 3>& box) {
+  MeshedPacking packing;
+  packing.box_lengths = box;
+  packing.grain_node_offset = {0};
+  packing.grain_tet_offset = {0};
+  for (const GrainMesh& grain : grains) {
+    const auto first = static_cast<std::int32_t>(packing.node.size() / 3);
+    for (const auto& x : grain.node) packing.node.insert(packing.node.end(), x.begin(), x.end());
+    for (const auto& tet : grain.tet)
+      for (const std::int32_t node : tet) packing.tet.push_back(first + node);
+    packing.grain_node_offset.push_back(static_cast<std::int32_t>(packing.node.size() / 3));
+    packing.grain_tet_offset.push_back(static_cast<std::int32_t>(packing.tet.size() / 4));
+  }
+  return packing;
+}
+
+/// An elastic or elasto-plastic scenario without walls that holds for a time.
+inline Scenario holding_scenario(double duration, HardeningLaw law = HardeningLaw::elastic) {
+  Scenario scenario;
+  scenario.packing_file = "test";
+  scenario.walls = false;
+  scenario.material = {1.55e-9, 5000, 0.3, {law, 25, 125, 0.3, {}, {}}};
+  Stage stage;
+  stage.name = "hold";
+  stage.hold = Hold{duration};
+  scenario.stages = {stage};
+  return scenario;
+}
+
+} // namespace mpfem::test
