@@ -1,0 +1,29 @@
+# mpfem_add_test: one Catch2 executable for a part of the toolkit, each of its test cases a test of its own in ctest.
+find_package(Catch2 2.13 REQUIRED)
+include(Catch)
+
+set(MPFEM_TEST_TIMEOUT 120 CACHE STRING "Seconds that one test case may take unless its part says otherwise")
+
+# mpfem_add_test(NAME name SOURCES file... [LIBRARIES target...] [TIMEOUT seconds] [LABELS label...])
+# Makes the executable test-NAME with Catch2's main. Include paths: the project root and tests/support.
+# Test cases appear in ctest as "NAME: test case"; `ctest -L NAME` runs those of one part.
+function(mpfem_add_test)
+  cmake_parse_arguments(PARSE_ARGV 0 test "" "NAME;TIMEOUT" "SOURCES;LIBRARIES;LABELS")
+  if(NOT test_NAME OR NOT test_SOURCES OR test_UNPARSED_ARGUMENTS)
+    message(FATAL_ERROR "mpfem_add_test needs NAME and SOURCES; not understood: '${test_UNPARSED_ARGUMENTS}'")
+  endif()
+  if(NOT test_TIMEOUT)
+    set(test_TIMEOUT ${MPFEM_TEST_TIMEOUT})
+  endif()
+
+  add_executable(test-${test_NAME} ${test_SOURCES})
+  target_include_directories(test-${test_NAME} PRIVATE ${PROJECT_SOURCE_DIR} ${PROJECT_SOURCE_DIR}/tests/support)
+  target_link_libraries(test-${test_NAME} PRIVATE mpfem::options ${test_LIBRARIES} Catch2::Catch2WithMain)
+  set_target_properties(test-${test_NAME} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/tests)
+
+  set(labels ${test_NAME} ${test_LABELS})
+  catch_discover_tests(test-${test_NAME}
+    TEST_PREFIX "${test_NAME}: "
+    WORKING_DIRECTORY ${PROJECT_SOURCE_DIR}
+    PROPERTIES TIMEOUT ${test_TIMEOUT} LABELS "${labels}")
+endfunction()
