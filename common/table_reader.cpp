@@ -224,7 +224,15 @@ const toml::node* TableReader::find(std::string_view key) {
 
 const toml::node& TableReader::require(std::string_view key, std::string_view allowed) {
   if (const toml::node* node = find(key)) return *node;
-  fail_at(table_->source(), key, fmt::format("missing, expected {}", allowed));
+  std::string message = fmt::format("missing, expected {}", allowed);
+  std::vector<std::string> present;
+  for (const auto& entry : *table_)
+    if (!asked_.contains(entry.first.str())) present.emplace_back(entry.first.str());
+  if (const auto near = nearest_word(key, present)) {
+    const auto line = table_->find(*near)->first.source().begin.line;
+    message += line > 0 ? fmt::format(" (is '{}' in line {} meant?)", *near, line) : fmt::format(" (is '{}' meant?)", *near);
+  }
+  fail_at(table_->source(), key, message);
 }
 
 std::string TableReader::full_key(std::string_view key) const {

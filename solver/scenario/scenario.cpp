@@ -1,0 +1,258 @@
+#include "solver/scenario/scenario.hpp"
+
+#include <algorithm>
+#include <filesystem>
+#include <set>
+#include <string_view>
+
+#include <fmt/format.h>
+
+#include "common/table_reader.hpp"
+
+namespace mpfem {
+
+namespace {
+
+// Ranges that exclude slips of the decimal point or of units; physics sets its own limits where it has any.
+constexpr Range fraction_without_zero{.low = 0, .high = 1, .low_open = true};
+constexpr Range admissible_poissons_ratio{.low = -1, .high = 0.5, .low_open = true, .high_open = true};
+constexpr Range target_density{.low = 0, .high = 1.2, .low_open = true};
+constexpr Range positive{.low = 0, .low_open = true};
+constexpr Range non_negative{.low = 0};
+
+constexpr std::size_t largest_hardening_table = 64; // TableLaw::max_points
+
+constexpr std::string_view stage_isotropic_compaction = "isotropic_compaction";
+constexpr std::string_view stage_hold = "hold";
+
+/// Refuses keys of `all` that are given but do not belong to the choice made ("law = 'elastic'").
+void refuse_foreign_keys(const TableReader& table, const std::vector<std::string>& all,
+                         const std::vector<std::string>& meaningful, std::string_view choice) {
+  for (const std::string& key : all)
+    if (table.has(key) && std::find(meaningful.begin(), meaningful.end(), key) == meaningful.end())
+      table.fail(key, fmt::format("has no meaning with {}", choice));
+}
+
+HardeningLaw hardening_law(const std::string& name) {
+  if (name == "elastic") return HardeningLaw::elastic;
+  if (name == "power") return HardeningLaw::power;
+  if (name == "total_strain") return HardeningLaw::total_strain;
+  return HardeningLaw::table;
+}
+
+std::vector<std::string> hardening_keys(HardeningLaw law) {
+  switch (law) {
+  case HardeningLaw::elastic: return {};
+  case HardeningLaw::power: return {"yield_stress", "coefficient", "exponent"};
+  case HardeningLaw::total_strain: return {"coefficient", "exponent"};
+  case HardeningLaw::table: return {"plastic_strain", "flow_stress"};
+  }
+  return {};
+}
+
+void check_hardening_table(const TableReader& table, const HardeningParameters& hardening, double shear_modulus) {
+  const auto& strain = hardening.table_plastic_strain;
+  const auto& stress = hardening.table_flow_stress;
+  if (strain.empty()) table.fail("plastic_strain", "found an empty array, expected at least one value");
+  if (strain.size() > largest_hardening_table)
+    table.fail("plastic_strain", fmt::format("found {} values, allowed 1 … {}", strain.size(), largest_hardening_table));
+  if (stress.size() != strain.size())
+    table.fail("flow_stress", fmt::format("found {} values, expected {}, as many as plastic_strain", stress.size(),
+                                          strain.size()));
+  if (strain[0] != 0) table.fail("plastic_strain", fmt::format("found first value {}, allowed 0", strain[0]));
+  for (std::size_t i = 1; i < strain.size(); ++i) {
+    if (!(strain[i] > strain[i - 1]))
+      table.fail("plastic_strain",
+                 fmt::format("found {} after {}, allowed increasing values", strain[i], strain[i - 1]));
+    const double slope = (stress[i] - stress[i - 1]) / (strain[i] - strain[i - 1]);
+    // A steeper fall has no unique answer to a strain increment.
+    if (!(slope > -3 * shear_modulus))
+      table.fail("flow_stress", fmt::format("found a slope of {} MPa between values {} and {}, allowed > -3 G = {}",
+                                            slope, i - 1, i, -3 * shear_modulus));
+  }
+}
+
+HardeningParameters read_hardening(TableReader table, double youngs_modulus, double poissons_ratio) {
+  HardeningParameters hardening;
+  const std::string law = table.choice("law", {"elastic", "power", "total_strain", "table"});
+  hardening.law = hardening_law(law);
+  refuse_foreign_keys(table, {"yield_stress", "coefficient", "exponent", "plastic_strain", "flow_stress"},
+                      hardening_keys(hardening.law), fmt::format("law = '{}'", law));
+  switch (hardening.law) {
+  case HardeningLaw::elastic: break;
+  case HardeningLaw::power:
+    hardening.yield_stress = table.number("yield_stress", positive);
+    hardening.coefficient = table.number("coefficient", positive);
+    hardening.exponent = table.number("exponent", fraction_without_zero);
+    break;
+  case HardeningLaw::total_strain:
+    hardening.coefficient =
+        table.number("coefficient", {.low = 0, .high = youngs_modulus, .low_open = true, .high_open = true});
+    hardening.exponent = table.number("exponent", {.low = 0, .high = 1, .low_open = true, .high_open = true});
+    break;
+  case HardeningLaw::table:
+    hardening.table_plastic_strain = table.numbers("plastic_strain", non_negative);
+    hardening.table_flow_stress = table.numbers("flow_stress", positive);
+    check_hardening_table(table, hardening, youngs_modulus / (2 * (1 + poissons_ratio)));
+    break;
+  }
+  table.finish();
+  return hardening;
+}
+
+MaterialParameters read_material(TableReader table) {
+  MaterialParameters material;
+  material.density = table.number("density", positive);
+  material.youngs_modulus = table.number("youngs_modulus", positive);
+  material.poissons_ratio = table.number("poissons_ratio", admissible_poissons_ratio);
+  material.hardening = read_hardening(table.table("hardening"), material.youngs_modulus, material.poissons_ratio);
+  table.finish();
+  return material;
+}
+
+ContactParameters read_contact(TableReader table) {
+  ContactParameters contact;
+  contact.stiffness_factor =
+      table.number_or("stiffness_factor", contact.stiffness_factor, {.low = 0, .high = 1e4, .low_open = true});
+  contact.search_margin =
+      table.number_or("search_margin", contact.search_margin, {.low = 0, .high = 10, .low_open = true});
+  table.finish();
+  return contact;
+}
+
+ElementType read_element(TableReader table) {
+  table.choice_or("type", "tet4", {"tet4"});
+  table.finish();
+  return ElementType::tet4;
+}
+
+NumericsParameters read_numerics(TableReader table) {
+  NumericsParameters numerics;
+  numerics.time_step_factor = table.number_or("time_step_factor", numerics.time_step_factor, fraction_without_zero);
+  numerics.bulk_viscosity_linear =
+      table.number_or("bulk_viscosity_linear", numerics.bulk_viscosity_linear, Range::between(0, 1));
+  numerics.bulk_viscosity_quadratic =
+      table.number_or("bulk_viscosity_quadratic", numerics.bulk_viscosity_quadratic, Range::between(0, 10));
+  numerics.mass_scaling =
+      table.number_or("mass_scaling", numerics.mass_scaling, {.low = 0, .high = 1e12, .low_open = true});
+  table.finish();
+  return numerics;
+}
+
+OutputParameters read_output(TableReader table) {
+  OutputParameters output;
+  output.history_rows = static_cast<int>(table.integer_or("history_rows", output.history_rows, Range::between(1, 1e6)));
+  output.snapshot_relative_densities = table.numbers_or("snapshot_relative_densities", {}, target_density);
+  output.snapshot_at_stage_end = table.boolean_or("snapshot_at_stage_end", output.snapshot_at_stage_end);
+  output.checkpoint_interval = table.number_or("checkpoint_interval", output.checkpoint_interval, positive);
+  table.finish();
+  return output;
+}
+
+void read_initial(TableReader table, Scenario& scenario) {
+  scenario.initial_velocity = table.vector3_or("velocity", {0, 0, 0});
+  scenario.grain_velocity = table.vectors3("grain_velocity");
+  scenario.grain_angular_velocity = table.vectors3("grain_angular_velocity");
+  table.finish();
+}
+
+DampingParameters read_damping(TableReader& table) {
+  DampingParameters damping;
+  damping.rate = table.number_or("damping_rate", 0, non_negative);
+  if (table.has("damping_fade_stress") && !table.has("damping_rate"))
+    table.fail("damping_fade_stress", "has no meaning without 'damping_rate'");
+  const auto fade_stress = table.optional_number("damping_fade_stress", positive);
+  if (damping.rate > 0 && !fade_stress)
+    table.fail("damping_fade_stress", "missing, expected a number > 0, since damping_rate > 0");
+  damping.fade_stress = fade_stress.value_or(0);
+  return damping;
+}
+
+/// The name stands in file names, so it is a plain word.
+void check_stage_name(const TableReader& table, const std::string& name) {
+  const bool plain = std::all_of(name.begin(), name.end(), [](char c) {
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '-' || c == '_';
+  });
+  constexpr std::size_t longest = 64;
+  if (name.empty() || name.size() > longest || !plain)
+    table.fail("name", fmt::format("found '{}', allowed 1 … {} letters (a … z), digits, '-' and '_'",
+                                   name.size() > longest ? "a longer text" : name, longest));
+}
+
+Stage read_stage(TableReader table, std::size_t number) {
+  Stage stage;
+  const std::string type =
+      table.choice("type", {std::string(stage_isotropic_compaction), std::string(stage_hold)});
+  stage.name = table.string_or("name", fmt::format("{}-{}", type, number));
+  check_stage_name(table, stage.name);
+
+  const std::vector<std::string> compaction_keys = {"relative_density", "wall_speed", "ramp_fraction"};
+  const std::vector<std::string> hold_keys = {"duration"};
+  if (type == stage_isotropic_compaction) {
+    refuse_foreign_keys(table, hold_keys, {}, fmt::format("type = '{}'", type));
+    IsotropicCompaction compaction;
+    compaction.relative_density = table.number("relative_density", target_density);
+    compaction.wall_speed = table.number("wall_speed", positive);
+    compaction.ramp_fraction = table.number_or("ramp_fraction", compaction.ramp_fraction, Range::between(0, 0.5));
+    stage.isotropic_compaction = compaction;
+  } else {
+    refuse_foreign_keys(table, compaction_keys, {}, fmt::format("type = '{}'", type));
+    stage.hold = Hold{.duration = table.number("duration", positive)};
+  }
+  stage.damping = read_damping(table);
+  table.finish();
+  return stage;
+}
+
+std::vector<Stage> read_stages(TableReader& root) {
+  std::vector<TableReader> tables = root.tables("stages");
+  if (tables.empty())
+    root.fail("stages", root.has("stages") ? "found no stage, expected at least one [[stages]]"
+                                           : "missing, expected at least one [[stages]]");
+  std::vector<Stage> stages;
+  std::set<std::string> names;
+  for (TableReader& table : tables) {
+    stages.push_back(read_stage(table, stages.size() + 1));
+    const std::string& name = stages.back().name;
+    if (!names.insert(name).second)
+      table.fail("name", fmt::format("found '{}', which an earlier stage has, expected different names", name));
+  }
+  return stages;
+}
+
+void check_walls(const TableReader& root, const Scenario& scenario) {
+  if (scenario.walls) return;
+  for (const Stage& stage : scenario.stages)
+    if (stage.isotropic_compaction)
+      root.fail("walls", fmt::format("found false, expected true, since stage '{}' moves the walls", stage.name));
+}
+
+/// Relative to the scenario's folder, unless absolute.
+std::string packing_path(TableReader& root, const std::string& scenario_file) {
+  const std::string file = root.string("packing");
+  if (file.empty() || file.find('\0') != std::string::npos)
+    root.fail("packing", "found an empty or unusable path, expected a meshed packing file");
+  return (std::filesystem::path(scenario_file).parent_path() / file).lexically_normal().string();
+}
+
+} // namespace
+
+Scenario read_scenario(const TomlDocument& document) {
+  Scenario scenario;
+  TableReader root(document);
+  scenario.text = document.text();
+  scenario.packing_file = packing_path(root, document.name());
+  scenario.walls = root.boolean_or("walls", true);
+  scenario.material = read_material(root.table("material"));
+  if (auto table = root.optional_table("contact")) scenario.contact = read_contact(*table);
+  if (auto table = root.optional_table("numerics")) scenario.numerics = read_numerics(*table);
+  if (auto table = root.optional_table("element")) scenario.numerics.element = read_element(*table);
+  if (auto table = root.optional_table("output")) scenario.output = read_output(*table);
+  if (auto table = root.optional_table("initial")) read_initial(*table, scenario);
+  scenario.stages = read_stages(root);
+  check_walls(root, scenario);
+  root.finish();
+  return scenario;
+}
+
+} // namespace mpfem
