@@ -1,0 +1,127 @@
+#include "results-schema/file_reader.hpp"
+
+#include <algorithm>
+#include <filesystem>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "common/errors.hpp"
+#include "common/one_line.hpp"
+
+namespace mpfem::schema {
+
+std::vector<hsize_t> extents_of(hid_t dataset) {
+  const Handle space(H5Dget_space(dataset), H5Sclose);
+  std::vector<hsize_t> extents(static_cast<std::size_t>(std::max(H5Sget_simple_extent_ndims(space), 0)));
+  if (!extents.empty()) H5Sget_simple_extent_dims(space, extents.data(), nullptr);
+  return extents;
+}
+
+bool has_type(hid_t dataset, ElementType type) {
+  const Handle stored(H5Dget_type(dataset), H5Tclose);
+  const Handle wanted = file_type(type);
+  if (type == ElementType::string) return H5Tget_class(stored) == H5T_STRING && H5Tis_variable_str(stored) > 0;
+  return H5Tequal(stored, wanted) > 0;
+}
+
+std::string extents_text(const std::vector<hsize_t>& extents) {
+  return extents.empty() ? "scalar" : fmt::format("[{}]", fmt::join(extents, ", "));
+}
+
+FileReader::FileReader(const std::string& path) : state_(std::make_unique<State>()) {
+  silence_hdf5();
+  state_->path = path;
+  std::error_code ignored;
+  if (!std::filesystem::exists(path, ignored)) throw InputError(fmt::format("{}: no such file", one_line(path)));
+  if (!std::filesystem::is_regular_file(path, ignored)) throw InputError(fmt::format("{}: not a file", one_line(path)));
+  state_->file = Handle(H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), H5Fclose);
+  if (!state_->file) throw InputError(fmt::format("{}: not an HDF5 file that can be opened (damaged or not readable)", one_line(path)));
+
+  const std::string kind = read_text_attribute(state_->file, "file_kind");
+  const std::string version = read_text_attribute(state_->file, "schema_version");
+  const auto known = std::find_if(std::begin(kinds), std::end(kinds), [&](const auto& k) { return k.name == kind; });
+  if (known == std::end(kinds))
+    throw InputError(fmt::format("{}: not a file of this toolkit (attribute file_kind is '{}')", one_line(path), one_line(kind)));
+  if (version != schema_version)
+    throw InputError(fmt::format("{}: schema version '{}', this program reads {}", one_line(path), one_line(version), schema_version));
+  state_->kind = static_cast<FileKind>(known - std::begin(kinds));
+}
+
+FileReader::FileReader(const std::string& path, FileKind kind) : FileReader(path) {
+  if (state_->kind != kind)
+    throw InputError(fmt::format("{}: a {} file, expected a {} file", one_line(path), kinds[static_cast<std::size_t>(state_->kind)].name,
+                                 kinds[static_cast<std::size_t>(kind)].name));
+}
+
+FileReader::~FileReader() = default;
+FileReader::FileReader(FileReader&&) noexcept = default;
+
+const std::string& FileReader::path() const { return state_->path; }
+FileKind FileReader::kind() const { return state_->kind; }
+std::string FileReader::creator() const { return read_text_attribute(state_->file, "creator"); }
+
+bool FileReader::has(const DatasetDescription& dataset, std::string_view snapshot) const {
+  return path_exists(state_->file, path_of(dataset, snapshot));
+}
+
+std::size_t FileReader::count(const DatasetDescription& dataset, std::string_view snapshot) const {
+  const std::string path = path_of(dataset, snapshot);
+  const auto fail = [&](const std::string& found) {
+    throw InputError(fmt::format("{}: dataset {} {}", one_line(state_->path), path, found));
+  };
+  if (!path_exists(state_->file, path)) fail("is missing");
+  const Handle set(H5Dopen2(state_->file, path.c_str(), H5P_DEFAULT), H5Dclose);
+  if (!set) fail("is not a dataset");
+  if (!has_type(set, dataset.type)) fail(fmt::format("has another element type than {}", type_name(dataset.type)));
+  const auto extents = extents_of(set);
+  std::size_t values = 1;
+  bool good = extents.size() == static_cast<std::size_t>(dataset.rank);
+  for (std::size_t i = 0; good && i < extents.size(); ++i) {
+    good = !dataset.extent[i].name.empty() || dataset.extent[i].fixed == extents[i];
+    values *= extents[i];
+  }
+  if (!good) fail(fmt::format("has the shape {}, expected {}", extents_text(extents), dataset.shape));
+  return values;
+}
+
+void FileReader::read_values(const DatasetDescription& dataset, void* values, std::string_view snapshot) const {
+  const std::string path = path_of(dataset, snapshot);
+  const Handle set(H5Dopen2(state_->file, path.c_str(), H5P_DEFAULT), H5Dclose);
+  const Handle type = memory_type(dataset.type);
+  herr_t status = 0;
+  if (dataset.type == ElementType::string) {
+    const Handle space(H5Dget_space(set), H5Sclose);
+    const auto texts = static_cast<std::size_t>(H5Sget_simple_extent_npoints(space));
+    std::vector<char*> pointers(texts, nullptr);
+    if (texts > 0) status = H5Dread(set, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, pointers.data());
+    for (std::size_t i = 0; i < texts && status >= 0; ++i)
+      static_cast<std::string*>(values)[i] = pointers[i] ? pointers[i] : "";
+    if (texts > 0 && status >= 0) H5Dvlen_reclaim(type, space, H5P_DEFAULT, pointers.data());
+  } else {
+    status = H5Dread(set, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, values);
+  }
+  if (status < 0) throw InputError(fmt::format("{}: dataset {} cannot be read (damaged)", one_line(state_->path), path));
+}
+
+std::size_t FileReader::rows(const DatasetDescription& dataset, std::string_view snapshot) const {
+  count(dataset, snapshot);
+  const Handle set(H5Dopen2(state_->file, path_of(dataset, snapshot).c_str(), H5P_DEFAULT), H5Dclose);
+  const auto extents = extents_of(set);
+  return extents.empty() ? 1 : extents.front();
+}
+
+std::vector<std::string> FileReader::snapshots() const {
+  std::vector<std::string> names;
+  if (!path_exists(state_->file, "/snapshots")) return names;
+  const auto collect = [](hid_t, const char* name, const H5L_info_t*, void* data) -> herr_t {
+    static_cast<std::vector<std::string>*>(data)->emplace_back(name);
+    return 0;
+  };
+  const Handle group(H5Gopen2(state_->file, "/snapshots", H5P_DEFAULT), H5Gclose);
+  if (group) H5Literate(group, H5_INDEX_NAME, H5_ITER_INC, nullptr, collect, &names);
+  std::sort(names.begin(), names.end());
+  return names;
+}
+
+} // namespace mpfem::schema

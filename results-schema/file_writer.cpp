@@ -1,0 +1,116 @@
+#include <algorithm>
+#include <filesystem>
+#include <map>
+#include <stdexcept>
+
+#include <fmt/format.h>
+
+#include "common/errors.hpp"
+#include "results-schema/file.hpp"
+#include "results-schema/hdf5_handle.hpp"
+
+namespace mpfem::schema {
+
+namespace {
+
+/// Arrays of snapshots beyond this many bytes are compressed: byte shuffle and deflate at its fastest level.
+constexpr std::size_t compressed_from = 64 * 1024;
+constexpr hsize_t chunk_values = 64 * 1024;
+
+} // namespace
+
+struct FileWriter::State {
+  std::string path, partial;
+  FileKind kind;
+  Handle file;
+  std::map<std::string, std::size_t> extents; ///< named extents seen so far; of a snapshot: its name before them
+
+  [[noreturn]] void storage_failed(std::string_view what) const {
+    throw StorageError(fmt::format("{}: {} could not be written (disk full, or the folder is not writable)", path, what));
+  }
+};
+
+FileWriter::FileWriter(const std::string& path, FileKind kind, std::string_view creator)
+    : state_(std::make_unique<State>(State{path, path + ".partial", kind, {}, {}})) {
+  silence_hdf5();
+  const Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
+  H5Pset_libver_bounds(access, H5F_LIBVER_V18, H5F_LIBVER_LATEST);
+  state_->file = Handle(H5Fcreate(state_->partial.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, access), H5Fclose);
+  if (!state_->file) state_->storage_failed("the file");
+  const std::string kind_name(kinds[static_cast<std::size_t>(kind)].name);
+  if (write_text_attribute(state_->file, "schema_version", schema_version) < 0 ||
+      write_text_attribute(state_->file, "file_kind", kind_name) < 0 ||
+      write_text_attribute(state_->file, "creator", creator) < 0)
+    state_->storage_failed("the root attributes");
+}
+
+FileWriter::~FileWriter() {
+  if (!state_->file) return;
+  state_->file.reset();
+  std::error_code ignored;
+  std::filesystem::remove(state_->partial, ignored);
+}
+
+void FileWriter::write_values(const DatasetDescription& dataset, const void* values, std::size_t count, std::size_t rows,
+                              std::string_view snapshot) {
+  const std::string path = path_of(dataset, snapshot);
+  if (dataset.of_snapshot() == snapshot.empty()) throw std::logic_error(path + ": a snapshot's name is missing or too much");
+
+  std::array<hsize_t, 2> extent{rows, 1};
+  if (dataset.rank == 2) extent[1] = dataset.extent[1].name.empty() ? dataset.extent[1].fixed : count / std::max<std::size_t>(rows, 1);
+  if (extent[0] * extent[1] != count)
+    throw std::logic_error(fmt::format("{}: {} values do not fill {}", path, count, dataset.shape));
+  for (int i = 0; i < dataset.rank; ++i) {
+    const auto index = static_cast<std::size_t>(i);
+    const Extent& wanted = dataset.extent[index];
+    std::size_t found = extent[index];
+    if (wanted.name.empty()) {
+      if (found != wanted.fixed) throw std::logic_error(fmt::format("{}: not of the shape {}", path, dataset.shape));
+      continue;
+    }
+    std::string name(wanted.name);
+    if (constexpr std::string_view more = "_plus_1"; name.ends_with(more)) {
+      name.resize(name.size() - more.size());
+      --found;
+    }
+    if (name.front() == '*') name = std::string(snapshot) + name;
+    if (const auto [known, fresh] = state_->extents.emplace(name, found); !fresh && known->second != found)
+      throw std::logic_error(fmt::format("{}: {} is {} here and {} elsewhere", path, name, found, known->second));
+  }
+
+  const Handle link(H5Pcreate(H5P_LINK_CREATE), H5Pclose);
+  H5Pset_create_intermediate_group(link, 1);
+  const Handle creation(H5Pcreate(H5P_DATASET_CREATE), H5Pclose);
+  const Handle type = memory_type(dataset.type);
+  if (dataset.of_snapshot() && count * H5Tget_size(type) >= compressed_from) {
+    const std::array<hsize_t, 2> chunk{std::min<hsize_t>(extent[0], std::max<hsize_t>(1, chunk_values / extent[1])), extent[1]};
+    H5Pset_chunk(creation, dataset.rank, chunk.data());
+    H5Pset_shuffle(creation);
+    H5Pset_deflate(creation, 1);
+  }
+  const Handle space(dataset.rank == 0 ? H5Screate(H5S_SCALAR) : H5Screate_simple(dataset.rank, extent.data(), nullptr), H5Sclose);
+  const Handle set(H5Dcreate2(state_->file, path.c_str(), file_type(dataset.type), space, link, creation, H5P_DEFAULT), H5Dclose);
+  if (!set) state_->storage_failed(path);
+  if (write_text_attribute(set, "unit", dataset.unit) < 0 || write_text_attribute(set, "description", dataset.description) < 0)
+    state_->storage_failed(path);
+  if (count == 0) return;
+
+  herr_t status = 0;
+  if (dataset.type == ElementType::string) {
+    std::vector<const char*> pointers;
+    for (std::size_t i = 0; i < count; ++i) pointers.push_back(static_cast<const std::string*>(values)[i].c_str());
+    status = H5Dwrite(set, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, pointers.data());
+  } else {
+    status = H5Dwrite(set, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, values);
+  }
+  if (status < 0) state_->storage_failed(path);
+}
+
+void FileWriter::commit() {
+  if (H5Fflush(state_->file, H5F_SCOPE_GLOBAL) < 0 || !state_->file.reset()) state_->storage_failed("the file");
+  std::error_code error;
+  std::filesystem::rename(state_->partial, state_->path, error);
+  if (error) throw StorageError(fmt::format("{}: {} could not be renamed: {}", state_->path, state_->partial, error.message()));
+}
+
+} // namespace mpfem::schema
