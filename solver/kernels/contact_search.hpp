@@ -40,4 +40,7 @@ struct ContactCandidates {
 /// on the number of threads. `margin` in mm.
 ContactCandidates find_contact_candidates(const SurfaceView& surface, double margin, ThreadTeam& team);
 
+/// Makes outgoing_offset, incoming_offset and incoming_pair from pair_first and pair_second.
+void index_pairs(ContactCandidates& candidates, int grains);
+
 } // namespace mpfem

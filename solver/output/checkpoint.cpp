@@ -9,6 +9,7 @@
 #include "common/version.hpp"
 #include "results-schema/descriptors.hpp"
 #include "results-schema/file.hpp"
+#include "solver/output/history.hpp"
 
 namespace mpfem {
 

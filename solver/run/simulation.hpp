@@ -82,6 +82,7 @@ public:
   RunState& state() { return state_; }
   const RunState& state() const { return state_; }
   Profile& profile() { return profile_; }
+  const Profile& profile() const { return profile_; }
 
   /// Takes up model, contact and state that were replaced from a checkpoint.
   void restored();

@@ -1,0 +1,231 @@
+#include "solver/kernels/contact_search.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "solver/physics/gap.hpp"
+
+// Three sieves, each of which lets through everything that could be near: boxes of grains swept along x, boxes of facets
+// against a grid of the other grain's nodes, and the exact distance. What a sieve lets through too much costs time only.
+
+namespace mpfem {
+
+namespace {
+
+std::size_t at(std::int32_t i) { return static_cast<std::size_t>(i); }
+
+struct Box {
+  std::array<double, 3> low{std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity(),
+                            std::numeric_limits<double>::infinity()};
+  std::array<double, 3> high{-std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity(),
+                             -std::numeric_limits<double>::infinity()};
+
+  void add(const double* x) {
+    for (std::size_t k = 0; k < 3; ++k) low[k] = std::min(low[k], x[k]), high[k] = std::max(high[k], x[k]);
+  }
+  Box grown(double margin) const {
+    Box box = *this;
+    for (std::size_t k = 0; k < 3; ++k) box.low[k] -= margin, box.high[k] += margin;
+    return box;
+  }
+  bool contains(const double* x) const {
+    return x[0] >= low[0] && x[0] <= high[0] && x[1] >= low[1] && x[1] <= high[1] && x[2] >= low[2] && x[2] <= high[2];
+  }
+  bool meets(const Box& other) const {
+    for (std::size_t k = 0; k < 3; ++k)
+      if (low[k] > other.high[k] || high[k] < other.low[k]) return false;
+    return true;
+  }
+};
+
+const double* node_row(const SurfaceView& surface, std::int32_t node) { return surface.position.data() + 4 * at(node); }
+
+Box facet_box(const SurfaceView& surface, std::int32_t facet) {
+  Box box;
+  for (std::size_t c = 0; c < 3; ++c) box.add(node_row(surface, surface.facet[3 * at(facet) + c]));
+  return box;
+}
+
+/// A little more than asked for, so that rounding in the sieves cannot lose a node at exactly the margin.
+double safe(double margin) { return margin * (1 + 1e-9); }
+
+/// Grains whose boxes come within the margin, for every grain, ascending.
+std::vector<std::vector<std::int32_t>> near_grains(const std::vector<Box>& box, double margin) {
+  const auto grains = static_cast<std::int32_t>(box.size());
+  std::vector<std::int32_t> order(box.size());
+  for (std::int32_t g = 0; g < grains; ++g) order[at(g)] = g;
+  std::sort(order.begin(), order.end(), [&](std::int32_t a, std::int32_t b) {
+    return std::pair(box[at(a)].low[0], a) < std::pair(box[at(b)].low[0], b);
+  });
+  std::vector<std::vector<std::int32_t>> near(box.size());
+  for (std::size_t i = 0; i < order.size(); ++i) {
+    const Box grown = box[at(order[i])].grown(margin);
+    for (std::size_t j = i + 1; j < order.size() && box[at(order[j])].low[0] <= grown.high[0]; ++j)
+      if (grown.meets(box[at(order[j])])) {
+        near[at(order[i])].push_back(order[j]);
+        near[at(order[j])].push_back(order[i]);
+      }
+  }
+  for (auto& list : near) std::sort(list.begin(), list.end());
+  return near;
+}
+
+/// Nodes of one grain inside a region, sorted into a grid of cells.
+struct NodeGrid {
+  Box region;
+  std::array<int, 3> cells{1, 1, 1};
+  std::array<double, 3> inverse_size{};
+  std::vector<std::int32_t> node, offset, sorted, cell_of, next;
+
+  int coordinate(double x, std::size_t k) const {
+    return std::clamp(static_cast<int>((x - region.low[k]) * inverse_size[k]), 0, cells[k] - 1);
+  }
+  std::size_t index(int x, int y, int z) const {
+    return (static_cast<std::size_t>(z) * static_cast<std::size_t>(cells[1]) + static_cast<std::size_t>(y)) *
+               static_cast<std::size_t>(cells[0]) + static_cast<std::size_t>(x);
+  }
+  /// `cell` in mm; at most some 30 cells an axis.
+  void fill(const SurfaceView& surface, double cell) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      const double length = std::max(region.high[k] - region.low[k], 0.0);
+      cells[k] = static_cast<int>(std::clamp(length / cell, 1.0, 30.0));
+      inverse_size[k] = length > 0 ? cells[k] / length : 0.0;
+    }
+    offset.assign(index(0, 0, cells[2] - 1) + static_cast<std::size_t>(cells[0]) * static_cast<std::size_t>(cells[1]) + 1, 0);
+    cell_of.resize(node.size());
+    for (std::size_t i = 0; i < node.size(); ++i) {
+      const double* x = node_row(surface, node[i]);
+      const std::size_t c = index(coordinate(x[0], 0), coordinate(x[1], 1), coordinate(x[2], 2));
+      cell_of[i] = static_cast<std::int32_t>(c);
+      ++offset[c + 1];
+    }
+    for (std::size_t c = 1; c < offset.size(); ++c) offset[c] += offset[c - 1];
+    sorted.resize(node.size());
+    next.assign(offset.begin(), offset.end() - 1);
+    for (std::size_t i = 0; i < node.size(); ++i) sorted[at(next[at(cell_of[i])]++)] = node[i];
+  }
+  /// Calls visit(node) for all nodes in the cells that a box meets.
+  template <class Visit> void in(const Box& box, Visit visit) const {
+    if (!region.meets(box)) return;
+    const std::array<int, 3> from{coordinate(box.low[0], 0), coordinate(box.low[1], 1), coordinate(box.low[2], 2)};
+    const std::array<int, 3> to{coordinate(box.high[0], 0), coordinate(box.high[1], 1), coordinate(box.high[2], 2)};
+    for (int z = from[2]; z <= to[2]; ++z)
+      for (int y = from[1]; y <= to[1]; ++y) {
+        const auto first = offset[index(from[0], y, z)], last = offset[index(to[0], y, z) + 1];
+        for (std::int32_t i = first; i < last; ++i) visit(sorted[at(i)]);
+      }
+  }
+};
+
+using NodeFacet = std::pair<std::int32_t, std::int32_t>;
+
+/// All combinations of the first grain's nodes with the second grain's facets within the margin, by node, then facet.
+void near_points(const SurfaceView& surface, std::int32_t first, std::int32_t second, const std::vector<Box>& box,
+                 double margin, NodeGrid& grid, std::vector<NodeFacet>& found) {
+  found.clear();
+  const Box reach = box[at(second)].grown(safe(margin)), own = box[at(first)].grown(safe(margin));
+  grid.node.clear();
+  grid.region = Box{};
+  for (std::int32_t n = surface.node_offset[at(first)]; n < surface.node_offset[at(first)] + surface.surface_node_count[at(first)]; ++n)
+    if (const double* x = node_row(surface, n); reach.contains(x)) {
+      grid.node.push_back(n);
+      grid.region.add(x);
+    }
+  if (grid.node.empty()) return;
+
+  // Cells as large as the boxes that will ask: the mean facet box of the second grain.
+  const Box& other = box[at(second)];
+  const auto facets = static_cast<double>(surface.facet_offset[at(second) + 1] - surface.facet_offset[at(second)]);
+  const double extent = std::max({other.high[0] - other.low[0], other.high[1] - other.low[1], other.high[2] - other.low[2]});
+  grid.fill(surface, std::max(2 * extent / std::sqrt(facets) + margin, 1e-300));
+
+  for (std::int32_t f = surface.facet_offset[at(second)]; f < surface.facet_offset[at(second) + 1]; ++f) {
+    const Box around = facet_box(surface, f).grown(safe(margin));
+    if (!around.meets(own) || !around.meets(grid.region)) continue;
+    Vector3<double> x[3];
+    for (std::size_t c = 0; c < 3; ++c) {
+      const double* r = node_row(surface, surface.facet[3 * at(f) + c]);
+      x[c] = {r[0], r[1], r[2]};
+    }
+    grid.in(around, [&](std::int32_t n) {
+      const double* r = node_row(surface, n);
+      if (!around.contains(r)) return;
+      const Vector3<double> p{r[0], r[1], r[2]};
+      if (norm(p - closest_point_on_triangle(p, x).point) <= margin) found.emplace_back(n, f);
+    });
+  }
+  std::sort(found.begin(), found.end());
+}
+
+} // namespace
+
+void index_pairs(ContactCandidates& candidates, int grains) {
+  const std::size_t pairs = candidates.pair_first.size();
+  const auto offsets = [&](const std::vector<std::int32_t>& grain_of) {
+    std::vector<std::int32_t> offset(static_cast<std::size_t>(grains) + 1, 0);
+    for (const std::int32_t g : grain_of) ++offset[at(g) + 1];
+    for (std::size_t g = 1; g < offset.size(); ++g) offset[g] += offset[g - 1];
+    return offset;
+  };
+  candidates.outgoing_offset = offsets(candidates.pair_first);
+  candidates.incoming_offset = offsets(candidates.pair_second);
+  candidates.incoming_pair.resize(pairs);
+  std::vector<std::int32_t> next(candidates.incoming_offset);
+  for (std::size_t p = 0; p < pairs; ++p)
+    candidates.incoming_pair[at(next[at(candidates.pair_second[p])]++)] = static_cast<std::int32_t>(p);
+}
+
+ContactCandidates find_contact_candidates(const SurfaceView& surface, double margin, ThreadTeam& team) {
+  const int grains = static_cast<int>(surface.node_offset.size()) - 1;
+  std::vector<Box> box(static_cast<std::size_t>(grains));
+  team.for_each(grains, [&](int g, int) {
+    for (std::int32_t n = surface.node_offset[at(g)]; n < surface.node_offset[at(g)] + surface.surface_node_count[at(g)]; ++n)
+      box[at(g)].add(node_row(surface, n));
+  });
+  const auto near = near_grains(box, safe(margin));
+
+  struct Found {
+    std::int32_t second;
+    std::vector<NodeFacet> points;
+  };
+  struct Scratch {
+    NodeGrid grid;
+    std::vector<NodeFacet> points;
+  };
+  std::vector<std::vector<Found>> found(static_cast<std::size_t>(grains));
+  std::vector<Scratch> scratch(static_cast<std::size_t>(team.size()));
+  team.for_each(grains, [&](int g, int thread) {
+    Scratch& own = scratch[at(thread)];
+    for (const std::int32_t other : near[at(g)]) {
+      near_points(surface, g, other, box, margin, own.grid, own.points);
+      if (!own.points.empty()) found[at(g)].push_back({other, own.points});
+    }
+  });
+
+  // Joined in the grains' order, so that the result does not depend on who found what.
+  ContactCandidates result;
+  result.pair_point_offset.push_back(0);
+  result.point_facet_offset.push_back(0);
+  for (std::int32_t g = 0; g < grains; ++g)
+    for (const Found& pair : found[at(g)]) {
+      result.pair_first.push_back(g);
+      result.pair_second.push_back(pair.second);
+      for (std::size_t i = 0; i < pair.points.size(); ++i) {
+        const auto [node, facet] = pair.points[i];
+        if (i == 0 || pair.points[i - 1].first != node) {
+          if (i > 0) result.point_facet_offset.push_back(static_cast<std::int32_t>(result.point_facet.size()));
+          result.point_node.push_back(node);
+        }
+        result.point_facet.push_back(facet);
+      }
+      result.point_facet_offset.push_back(static_cast<std::int32_t>(result.point_facet.size()));
+      result.pair_point_offset.push_back(static_cast<std::int32_t>(result.point_node.size()));
+    }
+  index_pairs(result, grains);
+  return result;
+}
+
+} // namespace mpfem
