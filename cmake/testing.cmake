@@ -6,7 +6,7 @@ set(MPFEM_TEST_TIMEOUT 120 CACHE STRING "Seconds that one test case may take unl
 
 # mpfem_add_test(NAME name SOURCES file... [LIBRARIES target...] [TIMEOUT seconds] [LABELS label...])
 # Makes the executable test-NAME with Catch2's main. Include paths: the project root and tests/support.
-# Test cases appear in ctest as "NAME: test case"; `ctest -L NAME` runs those of one part.
+# Test cases appear in ctest as "NAME/test case"; `ctest -L NAME` runs those of one part.
 function(mpfem_add_test)
   cmake_parse_arguments(PARSE_ARGV 0 test "" "NAME;TIMEOUT" "SOURCES;LIBRARIES;LABELS")
   if(NOT test_NAME OR NOT test_SOURCES OR test_UNPARSED_ARGUMENTS)
@@ -23,7 +23,7 @@ function(mpfem_add_test)
 
   set(labels ${test_NAME} ${test_LABELS})
   catch_discover_tests(test-${test_NAME}
-    TEST_PREFIX "${test_NAME}: "
+    TEST_PREFIX "${test_NAME}/"
     WORKING_DIRECTORY ${PROJECT_SOURCE_DIR}
     PROPERTIES TIMEOUT ${test_TIMEOUT} LABELS "${labels}")
 endfunction()

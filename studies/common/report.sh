@@ -32,6 +32,7 @@ for figure in "$@"; do
   folder=out/$mesh/$figure
   printf '<h2 id="%s">%s</h2>\n' "$figure" "$(sed -n '1s/^# *//p' "studies/$figure/README.md")"
   # The first paragraph of a study's README is its question.
+  # shellcheck disable=SC2016 # the backquotes are Markdown's
   printf '<p>%s</p>\n' "$(awk 'NR > 1 && NF { seen = 1; print } seen && !NF { exit }' "studies/$figure/README.md" |
     sed 's/&/\&amp;/g; s/</\&lt;/g; s/>/\&gt;/g; s/\*\*//g; s/`\([^`]*\)`/<code>\1<\/code>/g')"
   printf '<div class="pictures">\n'
