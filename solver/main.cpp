@@ -21,9 +21,21 @@ struct Arguments {
   RunOptions run;
 };
 
+/// A packing named on the command line is relative to the working folder, one named in the scenario to the scenario's:
+/// the former is rewritten to the latter.
+std::string relative_to_scenario(const std::string& assignment, const std::string& scenario) {
+  constexpr std::string_view key = "packing=";
+  if (!assignment.starts_with(key)) return assignment;
+  const std::filesystem::path path = assignment.substr(key.size());
+  if (path.empty() || path.is_absolute()) return assignment;
+  const auto folder = std::filesystem::absolute(scenario).parent_path();
+  return std::string(key) + std::filesystem::absolute(path).lexically_proximate(folder).string();
+}
+
 Scenario load_scenario(const Arguments& arguments) {
   TomlDocument document = TomlDocument::from_file(arguments.scenario);
-  for (const std::string& assignment : arguments.assignments) document.set(assignment);
+  for (const std::string& assignment : arguments.assignments)
+    document.set(relative_to_scenario(assignment, arguments.scenario));
   return read_scenario(document);
 }
 

@@ -238,9 +238,10 @@ private:
       fmt::print(stderr, "{:>8} {:>10} {:>10} {:>8} {:>7} {:>9} {:>9} {:>8} {:>9} {:>7} {:>8}\n", "step", "t/us", "dt/ns",
                  "limit", "D_r", "p/MPa", "q/MPa", "KE/IE", "residual", "pen/h", "ns/tet");
     const double internal = row.elastic_energy + row.plastic_dissipation;
-    fmt::print(stderr, "{:>8.0f} {:>10.4f} {:>10.4f} {:>8} {:>7.4f} {:>9.4g} {:>9.3g} {:>8.2e} {:>9.2e} {:>7.4f} {:>8.1f}\n",
+    fmt::print(stderr, "{:>8.0f} {:>10.4f} {:>10.4f} {:>8} {:>7.4f} {:>9.4g} {:>9.3g} {:>8} {:>9.2e} {:>7.4f} {:>8.1f}\n",
                row.step, row.time * 1e6, row.time_step * 1e9, simulation_.state().controlled_by_contact ? "contact" : "element",
-               row.relative_density, row.mean_stress, row.deviatoric_stress, internal > 0 ? row.kinetic_energy / internal : 0.0,
+               row.relative_density, row.mean_stress, row.deviatoric_stress,
+               row.kinetic_energy < 1e3 * internal ? fmt::format("{:.2e}", row.kinetic_energy / internal) : "-",
                row.external_work > 0 ? row.energy_residual / row.external_work : 0.0, row.max_penetration,
                nanoseconds_per_tet_step());
   }

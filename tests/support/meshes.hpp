@@ -39,8 +39,8 @@ inline GrainMesh cube_mesh(int n) {
   return mesh;
 }
 
-/// A ball of the given radius: the cube's shells mapped to spheres. With `grading` > 1 shells crowd at the surface.
-inline GrainMesh ball_mesh(int n, double radius, double grading = 1) {
+/// A ball of the given radius: the cube's shells mapped to spheres.
+inline GrainMesh ball_mesh(int n, double radius) {
   GrainMesh mesh = cube_mesh(n);
   for (auto& x : mesh.node) {
     const double shell = std::max({std::abs(x[0]), std::abs(x[1]), std::abs(x[2])});
@@ -52,8 +52,7 @@ inline GrainMesh ball_mesh(int n, double radius, double grading = 1) {
       direction[a] = std::tan(x[a] / shell * M_PI / 4);
       length += direction[a] * direction[a];
     }
-    const double size = radius * (1 - std::pow(1 - shell, grading));
-    for (std::size_t a = 0; a < 3; ++a) x[a] = size * direction[a] / std::sqrt(length);
+    for (std::size_t a = 0; a < 3; ++a) x[a] = radius * shell * direction[a] / std::sqrt(length);
   }
   return mesh;
 }

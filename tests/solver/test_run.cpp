@@ -1,0 +1,299 @@
+// Whole runs through the executable: reproducibility, resuming, what is written, and what is refused.
+
+#include <sys/wait.h>
+
+#include <array>
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+
+#include <catch2/catch.hpp>
+#include <fmt/format.h>
+
+#include "results-schema/file.hpp"
+#include "tests/support/packing_file.hpp"
+
+using namespace mpfem;
+using namespace mpfem::test;
+
+namespace {
+
+namespace fs = std::filesystem;
+
+/// A folder of its own for every test, removed at its end.
+class Folder {
+public:
+  Folder() {
+    std::string name = (fs::temp_directory_path() / "mpfem-test-XXXXXX").string();
+    REQUIRE(mkdtemp(name.data()) != nullptr);
+    path_ = name;
+  }
+  ~Folder() {
+    std::error_code ignored;
+    fs::remove_all(path_, ignored);
+  }
+  Folder(const Folder&) = delete;
+  Folder& operator=(const Folder&) = delete;
+  std::string operator/(const std::string& name) const { return (path_ / name).string(); }
+
+private:
+  fs::path path_;
+};
+
+struct Outcome {
+  int exit_code;
+  std::string messages; ///< standard error
+};
+
+Outcome mpfem_command(const std::string& arguments) {
+  FILE* pipe = popen(fmt::format("'{}' {} 2>&1 >/dev/null", MPFEM_EXECUTABLE, arguments).c_str(), "r");
+  REQUIRE(pipe != nullptr);
+  Outcome outcome{};
+  std::array<char, 512> buffer{};
+  while (std::fgets(buffer.data(), static_cast<int>(buffer.size()), pipe)) outcome.messages += buffer.data();
+  const int status = pclose(pipe);
+  outcome.exit_code = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+  return outcome;
+}
+
+void write_text(const std::string& path, const std::string& text) { std::ofstream(path) << text; }
+
+const std::string scenario_text = R"(packing = "packing.h5"
+[material]
+density = 1.55e-9
+youngs_modulus = 5000
+poissons_ratio = 0.3
+[material.hardening]
+law = "power"
+yield_stress = 25
+coefficient = 125
+exponent = 0.3
+[output]
+history_rows = 20
+snapshot_relative_densities = [0.52]
+[[stages]]
+name = "compaction"
+type = "isotropic_compaction"
+relative_density = 0.62
+wall_speed = 20000
+damping_rate = 1e6
+damping_fade_stress = 5
+)";
+
+/// Packing and scenario of eight grains in a folder.
+void prepare(const Folder& folder, int cells = 4) {
+  write_packing(folder / "packing.h5", eight_grains(cells), std::vector<double>(8, 0.1));
+  write_text(folder / "scenario.toml", scenario_text);
+}
+
+std::string replaced(std::string text, const std::string& from, const std::string& to) {
+  const std::size_t at = text.find(from);
+  REQUIRE(at != std::string::npos);
+  return text.replace(at, from.size(), to);
+}
+
+/// Every number of history and snapshots, in order.
+std::vector<double> results(const std::string& path) {
+  const schema::FileReader file(path, schema::FileKind::run);
+  std::vector<double> all;
+  const auto take = [&](const auto& dataset, const std::string& snapshot) {
+    for (const auto value : file.read(dataset, snapshot)) all.push_back(static_cast<double>(value));
+  };
+  namespace run = schema::run;
+  take(run::history_time, "");
+  take(run::history_wall_stress, "");
+  take(run::history_kinetic_energy, "");
+  take(run::history_elastic_energy, "");
+  take(run::history_plastic_dissipation, "");
+  take(run::history_contact_energy, "");
+  take(run::history_energy_residual, "");
+  take(run::history_contact_area, "");
+  for (const std::string& name : file.snapshots()) {
+    take(run::snapshots_node, name);
+    take(run::snapshots_velocity, name);
+    take(run::snapshots_von_mises, name);
+    take(run::snapshots_contact_pressure, name);
+    take(run::snapshots_pair_force, name);
+  }
+  return all;
+}
+
+} // namespace
+
+TEST_CASE("a run is bitwise the same on one, two and four threads") {
+  const Folder folder;
+  prepare(folder);
+  std::vector<std::vector<double>> all;
+  for (const int threads : {1, 2, 4}) {
+    const std::string run = folder / fmt::format("run{}.h5", threads);
+    const Outcome outcome = mpfem_command(fmt::format("run {} -o {} --threads {} --quiet", folder / "scenario.toml", run, threads));
+    REQUIRE(outcome.exit_code == 0);
+    CHECK(outcome.messages.empty()); // --quiet
+    all.push_back(results(run));
+  }
+  REQUIRE(all[0].size() > 1000);
+  CHECK(all[0] == all[1]);
+  CHECK(all[0] == all[2]);
+}
+
+TEST_CASE("a run that is stopped and resumed again and again ends bitwise as if it had not been") {
+  const Folder folder;
+  prepare(folder, 6);
+  const std::string common = fmt::format("run {} --threads 2 --quiet -o ", folder / "scenario.toml");
+  REQUIRE(mpfem_command(common + (folder / "whole.h5")).exit_code == 0);
+  int stops = 0;
+  for (int code = 5; code == 5;) {
+    const Outcome outcome = mpfem_command(common + (folder / "parts.h5") + " --resume --time-limit 0.15");
+    code = outcome.exit_code;
+    INFO(outcome.messages);
+    REQUIRE((code == 0 || code == 5));
+    if (code == 5) {
+      ++stops;
+      CHECK(schema::validate(folder / "parts.h5").empty()); // readable at every stop
+    }
+    REQUIRE(stops < 200);
+  }
+  CHECK(stops >= 2);
+  CHECK(results(folder / "whole.h5") == results(folder / "parts.h5"));
+  CHECK_FALSE(fs::exists(folder / "parts.checkpoint.h5"));
+  CHECK(fs::exists(folder / "parts.compaction.checkpoint.h5"));
+}
+
+TEST_CASE("a killed run goes on from its checkpoint, and ends bitwise as if it had not been killed") {
+  const Folder folder;
+  prepare(folder, 6);
+  write_text(folder / "scenario.toml", replaced(scenario_text, "[output]\n", "[output]\ncheckpoint_interval = 0.1\n"));
+  const std::string common = fmt::format("run {} --threads 2 --quiet -o ", folder / "scenario.toml");
+  REQUIRE(mpfem_command(common + (folder / "whole.h5")).exit_code == 0);
+  int kills = 0;
+  for (int code = -1; code != 0;) {
+    const std::string command = fmt::format("timeout -s KILL 0.5 '{}' {} --resume 2>/dev/null", MPFEM_EXECUTABLE, common + (folder / "killed.h5"));
+    const int status = std::system(command.c_str());
+    code = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+    REQUIRE((code == 0 || code == 137));
+    kills += code != 0;
+    REQUIRE(kills < 100);
+  }
+  CHECK(kills >= 1);
+  CHECK(results(folder / "whole.h5") == results(folder / "killed.h5"));
+}
+
+TEST_CASE("files of a run hold to the schema, and the ledger closes") {
+  const Folder folder;
+  prepare(folder);
+  REQUIRE(mpfem_command(fmt::format("run {} -o {} --quiet", folder / "scenario.toml", folder / "run.h5")).exit_code == 0);
+  CHECK(schema::validate(folder / "run.h5").empty());
+  CHECK(schema::validate(folder / "packing.h5").empty());
+  CHECK(schema::validate(folder / "run.compaction.checkpoint.h5").empty());
+  const schema::FileReader file(folder / "run.h5", schema::FileKind::run);
+  CHECK(file.snapshots().size() == 2); // at 0.52 and at the end
+  CHECK(file.read_scalar(schema::run::provenance_status) == "complete");
+  const auto density = file.read(schema::run::history_relative_density);
+  CHECK(density.back() == Approx(0.62).epsilon(1e-12)); // the walls end exactly on target
+  const auto residual = file.read(schema::run::history_energy_residual);
+  const auto work = file.read(schema::run::history_external_work);
+  CHECK(std::abs(residual.back()) < 0.01 * work.back());
+  CHECK(file.read(schema::run::history_mean_stress).back() > 1); // it was compacted
+  double accounted = 0;
+  for (const double part : file.read(schema::run::provenance_profile_seconds)) accounted += part;
+  CHECK(accounted == Approx(file.read_scalar(schema::run::provenance_wall_time)));
+}
+
+TEST_CASE("a stage checkpoint is the start of another run") {
+  const Folder folder;
+  prepare(folder);
+  REQUIRE(mpfem_command(fmt::format("run {} -o {} --quiet", folder / "scenario.toml", folder / "first.h5")).exit_code == 0);
+  write_text(folder / "second.toml", replaced(replaced(scenario_text, "relative_density = 0.62", "relative_density = 0.64"), "[0.52]", "[]"));
+  REQUIRE(mpfem_command(fmt::format("run {} -o {} --from {} --quiet", folder / "second.toml", folder / "second.h5",
+                                    folder / "first.compaction.checkpoint.h5")).exit_code == 0);
+  const schema::FileReader file(folder / "second.h5", schema::FileKind::run);
+  const auto density = file.read(schema::run::history_relative_density);
+  CHECK(density.front() == Approx(0.62).epsilon(1e-9));
+  CHECK(density.back() == Approx(0.64).epsilon(1e-9));
+  CHECK(file.read(schema::run::history_mean_stress).front() > 1); // stresses came along
+}
+
+TEST_CASE("every bad input is refused with one clear line and exit code 2") {
+  const Folder folder;
+  prepare(folder, 2);
+  const std::string good = folder / "packing.h5";
+  MeshedPacking inverted = eight_grains(2);
+  std::swap(inverted.tet[4 * 70], inverted.tet[4 * 70 + 1]);
+  write_packing(folder / "inverted.h5", inverted, std::vector<double>(8, 0.1));
+  MeshedPacking overlapping = eight_grains(2);
+  for (std::int32_t n = overlapping.grain_node_offset[3]; n < overlapping.grain_node_offset[4]; ++n)
+    overlapping.node[3 * static_cast<std::size_t>(n)] -= 0.05;
+  write_packing(folder / "overlapping.h5", overlapping, std::vector<double>(8, 0.1));
+  write_text(folder / "nothing.h5", "not an HDF5 file");
+
+  struct Case {
+    std::string from, to;             ///< change of the good scenario
+    std::vector<std::string> expected; ///< all of these stand in the message
+  };
+  const std::vector<Case> cases = {
+      {"density = 1.55e-9", "density = = 1", {"scenario.toml:3"}},
+      {"exponent = 0.3", "exponent = 0.3\nexponnent = 1", {"scenario.toml:11", "exponnent", "exponent"}},
+      {"exponent = 0.3", "exponent = 1.3", {"scenario.toml:10", "exponent", "1.3", "> 0 and ≤ 1"}},
+      {"youngs_modulus = 5000", "youngs_modulus = nan", {"youngs_modulus", "nan"}},
+      {"youngs_modulus = 5000", "", {"youngs_modulus", "missing"}},
+      {"packing.h5", "absent.h5", {"absent.h5", "no such file"}},
+      {"packing.h5", "nothing.h5", {"nothing.h5", "not an HDF5 file"}},
+      {"packing.h5", "inverted.h5", {"inverted.h5", "row 70", "inverted"}},
+      {"packing.h5", "overlapping.h5", {"overlapping.h5", "grains 2 and 3"}},
+      {"relative_density = 0.62", "relative_density = 1.4", {"relative_density", "1.4"}},
+      {"relative_density = 0.62", "relative_density = 0.1", {"relative_density", "0.1", "0.3467"}},
+      {"\"isotropic_compaction\"", "\"squeeze\"", {"squeeze", "isotropic_compaction", "hold"}},
+      {"wall_speed = 20000", "wall_speed = -1", {"wall_speed", "-1", "> 0"}},
+  };
+  for (const Case& c : cases) {
+    write_text(folder / "scenario.toml", replaced(scenario_text, c.from, c.to));
+    for (const std::string command : {"run", "check"}) {
+      const Outcome outcome =
+          mpfem_command(command + " " + (folder / "scenario.toml") + (command == "run" ? " -o " + (folder / "run.h5") : ""));
+      INFO(c.to << ": " << outcome.messages);
+      CHECK(outcome.exit_code == 2);
+      CHECK(std::count(outcome.messages.begin(), outcome.messages.end(), '\n') == 1);
+      CHECK(outcome.messages.starts_with("mpfem: error: "));
+      for (const std::string& part : c.expected) CHECK_THAT(outcome.messages, Catch::Contains(part));
+      CHECK_FALSE(fs::exists(folder / "run.h5"));
+      CHECK_FALSE(fs::exists(folder / "run.h5.partial"));
+    }
+  }
+
+  write_text(folder / "scenario.toml", scenario_text);
+  for (const std::string& arguments :
+       {fmt::format("run {} -o {}", folder / "absent.toml", folder / "run.h5"),
+        fmt::format("run {} -o {}", folder / "scenario.toml", folder / "no-such-folder/run.h5"),
+        fmt::format("run {} -o {} --set stages.3.wall_speed=1", folder / "scenario.toml", folder / "run.h5"),
+        fmt::format("run {} -o {} --from {}", folder / "scenario.toml", folder / "run.h5", folder / "packing.h5")}) {
+    const Outcome outcome = mpfem_command(arguments);
+    INFO(arguments << ": " << outcome.messages);
+    CHECK(outcome.exit_code == 2);
+    CHECK(std::count(outcome.messages.begin(), outcome.messages.end(), '\n') == 1);
+  }
+}
+
+TEST_CASE("a damaged checkpoint is refused and nothing is lost") {
+  const Folder folder;
+  prepare(folder, 6);
+  const std::string command = fmt::format("run {} -o {} --threads 2 --quiet --resume", folder / "scenario.toml", folder / "run.h5");
+  REQUIRE(mpfem_command(command + " --time-limit 0.2").exit_code == 5);
+  const std::string checkpoint = folder / "run.checkpoint.h5";
+  const auto size = static_cast<std::streamoff>(fs::file_size(checkpoint));
+  std::fstream file(checkpoint, std::ios::in | std::ios::out | std::ios::binary);
+  file.seekp(size * 2 / 3);
+  file.write("damage, damage, damage", 22);
+  file.close();
+  const Outcome outcome = mpfem_command(command);
+  INFO(outcome.messages);
+  CHECK(outcome.exit_code == 2);
+  CHECK_THAT(outcome.messages, Catch::Contains("run.checkpoint.h5"));
+  CHECK(fs::exists(folder / "run.h5")); // the history up to the stop
+}
+
+TEST_CASE("help and version are there for every command") {
+  for (const std::string arguments : {"--help", "run --help", "check --help", "--version"}) CHECK(mpfem_command(arguments).exit_code == 0);
+  CHECK(mpfem_command("").exit_code == 2);
+  CHECK(mpfem_command("fly").exit_code == 2);
+}
