@@ -1,0 +1,243 @@
+#include "pack-gen/grain_mesh.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <mutex>
+#include <numbers>
+
+#include <fmt/format.h>
+#include <gmsh.h>
+
+#include "common/errors.hpp"
+#include "pack-gen/mesh_report.hpp"
+#include "pack-gen/parallel.hpp"
+#include "pack-gen/random.hpp"
+#include "pack-gen/step_optimiser.hpp"
+
+namespace mpfem {
+
+namespace {
+
+constexpr double unit_ball_volume = 4.0 / 3.0 * std::numbers::pi;
+constexpr double library_step = 1.02;
+
+/// Starts gmsh once and stops it at the end of the program.
+class Gmsh {
+public:
+  static std::mutex& session() {
+    static Gmsh gmsh;
+    return gmsh.mutex_;
+  }
+
+private:
+  Gmsh() {
+    gmsh::initialize(0, nullptr, false);
+    gmsh::option::setNumber("General.Terminal", 0);
+    gmsh::option::setNumber("General.NumThreads", 1);
+  }
+  ~Gmsh() { gmsh::finalize(); }
+  std::mutex mutex_;
+};
+
+/// Tets wanted in the unit ball.
+double wanted_tets(double size_ratio) {
+  return tets_per_cubed_size * unit_ball_volume * size_ratio * size_ratio * size_ratio;
+}
+
+struct Candidate {
+  double interior_edge, skin;
+};
+// Found by trying a grid of both at 600, 4,800 and 130,000 tets a ball: these reach the largest critical steps.
+constexpr Candidate candidates[] = {{1.05, 0.75}, {1.0, 0.75}, {1.05, 0.65}, {1.0, 0.85}, {0.95, 0.75}, {1.1, 0.7}};
+
+} // namespace
+
+std::vector<Tet> gmsh_tetrahedralize(const std::vector<Point>& points) {
+  std::vector<double> coordinates;
+  coordinates.reserve(3 * points.size());
+  for (const Point& p : points) coordinates.insert(coordinates.end(), p.begin(), p.end());
+  std::vector<std::size_t> tags;
+  {
+    const std::lock_guard lock(Gmsh::session());
+    gmsh::model::mesh::tetrahedralize(coordinates, tags);
+  }
+  std::vector<Tet> tet(tags.size() / 4);
+  for (std::size_t e = 0; e < tet.size(); ++e) {
+    Tet& t = tet[e];
+    for (std::size_t k = 0; k < 4; ++k) t[k] = static_cast<std::int32_t>(tags[4 * e + k]) - 1;
+    // Gmsh's order varies from call to call: sorted, the result depends on the points only.
+    std::sort(t.begin(), t.end());
+    const auto at = [&](std::size_t k) { return points[static_cast<std::size_t>(t[k])]; };
+    if (tet_volume(at(0), at(1), at(2), at(3)) < 0) std::swap(t[2], t[3]);
+  }
+  std::sort(tet.begin(), tet.end());
+  return tet;
+}
+
+UnitBall mesh_unit_ball(double size_ratio, std::uint64_t seed) {
+  const double wanted = wanted_tets(size_ratio);
+  // Edge of the regular tetrahedron of the mean volume; a first factor for the count that smoothing leads to.
+  const double mean_edge = std::cbrt(6 * std::numbers::sqrt2 * unit_ball_volume / wanted);
+  const bool large = wanted > 20000;
+  const int rounds = large ? 5 : 10, sweeps = large ? 40 : 60;
+  const std::size_t tries = large ? 2 : std::size(candidates);
+
+  UnitBall best;
+  std::string last_defect = "none of the candidates met the wanted number of tetrahedra";
+  int failures = 0;
+  double factor = 1 - 0.9 / std::cbrt(wanted);
+  for (std::size_t c = 0; c < tries + static_cast<std::size_t>(std::min(failures, 10)); ++c) {
+    const Candidate& candidate = candidates[c % std::size(candidates)];
+    // Each candidate is laid out anew until its count is within 2 %, or the best count so far is taken for small balls,
+    // where one node more or less is already that much.
+    double closest = std::numeric_limits<double>::infinity();
+    BallMesh ball;
+    std::string defect;
+    for (int fit = 0; fit < 6; ++fit) {
+      BallMesh trial;
+      try {
+        trial = lay_out_ball({.edge = mean_edge * factor, .interior_edge = candidate.interior_edge, .skin = candidate.skin,
+                              .smoothing = rounds, .seed = seed + 1000 * c + static_cast<std::size_t>(fit)},
+                             gmsh_tetrahedralize);
+        defect = ball_defect(trial.mesh);
+      } catch (const std::exception& error) {
+        defect = error.what();
+      }
+      if (!defect.empty()) {
+        last_defect = defect;
+        ++failures;
+        factor *= 0.99;
+        continue;
+      }
+      const double miss = static_cast<double>(trial.mesh.tet.size()) / wanted;
+      if (std::abs(std::log(miss)) < closest) {
+        closest = std::abs(std::log(miss));
+        ball = std::move(trial);
+      }
+      if (closest < 0.015) break;
+      factor *= std::cbrt(miss);
+    }
+    const double tolerance = wanted < 300 ? 0.15 : 0.03;
+    if (!(closest < tolerance)) continue;
+    raise_smallest_step(ball, mean_edge, sweeps, 1.3, seed);
+    const double step = smallest_unit_step(ball.mesh);
+    if (step > best.smallest_step && ball_defect(ball.mesh).empty()) best = {std::move(ball), 0, step, {}};
+  }
+  if (best.ball.mesh.tet.empty())
+    throw SimulationError(fmt::format("gmsh gave no valid mesh of a ball at radius/size {:.3f} in {} attempts: {}",
+                                      size_ratio, tries, last_defect));
+  best.volume = mesh_volume(best.ball.mesh);
+  if (failures > 0)
+    best.note = fmt::format("radius/size {:.3f}: gmsh failed {} times ({}); repeated with the size changed by 1 %",
+                            size_ratio, failures, last_defect);
+  return best;
+}
+
+namespace {
+
+/// Library key of a ratio radius/size: steps of 2 %.
+int library_key(double size_ratio) { return static_cast<int>(std::lround(std::log(size_ratio) / std::log(library_step))); }
+
+/// Nodes of a library mesh for one sphere: turned, scaled to the sphere's exact volume, moved to its centre.
+void place_grain(const UnitBall& unit, const Point& center, double radius, std::uint64_t seed, double* node) {
+  const Eigen::Matrix3d turn = radius * std::cbrt(unit_ball_volume / unit.volume) * Random(seed).rotation();
+  for (const Point& p : unit.ball.mesh.node) {
+    for (int k = 0; k < 3; ++k)
+      node[k] = center[static_cast<std::size_t>(k)] + turn(k, 0) * p[0] + turn(k, 1) * p[1] + turn(k, 2) * p[2];
+    node += 3;
+  }
+}
+
+std::uint64_t orientation_seed(std::uint64_t seed, std::size_t grain, int attempt) {
+  return seed * 0x9E3779B97F4A7C15ULL + grain * 0xBF58476D1CE4E5B9ULL + static_cast<std::uint64_t>(attempt);
+}
+
+} // namespace
+
+PackingMesh mesh_packing(const SpherePacking& packing, const MeshRequest& request) {
+  const std::size_t n = packing.radius.size();
+  const auto report = [&](double fraction, const std::string& what) {
+    if (request.progress) request.progress(fraction, what);
+  };
+
+  // 1. Which library meshes are needed, and whether everything can be numbered.
+  std::vector<int> key(n);
+  std::map<int, UnitBall> library;
+  double tets_wanted = 0;
+  for (std::size_t i = 0; i < n; ++i) {
+    const double ratio = packing.radius[i] / request.nominal_size;
+    if (ratio < smallest_size_ratio)
+      throw InputError(fmt::format("size {:g} mm is too large for sphere {} of radius {:g} mm; allowed: at most {:g} mm",
+                                   request.nominal_size, i, packing.radius[i], packing.radius[i] / smallest_size_ratio));
+    key[i] = library_key(ratio);
+    library.try_emplace(key[i]);
+    tets_wanted += wanted_tets(ratio);
+  }
+  if (tets_wanted > 0.95 * std::numeric_limits<std::int32_t>::max())
+    throw InputError(fmt::format("size {:g} mm would give {:.3g} tetrahedra; allowed: at most {:.3g} (32-bit numbers)",
+                                 request.nominal_size, tets_wanted, 0.95 * std::numeric_limits<std::int32_t>::max()));
+
+  // 2. The library, largest balls first so that the threads end together.
+  std::vector<int> keys;
+  for (auto entry = library.rbegin(); entry != library.rend(); ++entry) keys.push_back(entry->first);
+  double work = 0;
+  for (const int k : keys) work += std::pow(library_step, 3 * k);
+  double done = 0;
+  std::mutex guard;
+  report(0, "meshing balls");
+  for_each_parallel(keys.size(), request.threads, [&](std::size_t i) {
+    UnitBall unit = mesh_unit_ball(std::pow(library_step, keys[i]), static_cast<std::uint64_t>(keys[i] + 10000));
+    const std::lock_guard lock(guard);
+    library.at(keys[i]) = std::move(unit);
+    done += std::pow(library_step, 3 * keys[i]);
+    report(0.9 * done / work, fmt::format("meshing balls, {} sizes", keys.size()));
+  });
+
+  // 3. Grains, one after the other in the arrays.
+  PackingMesh mesh;
+  for (const auto& entry : library)
+    if (!entry.second.note.empty()) mesh.notes.push_back(entry.second.note);
+  mesh.grain_node_offset.assign(n + 1, 0);
+  mesh.grain_tet_offset.assign(n + 1, 0);
+  std::size_t nodes = 0, tets = 0;
+  for (std::size_t i = 0; i < n; ++i) {
+    const TetMesh& unit = library.at(key[i]).ball.mesh;
+    nodes += unit.node.size();
+    tets += unit.tet.size();
+    mesh.grain_node_offset[i + 1] = static_cast<std::int32_t>(nodes);
+    mesh.grain_tet_offset[i + 1] = static_cast<std::int32_t>(tets);
+  }
+  mesh.node.resize(3 * nodes);
+  mesh.tet.resize(4 * tets);
+  const auto place = [&](std::size_t i, int attempt) {
+    place_grain(library.at(key[i]), packing.center[i], packing.radius[i], orientation_seed(request.seed, i, attempt),
+                mesh.node.data() + 3 * static_cast<std::size_t>(mesh.grain_node_offset[i]));
+  };
+  for_each_parallel(n, request.threads, [&](std::size_t i) {
+    place(i, 0);
+    std::int32_t* tet = mesh.tet.data() + 4 * static_cast<std::size_t>(mesh.grain_tet_offset[i]);
+    for (const Tet& t : library.at(key[i]).ball.mesh.tet)
+      for (const std::int32_t corner : t) *tet++ = mesh.grain_node_offset[i] + corner;
+  });
+
+  // 4. Facets of neighbours must stay apart: a grain that touches is turned again.
+  report(0.9, "checking facet gaps");
+  constexpr int most_turns = 200;
+  for (int turn = 1;; ++turn) {
+    const SurfaceGap gap = smallest_facet_gap(packing, mesh, request.threads);
+    if (gap.gap > 0) break;
+    if (turn > most_turns)
+      throw InputError(fmt::format("size {:g} mm: the facets of grain {} and {} overlap by {:.2g} mm in every orientation "
+                                   "tried, as the spheres' gap is too small for it; allowed: a finer size or a larger "
+                                   "smallest_gap", request.nominal_size, gap.first,
+                                   gap.second < 0 ? "a wall" : fmt::format("grain {}", gap.second), -gap.gap));
+    place(static_cast<std::size_t>(gap.first), turn);
+    if (gap.second >= 0) place(static_cast<std::size_t>(gap.second), turn);
+    if (turn == 1) mesh.notes.push_back("some grains were turned again to keep their facets apart");
+  }
+  return mesh;
+}
+
+} // namespace mpfem

@@ -1,0 +1,157 @@
+// pack-gen: random packings of spheres of a given size distribution, and their meshes.
+
+#include <chrono>
+#include <cstdio>
+#include <thread>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include "common/errors.hpp"
+#include "common/progress.hpp"
+#include "common/table_reader.hpp"
+#include "common/version.hpp"
+#include "pack-gen/mesh_report.hpp"
+#include "pack-gen/packing_description.hpp"
+#include "pack-gen/sphere_file.hpp"
+
+namespace {
+
+using namespace mpfem;
+
+struct Arguments {
+  std::string input, output;
+  std::vector<std::string> assignments;
+  std::optional<std::int64_t> seed;
+  std::vector<double> box;
+  double size = 0;
+  StepMaterial material;
+  int threads = 1;
+  bool quiet = false;
+};
+
+void spheres(const Arguments& arguments) {
+  TomlDocument document = TomlDocument::from_file(arguments.input);
+  for (const std::string& assignment : arguments.assignments) document.set(assignment);
+  if (arguments.seed) document.set(fmt::format("seed={}", *arguments.seed));
+  const PackingDescription description = read_packing_description(document);
+  const DrawnSizes sizes = draw_sizes(description);
+  Progress progress("pack-gen", arguments.quiet);
+  const SpherePacking packing = pack_spheres({.box = description.box,
+                                              .radius = sizes.radius,
+                                              .smallest_gap = description.smallest_gap,
+                                              .seed = description.seed,
+                                              .progress = [&](const std::string& state) { progress.update(0, state); }});
+  PackingOrigin origin{static_cast<std::int64_t>(description.seed), description.text, {}, {}};
+  tabulate_target(*description.distribution, sizes.scale, origin);
+  write_packing_file(arguments.output, packing, origin);
+  progress.finish(fmt::format("{} spheres, D_r = {:.6f}, smallest gap {:.4g} mm, sizes scaled by {:.5f}, {}",
+                              packing.radius.size(), relative_density(packing), smallest_gap(packing).gap, sizes.scale,
+                              arguments.output));
+}
+
+void mesh(const Arguments& arguments) {
+  const SphereFile file = read_spheres(arguments.input);
+  refuse_overlap(file.packing, arguments.input);
+  Progress progress("pack-gen", arguments.quiet);
+  const PackingMesh mesh =
+      mesh_packing(file.packing, {.nominal_size = arguments.size,
+                                  .seed = static_cast<std::uint64_t>(arguments.seed.value_or(1)),
+                                  .threads = arguments.threads,
+                                  .progress = [&](double fraction, const std::string& what) { progress.update(fraction, what); }});
+  const MeshReport report = report_mesh(file.packing, mesh, arguments.size, arguments.material, arguments.threads);
+  if (!(report.facet_gap.gap > 0))
+    throw SimulationError(fmt::format("{}: no positive facet gap could be proven (grains {} and {})", arguments.input,
+                                      report.facet_gap.first, report.facet_gap.second));
+  write_packing_file(arguments.output, file.packing, file.origin,
+                     MeshForFile{&mesh, arguments.size, report.facet_gap.gap, report.smallest_quality});
+  progress.finish(fmt::format("{} tets, {}", report.tets, arguments.output));
+  for (const std::string& note : mesh.notes) fmt::print(stderr, "note: {}\n", note);
+  if (!arguments.quiet) fmt::print("{}", report_text(report));
+}
+
+void import(const Arguments& arguments) {
+  std::optional<Point> box;
+  if (!arguments.box.empty()) box = Point{arguments.box[0], arguments.box[1], arguments.box[2]};
+  const SpherePacking packing = import_spheres(arguments.input, box);
+  refuse_overlap(packing, arguments.input);
+  write_packing_file(arguments.output, packing, {{}, "imported from " + arguments.input, {}, {}});
+  if (!arguments.quiet)
+    fmt::print(stderr, "pack-gen: {} spheres, D_r = {:.6f}, smallest gap {:.4g} mm, {}\n", packing.radius.size(),
+               relative_density(packing), smallest_gap(packing).gap, arguments.output);
+}
+
+void quality(const Arguments& arguments) {
+  const SphereFile file = read_spheres(arguments.input);
+  const MeshFromFile mesh = read_mesh(arguments.input);
+  fmt::print("{}", report_text(report_mesh(file.packing, mesh.mesh, mesh.nominal_size, arguments.material, arguments.threads)));
+}
+
+void add_material(CLI::App& command, StepMaterial& material) {
+  command.add_option("--youngs-modulus", material.youngs_modulus, "MPa, for the critical step")->check(CLI::PositiveNumber)->capture_default_str();
+  command.add_option("--poissons-ratio", material.poissons_ratio, "For the critical step")->check(CLI::Range(-0.99, 0.499))->capture_default_str();
+  command.add_option("--density", material.density, "tonne/mm^3, for the critical step")->check(CLI::PositiveNumber)->capture_default_str();
+}
+
+int body(int argc, char** argv) {
+  CLI::App app("pack-gen: packs spheres of a size distribution in a box, and meshes them with tetrahedra.\n"
+               "Examples:\n"
+               "  pack-gen spheres powder.toml -o spheres.h5 --seed 2\n"
+               "  pack-gen import spheres.csv --box 1,1,1 -o spheres.h5\n"
+               "  pack-gen mesh spheres.h5 --size 0.03 -o packing.h5\n"
+               "  pack-gen quality packing.h5\n"
+               "  pack-gen export spheres.h5 -o spheres.csv\n"
+               "Lengths in mm. Exit codes: 0 done, 2 bad usage or input, 3 no packing or mesh could be made, 4 storage failed.");
+  app.set_version_flag("--version", std::string(version()));
+  app.require_subcommand(1);
+
+  Arguments arguments;
+  arguments.threads = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
+  const auto add = [&](const char* name, const char* help, const char* input, bool writes) {
+    CLI::App* command = app.add_subcommand(name, help);
+    command->add_option("input", arguments.input, input)->required();
+    if (writes) command->add_option("-o,--output", arguments.output, "File to write")->required();
+    command->add_flag("--quiet", arguments.quiet, "No progress, no report");
+    return command;
+  };
+  const auto add_threads = [&](CLI::App& command) {
+    command.add_option("--threads", arguments.threads, "Threads (default: all cores); the result does not depend on it")->check(CLI::Range(1, 1024));
+  };
+
+  CLI::App* spheres_command = add("spheres", "Pack spheres as a description says.\nExample: pack-gen spheres powder.toml -o spheres.h5",
+                                  "Description of the packing (TOML)", true);
+  spheres_command->add_option("--seed", arguments.seed, "Seed, in place of the description's")->check(CLI::NonNegativeNumber);
+  spheres_command->add_option("--set", arguments.assignments, "Override a value: KEY=VALUE, e.g. count=400")->take_all();
+
+  CLI::App* mesh_command = add("mesh", "Mesh every sphere.\nExample: pack-gen mesh spheres.h5 --size 0.03 -o packing.h5", "Spheres (HDF5)", true);
+  mesh_command->add_option("--size", arguments.size, "Nominal element size, mm")->required()->check(CLI::PositiveNumber);
+  mesh_command->add_option("--seed", arguments.seed, "Seed of the meshes' orientations (default: 1)")->check(CLI::NonNegativeNumber);
+  add_threads(*mesh_command);
+  add_material(*mesh_command, arguments.material);
+
+  CLI::App* import_command = add("import", "Spheres from a table x,y,z,radius (mm), e.g. of a DEM code.\n"
+                                 "Example: pack-gen import spheres.csv --box 1,1,1 -o spheres.h5", "Spheres (CSV)", true);
+  import_command->add_option("--box", arguments.box, "Edge lengths X,Y,Z of the box from the origin, mm (default: the tightest box)")
+      ->delimiter(',')->expected(3)->check(CLI::PositiveNumber);
+  CLI::App* export_command = add("export", "Spheres to a table x,y,z,radius (mm).\nExample: pack-gen export spheres.h5 -o spheres.csv",
+                                 "Packing (HDF5), meshed or not", true);
+  CLI::App* quality_command = add("quality", "Measure a mesh.\nExample: pack-gen quality packing.h5", "Meshed packing (HDF5)", false);
+  add_threads(*quality_command);
+  add_material(*quality_command, arguments.material);
+
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? 0 : static_cast<int>(ExitCode::bad_input);
+  }
+  if (spheres_command->parsed()) spheres(arguments);
+  if (mesh_command->parsed()) mesh(arguments);
+  if (import_command->parsed()) import(arguments);
+  if (export_command->parsed()) export_spheres(arguments.output, read_spheres(arguments.input).packing);
+  if (quality_command->parsed()) quality(arguments);
+  return 0;
+}
+
+} // namespace
+
+int main(int argc, char** argv) { return mpfem::run_program("pack-gen", body, argc, argv); }

@@ -1,0 +1,187 @@
+#include "pack-gen/mesh_report.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <mutex>
+#include <numbers>
+
+#include <fmt/format.h>
+
+#include "common/errors.hpp"
+#include "pack-gen/convex_distance.hpp"
+#include "pack-gen/neighbours.hpp"
+#include "pack-gen/parallel.hpp"
+
+namespace mpfem {
+
+namespace {
+
+using NodeMap = Eigen::Map<const Eigen::Matrix3Xd>;
+
+NodeMap grain_nodes(const PackingMesh& mesh, std::size_t grain) {
+  const auto begin = static_cast<std::size_t>(mesh.grain_node_offset[grain]);
+  const auto end = static_cast<std::size_t>(mesh.grain_node_offset[grain + 1]);
+  return {mesh.node.data() + 3 * begin, 3, static_cast<Eigen::Index>(end - begin)};
+}
+
+Eigen::Vector3d vector(const Point& p) { return {p[0], p[1], p[2]}; }
+
+} // namespace
+
+SurfaceGap smallest_facet_gap(const SpherePacking& packing, const PackingMesh& mesh, int threads) {
+  const std::size_t n = packing.radius.size();
+  SurfaceGap smallest{std::numeric_limits<double>::infinity(), -1, -1};
+  std::mutex guard;
+
+  // 1. Walls, and the bounding radius of every grain.
+  std::vector<double> reach(n);
+  for_each_parallel(n, threads, [&](std::size_t i) {
+    const NodeMap node = grain_nodes(mesh, i);
+    reach[i] = std::sqrt((node.colwise() - vector(packing.center[i])).colwise().squaredNorm().maxCoeff());
+    const Eigen::Vector3d low = node.rowwise().minCoeff(), high = node.rowwise().maxCoeff();
+    const std::lock_guard lock(guard);
+    for (int k = 0; k < 3; ++k)
+      for (const auto& [gap, wall] : {std::pair{low[k], 2 * k},
+                                      std::pair{packing.box[static_cast<std::size_t>(k)] - high[k], 2 * k + 1}})
+        if (gap < smallest.gap || (gap == smallest.gap && static_cast<int>(i) < smallest.first))
+          smallest = {gap, static_cast<int>(i), -1 - wall};
+  });
+
+  // 2. Pairs, nearest bounding spheres first: once these are farther apart than the smallest gap found, so is the rest.
+  struct Pair {
+    double bound;
+    int first, second;
+  };
+  std::vector<Pair> pairs;
+  const double largest = n > 0 ? *std::max_element(reach.begin(), reach.end()) : 0;
+  for_each_pair_within(packing.center, packing.box, 2 * largest + std::min(smallest.gap, largest), [&](int i, int j) {
+    const auto a = static_cast<std::size_t>(i), b = static_cast<std::size_t>(j);
+    pairs.push_back({(vector(packing.center[b]) - vector(packing.center[a])).norm() - reach[a] - reach[b], i, j});
+  });
+  std::sort(pairs.begin(), pairs.end(), [](const Pair& x, const Pair& y) {
+    return std::tie(x.bound, x.first, x.second) < std::tie(y.bound, y.first, y.second);
+  });
+  // Blocks of a fixed length, so that the result does not depend on the number of threads.
+  constexpr std::size_t block = 64;
+  for (std::size_t begin = 0; begin < pairs.size() && pairs[begin].bound < smallest.gap; begin += block) {
+    const std::size_t count = std::min(block, pairs.size() - begin);
+    std::vector<double> gap(count);
+    for_each_parallel(count, threads, [&](std::size_t m) {
+      const auto a = static_cast<std::size_t>(pairs[begin + m].first), b = static_cast<std::size_t>(pairs[begin + m].second);
+      gap[m] = convex_distance(grain_nodes(mesh, a), grain_nodes(mesh, b),
+                               vector(packing.center[b]) - vector(packing.center[a])).lower;
+    });
+    for (std::size_t m = 0; m < count; ++m)
+      if (gap[m] < smallest.gap) smallest = {gap[m], pairs[begin + m].first, pairs[begin + m].second};
+  }
+  return smallest;
+}
+
+MeshReport report_mesh(const SpherePacking& packing, const PackingMesh& mesh, double nominal_size,
+                       const StepMaterial& material, int threads) {
+  const std::size_t n = packing.radius.size();
+  MeshReport report;
+  report.grains = n;
+  report.nodes = mesh.node.size() / 3;
+  report.tets = mesh.tet.size() / 4;
+  report.material = material;
+  report.nominal_size = nominal_size;
+
+  struct Grain {
+    double volume = 0, volume_error = 0, step = 0, excess = 0;
+    std::size_t surface_only = 0;
+  };
+  std::vector<Grain> grains(n);
+  std::vector<float> quality(report.tets), step(report.tets);
+  for_each_parallel(n, threads, [&](std::size_t i) {
+    Grain& grain = grains[i];
+    const std::int32_t node_begin = mesh.grain_node_offset[i];
+    const auto tet_begin = static_cast<std::size_t>(mesh.grain_tet_offset[i]);
+    const auto tet_end = static_cast<std::size_t>(mesh.grain_tet_offset[i + 1]);
+    TetMesh local;
+    const NodeMap node = grain_nodes(mesh, i);
+    for (Eigen::Index k = 0; k < node.cols(); ++k) local.node.push_back({node(0, k), node(1, k), node(2, k)});
+    for (std::size_t e = tet_begin; e < tet_end; ++e)
+      local.tet.push_back({mesh.tet[4 * e] - node_begin, mesh.tet[4 * e + 1] - node_begin, mesh.tet[4 * e + 2] - node_begin,
+                           mesh.tet[4 * e + 3] - node_begin});
+    if (const std::string defect = ball_defect(local); !defect.empty())
+      throw SimulationError(fmt::format("mesh of grain {} has {}", i, defect));
+
+    std::vector<char> on_surface(local.node.size(), 0);
+    for (const Facet& f : boundary_facets(local.tet))
+      for (const std::int32_t k : f) on_surface[static_cast<std::size_t>(k)] = 1;
+    grain.step = std::numeric_limits<double>::infinity();
+    for (std::size_t e = 0; e < local.tet.size(); ++e) {
+      const Tet& t = local.tet[e];
+      const auto at = [&](std::size_t k) { return local.node[static_cast<std::size_t>(t[k])]; };
+      const double critical = critical_step(at(0), at(1), at(2), at(3), material);
+      grain.volume += tet_volume(at(0), at(1), at(2), at(3));
+      grain.step = std::min(grain.step, critical);
+      step[tet_begin + e] = static_cast<float>(critical);
+      quality[tet_begin + e] = static_cast<float>(tet_quality(at(0), at(1), at(2), at(3)));
+      grain.surface_only += std::all_of(t.begin(), t.end(), [&](std::int32_t k) {
+        return on_surface[static_cast<std::size_t>(k)] != 0;
+      });
+    }
+    const double radius = packing.radius[i];
+    const double exact = 4.0 / 3.0 * std::numbers::pi * radius * radius * radius;
+    grain.volume_error = std::abs(grain.volume / exact - 1);
+    grain.excess = std::sqrt((node.colwise() - vector(packing.center[i])).colwise().squaredNorm().maxCoeff()) / radius - 1;
+  });
+
+  double volume = 0, exact = 0;
+  report.smallest_step = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < n; ++i) {
+    const Grain& grain = grains[i];
+    volume += grain.volume;
+    exact += 4.0 / 3.0 * std::numbers::pi * std::pow(packing.radius[i], 3);
+    report.largest_volume_error = std::max(report.largest_volume_error, grain.volume_error);
+    report.largest_excess = std::max(report.largest_excess, grain.excess);
+    report.surface_only_tets += grain.surface_only;
+    if (grain.step < report.smallest_step) {
+      report.smallest_step = grain.step;
+      report.smallest_step_grain = i;
+    }
+  }
+  report.total_volume_error = std::abs(volume / exact - 1);
+  const auto median = [](std::vector<float>& values) {
+    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+    std::nth_element(values.begin(), middle, values.end());
+    return static_cast<double>(*middle);
+  };
+  report.smallest_quality = static_cast<double>(*std::min_element(quality.begin(), quality.end()));
+  report.median_quality = median(quality);
+  report.median_step = median(step);
+  report.facet_gap = smallest_facet_gap(packing, mesh, threads);
+  return report;
+}
+
+std::string report_text(const MeshReport& report) {
+  const double unit = report.nominal_size / report.material.wave_speed();
+  static constexpr const char* walls[] = {"-x", "+x", "-y", "+y", "-z", "+z"};
+  const SurfaceGap& gap = report.facet_gap;
+  std::string text;
+  const auto line = [&](std::string_view name, const std::string& value) {
+    text += fmt::format("{:<34}{}\n", name, value);
+  };
+  line("grains, nodes, tets", fmt::format("{}  {}  {}", report.grains, report.nodes, report.tets));
+  line("nominal size h", fmt::format("{:g} mm", report.nominal_size));
+  line("volume error, largest of a grain", fmt::format("{:.2e}", report.largest_volume_error));
+  line("volume error, all", fmt::format("{:.2e}", report.total_volume_error));
+  line("quality, smallest and median", fmt::format("{:.3f}  {:.3f}   (3 inradius/circumradius)", report.smallest_quality,
+                                                   report.median_quality));
+  line("tets with 4 surface nodes", fmt::format("{}", report.surface_only_tets));
+  line("nodes outside the sphere by", fmt::format("{:.2f} % of the radius at most", 100 * report.largest_excess));
+  line("facet gap, smallest", fmt::format("{:.4g} mm   (grain {} and {})", gap.gap, gap.first,
+                                          gap.second < 0 ? fmt::format("wall {}", walls[-1 - gap.second])
+                                                         : fmt::format("grain {}", gap.second)));
+  line("critical step, smallest", fmt::format("{:.3e} s = {:.3f} h/c   (grain {})", report.smallest_step,
+                                              report.smallest_step / unit, report.smallest_step_grain));
+  line("critical step, median", fmt::format("{:.3e} s = {:.3f} h/c", report.median_step, report.median_step / unit));
+  line("  for", fmt::format("E = {:g} MPa, nu = {:g}, density {:g} t/mm^3, c = {:.4g} mm/s", report.material.youngs_modulus,
+                            report.material.poissons_ratio, report.material.density, report.material.wave_speed()));
+  return text;
+}
+
+} // namespace mpfem

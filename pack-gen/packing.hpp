@@ -1,0 +1,58 @@
+#pragma once
+// Random packings of spheres in a box of hard walls, denser than random sequential addition can make them.
+//
+// Method: spheres inflated by half the wanted gap repel each other and the walls where they overlap; from random points
+// the overlap energy is minimised with FIRE (Bitzek et al., Phys. Rev. Lett. 97, 170201, 2006). Below random close
+// packing (about 0.64 in the bulk, less between walls) the energy reaches zero. What jams first is shrunk and grown again
+// by Monte Carlo moves and exchanges of spheres, which packs denser still; what jams then is refused.
+
+#include <array>
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "pack-gen/tet_mesh.hpp"
+
+namespace mpfem {
+
+/// Spheres in a box that spans [0, box].
+struct SpherePacking {
+  Point box{};                ///< mm
+  std::vector<Point> center;  ///< mm
+  std::vector<double> radius; ///< mm
+};
+
+/// Smallest surface distance, and where it is. `second` is -1 - wall for a wall (-x, +x, -y, +y, -z, +z = 0 … 5).
+struct SurfaceGap {
+  double gap = 0; ///< mm; negative: overlap
+  int first = -1;
+  int second = -1;
+};
+
+/// Smallest gap between two spheres; exact, by a grid of cells as large as the largest diameter. Infinite for one sphere.
+SurfaceGap smallest_sphere_gap(const SpherePacking& packing);
+/// Smallest gap between a sphere and a wall.
+SurfaceGap smallest_wall_gap(const SpherePacking& packing);
+/// The smaller of the two.
+SurfaceGap smallest_gap(const SpherePacking& packing);
+
+/// Sum of sphere volumes over box volume.
+double relative_density(const SpherePacking& packing);
+
+/// What pack_spheres needs.
+struct PackingRequest {
+  Point box{};                ///< mm
+  std::vector<double> radius; ///< mm
+  double smallest_gap = 0;    ///< mm, between spheres and to the walls
+  std::uint64_t seed = 1;
+  std::int64_t moves = 100'000'000; ///< random moves at most, where minimising the overlap is not enough
+  /// Called now and then with what is being done.
+  std::function<void(const std::string& state)> progress{};
+};
+
+/// A packing with these radii, order kept, in which every gap is at least `smallest_gap`. The same request gives the
+/// same packing. Throws InputError, stating the density reached, when the spheres jam first.
+SpherePacking pack_spheres(const PackingRequest& request);
+
+} // namespace mpfem

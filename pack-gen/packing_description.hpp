@@ -1,0 +1,37 @@
+#pragma once
+// The TOML file that describes a packing: PACK.toml of `pack-gen spheres`.
+
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "common/table_reader.hpp"
+#include "pack-gen/packing.hpp"
+#include "pack-gen/size_distribution.hpp"
+
+namespace mpfem {
+
+/// What is to be packed, in mm.
+struct PackingDescription {
+  int count = 0;
+  double relative_density = 0;
+  Point box{};
+  double smallest_gap = 0;
+  std::uint64_t seed = 1;
+  double size_scale_tolerance = 0; ///< how far from 1 the factor on all sizes may be that makes count and density agree
+  std::unique_ptr<SizeDistribution> distribution;
+  std::string text; ///< the file's text with the assignments
+};
+
+/// Reads a description; keys and defaults stand in packing_description.cpp only. Throws InputError.
+PackingDescription read_packing_description(const TomlDocument& document);
+
+/// Radii (mm) for the description: the distribution's quantiles, scaled by `scale` so that their volume is the wanted
+/// one. Throws InputError where the scale is further from 1 than the description allows.
+struct DrawnSizes {
+  std::vector<double> radius;
+  double scale = 1;
+};
+DrawnSizes draw_sizes(const PackingDescription& description);
+
+} // namespace mpfem

@@ -1,0 +1,154 @@
+#include "pack-gen/sphere_file.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
+
+#include <fmt/format.h>
+#include <fmt/os.h>
+
+#include "common/errors.hpp"
+#include "common/version.hpp"
+#include "pack-gen/csv_table.hpp"
+#include "results-schema/file.hpp"
+
+namespace mpfem {
+
+namespace {
+
+namespace file = schema::packing;
+using Doubles = std::span<const double>;
+using Integers = std::span<const std::int32_t>;
+
+std::string body(const SpherePacking& packing, int index) {
+  static constexpr const char* wall[] = {"-x", "+x", "-y", "+y", "-z", "+z"};
+  if (index < 0) return fmt::format("the wall {}", wall[-1 - index]);
+  const auto& c = packing.center[static_cast<std::size_t>(index)];
+  return fmt::format("sphere {} at ({:g}, {:g}, {:g})", index, c[0], c[1], c[2]);
+}
+
+} // namespace
+
+void tabulate_target(const SizeDistribution& distribution, double scale, PackingOrigin& origin) {
+  constexpr int points = 101;
+  const double smallest = distribution.quantile(0), largest = distribution.quantile(1);
+  for (int i = 0; i < points; ++i) {
+    const double diameter = smallest + (largest - smallest) * i / (points - 1);
+    origin.target_diameter.push_back(scale * diameter);
+    origin.target_cumulative_number.push_back(distribution.cumulative_number(diameter));
+  }
+}
+
+void refuse_overlap(const SpherePacking& packing, const std::string& name) {
+  const SurfaceGap gap = smallest_gap(packing);
+  if (gap.gap < 0)
+    throw InputError(fmt::format("{}: {} and {} overlap by {:.4g} mm; allowed: no overlap", name, body(packing, gap.first),
+                                 body(packing, gap.second), -gap.gap));
+}
+
+SphereFile read_spheres(const std::string& path) {
+  const schema::FileReader reader(path, schema::FileKind::packing);
+  SphereFile result;
+  const auto lengths = reader.read(file::box_lengths), center = reader.read(file::spheres_center);
+  result.packing.radius = reader.read(file::spheres_radius);
+  if (center.size() != 3 * result.packing.radius.size() || result.packing.radius.empty())
+    throw InputError(fmt::format("{}: {} centres and {} radii; allowed: as many, at least one", path, center.size() / 3,
+                                 result.packing.radius.size()));
+  std::copy(lengths.begin(), lengths.end(), result.packing.box.begin());
+  for (std::size_t i = 0; i < result.packing.radius.size(); ++i) {
+    result.packing.center.push_back({center[3 * i], center[3 * i + 1], center[3 * i + 2]});
+    if (!(result.packing.radius[i] > 0) || !std::isfinite(center[3 * i] + center[3 * i + 1] + center[3 * i + 2] + result.packing.radius[i]))
+      throw InputError(fmt::format("{}: sphere {} has the radius {:g} mm; allowed: finite centre, radius > 0", path, i, result.packing.radius[i]));
+  }
+  if (reader.has(file::packing_seed)) result.origin.seed = reader.read_scalar(file::packing_seed);
+  if (reader.has(file::packing_description)) result.origin.description = reader.read_scalar(file::packing_description);
+  if (reader.has(file::packing_target_diameter)) {
+    result.origin.target_diameter = reader.read(file::packing_target_diameter);
+    result.origin.target_cumulative_number = reader.read(file::packing_target_cumulative_number);
+  }
+  return result;
+}
+
+SpherePacking import_spheres(const std::string& path, const std::optional<Point>& box) {
+  SpherePacking packing;
+  for (const auto& row : read_csv(path, {"x", "y", "z", "radius"})) {
+    if (!(row[3] > 0))
+      throw InputError(fmt::format("{}: sphere {} has the radius {:g}; allowed: > 0", path, packing.radius.size(), row[3]));
+    packing.center.push_back({row[0], row[1], row[2]});
+    packing.radius.push_back(row[3]);
+  }
+  if (box) {
+    packing.box = *box;
+  } else {
+    for (std::size_t k = 0; k < 3; ++k) {
+      double low = packing.center[0][k] - packing.radius[0], high = packing.center[0][k] + packing.radius[0];
+      for (std::size_t i = 1; i < packing.radius.size(); ++i) {
+        low = std::min(low, packing.center[i][k] - packing.radius[i]);
+        high = std::max(high, packing.center[i][k] + packing.radius[i]);
+      }
+      packing.box[k] = high - low;
+      for (auto& center : packing.center) center[k] -= low;
+    }
+  }
+  return packing;
+}
+
+void export_spheres(const std::string& path, const SpherePacking& packing) {
+  const std::string partial = path + ".partial";
+  try {
+    auto out = fmt::output_file(partial);
+    out.print("x [mm],y [mm],z [mm],radius [mm]\n");
+    for (std::size_t i = 0; i < packing.radius.size(); ++i)
+      out.print("{},{},{},{}\n", packing.center[i][0], packing.center[i][1], packing.center[i][2], packing.radius[i]);
+    out.close();
+    std::filesystem::rename(partial, path);
+  } catch (const std::system_error& error) {
+    throw StorageError(fmt::format("{}: cannot be written: {}", path, error.what()));
+  }
+}
+
+void write_packing_file(const std::string& path, const SpherePacking& packing, const PackingOrigin& origin,
+                        const std::optional<MeshForFile>& mesh) {
+  schema::FileWriter writer(path, schema::FileKind::packing, fmt::format("pack-gen {}", version()));
+  std::vector<double> center;
+  for (const auto& c : packing.center) center.insert(center.end(), c.begin(), c.end());
+  const std::size_t spheres = packing.radius.size();
+  writer.write(file::box_lengths, Doubles(packing.box), 3);
+  writer.write(file::spheres_center, Doubles(center), spheres);
+  writer.write(file::spheres_radius, Doubles(packing.radius), spheres);
+  if (const double gap = smallest_gap(packing).gap; std::isfinite(gap)) writer.write_scalar(file::packing_smallest_gap, gap);
+  writer.write_scalar(file::packing_relative_density, relative_density(packing));
+  if (origin.seed) writer.write_scalar(file::packing_seed, *origin.seed);
+  writer.write_scalar(file::packing_description, origin.description);
+  if (!origin.target_diameter.empty()) {
+    writer.write(file::packing_target_diameter, Doubles(origin.target_diameter), origin.target_diameter.size());
+    writer.write(file::packing_target_cumulative_number, Doubles(origin.target_cumulative_number), origin.target_diameter.size());
+  }
+  if (mesh) {
+    const PackingMesh& m = *mesh->mesh;
+    writer.write(file::mesh_node, Doubles(m.node), m.node.size() / 3);
+    writer.write(file::mesh_tet, Integers(m.tet), m.tet.size() / 4);
+    writer.write(file::mesh_grain_node_offset, Integers(m.grain_node_offset), m.grain_node_offset.size());
+    writer.write(file::mesh_grain_tet_offset, Integers(m.grain_tet_offset), m.grain_tet_offset.size());
+    writer.write_scalar(file::mesh_nominal_size, mesh->nominal_size);
+    writer.write_scalar(file::mesh_smallest_facet_gap, mesh->smallest_facet_gap);
+    writer.write_scalar(file::mesh_smallest_quality, mesh->smallest_quality);
+  }
+  writer.commit();
+}
+
+MeshFromFile read_mesh(const std::string& path) {
+  const schema::FileReader reader(path, schema::FileKind::packing);
+  if (!reader.has(file::mesh_tet))
+    throw InputError(fmt::format("{}: a packing without meshes; pack-gen mesh makes them", path));
+  MeshFromFile result;
+  result.mesh.node = reader.read(file::mesh_node);
+  result.mesh.tet = reader.read(file::mesh_tet);
+  result.mesh.grain_node_offset = reader.read(file::mesh_grain_node_offset);
+  result.mesh.grain_tet_offset = reader.read(file::mesh_grain_tet_offset);
+  if (reader.has(file::mesh_nominal_size)) result.nominal_size = reader.read_scalar(file::mesh_nominal_size);
+  return result;
+}
+
+} // namespace mpfem

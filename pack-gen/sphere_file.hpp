@@ -1,0 +1,57 @@
+#pragma once
+// Sphere packings and their meshes in files.
+
+#include <cstdint>
+#include <optional>
+#include <string>
+
+#include "pack-gen/grain_mesh.hpp"
+#include "pack-gen/packing.hpp"
+#include "pack-gen/size_distribution.hpp"
+
+namespace mpfem {
+
+/// What a packing file says beside spheres and mesh.
+struct PackingOrigin {
+  std::optional<std::int64_t> seed;
+  std::string description; ///< text of the description, or the source of an import
+  std::vector<double> target_diameter, target_cumulative_number; ///< the wanted distribution, empty where there is none
+};
+
+struct SphereFile {
+  SpherePacking packing;
+  PackingOrigin origin;
+};
+
+/// The wanted distribution as a curve of 101 points between its smallest and largest size.
+void tabulate_target(const SizeDistribution& distribution, double scale, PackingOrigin& origin);
+
+/// Throws InputError, naming the spheres and the overlap, where two spheres or a sphere and a wall overlap.
+void refuse_overlap(const SpherePacking& packing, const std::string& name);
+
+/// Reads spheres (meshed or not). Throws InputError.
+SphereFile read_spheres(const std::string& path);
+/// Spheres of a CSV file with the columns x, y, z, radius (mm). Without a box: the tightest around all spheres. Spheres
+/// are moved so that the box begins at the origin. Throws InputError.
+SpherePacking import_spheres(const std::string& path, const std::optional<Point>& box);
+/// Writes x, y, z, radius with units in the heading.
+void export_spheres(const std::string& path, const SpherePacking& packing);
+
+/// A mesh and what was found of it.
+struct MeshForFile {
+  const PackingMesh* mesh = nullptr;
+  double nominal_size = 0, smallest_facet_gap = 0, smallest_quality = 0;
+};
+
+/// Writes spheres, and the mesh where there is one. Throws StorageError.
+void write_packing_file(const std::string& path, const SpherePacking& packing, const PackingOrigin& origin,
+                        const std::optional<MeshForFile>& mesh = {});
+
+/// The mesh of a meshed packing file, with its nominal size. Throws InputError where there is none.
+struct MeshFromFile {
+  PackingMesh mesh;
+  double nominal_size = 0;
+};
+MeshFromFile read_mesh(const std::string& path);
+
+} // namespace mpfem
