@@ -1,0 +1,23 @@
+#pragma once
+// Contacts between grains at one snapshot.
+
+#include <vector>
+
+#include <nlohmann/json.hpp>
+
+#include "postproc/history_table.hpp"
+
+namespace mpfem {
+
+struct ContactTable {
+  double relative_density = 0, mean_stress = 0; ///< 1, MPa
+  double contact_area_ratio = 0;   ///< area in contact over total surface, at the history row nearest in time
+  double coordination_number = 0;  ///< 2 pairs / grains
+  std::vector<Column> columns;     ///< a row per pair: first, second, force_x, _y, _z, force, area, pressure
+};
+
+/// Throws InputError where the run has no such snapshot (numbered as in snapshot_name).
+ContactTable contact_table(const schema::FileReader& file, int snapshot);
+nlohmann::ordered_json to_json(const ContactTable& table);
+
+} // namespace mpfem

@@ -1,0 +1,40 @@
+#pragma once
+// The history of a run as columns of numbers, whatever their type in the file.
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "results-schema/file.hpp"
+
+namespace mpfem {
+
+struct Column {
+  std::string name; ///< as in /history, with _0, _1 … for the components of a row
+  std::string unit;
+  std::vector<double> values;
+};
+
+/// All columns of /history, in the schema's order.
+class HistoryTable {
+public:
+  /// Throws InputError where the file is no run file or has no rows.
+  explicit HistoryTable(const schema::FileReader& file);
+
+  const std::vector<Column>& columns() const { return columns_; }
+  std::size_t rows() const { return columns_.front().values.size(); }
+  /// Throws InputError, naming the nearest column, where there is none of this name.
+  const Column& column(std::string_view name) const;
+  const std::vector<double>& operator[](std::string_view name) const { return column(name).values; }
+  /// Columns by name, where "wall_stress" stands for all of its components. Throws InputError.
+  std::vector<const Column*> select(const std::vector<std::string>& names) const;
+
+private:
+  std::string path_;
+  std::vector<Column> columns_;
+};
+
+/// Internal energy: what has gone into the grains, elastic and plastic (mJ).
+double internal_energy(const HistoryTable& history, std::size_t row);
+
+} // namespace mpfem

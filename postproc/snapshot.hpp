@@ -1,0 +1,43 @@
+#pragma once
+// One state of the grains: a snapshot of a run, or a meshed packing before any run.
+
+#include <array>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "results-schema/file.hpp"
+
+namespace mpfem {
+
+/// A named number per tet or per node.
+struct Field {
+  std::string name, unit;
+  std::vector<float> values;
+};
+
+struct Snapshot {
+  std::string name; ///< "0003", "packing"
+  double time = 0, relative_density = 0, mean_stress = 0; ///< s, 1, MPa
+  std::array<double, 3> box_low{}, box_high{};            ///< mm
+  std::vector<float> node;                                ///< [nodes * 3], mm
+  std::vector<std::int32_t> tet;                          ///< [tets * 4]
+  std::vector<std::int32_t> tet_grain;                    ///< [tets]
+  std::vector<Field> tet_fields, node_fields;
+  std::vector<float> velocity;                            ///< [nodes * 3], mm/s; empty for a packing
+
+  std::size_t nodes() const { return node.size() / 3; }
+  std::size_t tets() const { return tet.size() / 4; }
+  /// Throws InputError listing the fields where there is none of this name.
+  const Field& tet_field(const std::string& field_name) const;
+};
+
+/// Snapshots of a run file by number, as given: 0 the first, negative from the end (-1 the last). Throws InputError.
+Snapshot read_snapshot(const schema::FileReader& file, int number);
+/// The mesh of a packing file. Throws InputError where it is not meshed.
+Snapshot read_packing_snapshot(const std::string& path);
+
+/// The name of snapshot `number` of a run file. Throws InputError where there is none.
+std::string snapshot_name(const schema::FileReader& file, int number);
+
+} // namespace mpfem

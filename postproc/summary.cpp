@@ -1,0 +1,110 @@
+#include "postproc/summary.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "postproc/history_table.hpp"
+
+namespace mpfem {
+
+Summary summarise(const schema::FileReader& file) {
+  namespace run = schema::run;
+  const HistoryTable history(file);
+  const std::size_t rows = history.rows(), last = rows - 1;
+  Summary s;
+  s.status = file.read_scalar(run::provenance_status);
+  s.version = file.read_scalar(run::provenance_version);
+  s.host = file.read_scalar(run::provenance_host);
+  s.threads = file.read_scalar(run::provenance_threads);
+  s.wall_time = file.read_scalar(run::provenance_wall_time);
+  s.tets = static_cast<std::int64_t>(file.rows(run::mesh_tet));
+  s.grains = static_cast<std::int64_t>(file.rows(run::mesh_grain_tet_offset)) - 1;
+  s.steps = static_cast<std::int64_t>(history["step"][last]);
+  if (s.steps > 0 && s.tets > 0)
+    s.nanoseconds_per_tet_step = 1e9 * s.wall_time / (static_cast<double>(s.steps) * static_cast<double>(s.tets));
+  s.relative_density = history["relative_density"][last];
+  s.mean_stress = history["mean_stress"][last];
+  s.deviatoric_stress = history["deviatoric_stress"][last];
+  s.elastic_energy = history["elastic_energy"][last];
+  s.plastic_dissipation = history["plastic_dissipation"][last];
+  s.external_work = history["external_work"][last];
+  s.coordination_number = history["coordination_number"][last];
+  if (const double area = history["surface_area"][last]; area > 0) s.contact_area_ratio = history["contact_area"][last] / area;
+
+  double work = 0, residual = 0;
+  const auto& stress = history["mean_stress"];
+  const double loaded = 0.1 * *std::max_element(stress.begin(), stress.end());
+  s.kinetic_over_internal_from_density = history["relative_density"][last];
+  bool calm = true;
+  for (std::size_t row = rows; row-- > 0;) {
+    work = std::max(work, std::abs(history["external_work"][row]));
+    residual = std::max(residual, std::abs(history["energy_residual"][row]));
+    s.largest_penetration = std::max(s.largest_penetration, history["max_penetration"][row]);
+    if (const double step = history["time_step"][row]; step > 0) {
+      s.smallest_time_step = s.smallest_time_step > 0 ? std::min(s.smallest_time_step, step) : step;
+      s.largest_time_step = std::max(s.largest_time_step, step);
+    }
+    const double internal = internal_energy(history, row), kinetic = history["kinetic_energy"][row];
+    if (internal > 0 && loaded > 0 && stress[row] >= loaded) s.kinetic_over_internal = std::max(s.kinetic_over_internal, kinetic / internal);
+    calm = calm && kinetic <= 0.01 * internal;
+    if (calm) s.kinetic_over_internal_from_density = history["relative_density"][row];
+  }
+  s.largest_residual = work > 0 ? residual / work : 0;
+  s.profile_name = file.read(run::provenance_profile_name);
+  s.profile_share = file.read(run::provenance_profile_seconds);
+  for (double& share : s.profile_share) share = s.wall_time > 0 ? share / s.wall_time : 0;
+  return s;
+}
+
+nlohmann::ordered_json to_json(const Summary& s) {
+  nlohmann::ordered_json json = {{"status", s.status},
+                                 {"version", s.version},
+                                 {"host", s.host},
+                                 {"threads", s.threads},
+                                 {"grains", s.grains},
+                                 {"tets", s.tets},
+                                 {"steps", s.steps},
+                                 {"wall_time_s", s.wall_time},
+                                 {"ns_per_tet_step", s.nanoseconds_per_tet_step},
+                                 {"relative_density", s.relative_density},
+                                 {"mean_stress_MPa", s.mean_stress},
+                                 {"deviatoric_stress_MPa", s.deviatoric_stress},
+                                 {"elastic_energy_mJ", s.elastic_energy},
+                                 {"plastic_dissipation_mJ", s.plastic_dissipation},
+                                 {"external_work_mJ", s.external_work},
+                                 {"largest_energy_residual_over_work", s.largest_residual},
+                                 {"largest_kinetic_over_internal_under_load", s.kinetic_over_internal},
+                                 {"relative_density_from_which_kinetic_below_1_percent", s.kinetic_over_internal_from_density},
+                                 {"largest_penetration_over_h", s.largest_penetration},
+                                 {"smallest_time_step_s", s.smallest_time_step},
+                                 {"largest_time_step_s", s.largest_time_step},
+                                 {"coordination_number", s.coordination_number},
+                                 {"contact_area_over_surface_area", s.contact_area_ratio}};
+  for (std::size_t i = 0; i < s.profile_name.size(); ++i) json["wall_time_share"][s.profile_name[i]] = s.profile_share[i];
+  return json;
+}
+
+std::string to_text(const Summary& s) {
+  std::string text;
+  const auto line = [&text](std::string_view name, const std::string& value) { text += fmt::format("{:<38}{}\n", name, value); };
+  line("status", s.status);
+  line("grains, tets, steps", fmt::format("{}  {}  {}", s.grains, s.tets, s.steps));
+  line("wall time", fmt::format("{:.1f} s on {} threads, {:.1f} ns a tet and step", s.wall_time, s.threads, s.nanoseconds_per_tet_step));
+  line("relative density at the end", fmt::format("{:.4f}", s.relative_density));
+  line("mean stress, deviatoric stress", fmt::format("{:.4g} MPa, {:.3g} MPa", s.mean_stress, s.deviatoric_stress));
+  line("elastic energy, plastic dissipation", fmt::format("{:.4g} mJ, {:.4g} mJ", s.elastic_energy, s.plastic_dissipation));
+  line("energy residual, largest over work", fmt::format("{:.2e}", s.largest_residual));
+  line("kinetic over internal energy, largest", fmt::format("{:.2e} while p is above a tenth of its largest; <= 1 % from D_r = {:.3f} on",
+                                                            s.kinetic_over_internal, s.kinetic_over_internal_from_density));
+  line("penetration over h, largest", fmt::format("{:.4f}", s.largest_penetration));
+  line("time step", fmt::format("{:.4g} … {:.4g} s", s.smallest_time_step, s.largest_time_step));
+  line("coordination number", fmt::format("{:.2f}", s.coordination_number));
+  line("contact area over surface", fmt::format("{:.3f}", s.contact_area_ratio));
+  for (std::size_t i = 0; i < s.profile_name.size(); ++i)
+    line(i == 0 ? "wall time in" : "", fmt::format("{:5.1f} %  {}", 100 * s.profile_share[i], s.profile_name[i]));
+  return text;
+}
+
+} // namespace mpfem

@@ -1,0 +1,42 @@
+#include "postproc/text_file.hpp"
+
+#include <filesystem>
+#include <fstream>
+
+#include <fmt/format.h>
+
+#include "common/errors.hpp"
+#include "common/one_line.hpp"
+
+namespace mpfem {
+
+void write_file(const std::string& path, std::string_view content) {
+  const std::string partial = path + ".partial";
+  std::ofstream file(partial, std::ios::binary);
+  file.write(content.data(), static_cast<std::streamsize>(content.size()));
+  file.close();
+  std::error_code error;
+  if (file) std::filesystem::rename(partial, path, error);
+  if (!file || error) {
+    std::error_code ignored;
+    std::filesystem::remove(partial, ignored);
+    throw StorageError(fmt::format("{}: cannot be written (missing folder, no permission, or disk full)", one_line(path)));
+  }
+}
+
+std::string csv_text(const std::vector<const Column*>& columns) {
+  std::string text;
+  const auto end_cell = [&](std::size_t i) { text += i + 1 < columns.size() ? ',' : '\n'; };
+  for (std::size_t i = 0; i < columns.size(); ++i) {
+    text += fmt::format("{} [{}]", columns[i]->name, columns[i]->unit);
+    end_cell(i);
+  }
+  for (std::size_t row = 0; !columns.empty() && row < columns.front()->values.size(); ++row)
+    for (std::size_t i = 0; i < columns.size(); ++i) {
+      text += fmt::format("{}", columns[i]->values[row]); // the shortest text that reads back to the same number
+      end_cell(i);
+    }
+  return text;
+}
+
+} // namespace mpfem
