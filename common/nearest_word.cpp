@@ -29,7 +29,7 @@ std::optional<std::string> nearest_word(std::string_view word, const std::vector
   for (const std::string& candidate : known) {
     const std::size_t distance = edit_distance(word, candidate);
     const std::size_t allowed = std::max<std::size_t>(1, std::max(word.size(), candidate.size()) / 3);
-    if (distance <= allowed && distance < word.size() && (!nearest || distance < least)) {
+    if (distance <= allowed && distance < std::max(word.size(), candidate.size()) && (!nearest || distance < least)) {
       nearest = candidate;
       least = distance;
     }
