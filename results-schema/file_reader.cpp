@@ -21,7 +21,8 @@ std::vector<hsize_t> extents_of(hid_t dataset) {
 bool has_type(hid_t dataset, ElementType type) {
   const Handle stored(H5Dget_type(dataset), H5Tclose);
   const Handle wanted = file_type(type);
-  if (type == ElementType::string) return H5Tget_class(stored) == H5T_STRING && H5Tis_variable_str(stored) > 0;
+  if (type == ElementType::string)
+    return H5Tget_class(stored) == H5T_STRING && H5Tis_variable_str(stored) > 0 && H5Tget_cset(stored) == H5T_CSET_UTF8;
   return H5Tequal(stored, wanted) > 0;
 }
 

@@ -23,6 +23,7 @@ struct FileWriter::State {
   std::string path, partial;
   FileKind kind;
   Handle file;
+  bool complete = false;                      ///< all written and closed: .partial is worth keeping
   std::map<std::string, std::size_t> extents; ///< named extents seen so far; of a snapshot: its name before them
 
   [[noreturn]] void storage_failed(std::string_view what) const {
@@ -31,7 +32,7 @@ struct FileWriter::State {
 };
 
 FileWriter::FileWriter(const std::string& path, FileKind kind, std::string_view creator)
-    : state_(std::make_unique<State>(State{path, path + ".partial", kind, {}, {}})) {
+    : state_(std::make_unique<State>(State{path, path + ".partial", kind, {}, false, {}})) {
   silence_hdf5();
   const Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
   H5Pset_libver_bounds(access, H5F_LIBVER_V18, H5F_LIBVER_LATEST);
@@ -45,7 +46,7 @@ FileWriter::FileWriter(const std::string& path, FileKind kind, std::string_view 
 }
 
 FileWriter::~FileWriter() {
-  if (!state_->file) return;
+  if (state_->complete) return;
   state_->file.reset();
   std::error_code ignored;
   std::filesystem::remove(state_->partial, ignored);
@@ -54,6 +55,11 @@ FileWriter::~FileWriter() {
 void FileWriter::write_values(const DatasetDescription& dataset, const void* values, std::size_t count, std::size_t rows,
                               std::string_view snapshot) {
   const std::string path = path_of(dataset, snapshot);
+  if (!state_->file) throw std::logic_error(path + ": written after commit()");
+  const auto datasets = kinds[static_cast<std::size_t>(state_->kind)].datasets;
+  if (std::none_of(datasets.begin(), datasets.end(), [&](const auto& known) { return known.path == dataset.path; }))
+    throw std::logic_error(path + ": not a dataset of this kind of file");
+  if (path_exists(state_->file, path)) throw std::logic_error(path + ": written twice");
   if (dataset.of_snapshot() == snapshot.empty()) throw std::logic_error(path + ": a snapshot's name is missing or too much");
 
   std::array<hsize_t, 2> extent{rows, 1};
@@ -70,6 +76,7 @@ void FileWriter::write_values(const DatasetDescription& dataset, const void* val
     }
     std::string name(wanted.name);
     if (constexpr std::string_view more = "_plus_1"; name.ends_with(more)) {
+      if (found == 0) throw std::logic_error(fmt::format("{}: empty, {} has at least one row", path, dataset.shape));
       name.resize(name.size() - more.size());
       --found;
     }
@@ -107,10 +114,13 @@ void FileWriter::write_values(const DatasetDescription& dataset, const void* val
 }
 
 void FileWriter::commit() {
+  if (!state_->file) throw std::logic_error(state_->path + ": commit() called twice");
   if (H5Fflush(state_->file, H5F_SCOPE_GLOBAL) < 0 || !state_->file.reset()) state_->storage_failed("the file");
+  state_->complete = true;
   std::error_code error;
   std::filesystem::rename(state_->partial, state_->path, error);
-  if (error) throw StorageError(fmt::format("{}: {} could not be renamed: {}", state_->path, state_->partial, error.message()));
+  if (error)
+    throw StorageError(fmt::format("{}: the complete file {} could not be renamed: {}", state_->path, state_->partial, error.message()));
 }
 
 } // namespace mpfem::schema

@@ -55,7 +55,8 @@ std::string read_text_attribute(hid_t object, const char* name) {
   if (H5Aexists(object, name) <= 0) return {};
   const Handle attribute(H5Aopen(object, name, H5P_DEFAULT), H5Aclose);
   const Handle stored(H5Aget_type(attribute), H5Tclose);
-  if (H5Tget_class(stored) != H5T_STRING) return {};
+  const Handle space(H5Aget_space(attribute), H5Sclose);
+  if (H5Tget_class(stored) != H5T_STRING || H5Sget_simple_extent_npoints(space) != 1) return {};
   if (H5Tis_variable_str(stored) > 0) {
     char* text = nullptr;
     if (H5Aread(attribute, string_type(), &text) < 0 || !text) return {};

@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "common/one_line.hpp"
 #include "results-schema/file_reader.hpp"
 
 namespace mpfem::schema {
@@ -78,7 +79,7 @@ public:
   std::vector<std::string> findings;
 
 private:
-  void finding(const std::string& path, const std::string& what) { findings.push_back(path + " " + what); }
+  void finding(const std::string& path, const std::string& what) { findings.push_back(one_line(path + " " + what)); }
 
   void check_extent(const DatasetDescription& dataset, const std::string& path, const std::string& snapshot, std::size_t i,
                     hsize_t found) {
