@@ -1,11 +1,5 @@
 // Whole runs through the executable: reproducibility, resuming, what is written, and what is refused.
 
-#include <sys/wait.h>
-
-#include <array>
-#include <chrono>
-#include <cstdio>
-#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 
@@ -13,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "results-schema/file.hpp"
+#include "tests/support/folder.hpp"
 #include "tests/support/packing_file.hpp"
 
 using namespace mpfem;
@@ -22,46 +17,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// A folder of its own for every test, removed at its end.
-class Folder {
-public:
-  Folder() {
-    std::string name = (fs::temp_directory_path() / "mpfem-test-XXXXXX").string();
-    REQUIRE(mkdtemp(name.data()) != nullptr);
-    path_ = name;
-  }
-  ~Folder() {
-    std::error_code ignored;
-    fs::remove_all(path_, ignored);
-  }
-  Folder(const Folder&) = delete;
-  Folder& operator=(const Folder&) = delete;
-  std::string operator/(const std::string& name) const { return (path_ / name).string(); }
-
-private:
-  fs::path path_;
-};
-
-struct Outcome {
-  int exit_code;
-  std::string messages; ///< standard error
-  double seconds;       ///< wall-clock time
-};
-
-Outcome mpfem_command(const std::string& arguments) {
-  FILE* pipe = popen(fmt::format("'{}' {} 2>&1 >/dev/null", MPFEM_EXECUTABLE, arguments).c_str(), "r");
-  REQUIRE(pipe != nullptr);
-  Outcome outcome{};
-  const auto start = std::chrono::steady_clock::now();
-  std::array<char, 512> buffer{};
-  while (std::fgets(buffer.data(), static_cast<int>(buffer.size()), pipe)) outcome.messages += buffer.data();
-  const int status = pclose(pipe);
-  outcome.exit_code = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
-  outcome.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  return outcome;
-}
-
-void write_text(const std::string& path, const std::string& text) { std::ofstream(path) << text; }
+Outcome mpfem_command(const std::string& arguments) { return run_command(fmt::format("'{}' {}", MPFEM_EXECUTABLE, arguments)); }
 
 const std::string scenario_text = R"(packing = "packing.h5"
 [material]
@@ -175,10 +131,8 @@ TEST_CASE("a killed run goes on from its checkpoint, and ends bitwise as if it h
              replaced(scenario_text, "[output]\n", fmt::format("[output]\ncheckpoint_interval = {}\n", whole.seconds / 20)));
   int kills = 0;
   for (int code = -1; code != 0;) {
-    const std::string command = fmt::format("timeout -s KILL {} '{}' {} --resume 2>/dev/null", whole.seconds / 3, MPFEM_EXECUTABLE,
-                                            common + (folder / "killed.h5"));
-    const int status = std::system(command.c_str());
-    code = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+    code = run_command(fmt::format("timeout -s KILL {} '{}' {} --resume", whole.seconds / 3, MPFEM_EXECUTABLE, common + (folder / "killed.h5")))
+               .exit_code;
     REQUIRE((code == 0 || code == 137));
     kills += code != 0;
     REQUIRE(kills < 100);

@@ -1,0 +1,135 @@
+// Numbers from run files whose answers are known, and what the command refuses.
+
+#include <catch2/catch.hpp>
+#include <fmt/format.h>
+
+#include "postproc/contact.hpp"
+#include "postproc/energy.hpp"
+#include "postproc/summary.hpp"
+#include "small_run.hpp"
+#include "tests/support/folder.hpp"
+
+using namespace mpfem;
+using namespace mpfem::test;
+
+namespace {
+
+Outcome postproc(const std::string& arguments) { return run_command(fmt::format("'{}' {}", MPFEM_POSTPROC, arguments)); }
+
+} // namespace
+
+TEST_CASE("a summary holds the numbers of the run") {
+  const Folder folder;
+  write_run(folder / "run.h5", small_run());
+  const Summary s = summarise(schema::FileReader(folder / "run.h5", schema::FileKind::run));
+  CHECK(s.status == "complete");
+  CHECK(s.tets == 48);
+  CHECK(s.grains == 2);
+  CHECK(s.steps == 20);
+  CHECK(s.nanoseconds_per_tet_step == Approx(0.96e9 / (20 * 48)));
+  CHECK(s.relative_density == 0.8);
+  CHECK(s.largest_residual == Approx(0.06 / 4));                   // over the largest work
+  CHECK(s.kinetic_over_internal == Approx(0.02));                  // the row at 5 MPa; the one at rest is not under load
+  CHECK(s.kinetic_over_internal_from_density == Approx(0.8));      // 2 % at 0.7, 0.5 % at 0.8
+  CHECK(s.largest_penetration == 0.03);
+  CHECK(s.smallest_time_step == 5e-8);
+  CHECK(s.largest_time_step == 1e-7);
+  CHECK(s.contact_area_ratio == Approx(0.4));
+  REQUIRE(s.profile_share.size() == 2);
+  CHECK(s.profile_share[0] == Approx(0.75));
+
+  REQUIRE(postproc(fmt::format("summary {} -o {}", folder / "run.h5", folder / "s.json")).exit_code == 0);
+  const auto json = nlohmann::json::parse(read_text(folder / "s.json"));
+  CHECK(json["tets"] == 48);
+  CHECK(json["wall_time_share"]["element forces"] == Approx(0.75));
+}
+
+TEST_CASE("a curve has the columns asked for, with units, and its numbers read back exactly") {
+  const Folder folder;
+  RunContents contents = small_run();
+  contents.numbers["/history/mean_stress"] = {0.1, 1.0 / 3.0, 1e-300};
+  write_run(folder / "run.h5", contents);
+  const Outcome outcome = postproc(fmt::format("curve {} --columns relative_density,mean_stress,wall_stress", folder / "run.h5"));
+  REQUIRE(outcome.exit_code == 0);
+  std::istringstream lines(outcome.output);
+  std::string line;
+  std::getline(lines, line);
+  CHECK(line == "relative_density [1],mean_stress [MPa],wall_stress_0 [MPa],wall_stress_1 [MPa],wall_stress_2 [MPa],wall_stress_3 [MPa],"
+                "wall_stress_4 [MPa],wall_stress_5 [MPa]");
+  std::getline(lines, line);
+  std::getline(lines, line);
+  CHECK(line.starts_with("0.7,"));
+  CHECK(std::stod(line.substr(4)) == 1.0 / 3.0);
+  CHECK(line.ends_with(",1,2,3,4,5,6"));
+  // All columns: every dataset of /history.
+  const HistoryTable history(schema::FileReader(folder / "run.h5"));
+  std::size_t expected = 0;
+  for (const auto& dataset : schema::run::all)
+    if (dataset.path.starts_with("/history/")) expected += dataset.rank == 1 ? 1 : dataset.extent[1].fixed;
+  CHECK(history.columns().size() == expected);
+}
+
+TEST_CASE("the ledger has every term, and the ratios of the rows") {
+  const Folder folder;
+  write_run(folder / "run.h5", small_run());
+  const schema::FileReader file(folder / "run.h5");
+  const auto ledger = energy_ledger(HistoryTable(file));
+  const Column &residual = ledger[ledger.size() - 2], &kinetic = ledger.back();
+  CHECK(residual.name == "residual_over_work");
+  CHECK(residual.values[0] == 0);
+  CHECK(residual.values[1] == Approx(-0.03));
+  CHECK(kinetic.values[2] == Approx(0.005));
+}
+
+TEST_CASE("a contact table has force, area and pressure of every pair") {
+  const Folder folder;
+  write_run(folder / "run.h5", small_run());
+  const ContactTable table = contact_table(schema::FileReader(folder / "run.h5"), -1);
+  REQUIRE(table.columns[5].values.size() == 1);
+  CHECK(table.columns[5].values[0] == Approx(5));  // |(3, 0, 4)|
+  CHECK(table.columns[7].values[0] == Approx(10)); // over 0.5 mm^2
+  CHECK(table.coordination_number == 1);
+  CHECK(table.contact_area_ratio == Approx(0.4));
+}
+
+TEST_CASE("postproc refuses what it cannot use with one line and exit code 2") {
+  const Folder folder;
+  write_run(folder / "run.h5", small_run());
+  write_text(folder / "text.h5", "no HDF5");
+  const std::string run = folder / "run.h5";
+  for (const auto& [arguments, expected] : std::vector<std::pair<std::string, std::string>>{
+           {"summary " + (folder / "absent.h5"), "no such file"},
+           {"summary " + (folder / "text.h5"), "not an HDF5 file"},
+           {"curve " + run + " --columns mean_stres", "mean_stress"},
+           {"curve " + run + " --columns zzz", "allowed"},
+           {"contact " + run + " --snapshot 4", "allowed 0 … 0"},
+           {"section " + run + " --field colour -o " + (folder / "x.png"), "von_mises"},
+           {"section " + run + " --position 7 -o " + (folder / "x.png"), "cuts no grain"},
+           {"section " + run + " --range 5,5 -o " + (folder / "x.png"), "low < high"},
+           {"section " + run + " --packing " + run + " -o " + (folder / "x.png"), "one of them"},
+           {"section --packing " + run + " -o " + (folder / "x.png"), "expected a packing file"},
+           {"vtk -o " + (folder / "x"), "one of them"}}) {
+    const Outcome outcome = postproc(arguments);
+    INFO(arguments << ": " << outcome.messages);
+    CHECK(outcome.exit_code == 2);
+    CHECK(outcome.one_error_line("postproc"));
+    CHECK_THAT(outcome.messages, Catch::Contains(expected));
+    CHECK_FALSE(std::filesystem::exists(folder / "x.png"));
+  }
+  CHECK(postproc("curve " + run + " -o " + (folder / "no/such/folder.csv")).exit_code == 4);
+  CHECK(postproc("--help").exit_code == 0);
+  CHECK(postproc("section --help").exit_code == 0);
+  CHECK(postproc("juggle").exit_code == 2);
+}
+
+TEST_CASE("validate passes a good file and finds a bad one") {
+  const Folder folder;
+  write_run(folder / "good.h5", small_run());
+  RunContents contents = small_run();
+  contents.numbers["/mesh/tet"][5] = 1000;
+  write_run(folder / "bad.h5", contents);
+  CHECK(postproc("validate " + (folder / "good.h5")).exit_code == 0);
+  const Outcome outcome = postproc("validate " + (folder / "good.h5") + " " + (folder / "bad.h5"));
+  CHECK(outcome.exit_code == 2);
+  CHECK_THAT(outcome.output, Catch::Contains("good.h5: valid") && Catch::Contains("/mesh/tet holds the index 1000"));
+}
