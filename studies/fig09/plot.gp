@@ -4,7 +4,7 @@ data = ARG2
 set output ARG3
 set xlabel 'relative density D_r'
 set ylabel 'mean stress p / MPa'
-set xrange [0.55:0.93]
+set xrange [*:0.93]
 set yrange [0:*]
 set xtics 0.05
 meshes = 'smoke coarse intermediate medium paper'
