@@ -25,7 +25,7 @@ struct Arguments {
   std::string axis = "z";
   double position = 0.5;
   bool relative = false, quiet = false;
-  std::vector<double> range;
+  std::vector<double> range, view;
   PictureRequest picture;
 };
 
@@ -99,6 +99,11 @@ void section(Arguments arguments) {
     if (!(arguments.range[1] > arguments.range[0]))
       throw InputError(fmt::format("--range: found {},{}; allowed: low,high with low < high", arguments.range[0], arguments.range[1]));
     request.range = {arguments.range[0], arguments.range[1]};
+  }
+  if (!arguments.view.empty()) {
+    const auto& v = arguments.view;
+    if (!(v[1] > v[0] && v[3] > v[2])) throw InputError(fmt::format("--view: found {}; allowed: low,high,low,high with low < high", fmt::join(v, ",")));
+    request.view = View{{v[0], v[2]}, {v[1], v[3]}};
   }
   if (!arguments.packing.empty() && request.field == "von_mises") request.field = "grain";
   if (!arguments.data.empty()) write_file(arguments.data, section_csv(state, cut(state, request.plane), request.field));
@@ -177,6 +182,9 @@ int body(int argc, char** argv) {
   section_command->add_flag("--relative", arguments.relative, "Take --position as a fraction of the box (0 … 1)");
   section_command->add_option("--field", arguments.picture.field, "von_mises, pressure, plastic_strain or grain (for --packing: grain)")->capture_default_str();
   section_command->add_option("--range", arguments.range, "low,high of the colour scale (default: from the data)")->delimiter(',')->expected(2);
+  section_command->add_flag("--mesh", arguments.picture.mesh_lines, "Draw the elements' edges");
+  section_command->add_option("--view", arguments.view, "Part of the plane to show: low,high of its first and of its second coordinate, mm (default: the box)")
+      ->delimiter(',')->expected(4);
   section_command->add_option("--title", arguments.picture.title, "Title (default: the relative density)");
   section_command->add_option("--pixels", arguments.picture.pixels, "Pixels along the longer side")->check(CLI::Range(50, 8000))->capture_default_str();
   section_command->add_option("--data", arguments.data, "Also write the section's polygons as CSV");

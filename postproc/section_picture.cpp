@@ -118,21 +118,24 @@ void run_gnuplot(const std::string& script) {
 } // namespace
 
 Raster draw_section(const std::vector<SectionPolygon>& polygons, const std::vector<Colour>& tet_colour,
-                    const std::vector<std::int32_t>& tet_grain, const View& view, int pixels) {
+                    const std::vector<std::int32_t>& tet_grain, const View& view, int pixels, bool mesh_lines) {
   const double extent[2] = {view.high[0] - view.low[0], view.high[1] - view.low[1]};
   const double size = std::max(extent[0], extent[1]) / pixels;
   Raster raster;
   raster.width = std::max(1, static_cast<int>(std::lround(extent[0] / size)));
   raster.height = std::max(1, static_cast<int>(std::lround(extent[1] / size)));
   const TetRaster fine = rasterise(polygons, view, fineness * raster.width, fineness * raster.height);
-  const auto grain_at = [&](int x, int y) {
+  const auto tet_at = [&](int x, int y) {
     if (x < 0 || y < 0 || x >= fine.width || y >= fine.height) return std::int32_t{-1};
-    const std::int32_t tet = fine.tet[static_cast<std::size_t>(y) * static_cast<std::size_t>(fine.width) + static_cast<std::size_t>(x)];
+    return fine.tet[static_cast<std::size_t>(y) * static_cast<std::size_t>(fine.width) + static_cast<std::size_t>(x)];
+  };
+  const auto grain_at = [&](int x, int y) {
+    const std::int32_t tet = tet_at(x, y);
     return tet < 0 ? std::int32_t{-1} : tet_grain[static_cast<std::size_t>(tet)];
   };
   // A fine pixel is on a line where another grain, or none, lies within the line's half width.
   const int reach = std::max(1, static_cast<int>(std::lround(line_pixels * fineness)));
-  constexpr Colour line{25, 25, 25}, empty{255, 255, 255};
+  constexpr Colour line{25, 25, 25}, mesh_line{90, 90, 90}, empty{255, 255, 255};
   raster.pixel.resize(static_cast<std::size_t>(raster.width) * static_cast<std::size_t>(raster.height));
   for (int row = 0; row < raster.height; ++row)
     for (int column = 0; column < raster.width; ++column) {
@@ -141,12 +144,13 @@ Raster draw_section(const std::vector<SectionPolygon>& polygons, const std::vect
         for (int i = 0; i < fineness; ++i) {
           const int x = column * fineness + i, y = row * fineness + j;
           const std::int32_t grain = grain_at(x, y);
-          const std::int32_t tet = fine.tet[static_cast<std::size_t>(y) * static_cast<std::size_t>(fine.width) + static_cast<std::size_t>(x)];
+          const std::int32_t tet = tet_at(x, y);
           bool edge = false;
           if (grain >= 0)
             for (const auto& [dx, dy] : {std::pair{reach, 0}, {-reach, 0}, {0, reach}, {0, -reach}, {1, 0}, {-1, 0}, {0, 1}, {0, -1}})
               edge = edge || grain_at(x + dx, y + dy) != grain;
-          const Colour& colour = edge ? line : grain >= 0 ? tet_colour[static_cast<std::size_t>(tet)] : empty;
+          const bool between_tets = mesh_lines && (tet_at(x + 1, y) != tet || tet_at(x, y + 1) != tet);
+          const Colour& colour = edge ? line : grain >= 0 && between_tets ? mesh_line : grain >= 0 ? tet_colour[static_cast<std::size_t>(tet)] : empty;
           for (std::size_t c = 0; c < 3; ++c) sum[c] += colour[c];
         }
       Colour& pixel = raster.pixel[static_cast<std::size_t>(row) * static_cast<std::size_t>(raster.width) + static_cast<std::size_t>(column)];
@@ -172,8 +176,8 @@ void write_section_picture(const std::string& path, const Snapshot& snapshot, co
   for (std::size_t t = 0; t < snapshot.tets(); ++t)
     colour[t] = of_grains ? grain_colour(snapshot.tet_grain[t])
                           : scale_colour((static_cast<double>(field.values[t]) - range.first) / (range.second - range.first));
-  const View view{{snapshot.box_low[u], snapshot.box_low[v]}, {snapshot.box_high[u], snapshot.box_high[v]}};
-  const Raster raster = draw_section(polygons, colour, snapshot.tet_grain, view, request.pixels);
+  const View view = request.view.value_or(View{{snapshot.box_low[u], snapshot.box_low[v]}, {snapshot.box_high[u], snapshot.box_high[v]}});
+  const Raster raster = draw_section(polygons, colour, snapshot.tet_grain, view, request.pixels, request.mesh_lines);
   std::string bytes;
   for (const Colour& pixel : raster.pixel) bytes.append(reinterpret_cast<const char*>(pixel.data()), 3);
   const ScratchFile data(bytes);

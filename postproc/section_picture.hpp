@@ -24,9 +24,10 @@ struct View {
 };
 
 /// Fills the polygons with their tets' colours (one a tet) and draws a dark line between different grains and around
-/// them. `pixels` along the longer side; smoothed by drawing three times as fine.
+/// them, with `mesh_lines` also a thin one between tets. `pixels` along the longer side; smoothed by drawing three times
+/// as fine.
 Raster draw_section(const std::vector<SectionPolygon>& polygons, const std::vector<Colour>& tet_colour,
-                    const std::vector<std::int32_t>& tet_grain, const View& view, int pixels);
+                    const std::vector<std::int32_t>& tet_grain, const View& view, int pixels, bool mesh_lines = false);
 
 struct PictureRequest {
   CutPlane plane;
@@ -34,6 +35,8 @@ struct PictureRequest {
   std::optional<std::pair<double, double>> range; ///< of the colour scale; default: 0 … the 99.5th percentile of the section
   std::string title;                              ///< default: field and relative density
   int pixels = 900;
+  bool mesh_lines = false;
+  std::optional<View> view; ///< default: the box
 };
 
 /// Writes the PNG through gnuplot. Throws InputError where the plane misses the grains or the field is unknown,
