@@ -31,7 +31,7 @@ std::string extents_text(const std::vector<hsize_t>& extents) {
 }
 
 FileReader::FileReader(const std::string& path) : state_(std::make_unique<State>()) {
-  silence_hdf5();
+  prepare_hdf5();
   state_->path = path;
   std::error_code ignored;
   if (!std::filesystem::exists(path, ignored)) throw InputError(fmt::format("{}: no such file", one_line(path)));

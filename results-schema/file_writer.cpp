@@ -33,7 +33,7 @@ struct FileWriter::State {
 
 FileWriter::FileWriter(const std::string& path, FileKind kind, std::string_view creator)
     : state_(std::make_unique<State>(State{path, path + ".partial", kind, {}, false, {}})) {
-  silence_hdf5();
+  prepare_hdf5();
   const Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
   H5Pset_libver_bounds(access, H5F_LIBVER_V18, H5F_LIBVER_LATEST);
   state_->file = Handle(H5Fcreate(state_->partial.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, access), H5Fclose);

@@ -4,7 +4,12 @@
 
 namespace mpfem::schema {
 
-void silence_hdf5() { H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr); }
+void prepare_hdf5() {
+  // A file that could not be closed (disk full) stays known to the library, which then crashes when it clears up at the
+  // end of the program, and the exit code is lost. All handles close themselves, so there is nothing to clear up.
+  [[maybe_unused]] static const herr_t once = H5dont_atexit();
+  H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
+}
 
 namespace {
 

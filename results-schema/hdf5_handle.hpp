@@ -43,8 +43,9 @@ private:
   Close close_ = nullptr;
 };
 
-/// Turns off HDF5's own messages on standard error: errors are reported as exceptions.
-void silence_hdf5();
+/// To be called before any other function of HDF5: turns off its own messages on standard error (errors are reported as
+/// exceptions), and its clearing up at the end of the program.
+void prepare_hdf5();
 
 /// Type in memory, and (little endian) in the file. Strings have variable length, UTF-8.
 Handle memory_type(ElementType type);

@@ -1,7 +1,11 @@
 #include <csignal>
+#include <cstdio>
+#include <cstdlib>
 #include <fstream>
+#include <iostream>
 
 #include <sys/resource.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
 #include <catch2/catch.hpp>
@@ -174,6 +178,31 @@ TEST_CASE("A complete file whose place is taken by a folder is kept beside it an
     CHECK_THROWS_WITH(writer.commit(), Catch::Contains("f.h5.partial could not be renamed"));
   }
   CHECK_NOTHROW(FileReader(path + ".partial"));
+}
+
+TEST_CASE("A program that met a full disk still ends with the exit code that it chose") {
+  const test::TemporaryFolder folder;
+  const std::string path = folder.file("f.h5");
+  const std::vector<double> many(1'000'000, 1.0);
+  std::cout.flush();
+  std::fflush(nullptr); // or the child would write what this process has yet to write
+  const pid_t child = fork();
+  REQUIRE(child >= 0);
+  if (child == 0) {
+    try {
+      const FileSizeLimit limit(64 * 1024);
+      FileWriter writer(path, FileKind::packing, "test");
+      writer.write(packing::spheres_radius, Doubles(many), many.size());
+      writer.commit();
+    } catch (const StorageError&) {
+      std::exit(4); // with all clearing up at the end of a program
+    }
+    std::exit(0);
+  }
+  int status = 0;
+  REQUIRE(waitpid(child, &status, 0) == child);
+  REQUIRE(WIFEXITED(status)); // not ended by a signal
+  CHECK(WEXITSTATUS(status) == 4);
 }
 
 TEST_CASE("A disk that fills up gives a StorageError, leaves nothing and keeps the older file") {
