@@ -5,7 +5,7 @@ out=out/$1
 
 echo
 echo 'Pictures drawn:'
-for picture in "$out"/fig06/*.png "$out"/fig08/*.png "$out"/fig09/*.png; do echo "  $picture"; done
+for picture in "$out"/fig*/*.png; do echo "  $picture"; done
 echo 'Numbers and verdicts beside them; all on one page:'
 echo "  $out/report/index.html"
 echo
