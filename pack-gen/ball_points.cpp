@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <numbers>
 
 #include <Eigen/Dense>
@@ -54,7 +55,18 @@ Vector3d circumcentre(const Vector3d& a, const Vector3d& b, const Vector3d& c, c
   return a + edges.inverse() * half_squares;
 }
 
-/// One round of smoothing; returns the largest move.
+/// Facets on the sphere. Only tets with three surface nodes can have one, which spares sorting the facets of all.
+std::vector<Facet> sphere_facets(const std::vector<Tet>& tet, std::size_t surface_nodes) {
+  const auto on_surface = [&](std::int32_t node) { return static_cast<std::size_t>(node) < surface_nodes; };
+  std::vector<Tet> outer;
+  std::copy_if(tet.begin(), tet.end(), std::back_inserter(outer),
+               [&](const Tet& t) { return std::count_if(t.begin(), t.end(), on_surface) >= 3; });
+  std::vector<Facet> facets = boundary_facets(outer);
+  std::erase_if(facets, [&](const Facet& f) { return !std::all_of(f.begin(), f.end(), on_surface); });
+  return facets;
+}
+
+/// One round of smoothing.
 void smooth(std::vector<Point>& points, std::size_t surface_nodes, const std::vector<Tet>& tet, double edge) {
   std::vector<Vector3d> sum(points.size(), Vector3d::Zero());
   std::vector<double> weight(points.size(), 0);
@@ -73,7 +85,7 @@ void smooth(std::vector<Point>& points, std::size_t surface_nodes, const std::ve
       weight[i] += volume;
     }
   }
-  for (const Facet& f : boundary_facets(tet)) {
+  for (const Facet& f : sphere_facets(tet, surface_nodes)) {
     const Vector3d a = vector(points[static_cast<std::size_t>(f[0])]), b = vector(points[static_cast<std::size_t>(f[1])]),
                    c = vector(points[static_cast<std::size_t>(f[2])]);
     const double area = (b - a).cross(c - a).norm();

@@ -84,7 +84,7 @@ UnitBall mesh_unit_ball(double size_ratio, std::uint64_t seed) {
   // Edge of the regular tetrahedron of the mean volume; a first factor for the count that smoothing leads to.
   const double mean_edge = std::cbrt(6 * std::numbers::sqrt2 * unit_ball_volume / wanted);
   const bool large = wanted > 20000;
-  const int rounds = large ? 5 : 10, sweeps = large ? 40 : 60;
+  const int rounds = large ? 5 : 6, sweeps = large ? 40 : 60;
   // A small ball's worst tet is a matter of luck, a large one's is not: more tries gain less there, and cost more.
   const std::size_t tries = large ? 2 : wanted > 2500 ? 3 : std::size(candidates);
 
@@ -94,34 +94,44 @@ UnitBall mesh_unit_ball(double size_ratio, std::uint64_t seed) {
   double factor = 1 - 0.9 / std::cbrt(wanted);
   for (std::size_t c = 0; c < tries + static_cast<std::size_t>(std::min(failures, 10)); ++c) {
     const Candidate& candidate = candidates[c % std::size(candidates)];
-    // Each candidate is laid out anew until its count is within 2 %, or the best count so far is taken for small balls,
-    // where one node more or less is already that much.
-    double closest = std::numeric_limits<double>::infinity();
-    BallMesh ball;
-    std::string defect;
-    for (int fit = 0; fit < 6; ++fit) {
+    const auto lay_out = [&](int smoothing, std::uint64_t shift) -> BallMesh {
       BallMesh trial;
+      std::string defect;
       try {
         trial = lay_out_ball({.edge = mean_edge * factor, .interior_edge = candidate.interior_edge, .skin = candidate.skin,
-                              .smoothing = rounds, .seed = seed + 1000 * c + static_cast<std::size_t>(fit)},
-                             gmsh_tetrahedralize);
+                              .smoothing = smoothing, .seed = seed + 1000 * c + shift}, gmsh_tetrahedralize);
         defect = ball_defect(trial.mesh);
       } catch (const std::exception& error) {
         defect = error.what();
       }
-      if (!defect.empty()) {
-        last_defect = defect;
-        ++failures;
-        factor *= 0.99;
-        continue;
-      }
-      const double miss = static_cast<double>(trial.mesh.tet.size()) / wanted;
-      if (std::abs(std::log(miss)) < closest) {
-        closest = std::abs(std::log(miss));
+      if (defect.empty()) return trial;
+      last_defect = defect;
+      ++failures;
+      factor *= 0.99;
+      return {};
+    };
+    const auto ratio = [&](const BallMesh& trial) { return static_cast<double>(trial.mesh.tet.size()) / wanted; };
+
+    // After two rounds of smoothing the count is nearly that of the end: the size is corrected there, where it is cheap.
+    for (int fit = 0; fit < 3; ++fit) {
+      const BallMesh trial = lay_out(2, 0);
+      if (trial.mesh.tet.empty()) continue;
+      factor *= std::cbrt(ratio(trial));
+      if (std::abs(std::log(ratio(trial))) < 0.01) break;
+    }
+    // Laid out anew until the count is within 1.5 %; or the best count so far is taken for small balls, where one node more
+    // or less is already that much.
+    double closest = std::numeric_limits<double>::infinity();
+    BallMesh ball;
+    for (std::uint64_t fit = 0; fit < 6 && !(closest < 0.015); ++fit) {
+      BallMesh trial = lay_out(rounds, fit);
+      if (trial.mesh.tet.empty()) continue;
+      const double miss = std::abs(std::log(ratio(trial)));
+      factor *= std::cbrt(ratio(trial));
+      if (miss < closest) {
+        closest = miss;
         ball = std::move(trial);
       }
-      if (closest < 0.015) break;
-      factor *= std::cbrt(miss);
     }
     const double tolerance = wanted < 300 ? 0.15 : 0.03;
     if (!(closest < tolerance)) continue;
