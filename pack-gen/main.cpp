@@ -1,7 +1,7 @@
 // pack-gen: random packings of spheres of a given size distribution, and their meshes.
 
-#include <chrono>
 #include <cstdio>
+#include <filesystem>
 #include <thread>
 
 #include <CLI/CLI.hpp>
@@ -29,6 +29,18 @@ struct Arguments {
   int threads = 1;
   bool quiet = false;
 };
+
+/// Looked at before hours of work, not after them.
+void check_output(const Arguments& arguments) {
+  const std::filesystem::path output = arguments.output;
+  std::error_code ignored;
+  if (std::filesystem::is_directory(output, ignored))
+    throw InputError(fmt::format("--output {}: found a folder, allowed: a file", arguments.output));
+  if (!std::filesystem::is_directory(std::filesystem::absolute(output).parent_path(), ignored))
+    throw InputError(fmt::format("--output {}: the folder does not exist", arguments.output));
+  if (std::filesystem::equivalent(output, arguments.input, ignored))
+    throw InputError(fmt::format("--output {}: found the input itself, allowed: another file", arguments.output));
+}
 
 void spheres(const Arguments& arguments) {
   TomlDocument document = TomlDocument::from_file(arguments.input);
@@ -144,6 +156,7 @@ int body(int argc, char** argv) {
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0 ? 0 : static_cast<int>(ExitCode::bad_input);
   }
+  if (!quality_command->parsed()) check_output(arguments);
   if (spheres_command->parsed()) spheres(arguments);
   if (mesh_command->parsed()) mesh(arguments);
   if (import_command->parsed()) import(arguments);

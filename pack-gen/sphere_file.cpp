@@ -2,11 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <filesystem>
+#include <fstream>
+#include <functional>
 
 #include <fmt/format.h>
-#include <fmt/os.h>
 
 #include "common/errors.hpp"
 #include "common/version.hpp"
@@ -26,6 +26,24 @@ std::string body(const SpherePacking& packing, int index) {
   if (index < 0) return fmt::format("the wall {}", wall[-1 - index]);
   const auto& c = packing.center[static_cast<std::size_t>(index)];
   return fmt::format("sphere {} at ({:g}, {:g}, {:g})", index, c[0], c[1], c[2]);
+}
+
+/// Refuses offsets and corners that do not divide nodes and tets among the grains.
+void refuse_wrong_numbering(const PackingMesh& mesh, const std::string& path) {
+  const auto nodes = static_cast<std::int32_t>(mesh.node.size() / 3), tets = static_cast<std::int32_t>(mesh.tet.size() / 4);
+  const auto partitions = [](const std::vector<std::int32_t>& offset, std::int32_t end) {
+    return !offset.empty() && offset.front() == 0 && offset.back() == end &&
+           std::adjacent_find(offset.begin(), offset.end(), std::greater_equal<>()) == offset.end();
+  };
+  const std::size_t grains = mesh.grain_node_offset.size() - 1;
+  if (!partitions(mesh.grain_node_offset, nodes) || !partitions(mesh.grain_tet_offset, tets) ||
+      mesh.grain_tet_offset.size() != grains + 1)
+    throw InputError(fmt::format("{}: the grains' offsets do not divide {} nodes and {} tetrahedra", path, nodes, tets));
+  for (std::size_t g = 0; g < grains; ++g)
+    for (auto k = 4 * static_cast<std::size_t>(mesh.grain_tet_offset[g]); k < 4 * static_cast<std::size_t>(mesh.grain_tet_offset[g + 1]); ++k)
+      if (mesh.tet[k] < mesh.grain_node_offset[g] || mesh.tet[k] >= mesh.grain_node_offset[g + 1])
+        throw InputError(fmt::format("{}: tetrahedron {} of grain {} has node {}; allowed: {} … {}", path, k / 4, g, mesh.tet[k],
+                                     mesh.grain_node_offset[g], mesh.grain_node_offset[g + 1] - 1));
 }
 
 } // namespace
@@ -56,6 +74,9 @@ SphereFile read_spheres(const std::string& path) {
     throw InputError(fmt::format("{}: {} centres and {} radii; allowed: as many, at least one", path, center.size() / 3,
                                  result.packing.radius.size()));
   std::copy(lengths.begin(), lengths.end(), result.packing.box.begin());
+  for (const double length : lengths)
+    if (!(length > 0) || !std::isfinite(length))
+      throw InputError(fmt::format("{}: the box has an edge of {:g} mm; allowed: > 0", path, length));
   for (std::size_t i = 0; i < result.packing.radius.size(); ++i) {
     result.packing.center.push_back({center[3 * i], center[3 * i + 1], center[3 * i + 2]});
     if (!(result.packing.radius[i] > 0) || !std::isfinite(center[3 * i] + center[3 * i + 1] + center[3 * i + 2] + result.packing.radius[i]))
@@ -96,15 +117,16 @@ SpherePacking import_spheres(const std::string& path, const std::optional<Point>
 
 void export_spheres(const std::string& path, const SpherePacking& packing) {
   const std::string partial = path + ".partial";
-  try {
-    auto out = fmt::output_file(partial);
-    out.print("x [mm],y [mm],z [mm],radius [mm]\n");
-    for (std::size_t i = 0; i < packing.radius.size(); ++i)
-      out.print("{},{},{},{}\n", packing.center[i][0], packing.center[i][1], packing.center[i][2], packing.radius[i]);
-    out.close();
-    std::filesystem::rename(partial, path);
-  } catch (const std::system_error& error) {
-    throw StorageError(fmt::format("{}: cannot be written: {}", path, error.what()));
+  std::error_code failure;
+  std::ofstream out(partial);
+  out << "x [mm],y [mm],z [mm],radius [mm]\n";
+  for (std::size_t i = 0; i < packing.radius.size(); ++i)
+    out << fmt::format("{},{},{},{}\n", packing.center[i][0], packing.center[i][1], packing.center[i][2], packing.radius[i]);
+  out.close();
+  if (out) std::filesystem::rename(partial, path, failure);
+  if (!out || failure) {
+    std::filesystem::remove(partial, failure);
+    throw StorageError(fmt::format("{}: cannot be written", path));
   }
 }
 
@@ -147,6 +169,10 @@ MeshFromFile read_mesh(const std::string& path) {
   result.mesh.tet = reader.read(file::mesh_tet);
   result.mesh.grain_node_offset = reader.read(file::mesh_grain_node_offset);
   result.mesh.grain_tet_offset = reader.read(file::mesh_grain_tet_offset);
+  refuse_wrong_numbering(result.mesh, path);
+  if (result.mesh.grain_node_offset.size() != reader.rows(file::spheres_radius) + 1)
+    throw InputError(fmt::format("{}: {} meshes for {} spheres; allowed: as many", path,
+                                 result.mesh.grain_node_offset.size() - 1, reader.rows(file::spheres_radius)));
   if (reader.has(file::mesh_nominal_size)) result.nominal_size = reader.read_scalar(file::mesh_nominal_size);
   return result;
 }

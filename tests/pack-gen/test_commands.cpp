@@ -132,7 +132,60 @@ TEST_CASE("pack-gen refuses what it cannot use with one line and exit code 2, an
     CHECK(outcome.one_error_line("pack-gen"));
     CHECK_FALSE(std::filesystem::exists(folder / "p.h5"));
   }
+  // Sizes and outputs of the command line.
+  for (const auto& [arguments, expected] : std::vector<std::pair<std::string, std::string>>{
+           {fmt::format("spheres {} -o {}", folder / "pack.toml", folder / "pack.toml"), "the input itself"},
+           {fmt::format("mesh {} --size 0.1 -o {}", folder / "s.h5", folder / "no/p.h5"), "does not exist"},
+           {fmt::format("export {} -o {}", folder / "s.h5", folder / ""), "a folder"}}) {
+    const Outcome outcome = pack_gen(arguments);
+    INFO(arguments << ": " << outcome.messages);
+    CHECK(outcome.exit_code == 2);
+    CHECK(outcome.one_error_line("pack-gen"));
+    CHECK_THAT(outcome.messages, Catch::Contains(expected));
+  }
   CHECK(pack_gen("--help").exit_code == 0);
   CHECK(pack_gen("mesh --help").exit_code == 0);
   CHECK(pack_gen("").exit_code == 2);
+}
+
+TEST_CASE("a file with overlapping spheres is not meshed: the spheres and the overlap are named") {
+  const Folder folder;
+  write_packing_file(folder / "s.h5", {.box = {1, 1, 1}, .center = {{0.3, 0.5, 0.5}, {0.7, 0.5, 0.5}}, .radius = {0.25, 0.2}}, {});
+  const Outcome outcome = pack_gen(fmt::format("mesh {} --size 0.1 -o {}", folder / "s.h5", folder / "p.h5"));
+  CHECK(outcome.exit_code == 2);
+  CHECK(outcome.one_error_line("pack-gen"));
+  CHECK_THAT(outcome.messages, Catch::Contains("sphere 0") && Catch::Contains("sphere 1") && Catch::Contains("overlap by 0.05 mm"));
+  CHECK_FALSE(std::filesystem::exists(folder / "p.h5"));
+}
+
+TEST_CASE("a mesh whose numbering is wrong is refused, not followed") {
+  const Folder folder;
+  const SpherePacking packing{.box = {1, 1, 1}, .center = {{0.3, 0.5, 0.5}, {0.7, 0.5, 0.5}}, .radius = {0.15, 0.15}};
+  const PackingMesh good = mesh_packing(packing, {.nominal_size = 0.1});
+  const auto quality_of = [&](const PackingMesh& mesh) {
+    write_packing_file(folder / "p.h5", packing, {}, MeshForFile{&mesh, 0.1, 0.01, 0.5});
+    return pack_gen("quality " + (folder / "p.h5"));
+  };
+  CHECK(quality_of(good).exit_code == 0);
+  PackingMesh other_grain = good, outside = good, offsets = good;
+  other_grain.tet[1] = good.grain_node_offset[1];
+  outside.tet[5] = -3;
+  offsets.grain_node_offset[1] = 1'000'000;
+  for (const PackingMesh& mesh : {other_grain, outside, offsets}) {
+    const Outcome outcome = quality_of(mesh);
+    INFO(outcome.messages);
+    CHECK(outcome.exit_code == 2);
+    CHECK(outcome.one_error_line("pack-gen"));
+  }
+}
+
+TEST_CASE("a table that cannot be stored ends with exit code 4 and leaves nothing half-written") {
+  const Folder folder;
+  write_packing_file(folder / "s.h5", {.box = {1, 1, 1}, .center = {{0.3, 0.5, 0.5}}, .radius = {0.25}}, {});
+  std::filesystem::create_symlink("/dev/full", folder / "s.csv.partial"); // every write to it finds the disk full
+  const Outcome outcome = pack_gen(fmt::format("export {} -o {}", folder / "s.h5", folder / "s.csv"));
+  CHECK(outcome.exit_code == 4);
+  CHECK(outcome.one_error_line("pack-gen"));
+  CHECK_FALSE(std::filesystem::exists(folder / "s.csv"));
+  CHECK_FALSE(std::filesystem::exists(std::filesystem::symlink_status(folder / "s.csv.partial")));
 }
