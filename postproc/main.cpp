@@ -1,17 +1,19 @@
 // postproc: numbers, tables and pictures from run files.
 
+#include <cmath>
+
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include "common/errors.hpp"
-#include "common/one_line.hpp"
 #include "common/version.hpp"
 #include "postproc/contact.hpp"
 #include "postproc/energy.hpp"
 #include "postproc/section_picture.hpp"
 #include "postproc/summary.hpp"
 #include "postproc/text_file.hpp"
+#include "postproc/validate.hpp"
 #include "postproc/vtk.hpp"
 
 namespace {
@@ -25,6 +27,7 @@ struct Arguments {
   std::string axis = "z";
   double position = 0.5;
   bool relative = false, quiet = false;
+  bool field_given = false;
   std::vector<double> range, view;
   PictureRequest picture;
 };
@@ -90,36 +93,33 @@ void vtk(const Arguments& arguments) {
 }
 
 void section(Arguments arguments) {
+  if (arguments.output.empty() && arguments.data.empty()) throw InputError("found neither of -o and --data, allowed: one of them, or both");
   const Snapshot state = read_state(arguments);
   PictureRequest& request = arguments.picture;
   request.plane.axis = arguments.axis == "x" ? 0 : arguments.axis == "y" ? 1 : 2;
   const auto axis = static_cast<std::size_t>(request.plane.axis);
   request.plane.position = arguments.relative ? state.box_low[axis] + arguments.position * (state.box_high[axis] - state.box_low[axis]) : arguments.position;
   if (!arguments.range.empty()) {
-    if (!(arguments.range[1] > arguments.range[0]))
+    if (!(arguments.range[1] > arguments.range[0] && std::isfinite(arguments.range[1] - arguments.range[0])))
       throw InputError(fmt::format("--range: found {},{}; allowed: low,high with low < high", arguments.range[0], arguments.range[1]));
     request.range = {arguments.range[0], arguments.range[1]};
   }
   if (!arguments.view.empty()) {
     const auto& v = arguments.view;
-    if (!(v[1] > v[0] && v[3] > v[2])) throw InputError(fmt::format("--view: found {}; allowed: low,high,low,high with low < high", fmt::join(v, ",")));
+    if (!(v[1] > v[0] && v[3] > v[2] && std::isfinite(v[1] - v[0]) && std::isfinite(v[3] - v[2]))) throw InputError(fmt::format("--view: found {}; allowed: low,high,low,high with low < high", fmt::join(v, ",")));
     request.view = View{{v[0], v[2]}, {v[1], v[3]}};
   }
-  if (!arguments.packing.empty() && request.field == "von_mises") request.field = "grain";
+  if (!arguments.packing.empty() && !arguments.field_given) request.field = "grain";
   if (!arguments.data.empty()) write_file(arguments.data, section_csv(state, cut(state, request.plane), request.field));
-  write_section_picture(arguments.output, state, request);
+  if (!arguments.output.empty()) write_section_picture(arguments.output, state, request);
 }
 
 void validate_files(const Arguments& arguments) {
   std::size_t bad = 0;
   for (const std::string& path : arguments.files) {
-    const auto findings = schema::validate(path);
-    for (const std::string& finding : findings) fmt::print("{}: {}\n", one_line(path), finding);
-    if (findings.empty()) {
-      const schema::FileReader file(path);
-      fmt::print("{}: valid ({}, schema {})\n", one_line(path), schema::kinds[static_cast<std::size_t>(file.kind())].name, schema::schema_version);
-    }
-    bad += !findings.empty();
+    const Verdict verdict = verdict_on(path);
+    if (!verdict.valid || !arguments.quiet) fmt::print("{}", verdict.text);
+    bad += !verdict.valid;
   }
   if (bad > 0) throw InputError(fmt::format("{} of {} files do not hold to the schema", bad, arguments.files.size()));
 }
@@ -173,7 +173,8 @@ int body(int argc, char** argv) {
   add_run(*vtk_command, false);
   add_packing(*vtk_command);
   CLI::App* section_command = add("section", "A plane cut through the grains, as a picture.\n"
-                                  "Example: postproc section run.h5 --axis z --position 0.5 --relative --field von_mises -o section.png", true, "PNG file to write");
+                                  "Example: postproc section run.h5 --axis z --position 0.5 --relative --field von_mises -o section.png", false,
+                                  "PNG file to write");
   add_run(*section_command, false);
   add_packing(*section_command);
   add_snapshot(*section_command);
@@ -186,10 +187,11 @@ int body(int argc, char** argv) {
   section_command->add_option("--view", arguments.view, "Part of the plane to show: low,high of its first and of its second coordinate, mm (default: the box)")
       ->delimiter(',')->expected(4);
   section_command->add_option("--title", arguments.picture.title, "Title (default: the relative density)");
-  section_command->add_option("--pixels", arguments.picture.pixels, "Pixels along the longer side")->check(CLI::Range(50, 8000))->capture_default_str();
+  section_command->add_option("--pixels", arguments.picture.pixels, "Pixels along the longer side")->check(CLI::Range(50, 4000))->capture_default_str();
   section_command->add_option("--data", arguments.data, "Also write the section's polygons as CSV");
   CLI::App* validate_command = app.add_subcommand("validate", "Hold files to the results schema.\nExample: postproc validate run.h5 packing.h5");
   validate_command->add_option("files", arguments.files, "Files of any kind (HDF5)")->required();
+  validate_command->add_flag("--quiet", arguments.quiet, "Nothing but findings");
 
   try {
     app.parse(argc, argv);
@@ -197,6 +199,9 @@ int body(int argc, char** argv) {
     return app.exit(error) == 0 ? 0 : static_cast<int>(ExitCode::bad_input);
   }
   if (section_command->parsed() && !arguments.relative && section_command->count("--position") == 0) arguments.relative = true;
+  arguments.field_given = section_command->count("--field") > 0;
+  for (const std::string& input : {arguments.input, arguments.packing})
+    for (const std::string& output : {arguments.output, arguments.data}) refuse_overwriting(output, input);
   if (summary_command->parsed()) summary(arguments);
   if (curve_command->parsed()) curve(arguments);
   if (contact_command->parsed()) contact(arguments);

@@ -1,11 +1,15 @@
 #include "postproc/section_picture.hpp"
 
+#include <sys/wait.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <string_view>
 
 #include <fmt/format.h>
 
@@ -62,7 +66,9 @@ double percentile(const std::vector<SectionPolygon>& polygons, const std::vector
   std::vector<std::pair<double, double>> value_area;
   double total = 0;
   for (const SectionPolygon& polygon : polygons) {
-    value_area.emplace_back(static_cast<double>(values[static_cast<std::size_t>(polygon.tet)]), area(polygon));
+    const auto value = static_cast<double>(values[static_cast<std::size_t>(polygon.tet)]);
+    if (!std::isfinite(value)) continue; // a failed run's last state may hold some
+    value_area.emplace_back(value, area(polygon));
     total += value_area.back().second;
   }
   std::sort(value_area.begin(), value_area.end());
@@ -72,14 +78,27 @@ double percentile(const std::vector<SectionPolygon>& polygons, const std::vector
   return value_area.empty() ? 0.0 : value_area.back().first;
 }
 
-/// Text inside a gnuplot string in double quotes.
-std::string escaped(const std::string& text) {
-  std::string result;
+/// The text in single quotes, a quote inside replaced.
+std::string quoted(const std::string& text, std::string_view inner_quote) {
+  std::string result = "'";
   for (const char c : one_line(text)) {
-    if (c == '"' || c == '\\') result += '\\';
-    result += c;
+    if (c == '\'') result += inner_quote;
+    else result += c;
   }
-  return result;
+  return result + "'";
+}
+// Single quotes, since gnuplot and the shell would both run `commands` inside double ones.
+std::string for_gnuplot(const std::string& text) { return quoted(text, "''"); }
+std::string for_shell(const std::string& text) { return quoted(text, "'\\''"); }
+
+bool overlaps(const SectionPolygon& polygon, const View& view) {
+  for (std::size_t k = 0; k < 2; ++k) {
+    double low = polygon.corner[0][k], high = low;
+    for (std::size_t i = 1; i < static_cast<std::size_t>(polygon.corners); ++i)
+      low = std::min(low, polygon.corner[i][k]), high = std::max(high, polygon.corner[i][k]);
+    if (!(high > view.low[k] && low < view.high[k])) return false;
+  }
+  return true;
 }
 
 /// A scratch file that goes away.
@@ -97,6 +116,10 @@ public:
   ScratchFile(const ScratchFile&) = delete;
   ScratchFile& operator=(const ScratchFile&) = delete;
   const std::string& path() const { return path_; }
+  std::string content() const {
+    std::ifstream file(path_, std::ios::binary);
+    return {std::istreambuf_iterator<char>(file), {}};
+  }
 
 private:
   std::string path_;
@@ -104,7 +127,7 @@ private:
 
 void run_gnuplot(const std::string& script) {
   const ScratchFile file(script);
-  std::FILE* pipe = popen(fmt::format("gnuplot '{}' 2>&1", file.path()).c_str(), "r");
+  std::FILE* pipe = popen(fmt::format("gnuplot -d {} 2>&1", for_shell(file.path())).c_str(), "r");
   if (!pipe) throw SimulationError("gnuplot cannot be started");
   std::string message;
   char buffer[256];
@@ -161,11 +184,16 @@ Raster draw_section(const std::vector<SectionPolygon>& polygons, const std::vect
 
 void write_section_picture(const std::string& path, const Snapshot& snapshot, const PictureRequest& request) {
   const Field& field = snapshot.tet_field(request.field);
-  const std::vector<SectionPolygon> polygons = cut(snapshot, request.plane);
+  std::vector<SectionPolygon> polygons = cut(snapshot, request.plane);
   const auto axis = static_cast<std::size_t>(request.plane.axis), u = (axis + 1) % 3, v = (axis + 2) % 3;
   if (polygons.empty())
     throw InputError(fmt::format("the plane at {:g} mm cuts no grain; the box spans {:g} … {:g} mm along this axis", request.plane.position,
                                  snapshot.box_low[axis], snapshot.box_high[axis]));
+  const View view = request.view.value_or(View{{snapshot.box_low[u], snapshot.box_low[v]}, {snapshot.box_high[u], snapshot.box_high[v]}});
+  std::erase_if(polygons, [&](const SectionPolygon& polygon) { return !overlaps(polygon, view); });
+  if (polygons.empty())
+    throw InputError(fmt::format("no grain is cut in the view {:g} … {:g}, {:g} … {:g} mm; the box spans {:g} … {:g}, {:g} … {:g} mm", view.low[0],
+                                 view.high[0], view.low[1], view.high[1], snapshot.box_low[u], snapshot.box_high[u], snapshot.box_low[v], snapshot.box_high[v]));
   const bool of_grains = field.name == "grain";
   std::pair<double, double> range{0, 1};
   if (request.range) range = *request.range;
@@ -176,11 +204,10 @@ void write_section_picture(const std::string& path, const Snapshot& snapshot, co
   for (std::size_t t = 0; t < snapshot.tets(); ++t)
     colour[t] = of_grains ? grain_colour(snapshot.tet_grain[t])
                           : scale_colour((static_cast<double>(field.values[t]) - range.first) / (range.second - range.first));
-  const View view = request.view.value_or(View{{snapshot.box_low[u], snapshot.box_low[v]}, {snapshot.box_high[u], snapshot.box_high[v]}});
   const Raster raster = draw_section(polygons, colour, snapshot.tet_grain, view, request.pixels, request.mesh_lines);
   std::string bytes;
   for (const Colour& pixel : raster.pixel) bytes.append(reinterpret_cast<const char*>(pixel.data()), 3);
-  const ScratchFile data(bytes);
+  const ScratchFile data(bytes), picture("");
 
   constexpr const char* axis_name[] = {"x", "y", "z"};
   const std::string title = !request.title.empty() ? request.title
@@ -189,11 +216,10 @@ void write_section_picture(const std::string& path, const Snapshot& snapshot, co
   // Margins in pixels, so that a pixel of the raster is one of the picture.
   const int left = 120, right = of_grains ? 40 : 190, bottom = 90, top = 55;
   const double width = left + raster.width + right, height = bottom + raster.height + top;
-  std::string script = fmt::format("set terminal pngcairo size {},{} font 'Sans,15' enhanced\nset output \"{}\"\n", width, height,
-                                   escaped(path + ".partial"));
-  script += fmt::format("set title \"{}\" noenhanced\nset xlabel '{} (mm)'\nset ylabel '{} (mm)'\nset tics out nomirror\nset border lw 1.5\n"
+  std::string script = fmt::format("set terminal pngcairo size {},{} font 'Sans,15' enhanced\nset output {}\n", width, height, for_gnuplot(picture.path()));
+  script += fmt::format("set title {} noenhanced\nset xlabel '{} (mm)'\nset ylabel '{} (mm)'\nset tics out nomirror\nset border lw 1.5\n"
                         "set xrange [{}:{}]\nset yrange [{}:{}]\n",
-                        escaped(title), axis_name[u], axis_name[v], view.low[0], view.high[0], view.low[1], view.high[1]);
+                        for_gnuplot(title), axis_name[u], axis_name[v], view.low[0], view.high[0], view.low[1], view.high[1]);
   script += fmt::format("set lmargin at screen {}\nset rmargin at screen {}\nset bmargin at screen {}\nset tmargin at screen {}\n", left / width,
                         (left + raster.width) / width, bottom / height, (bottom + raster.height) / height);
   if (!of_grains) {
@@ -203,21 +229,20 @@ void write_section_picture(const std::string& path, const Snapshot& snapshot, co
       const Colour c = scale_colour(static_cast<double>(i) / steps);
       script += fmt::format("{}{} '#{:02x}{:02x}{:02x}'", i ? ", " : "", i, c[0], c[1], c[2]);
     }
-    std::string label = field.name == "von_mises" ? "von Mises stress" : field.name;
-    std::replace(label.begin(), label.end(), '_', ' ');
+    std::string label = field.name == "von_mises" ? "von Mises stress" : field.name == "pressure" ? "Pressure" : "Equivalent plastic strain";
     if (field.unit != "1") label += fmt::format(" ({})", field.unit);
     script += fmt::format(")\nset cbrange [{}:{}]\nset cblabel '{}'\nset colorbox\n", range.first, range.second, label);
   }
   script += "unset key\n";
-  script += fmt::format("plot '{}' binary array=({},{}) format='%uchar' flipy origin=({},{}) dx={} dy={} using 1:2:3 with rgbimage", data.path(),
-                        raster.width, raster.height, view.low[0] + 0.5 * pixel_width, view.low[1] + 0.5 * pixel_height, pixel_width, pixel_height);
+  script += fmt::format("plot {} binary array=({},{}) format='%uchar' flipy origin=({},{}) dx={} dy={} using 1:2:3 with rgbimage",
+                        for_gnuplot(data.path()), raster.width, raster.height, view.low[0] + 0.5 * pixel_width, view.low[1] + 0.5 * pixel_height, pixel_width, pixel_height);
   // A curve of nothing that carries the palette, so that the colour bar is drawn.
   script += of_grains ? "\n" : ", '-' using 1:2:3 with points pt 0 lc palette\n0 0 0\ne\n";
   script += "set output\n";
   run_gnuplot(script);
-  std::error_code error;
-  std::filesystem::rename(path + ".partial", path, error);
-  if (error) throw StorageError(fmt::format("{}: cannot be written: {}", one_line(path), error.message()));
+  const std::string png = picture.content();
+  if (!png.starts_with("\x89PNG")) throw SimulationError("gnuplot made no PNG picture");
+  write_file(path, png);
 }
 
 std::string section_csv(const Snapshot& snapshot, const std::vector<SectionPolygon>& polygons, const std::string& field) {

@@ -5,7 +5,7 @@
 
 #include <fmt/format.h>
 
-#include "postproc/history_table.hpp"
+#include "postproc/energy.hpp"
 
 namespace mpfem {
 
@@ -27,16 +27,15 @@ Summary summarise(const schema::FileReader& file) {
   s.relative_density = history["relative_density"][last];
   s.mean_stress = history["mean_stress"][last];
   s.deviatoric_stress = history["deviatoric_stress"][last];
-  s.elastic_energy = history["elastic_energy"][last];
-  s.plastic_dissipation = history["plastic_dissipation"][last];
-  s.external_work = history["external_work"][last];
+  for (const Column& term : energy_ledger(history))
+    if (term.unit == "mJ") s.energies.emplace_back(term.name, term.values[last]);
   s.coordination_number = history["coordination_number"][last];
   if (const double area = history["surface_area"][last]; area > 0) s.contact_area_ratio = history["contact_area"][last] / area;
 
-  double work = 0, residual = 0;
+  double work = 0, residual = 0, largest_kinetic = 0, largest_internal = 0;
   const auto& stress = history["mean_stress"];
   const double loaded = 0.1 * *std::max_element(stress.begin(), stress.end());
-  s.kinetic_over_internal_from_density = history["relative_density"][last];
+  s.loaded_from_density = s.relative_density;
   bool calm = true;
   for (std::size_t row = rows; row-- > 0;) {
     work = std::max(work, std::abs(history["external_work"][row]));
@@ -47,11 +46,17 @@ Summary summarise(const schema::FileReader& file) {
       s.largest_time_step = std::max(s.largest_time_step, step);
     }
     const double internal = internal_energy(history, row), kinetic = history["kinetic_energy"][row];
-    if (internal > 0 && loaded > 0 && stress[row] >= loaded) s.kinetic_over_internal = std::max(s.kinetic_over_internal, kinetic / internal);
+    largest_kinetic = std::max(largest_kinetic, kinetic);
+    largest_internal = std::max(largest_internal, internal);
+    if (internal > 0 && loaded > 0 && stress[row] >= loaded) {
+      s.kinetic_over_internal = std::max(s.kinetic_over_internal, kinetic / internal);
+      s.loaded_from_density = std::min(s.loaded_from_density, history["relative_density"][row]);
+    }
     calm = calm && kinetic <= 0.01 * internal;
-    if (calm) s.kinetic_over_internal_from_density = history["relative_density"][row];
+    if (calm) s.kinetic_small_from_density = history["relative_density"][row];
   }
   s.largest_residual = work > 0 ? residual / work : 0;
+  s.kinetic_over_largest_internal = largest_internal > 0 ? largest_kinetic / largest_internal : 0;
   s.profile_name = file.read(run::provenance_profile_name);
   s.profile_share = file.read(run::provenance_profile_seconds);
   for (double& share : s.profile_share) share = s.wall_time > 0 ? share / s.wall_time : 0;
@@ -71,17 +76,18 @@ nlohmann::ordered_json to_json(const Summary& s) {
                                  {"relative_density", s.relative_density},
                                  {"mean_stress_MPa", s.mean_stress},
                                  {"deviatoric_stress_MPa", s.deviatoric_stress},
-                                 {"elastic_energy_mJ", s.elastic_energy},
-                                 {"plastic_dissipation_mJ", s.plastic_dissipation},
-                                 {"external_work_mJ", s.external_work},
                                  {"largest_energy_residual_over_work", s.largest_residual},
                                  {"largest_kinetic_over_internal_under_load", s.kinetic_over_internal},
-                                 {"relative_density_from_which_kinetic_below_1_percent", s.kinetic_over_internal_from_density},
+                                 {"relative_density_of_first_load", s.loaded_from_density},
+                                 {"largest_kinetic_over_largest_internal", s.kinetic_over_largest_internal},
+                                 {"relative_density_from_which_kinetic_below_1_percent", nullptr},
                                  {"largest_penetration_over_h", s.largest_penetration},
                                  {"smallest_time_step_s", s.smallest_time_step},
                                  {"largest_time_step_s", s.largest_time_step},
                                  {"coordination_number", s.coordination_number},
                                  {"contact_area_over_surface_area", s.contact_area_ratio}};
+  if (s.kinetic_small_from_density) json["relative_density_from_which_kinetic_below_1_percent"] = *s.kinetic_small_from_density;
+  for (const auto& [name, energy] : s.energies) json["energies_mJ"][name] = energy;
   for (std::size_t i = 0; i < s.profile_name.size(); ++i) json["wall_time_share"][s.profile_name[i]] = s.profile_share[i];
   return json;
 }
@@ -94,10 +100,17 @@ std::string to_text(const Summary& s) {
   line("wall time", fmt::format("{:.1f} s on {} threads, {:.1f} ns a tet and step", s.wall_time, s.threads, s.nanoseconds_per_tet_step));
   line("relative density at the end", fmt::format("{:.4f}", s.relative_density));
   line("mean stress, deviatoric stress", fmt::format("{:.4g} MPa, {:.3g} MPa", s.mean_stress, s.deviatoric_stress));
-  line("elastic energy, plastic dissipation", fmt::format("{:.4g} mJ, {:.4g} mJ", s.elastic_energy, s.plastic_dissipation));
+  for (std::size_t i = 0; i < s.energies.size(); ++i) {
+    std::string name = s.energies[i].first;
+    std::replace(name.begin(), name.end(), '_', ' ');
+    line(i == 0 ? "energies at the end" : "", fmt::format("{:11.4g} mJ  {}", s.energies[i].second, name));
+  }
   line("energy residual, largest over work", fmt::format("{:.2e}", s.largest_residual));
-  line("kinetic over internal energy, largest", fmt::format("{:.2e} while p is above a tenth of its largest; <= 1 % from D_r = {:.3f} on",
-                                                            s.kinetic_over_internal, s.kinetic_over_internal_from_density));
+  line("kinetic over internal energy, largest", fmt::format("{:.2e} while p is above a tenth of its largest (D_r >= {:.3f})",
+                                                            s.kinetic_over_internal, s.loaded_from_density));
+  line("  both at their largest", fmt::format("{:.2e}", s.kinetic_over_largest_internal));
+  line("  at most 1 %", s.kinetic_small_from_density ? fmt::format("from D_r = {:.3f} to the end", *s.kinetic_small_from_density)
+                                                                           : std::string("not at the end"));
   line("penetration over h, largest", fmt::format("{:.4f}", s.largest_penetration));
   line("time step", fmt::format("{:.4g} … {:.4g} s", s.smallest_time_step, s.largest_time_step));
   line("coordination number", fmt::format("{:.2f}", s.coordination_number));

@@ -1,7 +1,10 @@
 #pragma once
 // What a run came to, in a few numbers.
 
+#include <optional>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include <nlohmann/json.hpp>
 
@@ -16,10 +19,12 @@ struct Summary {
   double wall_time = 0;                   ///< s
   double nanoseconds_per_tet_step = 0;    ///< wall-clock time over tets and steps, everything included
   double relative_density = 0, mean_stress = 0, deviatoric_stress = 0; ///< at the end
-  double elastic_energy = 0, plastic_dissipation = 0, external_work = 0; ///< mJ, at the end
+  std::vector<std::pair<std::string, double>> energies; ///< every term of the ledger at the end, mJ
   double largest_residual = 0;            ///< |energy residual| over the largest external work
   double kinetic_over_internal = 0;       ///< largest, while the mean stress is above a tenth of its largest
-  double kinetic_over_internal_from_density = 0; ///< relative density from which kinetic/internal stays <= 1 %
+  double loaded_from_density = 0;         ///< smallest relative density of the rows that this largest is taken over
+  double kinetic_over_largest_internal = 0; ///< largest kinetic energy of all rows over largest internal energy
+  std::optional<double> kinetic_small_from_density; ///< relative density from which the ratio stays <= 1 % to the end
   double largest_penetration = 0;         ///< over h
   double smallest_time_step = 0, largest_time_step = 0; ///< s
   double coordination_number = 0, contact_area_ratio = 0; ///< at the end
@@ -27,7 +32,9 @@ struct Summary {
   std::vector<double> profile_share;      ///< of the wall-clock time
 };
 
-/// Throws InputError.
+/// Kinetic over internal energy: internal is elastic plus plastic (internal_energy of history_table.hpp); before jamming
+/// that is next to nothing, and the ratio row by row says nothing; hence the restriction to rows under load, and the
+/// second measure over the whole run. Throws InputError.
 Summary summarise(const schema::FileReader& file);
 nlohmann::ordered_json to_json(const Summary& summary);
 std::string to_text(const Summary& summary);

@@ -10,6 +10,12 @@
 
 namespace mpfem {
 
+void refuse_overwriting(const std::string& output, const std::string& input) {
+  std::error_code ignored; // one of them is not there: not the same
+  if (!output.empty() && !input.empty() && std::filesystem::equivalent(output, input, ignored))
+    throw InputError(fmt::format("{}: is the input; allowed for output: another file", one_line(output)));
+}
+
 void write_file(const std::string& path, std::string_view content) {
   const std::string partial = path + ".partial";
   std::ofstream file(partial, std::ios::binary);

@@ -9,6 +9,9 @@
 
 namespace mpfem {
 
+/// Throws InputError where `output` is the same file as `input`, which would be lost.
+void refuse_overwriting(const std::string& output, const std::string& input);
+
 /// Throws StorageError.
 void write_file(const std::string& path, std::string_view content);
 

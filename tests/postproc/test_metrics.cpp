@@ -1,5 +1,7 @@
 // Numbers from run files whose answers are known, and what the command refuses.
 
+#include <algorithm>
+
 #include <catch2/catch.hpp>
 #include <fmt/format.h>
 
@@ -30,7 +32,17 @@ TEST_CASE("a summary holds the numbers of the run") {
   CHECK(s.relative_density == 0.8);
   CHECK(s.largest_residual == Approx(0.06 / 4));                   // over the largest work
   CHECK(s.kinetic_over_internal == Approx(0.02));                  // the row at 5 MPa; the one at rest is not under load
-  CHECK(s.kinetic_over_internal_from_density == Approx(0.8));      // 2 % at 0.7, 0.5 % at 0.8
+  CHECK(s.loaded_from_density == 0.7);
+  CHECK(s.kinetic_over_largest_internal == Approx(0.5 / 4));       // the first row's over the last's
+  CHECK(s.kinetic_small_from_density == 0.8);                      // 2 % at 0.7, 0.5 % at 0.8
+  const auto energy = [&](const std::string& name) {
+    const auto found = std::find_if(s.energies.begin(), s.energies.end(), [&](const auto& term) { return term.first == name; });
+    return found == s.energies.end() ? -1.0 : found->second;
+  };
+  CHECK(s.energies.size() == 10);
+  CHECK(energy("plastic_dissipation") == 3);
+  CHECK(energy("external_work") == 4);
+  CHECK(energy("energy_residual") == 0.02);
   CHECK(s.largest_penetration == 0.03);
   CHECK(s.smallest_time_step == 5e-8);
   CHECK(s.largest_time_step == 1e-7);
@@ -42,6 +54,18 @@ TEST_CASE("a summary holds the numbers of the run") {
   const auto json = nlohmann::json::parse(read_text(folder / "s.json"));
   CHECK(json["tets"] == 48);
   CHECK(json["wall_time_share"]["element forces"] == Approx(0.75));
+  CHECK(json["energies_mJ"]["plastic_dissipation"] == 3);
+}
+
+TEST_CASE("a run that ends in motion has no density from which it is quasi-static") {
+  const Folder folder;
+  RunContents contents = small_run();
+  contents.numbers["/history/kinetic_energy"] = {0, 0, 1};
+  write_run(folder / "run.h5", contents);
+  const Summary s = summarise(schema::FileReader(folder / "run.h5", schema::FileKind::run));
+  CHECK_FALSE(s.kinetic_small_from_density.has_value());
+  CHECK(to_json(s)["relative_density_from_which_kinetic_below_1_percent"].is_null());
+  CHECK_THAT(to_text(s), Catch::Contains("not at the end"));
 }
 
 TEST_CASE("a curve has the columns asked for, with units, and its numbers read back exactly") {
@@ -108,6 +132,9 @@ TEST_CASE("postproc refuses what it cannot use with one line and exit code 2") {
            {"section " + run + " --range 5,5 -o " + (folder / "x.png"), "low < high"},
            {"section " + run + " --packing " + run + " -o " + (folder / "x.png"), "one of them"},
            {"section --packing " + run + " -o " + (folder / "x.png"), "expected a packing file"},
+           {"section " + run + " --view 5,6,5,6 -o " + (folder / "x.png"), "no grain is cut in the view"},
+           {"section " + run, "-o and --data"},
+           {"summary " + run + " -o " + run, "is the input"},
            {"vtk -o " + (folder / "x"), "one of them"}}) {
     const Outcome outcome = postproc(arguments);
     INFO(arguments << ": " << outcome.messages);
@@ -116,6 +143,12 @@ TEST_CASE("postproc refuses what it cannot use with one line and exit code 2") {
     CHECK_THAT(outcome.messages, Catch::Contains(expected));
     CHECK_FALSE(std::filesystem::exists(folder / "x.png"));
   }
+  CHECK(schema::validate(run).empty()); // still the run
+  const Outcome bare = run_command(fmt::format("PATH=/nonexistent '{}' section {} -o {}", MPFEM_POSTPROC, run, folder / "x.png"));
+  CHECK(bare.exit_code == 3);
+  CHECK(bare.one_error_line("postproc"));
+  CHECK_THAT(bare.messages, Catch::Contains("gnuplot is not installed"));
+  CHECK_FALSE(std::filesystem::exists(folder / "x.png"));
   CHECK(postproc("curve " + run + " -o " + (folder / "no/such/folder.csv")).exit_code == 4);
   CHECK(postproc("--help").exit_code == 0);
   CHECK(postproc("section --help").exit_code == 0);
@@ -129,7 +162,12 @@ TEST_CASE("validate passes a good file and finds a bad one") {
   contents.numbers["/mesh/tet"][5] = 1000;
   write_run(folder / "bad.h5", contents);
   CHECK(postproc("validate " + (folder / "good.h5")).exit_code == 0);
-  const Outcome outcome = postproc("validate " + (folder / "good.h5") + " " + (folder / "bad.h5"));
+  // Bytes changed after writing: half of the file is missing.
+  write_text(folder / "cut.h5", read_text(folder / "good.h5").substr(0, 2000));
+  const Outcome outcome = postproc(fmt::format("validate {} {} {} {}", folder / "absent.h5", folder / "cut.h5", folder / "good.h5", folder / "bad.h5"));
   CHECK(outcome.exit_code == 2);
+  CHECK(outcome.one_error_line("postproc"));
+  CHECK_THAT(outcome.messages, Catch::Contains("3 of 4"));
+  CHECK_THAT(outcome.output, Catch::Contains("absent.h5: no such file") && Catch::Contains("cut.h5: "));
   CHECK_THAT(outcome.output, Catch::Contains("good.h5: valid") && Catch::Contains("/mesh/tet holds the index 1000"));
 }

@@ -1,5 +1,6 @@
 // Plane sections against areas known beforehand, and the picture made of them.
 
+#include <cmath>
 #include <numeric>
 
 #include <catch2/catch.hpp>
@@ -8,6 +9,7 @@
 #include "postproc/section_picture.hpp"
 #include "small_run.hpp"
 #include "tests/support/folder.hpp"
+#include "tests/support/packing_file.hpp"
 
 using namespace mpfem;
 using namespace mpfem::test;
@@ -111,4 +113,45 @@ TEST_CASE("the colour scale gets lighter from end to end") {
   }
   CHECK(scale_colour(-5) == scale_colour(0));
   CHECK(scale_colour(7) == scale_colour(1));
+  const Colour none = scale_colour(std::nan("")); // grey, which the scale does not have
+  CHECK((none[0] == none[1] && none[1] == none[2]));
+}
+
+TEST_CASE("a picture is drawn where some values are no numbers") {
+  const Folder folder;
+  RunContents contents = small_run();
+  write_run(folder / "run.h5", contents);
+  contents.numbers["/snapshots/*/von_mises"][40] = std::nan("");
+  write_run(folder / "nan.h5", contents);
+  for (const char* name : {"run", "nan"})
+    REQUIRE(run_command(fmt::format("'{}' section {}.h5 --pixels 100 -o {}.png", MPFEM_POSTPROC, folder / name, folder / name)).exit_code == 0);
+}
+
+TEST_CASE("a meshed packing is cut and exported without a run") {
+  const Folder folder;
+  const MeshedPacking packing = eight_grains(6);
+  write_packing(folder / "packing.h5", packing, std::vector<double>(8, 0.1));
+  const Snapshot s = read_packing_snapshot(folder / "packing.h5");
+  REQUIRE(s.tet_field("grain").values.back() == 7);
+  const double z = packing.node[2]; // through the first grain
+  const auto polygons = cut(s, {2, z});
+  REQUIRE_FALSE(polygons.empty());
+  CHECK(run_command(fmt::format("'{}' section --packing {} --axis z --position {} -o {} --pixels 100", MPFEM_POSTPROC, folder / "packing.h5", z,
+                                folder / "p.png")).exit_code == 0);
+  CHECK(read_text(folder / "p.png").substr(1, 3) == "PNG");
+  CHECK(run_command(fmt::format("'{}' section --packing {} --field pressure -o {}", MPFEM_POSTPROC, folder / "packing.h5", folder / "q.png")).exit_code == 2);
+  CHECK(run_command(fmt::format("'{}' vtk --packing {} -o {}", MPFEM_POSTPROC, folder / "packing.h5", folder / "p.vtu")).exit_code == 0);
+  CHECK_THAT(read_text(folder / "p.vtu"), Catch::Contains(fmt::format("NumberOfCells=\"{}\"", packing.tet.size() / 4)));
+}
+
+TEST_CASE("titles and file names are text, not commands") {
+  const Folder folder;
+  write_run(folder / "run.h5", small_run());
+  const std::string title = fmt::format("`touch {0}` \\\" %s", folder / "made"), file = "it's `touch made`.png";
+  const Outcome outcome = run_command(fmt::format("cd {} && '{}' section run.h5 --pixels 100 --title '{}' -o \"it's \\`touch made\\`.png\"",
+                                                  folder / "", MPFEM_POSTPROC, title));
+  INFO(outcome.messages);
+  CHECK(outcome.exit_code == 0);
+  CHECK(std::filesystem::exists(folder / file));
+  CHECK_FALSE(std::filesystem::exists(folder / "made"));
 }

@@ -45,6 +45,31 @@ TEST_CASE("a .vtu file gives back the mesh's volume, its fields and its grains")
   REQUIRE(ends.size() == 48);
   CHECK(ends.back() == 192);
   CHECK(std::count(types.begin(), types.end(), 10) == 48);
+  // The elements before the binary part: every one that opens closes, in order; offsets rise without gaps.
+  const std::string head = vtu.substr(0, vtu.find("<AppendedData"));
+  std::vector<std::string> open;
+  for (std::size_t at = head.find('<'); at != std::string::npos; at = head.find('<', at + 1)) {
+    if (head[at + 1] == '?' || head[at + 1] == '!') continue;
+    const std::size_t end = head.find('>', at);
+    if (head[at + 1] == '/') {
+      REQUIRE_FALSE(open.empty());
+      CHECK(head.substr(at + 2, end - at - 2) == open.back());
+      open.pop_back();
+    } else if (head[end - 1] != '/') {
+      open.push_back(head.substr(at + 1, head.find_first_of(" >", at) - at - 1));
+    }
+  }
+  CHECK(open == std::vector<std::string>{"VTKFile"});
+  CHECK(vtu.ends_with("\n  </AppendedData>\n</VTKFile>\n"));
+  const std::size_t data = vtu.find("\n_") + 2;
+  std::size_t expected_offset = 0;
+  for (std::size_t at = head.find("offset=\""); at != std::string::npos; at = head.find("offset=\"", at + 1)) {
+    CHECK(std::stoul(head.substr(at + 8)) == expected_offset);
+    std::uint64_t bytes = 0;
+    std::memcpy(&bytes, vtu.data() + data + expected_offset, sizeof bytes);
+    expected_offset += sizeof bytes + bytes;
+  }
+  CHECK(vtu.substr(data + expected_offset) == "\n  </AppendedData>\n</VTKFile>\n");
   double volume = 0;
   for (std::size_t t = 0; t < 48; ++t) {
     double e[3][3];
