@@ -1,6 +1,7 @@
 #include "common/errors.hpp"
 
 #include <exception>
+#include <filesystem>
 #include <new>
 
 #include <fmt/format.h>
@@ -27,6 +28,8 @@ int run_program(const char* program, int (*body)(int argc, char** argv), int arg
     return report(program, error.what(), ExitCode::storage_failed);
   } catch (const Interrupted& error) {
     return report(program, error.what(), ExitCode::interrupted);
+  } catch (const std::filesystem::filesystem_error& error) {
+    return report(program, error.what(), ExitCode::storage_failed);
   } catch (const std::bad_alloc&) {
     return report(program, "out of memory", ExitCode::simulation_failed);
   } catch (const std::exception& error) {

@@ -28,8 +28,8 @@ std::string relative_to_scenario(const std::string& assignment, const std::strin
   if (!assignment.starts_with(key)) return assignment;
   const std::filesystem::path path = assignment.substr(key.size());
   if (path.empty() || path.is_absolute()) return assignment;
-  const auto folder = std::filesystem::absolute(scenario).parent_path();
-  return std::string(key) + std::filesystem::absolute(path).lexically_proximate(folder).string();
+  const auto folder = std::filesystem::absolute(scenario).lexically_normal().parent_path();
+  return std::string(key) + std::filesystem::absolute(path).lexically_normal().lexically_proximate(folder).string();
 }
 
 Scenario load_scenario(const Arguments& arguments) {
@@ -82,9 +82,7 @@ int body(int argc, char** argv) {
   const Scenario scenario = load_scenario(arguments);
   if (run->parsed()) {
     if (!from.empty()) arguments.run.from = from;
-    const auto folder = std::filesystem::absolute(arguments.run.output).parent_path();
-    if (!std::filesystem::is_directory(folder))
-      throw InputError(fmt::format("--output {}: the folder does not exist", arguments.run.output));
+    arguments.run.scenario_file = arguments.scenario;
     run_scenario(scenario, arguments.run);
   } else if (check->parsed()) {
     check_scenario(scenario, arguments.run.threads);

@@ -169,6 +169,11 @@ void contact_stiffness_rate(const Model& model, const Contact& contact, int grai
   for (std::int32_t i = candidates.incoming_offset[g]; i < candidates.incoming_offset[g + 1]; ++i)
     for (const ContactForce& point : contact.active_points(candidates.incoming_pair[at(i)]))
       for (std::size_t c = 0; c < 3; ++c) add(model.facet[3 * at(point.facet) + c], point.weight[c] * point.stiffness);
+}
+
+void raise_to_expected_rate(const Model& model, int grain, std::span<double> rate) {
+  const auto g = static_cast<std::size_t>(grain);
+  const std::int32_t first = model.node_offset[g];
   for (std::int32_t node = first; node < first + model.surface_node_count[g]; ++node) {
     // As a node with stiffness K/2 A and, by symmetry, a facet's share of the same size; against a wall K A alone.
     const double expected = 2.0 * model.penalty_stiffness[g] * model.reference_area[at(node)] * model.inverse_mass[at(node)];

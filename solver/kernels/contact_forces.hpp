@@ -66,8 +66,11 @@ void contact_reactions(Model& model, const Contact& contact, int grain);
 
 /// kappa/m (1/s^2) of a grain's surface nodes into `rate` [nodes]: a bound of what contact adds to the frequency
 /// squared. For a point with force k gap and gap = n.(u_s - sum w_i u_i), Cauchy's inequality gives
-/// k gap^2 <= 2 k (|u_s|^2 + sum w_i |u_i|^2). Nodes not in contact yet count as if they were.
+/// k gap^2 <= 2 k (|u_s|^2 + sum w_i |u_i|^2).
 void contact_stiffness_rate(const Model& model, const Contact& contact, int grain, std::span<double> rate);
+
+/// Raises `rate` to what a node in contact has as a rule, so that the step does not jump when one comes into contact.
+void raise_to_expected_rate(const Model& model, int grain, std::span<double> rate);
 
 /// Contact of one pair of grains at this moment.
 struct PairContact {

@@ -31,6 +31,22 @@ WallSums wall_forces(Model& model, const Walls& walls, const Bounds& bounds, int
   return sums;
 }
 
+void wall_stiffness_rate(const Model& model, const Walls& walls, const Bounds& bounds, int grain, std::span<double> rate) {
+  if (!walls.present) return;
+  const auto g = static_cast<std::size_t>(grain);
+  const auto first = static_cast<std::size_t>(model.node_offset[g]);
+  const auto count = static_cast<std::size_t>(model.surface_node_count[g]);
+  for (std::size_t side = 0; side < 6; ++side) {
+    const std::size_t axis = side / 2;
+    const bool high = side % 2 == 1;
+    const double plane = high ? walls.high[axis] : walls.low[axis];
+    if (high ? bounds.high[axis] <= plane : bounds.low[axis] >= plane) continue;
+    for (std::size_t node = first; node < first + count; ++node)
+      if (const double x = model.position[4 * node + axis]; high ? x > plane : x < plane)
+        rate[node] += model.penalty_stiffness[g] * model.reference_area[node] * model.inverse_mass[node];
+  }
+}
+
 AdvanceSums advance(Model& model, int grain, const Advance& p) {
   const auto g = static_cast<std::size_t>(grain);
   const auto first = static_cast<std::size_t>(model.node_offset[g]);

@@ -47,4 +47,7 @@ AdvanceSums advance(Model& model, int grain, const Advance& parameters);
 /// with the v+ that `advance` would reach from the present forces without damping.
 double kinetic_energy(const Model& model, int grain, double step_mean);
 
+/// Adds K A/m (1/s^2) of the walls that each node touches to `rate` [nodes]: what they add to the frequency squared.
+void wall_stiffness_rate(const Model& model, const Walls& walls, const Bounds& bounds, int grain, std::span<double> rate);
+
 } // namespace mpfem

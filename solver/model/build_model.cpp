@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
+#include <tuple>
 
 #include <fmt/format.h>
 
@@ -46,8 +47,9 @@ struct Face {
   bool operator<(const Face& other) const { return sorted < other.sorted; }
 };
 
-/// Faces that belong to one tetrahedron only, outward counter-clockwise, for the tets [begin, end).
-std::vector<std::array<Index, 3>> boundary_faces(const std::vector<Index>& tet, Index begin, Index end) {
+/// Faces that belong to one tetrahedron only, outward counter-clockwise, for the tets [begin, end). Throws InputError where
+/// more than two tetrahedra share a face, or the faces left over do not close the grain.
+std::vector<std::array<Index, 3>> boundary_faces(const std::vector<Index>& tet, Index begin, Index end, const std::string& grain_name) {
   static constexpr int corner[4][3] = {{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}};
   std::vector<Face> faces;
   faces.reserve(4 * at(end - begin));
@@ -66,8 +68,22 @@ std::vector<std::array<Index, 3>> boundary_faces(const std::vector<Index>& tet, 
     std::size_t j = i + 1;
     while (j < faces.size() && faces[j].sorted == faces[i].sorted) ++j;
     if (j == i + 1) boundary.push_back(faces[i].outward);
+    if (j > i + 2)
+      throw InputError(fmt::format("{}: {} tetrahedra share the face of nodes {}, {}, {}, allowed at most two", grain_name, j - i,
+                                   faces[i].sorted[0], faces[i].sorted[1], faces[i].sorted[2]));
     i = j;
   }
+  // Every edge once in each direction, or as often in both where parts of the surface touch along it.
+  std::vector<std::pair<Index, Index>> forward, backward;
+  for (const auto& face : boundary)
+    for (std::size_t i = 0; i < 3; ++i) {
+      forward.emplace_back(face[i], face[(i + 1) % 3]);
+      backward.emplace_back(face[(i + 1) % 3], face[i]);
+    }
+  std::sort(forward.begin(), forward.end());
+  std::sort(backward.begin(), backward.end());
+  if (boundary.empty() || forward != backward)
+    throw InputError(fmt::format("{}: its surface is not closed, allowed tetrahedra that meet face to face", grain_name));
   return boundary;
 }
 
@@ -94,6 +110,9 @@ FlowLaw make_flow_law(const MaterialParameters& p) {
 void check_packing(const MeshedPacking& packing, const std::string& name) {
   const auto nodes = static_cast<Index>(packing.node.size() / 3);
   const auto tets = static_cast<Index>(packing.tet.size() / 4);
+  for (const double length : packing.box_lengths)
+    if (!(length > 0) || !std::isfinite(length))
+      throw InputError(fmt::format("{}: /box/lengths holds {}, allowed > 0", name, length));
   const auto& no = packing.grain_node_offset;
   const auto& to = packing.grain_tet_offset;
   if (no.size() < 2 || no.size() != to.size() || no.front() != 0 || to.front() != 0 || no.back() != nodes ||
@@ -120,6 +139,26 @@ void check_packing(const MeshedPacking& packing, const std::string& name) {
       const double x = packing.node[3 * at(i) + axis];
       if (!std::isfinite(x)) throw InputError(fmt::format("{}: /mesh/node row {} is not finite", name, i));
     }
+}
+
+/// Two grains that lie in the same place, as copies do, have no gap that contact could measure.
+void refuse_shared_places(const Model& model, const std::string& name) {
+  struct Place {
+    std::array<double, 3> x;
+    int grain;
+    bool operator<(const Place& other) const { return std::tie(x, grain) < std::tie(other.x, other.grain); }
+  };
+  std::vector<Place> places;
+  for (int g = 0; g < model.grains; ++g) {
+    const auto gs = static_cast<std::size_t>(g);
+    for (Index n = model.node_offset[gs]; n < model.node_offset[gs] + model.surface_node_count[gs]; ++n)
+      places.push_back({{model.position[4 * at(n)], model.position[4 * at(n) + 1], model.position[4 * at(n) + 2]}, g});
+  }
+  std::sort(places.begin(), places.end());
+  for (std::size_t i = 1; i < places.size(); ++i)
+    if (places[i].x == places[i - 1].x && places[i].grain != places[i - 1].grain)
+      throw InputError(fmt::format("{}: grains {} and {} have a node in the same place ({:g}, {:g}, {:g}), allowed grains apart", name,
+                                   places[i - 1].grain, places[i].grain, places[i].x[0], places[i].x[1], places[i].x[2]));
 }
 
 } // namespace
@@ -153,6 +192,8 @@ Model build_model(const MeshedPacking& packing, const Scenario& scenario, const 
   model.seed = packing.seed;
   model.mesh_hash = hash_values(std::span<const double>(packing.node));
   model.mesh_hash = hash_values(std::span<const Index>(packing.tet), model.mesh_hash);
+  model.mesh_hash = hash_values(std::span<const Index>(packing.grain_node_offset), model.mesh_hash);
+  model.mesh_hash = hash_values(std::span<const double>(packing.box_lengths), model.mesh_hash);
   model.box_low = {0, 0, 0};
   model.box_high = packing.box_lengths;
 
@@ -178,7 +219,7 @@ Model build_model(const MeshedPacking& packing, const Scenario& scenario, const 
     const Index t0 = model.tet_offset[gs], t1 = model.tet_offset[gs + 1];
 
     // 1. Surface, then nodes: surface nodes first, each group along a Morton curve.
-    const auto faces = boundary_faces(packing.tet, t0, t1);
+    const auto faces = boundary_faces(packing.tet, t0, t1, fmt::format("{}: grain {}", name, g));
     std::vector<char> on_surface(at(n1 - n0), 0);
     for (const auto& face : faces)
       for (Index n : face) on_surface[at(n - n0)] = 1;
@@ -258,6 +299,7 @@ Model build_model(const MeshedPacking& packing, const Scenario& scenario, const 
       m = 1.0 / m;
     }
   }
+  refuse_shared_places(model, name);
   return model;
 }
 

@@ -6,6 +6,7 @@
 
 #include "common/errors.hpp"
 #include "common/hash.hpp"
+#include "common/table_reader.hpp"
 #include "common/version.hpp"
 #include "results-schema/descriptors.hpp"
 #include "results-schema/file.hpp"
@@ -184,10 +185,22 @@ void read_checkpoint(const std::string& path, Simulation& simulation, RunRecord&
     throw InputError(fmt::format("{}: the checkpoint was written by a build with {} lanes, this one has {}: nodes and tets "
                                  "would not go on bitwise", path, file.read_scalar(check::lanes), TetBlock::lanes));
 
+  // A branch goes on with the same matter: its stresses and strains mean nothing in another material.
+  if (any_scenario) {
+    const std::string earlier = file.read_scalar(check::scenario);
+    const auto material_of = [&path](const std::string& text) { return read_scenario(TomlDocument::from_text(text, path)).material; };
+    if (material_of(earlier) != material_of(scenario_text))
+      throw InputError(fmt::format("{}: the checkpoint's material differs from the scenario's, allowed the same [material]", path));
+  }
   set_integers(simulation.state(), c.integers);
+  if (any_scenario) simulation.state().stage = 0;
   std::size_t next = 0;
   for_each_number(simulation.state(), record, [&](double& value) { value = c.numbers.at(next++); });
-  record.history = unflatten(c.history);
+  try {
+    record.history = unflatten(c.history);
+  } catch (const std::length_error&) {
+    throw InputError(fmt::format("{}: the checkpoint was written by a build with other history columns", path));
+  }
   record.snapshot_files = file.read(check::run_snapshots);
   model.position.assign(c.position.begin(), c.position.end());
   model.velocity.assign(c.velocity.begin(), c.velocity.end());

@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <cstring>
+#include <stdexcept>
 #include <type_traits>
 
 #include "results-schema/descriptors.hpp"
@@ -73,6 +74,7 @@ std::vector<double> flatten(const Rows& rows) {
 }
 
 Rows unflatten(const std::vector<double>& values) {
+  if (values.size() % row_values != 0) throw std::length_error("not whole rows");
   Rows rows(values.size() / row_values);
   if (!rows.empty()) std::memcpy(rows.data(), values.data(), rows.size() * sizeof(HistoryRow));
   return rows;

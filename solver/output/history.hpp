@@ -11,7 +11,8 @@ namespace mpfem {
 /// Writes all rows as /history of a run file.
 void write_history(schema::FileWriter& file, const std::vector<HistoryRow>& rows);
 
-/// Rows as plain numbers, one after another, and back (for checkpoints).
+/// Rows as plain numbers, one after another, and back (for checkpoints). unflatten throws std::length_error where the
+/// numbers are not whole rows.
 std::vector<double> flatten(const std::vector<HistoryRow>& rows);
 std::vector<HistoryRow> unflatten(const std::vector<double>& values);
 

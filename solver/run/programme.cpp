@@ -43,7 +43,8 @@ StageMotion::StageMotion(const Stage& stage, const std::array<double, 3>& low, c
   }
   const IsotropicCompaction& compaction = *stage.isotropic_compaction;
   const double density = solid_volume / volume(low, high);
-  if (!(compaction.relative_density > density))
+  // Nearer than this, the walls would move by rounding errors.
+  if (!(compaction.relative_density > density * (1 + 1e-9)))
     throw InputError(fmt::format("stage '{}': key 'relative_density': found {}, allowed more than the density at its "
                                  "start, {:.4f}", stage.name, compaction.relative_density, density));
   end_scale_ = std::cbrt(density / compaction.relative_density);
@@ -59,6 +60,23 @@ void StageMotion::place(Walls& walls, double time) const {
     const double centre = 0.5 * (low_[axis] + high_[axis]), half = 0.5 * scale * (high_[axis] - low_[axis]);
     walls.low[axis] = centre - half;
     walls.high[axis] = centre + half;
+  }
+}
+
+void check_programme(const Scenario& scenario, std::int64_t first_stage, std::array<double, 3> low, std::array<double, 3> high,
+                     const Model& model, double stable_step) {
+  constexpr double largest_travel = 0.05; // of h a step; a penetration of that size in one step is an impact
+  const double smallest_size = *std::min_element(model.element_size.begin(), model.element_size.end());
+  for (auto s = static_cast<std::size_t>(first_stage); s < scenario.stages.size(); ++s) {
+    const Stage& stage = scenario.stages[s];
+    const StageMotion motion(stage, low, high, model.total_reference_volume());
+    Walls walls;
+    motion.place(walls, motion.duration());
+    low = walls.low, high = walls.high;
+    if (const double fastest = largest_travel * smallest_size / stable_step;
+        stage.isotropic_compaction && stage.isotropic_compaction->wall_speed > fastest)
+      throw InputError(fmt::format("stage '{}': key 'wall_speed': found {:g} mm/s, allowed at most {:.4g} mm/s here ({} of an element in a "
+                                   "stable step of {:.3g} s)", stage.name, stage.isotropic_compaction->wall_speed, fastest, largest_travel, stable_step));
   }
 }
 

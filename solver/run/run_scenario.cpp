@@ -5,15 +5,18 @@
 #include <csignal>
 #include <cstdio>
 #include <filesystem>
-#include <set>
+#include <fstream>
 
 #include <fmt/format.h>
 
 #include "common/errors.hpp"
+#include "common/hash.hpp"
+#include "common/one_line.hpp"
 #include "common/progress.hpp"
 #include "solver/output/checkpoint.hpp"
 #include "solver/output/history.hpp"
 #include "solver/output/run_file.hpp"
+#include "solver/run/programme.hpp"
 #include "solver/run/simulation.hpp"
 
 namespace mpfem {
@@ -58,11 +61,14 @@ public:
       : scenario_(scenario), options_(options), team_(options.threads),
         simulation_(build_model(read_packing(scenario.packing_file), scenario, scenario.packing_file), scenario, team_),
         progress_("mpfem", options.quiet) {
-    check_grain_lists();
     begin();
+    const RunState& state = simulation_.state();
+    check_programme(scenario_, state.stage, state.stage_low, state.stage_high, simulation_.model(), state.stable_step);
   }
 
   void run() {
+    if (already_complete_) return;
+    if (begins_anew_) drop_unfinished_run();
     const InterruptGuard guard;
     start_ = last_checkpoint_ = Profile::Clock::now();
     steps_at_start_ = simulation_.state().step;
@@ -70,8 +76,12 @@ public:
       loop();
     } catch (const SimulationError& error) {
       // The failed state is worth looking at: a snapshot of it, and everything recorded so far.
-      save_snapshot();
-      write_result(fmt::format("failed: {}", error.what()));
+      try {
+        save_snapshot();
+        write_result(fmt::format("failed: {}", error.what()));
+      } catch (const StorageError& storage) {
+        throw SimulationError(fmt::format("{}; and its state could not be saved: {}", error.what(), storage.what()));
+      }
       throw SimulationError(fmt::format("{}; history and last state are in {}", error.what(), options_.output));
     }
     write_result("complete");
@@ -82,28 +92,45 @@ public:
   }
 
 private:
-  void check_grain_lists() const {
-    const auto grains = static_cast<std::size_t>(simulation_.model().grains);
-    for (const auto* list : {&scenario_.grain_velocity, &scenario_.grain_angular_velocity})
-      if (!list->empty() && list->size() != grains)
-        throw InputError(fmt::format("{}: key 'initial': found {} rows for {} grains, allowed one row a grain",
-                                     scenario_.packing_file, list->size(), grains));
-  }
-
   void begin() {
     const std::string rolling = checkpoint_path(options_.output);
     if (options_.resume && std::filesystem::exists(rolling)) {
       read_checkpoint(rolling, simulation_, record_, scenario_.text, false);
+      for (const std::string& name : record_.snapshot_files)
+        if (const std::string part = snapshot_path(name); !std::filesystem::exists(part))
+          throw InputError(fmt::format("{}: the snapshot {} that was taken before the checkpoint is missing; run without --resume to begin anew",
+                                       rolling, part));
       if (!options_.quiet) fmt::print(stderr, "mpfem: resumed {} at step {}\n", rolling, simulation_.state().step);
-    } else if (options_.from) {
+      return;
+    }
+    if (options_.resume && is_complete()) {
+      already_complete_ = true;
+      if (!options_.quiet) fmt::print(stderr, "mpfem: {} is complete already\n", options_.output);
+      return;
+    }
+    if (options_.from) {
       RunRecord earlier;
       read_checkpoint(*options_.from, simulation_, earlier, scenario_.text, true);
-      // A branch begins its own programme and history at the state of the checkpoint.
-      RunState& state = simulation_.state();
-      state.stage = 0;
-      state.snapshots_passed = 0;
-      simulation_.begin_stage_at_present_box();
+      simulation_.begin_branch();
     }
+    begins_anew_ = true;
+  }
+
+  /// What an earlier, unfinished run of this name left would mix with what this one writes.
+  void drop_unfinished_run() const {
+    const std::string rolling = checkpoint_path(options_.output);
+    if (!options_.quiet && std::filesystem::exists(rolling))
+      fmt::print(stderr, "mpfem: {} of an unfinished run is dropped: this run begins anew (--resume would have gone on)\n", rolling);
+    remove_parts();
+  }
+
+  /// True where the output is the finished run of this very scenario and packing.
+  bool is_complete() const {
+    if (!std::filesystem::exists(options_.output)) return false;
+    const schema::FileReader file(options_.output, schema::FileKind::run);
+    return file.read_scalar(schema::run::provenance_status) == "complete" &&
+           file.read_scalar(schema::run::provenance_scenario) == scenario_.text &&
+           file.read_scalar(schema::run::provenance_packing_hash) == hash_text(simulation_.model().mesh_hash);
   }
 
   void loop() {
@@ -153,9 +180,9 @@ private:
   void save_snapshot() {
     const auto start = Profile::Clock::now();
     std::filesystem::create_directories(parts_folder(options_.output));
-    const std::string path = fmt::format("{}/snapshot-{:04}.h5", parts_folder(options_.output), record_.snapshot_files.size());
-    write_snapshot_file(path, simulation_);
-    record_.snapshot_files.push_back(path);
+    const std::string name = snapshot_name(record_.snapshot_files.size());
+    write_snapshot_file(snapshot_path(name), simulation_);
+    record_.snapshot_files.push_back(name); // the name alone: a run may be resumed from another folder
     simulation_.profile().add_serial(Part::output, Profile::since(start));
   }
 
@@ -202,12 +229,19 @@ private:
     }
     provenance.profile_name.emplace_back("waiting and rest");
     provenance.profile_seconds.push_back(record.wall_time - accounted);
-    write_run_file(options_.output, simulation_.model(), record_.history, record_.snapshot_files, provenance);
+    std::vector<std::string> snapshots;
+    for (const std::string& name : record_.snapshot_files) snapshots.push_back(snapshot_path(name));
+    write_run_file(options_.output, simulation_.model(), record_.history, snapshots, provenance);
   }
 
-  void remove_parts() {
+  static std::string snapshot_name(std::size_t number) { return fmt::format("snapshot-{:04}.h5", number); }
+  std::string snapshot_path(const std::string& name) const { return parts_folder(options_.output) + "/" + name; }
+
+  /// Removes the run's own files only; the folder goes if nothing else is in it.
+  void remove_parts() const {
     std::error_code ignored;
-    std::filesystem::remove_all(parts_folder(options_.output), ignored);
+    for (std::size_t number = 0; std::filesystem::remove(snapshot_path(snapshot_name(number)), ignored); ++number) {}
+    std::filesystem::remove(parts_folder(options_.output), ignored);
     std::filesystem::remove(checkpoint_path(options_.output), ignored);
   }
 
@@ -272,7 +306,40 @@ private:
   Profile::Clock::time_point start_, last_checkpoint_;
   std::int64_t steps_at_start_ = 0;
   int reported_lines_ = 0;
+  bool already_complete_ = false, begins_anew_ = false;
 };
+
+bool same_file(const std::string& a, const std::string& b) {
+  std::error_code ignored;
+  return std::filesystem::equivalent(a, b, ignored) ||
+         std::filesystem::weakly_canonical(a, ignored) == std::filesystem::weakly_canonical(b, ignored);
+}
+
+/// Refuses to write over what the run reads, and finds out now whether it can write at all.
+void check_output(const Scenario& scenario, const RunOptions& options) {
+  const std::string& output = options.output;
+  std::error_code ignored;
+  if (output.empty() || output.back() == '/' || std::filesystem::is_directory(output, ignored))
+    throw InputError(fmt::format("--output '{}': found a folder or nothing, allowed the name of a file", one_line(output)));
+  if (!std::filesystem::is_directory(std::filesystem::absolute(output).parent_path(), ignored))
+    throw InputError(fmt::format("--output {}: the folder does not exist", one_line(output)));
+  const auto refuse = [&](const std::string& file, const std::string& what) {
+    if (same_file(output, file)) throw InputError(fmt::format("--output {}: is {} of this run, allowed another name", one_line(output), what));
+  };
+  refuse(scenario.packing_file, "the packing");
+  refuse(options.scenario_file, "the scenario");
+  if (options.from) {
+    refuse(*options.from, "the checkpoint to start from");
+    std::vector<std::string> written{checkpoint_path(output)};
+    for (const Stage& stage : scenario.stages) written.push_back(stage_checkpoint_path(output, stage.name));
+    for (const std::string& path : written)
+      if (same_file(path, *options.from))
+        throw InputError(fmt::format("--from {}: this run would write its own checkpoint there, allowed another --output", one_line(*options.from)));
+  }
+  const std::string trial = output + ".partial";
+  if (!std::ofstream(trial)) throw StorageError(fmt::format("{}: cannot be written", one_line(trial)));
+  std::filesystem::remove(trial, ignored);
+}
 
 } // namespace
 
@@ -282,7 +349,10 @@ std::string stage_checkpoint_path(const std::string& run_file, const std::string
   return fmt::format("{}.{}.checkpoint.h5", stem(run_file), stage);
 }
 
-void run_scenario(const Scenario& scenario, const RunOptions& options) { Runner(scenario, options).run(); }
+void run_scenario(const Scenario& scenario, const RunOptions& options) {
+  check_output(scenario, options);
+  Runner(scenario, options).run();
+}
 
 void check_scenario(const Scenario& scenario, int threads) {
   ThreadTeam team(threads);
@@ -296,6 +366,7 @@ void check_scenario(const Scenario& scenario, int threads) {
   fmt::print("stable step    {:.4g} s, set by {}\n", simulation.state().stable_step,
              simulation.state().controlled_by_contact ? "contact" : "elements");
 
+  check_programme(scenario, 0, model.box_low, model.box_high, model, simulation.state().stable_step);
   // The steps of all stages at the present stable step, and the time of a few steps measured here.
   std::array<double, 3> low = model.box_low, high = model.box_high;
   double steps = 0;
@@ -308,13 +379,13 @@ void check_scenario(const Scenario& scenario, int threads) {
     fmt::print("stage          {}: {:.4g} s, {:.0f} steps at the present step\n", stage.name, motion.duration(),
                motion.duration() / simulation.state().stable_step);
   }
-  constexpr int measured = 20;
+  int measured = 0;
   const auto start = Profile::Clock::now();
-  for (int i = 0; i < measured && !simulation.stage_complete(); ++i) {
+  for (; measured < 20 && !simulation.stage_complete(); ++measured) {
     simulation.evaluate_forces();
     simulation.advance();
   }
-  const double seconds = Profile::since(start) / measured;
+  const double seconds = Profile::since(start) / std::max(measured, 1);
   fmt::print("estimate       {:.3g} ms a step measured here on {} threads; {:.0f} steps: {:.0f} s. Dense packings take about "
              "half as long again (contact), and the step shrinks as tets flatten.\n",
              1e3 * seconds, threads, steps, seconds * steps);

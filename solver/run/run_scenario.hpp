@@ -10,6 +10,7 @@ namespace mpfem {
 
 struct RunOptions {
   std::string output;                    ///< RUN.h5
+  std::string scenario_file;             ///< never to be overwritten
   bool resume = false;                   ///< go on from the rolling checkpoint if there is one
   std::optional<std::string> from;       ///< begin the first stage from this checkpoint's state
   int threads = 1;

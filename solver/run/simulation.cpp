@@ -31,6 +31,10 @@ double smooth_fade(double value, double full) {
 Simulation::Simulation(Model model, const Scenario& scenario, ThreadTeam& team)
     : model_(std::move(model)), scenario_(scenario), team_(team), profile_(team.size()) {
   const auto grains = static_cast<std::size_t>(model_.grains);
+  for (const auto* list : {&scenario.grain_velocity, &scenario.grain_angular_velocity})
+    if (!list->empty() && list->size() != grains)
+      throw InputError(fmt::format("{}: key 'initial': found {} rows for {} grains, allowed one row a grain", scenario.packing_file,
+                                   list->size(), grains));
   bounds_.resize(grains);
   contact_sums_.resize(grains);
   wall_sums_.resize(grains);
@@ -68,17 +72,7 @@ Simulation::Simulation(Model model, const Scenario& scenario, ThreadTeam& team)
   team_.for_each(model_.grains, [&](int grain, int) { bounds_[static_cast<std::size_t>(grain)] = update_surface(model_, grain); });
   renew_candidates(model_, margin_, team_, contact_);
   for (int grain = 0; grain < model_.grains; ++grain) {
-    const ContactSums sums = contact_forces(model_, contact_, grain);
-    if (sums.penetration > overlap_tolerance) {
-      const ContactCandidates& c = contact_.candidates;
-      const auto g = static_cast<std::size_t>(grain);
-      for (std::int32_t pair = c.outgoing_offset[g]; pair < c.outgoing_offset[g + 1]; ++pair)
-        if (!contact_.active_points(pair).empty())
-          throw InputError(fmt::format("{}: grains {} and {} overlap at the start by {:.3g} of the element size, allowed "
-                                       "none: pack with a larger smallest_gap",
-                                       scenario.packing_file, grain, c.pair_second[static_cast<std::size_t>(pair)],
-                                       sums.penetration));
-    }
+    refuse_overlap(grain);
     const auto& b = bounds_[static_cast<std::size_t>(grain)];
     for (std::size_t axis = 0; walls_.present && axis < 3; ++axis)
       if (b.low[axis] < walls_.low[axis] - 1e-9 || b.high[axis] > walls_.high[axis] + 1e-9)
@@ -89,6 +83,27 @@ Simulation::Simulation(Model model, const Scenario& scenario, ThreadTeam& team)
   std::fill(model_.force.begin(), model_.force.end(), 0.0);
   estimate_stable_step();
   begin_stage();
+}
+
+void Simulation::refuse_overlap(int grain) {
+  const ContactCandidates& c = contact_.candidates;
+  const auto g = static_cast<std::size_t>(grain);
+  const auto refuse = [&](const std::string& what) {
+    throw InputError(fmt::format("{}: {}, allowed no overlap: pack with a larger smallest_gap", scenario_.packing_file, what));
+  };
+  try {
+    contact_forces(model_, contact_, grain);
+  } catch (const SimulationError&) { // deeper than a contact can ever be
+    refuse(fmt::format("grain {} overlaps another deeply at the start", grain));
+  }
+  for (std::int32_t pair = c.outgoing_offset[g]; pair < c.outgoing_offset[g + 1]; ++pair) {
+    double deepest = 0;
+    for (const ContactForce& point : contact_.active_points(pair))
+      deepest = std::max(deepest, std::hypot(point.force[0], point.force[1], point.force[2]) / (point.stiffness * model_.element_size[g]));
+    if (deepest > overlap_tolerance)
+      refuse(fmt::format("grains {} and {} overlap at the start by {:.3g} of the element size", grain,
+                         c.pair_second[static_cast<std::size_t>(pair)], deepest));
+  }
 }
 
 void Simulation::restored() {
@@ -106,10 +121,15 @@ void Simulation::begin_stage() {
   motion_.emplace(stage(), state_.stage_low, state_.stage_high, model_.total_reference_volume());
 }
 
-void Simulation::begin_stage_at_present_box() {
+void Simulation::begin_branch() {
   walls_.low = state_.low;
   walls_.high = state_.high;
+  state_.stage = 0;
+  state_.snapshots_passed = 0;
+  renew_candidates(model_, margin_, team_, contact_);
+  estimate_stable_step();
   begin_stage();
+  rebase_ledger_ = true;
 }
 
 double Simulation::relative_density() const {
@@ -133,8 +153,12 @@ double Simulation::damping_rate() const {
 void Simulation::estimate_stable_step() {
   const auto start = Profile::Clock::now();
   team_.for_each(model_.grains, [&](int grain, int) {
+    const auto g = static_cast<std::size_t>(grain);
     contact_stiffness_rate(model_, contact_, grain, stiffness_rate_);
-    stable_steps_[static_cast<std::size_t>(grain)] = mpfem::stable_step(model_, grain, stiffness_rate_, state_.strain_rate);
+    wall_stiffness_rate(model_, walls_, bounds_[g], grain, stiffness_rate_);
+    raise_to_expected_rate(model_, grain, stiffness_rate_);
+    // |tr e| <= sqrt(3) |e|
+    stable_steps_[g] = mpfem::stable_step(model_, grain, stiffness_rate_, std::sqrt(3.0) * state_.strain_rate);
   });
   double step = std::numeric_limits<double>::infinity(), no_contact = step;
   for (const StableStep& grain : stable_steps_) {
@@ -168,6 +192,12 @@ void Simulation::evaluate_forces() {
     wall_sums_[g] = wall_forces(model_, walls_, bounds_[g], grain);
     watch.mark(Part::integration);
   });
+
+  for (std::size_t g = 0; g < wall_sums_.size(); ++g)
+    if (wall_sums_[g].penetration > 0.5)
+      throw SimulationError(fmt::format("step {}, D_r = {:.4f}: a node of grain {} is {:.2f} of the element size behind a wall, allowed up to "
+                                        "0.5: raise contact.stiffness_factor or lower the speed",
+                                        state_.step, relative_density(), g, wall_sums_[g].penetration));
 
   // Work of the walls since the time level before, by the trapezoidal rule, which central differences conserve.
   std::array<double, 6> force{};
@@ -289,6 +319,11 @@ HistoryRow Simulation::observe() {
   row.external_work = state_.external_work;
   row.energy_residual = state_.external_work + state_.initial_energy - row.kinetic_energy - row.elastic_energy -
                         row.plastic_dissipation - row.contact_energy - row.viscous_dissipation - row.damping_dissipation;
+  if (rebase_ledger_) {
+    state_.initial_energy -= row.energy_residual;
+    row.energy_residual = 0;
+    rebase_ledger_ = false;
+  }
   std::set<std::pair<std::int32_t, std::int32_t>> touching;
   const ContactCandidates& c = contact_.candidates;
   for (std::size_t p = 0; p < c.pair_first.size(); ++p)

@@ -89,8 +89,9 @@ public:
 
   /// Begins the stage `state().stage` at the present box.
   void begin_stage();
-  /// After a checkpoint of another run: the box, time and energies of that run are the beginning of this one.
-  void begin_stage_at_present_box();
+  /// After a checkpoint of another run: its state is the beginning of this scenario's first stage. Candidates and step
+  /// are found anew with this scenario's settings; what energies jump by, where those differ, is not in the residual.
+  void begin_branch();
   double stage_duration() const { return motion_->duration(); }
   /// True when the present time level is the stage's last.
   bool stage_complete() const { return state_.stage_time >= motion_->duration(); }
@@ -111,6 +112,7 @@ private:
   void estimate_stable_step();
   double damping_rate() const;
   [[noreturn]] void report_bad_grain(int grain) const;
+  void refuse_overlap(int grain);
 
   Model model_;
   const Scenario& scenario_;
@@ -121,6 +123,7 @@ private:
   Profile profile_;
   std::optional<StageMotion> motion_;
   double margin_ = 0; ///< mm, of the contact search
+  bool rebase_ledger_ = false;
 
   // per grain, summed in grain order
   std::vector<Bounds> bounds_;

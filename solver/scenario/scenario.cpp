@@ -115,7 +115,7 @@ ContactParameters read_contact(TableReader table) {
   contact.stiffness_factor =
       table.number_or("stiffness_factor", contact.stiffness_factor, {.low = 0, .high = 1e4, .low_open = true});
   contact.search_margin =
-      table.number_or("search_margin", contact.search_margin, {.low = 0, .high = 10, .low_open = true});
+      table.number_or("search_margin", contact.search_margin, Range::between(0.05, 2));
   table.finish();
   return contact;
 }
@@ -143,6 +143,7 @@ OutputParameters read_output(TableReader table) {
   OutputParameters output;
   output.history_rows = static_cast<int>(table.integer_or("history_rows", output.history_rows, Range::between(1, 1e6)));
   output.snapshot_relative_densities = table.numbers_or("snapshot_relative_densities", {}, target_density);
+  std::sort(output.snapshot_relative_densities.begin(), output.snapshot_relative_densities.end());
   output.snapshot_at_stage_end = table.boolean_or("snapshot_at_stage_end", output.snapshot_at_stage_end);
   output.checkpoint_interval = table.number_or("checkpoint_interval", output.checkpoint_interval, positive);
   table.finish();

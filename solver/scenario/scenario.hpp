@@ -26,6 +26,7 @@ struct HardeningParameters {
   double exponent = 1;                       ///< m (power) or p (total_strain), dimensionless, in (0, 1]
   std::vector<double> table_plastic_strain;  ///< table: increasing, first value 0
   std::vector<double> table_flow_stress;     ///< table: MPa, positive
+  bool operator==(const HardeningParameters&) const = default;
 };
 
 struct MaterialParameters {
@@ -33,6 +34,7 @@ struct MaterialParameters {
   double youngs_modulus = 0;  ///< MPa
   double poissons_ratio = 0;  ///< dimensionless, (-1, 0.5)
   HardeningParameters hardening;
+  bool operator==(const MaterialParameters&) const = default;
 };
 
 struct ContactParameters {

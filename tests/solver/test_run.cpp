@@ -188,6 +188,16 @@ TEST_CASE("every bad input is refused with one clear line and exit code 2") {
     overlapping.node[3 * static_cast<std::size_t>(n)] -= 0.05;
   write_packing(folder / "overlapping.h5", overlapping, std::vector<double>(8, 0.1));
   write_text(folder / "nothing.h5", "not an HDF5 file");
+  MeshedPacking twice = eight_grains(2); // a tet of the last grain a second time
+  twice.tet.insert(twice.tet.end(), twice.tet.end() - 4, twice.tet.end());
+  ++twice.grain_tet_offset.back();
+  write_packing(folder / "twice.h5", twice, std::vector<double>(8, 0.1));
+  MeshedPacking copies = eight_grains(2);
+  std::copy_n(copies.node.begin(), 3 * copies.grain_node_offset[1], copies.node.begin() + 3 * copies.grain_node_offset[1]);
+  write_packing(folder / "copies.h5", copies, std::vector<double>(8, 0.1));
+  MeshedPacking flat = eight_grains(2);
+  flat.box_lengths[1] = 0;
+  write_packing(folder / "flat.h5", flat, std::vector<double>(8, 0.1));
 
   struct Case {
     std::string from, to;             ///< change of the good scenario
@@ -203,6 +213,13 @@ TEST_CASE("every bad input is refused with one clear line and exit code 2") {
       {"packing.h5", "nothing.h5", {"nothing.h5", "not an HDF5 file"}},
       {"packing.h5", "inverted.h5", {"inverted.h5", "row 70", "inverted"}},
       {"packing.h5", "overlapping.h5", {"overlapping.h5", "grains 2 and 3"}},
+      {"packing.h5", "twice.h5", {"twice.h5", "grain 7"}},
+      {"packing.h5", "copies.h5", {"copies.h5", "grains 0 and 1", "same place"}},
+      {"packing.h5", "flat.h5", {"flat.h5", "/box/lengths"}},
+      {"[output]", "[contact]\nsearch_margin = 1e-6\n[output]", {"search_margin", "0.05"}},
+      {"[output]", "[initial]\ngrain_velocity = [[1, 0, 0]]\n[output]", {"1 rows for 8 grains"}},
+      {"damping_fade_stress = 5", "damping_fade_stress = 5\n[[stages]]\ntype = \"isotropic_compaction\"\nrelative_density = 0.61\nwall_speed = 1e4", {"0.61", "0.6200"}},
+      {"wall_speed = 20000", "wall_speed = 1e300", {"wall_speed", "allowed at most"}},
       {"relative_density = 0.62", "relative_density = 1.4", {"relative_density", "1.4"}},
       {"relative_density = 0.62", "relative_density = 0.1", {"relative_density", "0.1", "0.3467"}},
       {"\"isotropic_compaction\"", "\"squeeze\"", {"squeeze", "isotropic_compaction", "hold"}},
@@ -228,12 +245,72 @@ TEST_CASE("every bad input is refused with one clear line and exit code 2") {
        {fmt::format("run {} -o {}", folder / "absent.toml", folder / "run.h5"),
         fmt::format("run {} -o {}", folder / "scenario.toml", folder / "no-such-folder/run.h5"),
         fmt::format("run {} -o {} --set stages.3.wall_speed=1", folder / "scenario.toml", folder / "run.h5"),
-        fmt::format("run {} -o {} --from {}", folder / "scenario.toml", folder / "run.h5", folder / "packing.h5")}) {
+        fmt::format("run {} -o {} --from {}", folder / "scenario.toml", folder / "run.h5", folder / "packing.h5"),
+        fmt::format("run {} -o {}", folder / "scenario.toml", folder / "packing.h5"),
+        fmt::format("run {} -o {}", folder / "scenario.toml", folder / "scenario.toml"),
+        fmt::format("run {} -o ''", folder / "scenario.toml")}) {
     const Outcome outcome = mpfem_command(arguments);
     INFO(arguments << ": " << outcome.messages);
     CHECK(outcome.exit_code == 2);
     CHECK(std::count(outcome.messages.begin(), outcome.messages.end(), '\n') == 1);
   }
+}
+
+TEST_CASE("a branch may change how it is computed, but not the matter") {
+  const Folder folder;
+  prepare(folder);
+  const std::string from = " --quiet --from " + (folder / "first.compaction.checkpoint.h5");
+  REQUIRE(mpfem_command(fmt::format("run {} -o {} --quiet", folder / "scenario.toml", folder / "first.h5")).exit_code == 0);
+  const std::string further = replaced(scenario_text, "relative_density = 0.62", "relative_density = 0.64");
+  write_text(folder / "second.toml", replaced(further, "[output]", "[contact]\nsearch_margin = 1\nstiffness_factor = 12\n[numerics]\nmass_scaling = 4\n[output]"));
+  REQUIRE(mpfem_command(fmt::format("run {} -o {}{}", folder / "second.toml", folder / "second.h5", from)).exit_code == 0);
+  const schema::FileReader file(folder / "second.h5", schema::FileKind::run);
+  const auto residual = file.read(schema::run::history_energy_residual), work = file.read(schema::run::history_external_work);
+  CHECK(residual.front() == 0);
+  CHECK(std::abs(residual.back()) < 0.01 * work.back());
+
+  write_text(folder / "third.toml", replaced(further, "yield_stress = 25", "yield_stress = 30"));
+  const Outcome other = mpfem_command(fmt::format("run {} -o {}{}", folder / "third.toml", folder / "third.h5", from));
+  CHECK(other.exit_code == 2);
+  CHECK_THAT(other.messages, Catch::Contains("material"));
+  // The checkpoint that a branch starts from is not written over.
+  const Outcome same = mpfem_command(fmt::format("run {} -o {}{}", folder / "second.toml", folder / "first.h5", from));
+  CHECK(same.exit_code == 2);
+  CHECK(fs::exists(folder / "first.compaction.checkpoint.h5"));
+}
+
+TEST_CASE("resuming a complete run leaves it as it is, and a fresh run does not mix with an unfinished one") {
+  const Folder folder;
+  prepare(folder);
+  fs::create_directories(folder / "run.parts");
+  write_text(folder / "run.parts/mine.txt", "a user's own file");
+  const std::string command = fmt::format("run {} -o {} --quiet", folder / "scenario.toml", folder / "run.h5");
+  REQUIRE(mpfem_command(command).exit_code == 0);
+  CHECK(fs::exists(folder / "run.parts/mine.txt"));
+  CHECK_FALSE(fs::exists(folder / "run.parts/snapshot-0000.h5"));
+  const auto written = fs::last_write_time(folder / "run.h5");
+  CHECK(mpfem_command(command + " --resume --time-limit 0.001").exit_code == 0);
+  CHECK(fs::last_write_time(folder / "run.h5") == written);
+  REQUIRE(mpfem_command(command + " --time-limit 0.001").exit_code == 5);
+  CHECK(fs::exists(folder / "run.checkpoint.h5"));
+  const Outcome anew = run_command(fmt::format("'{}' run {} -o {}", MPFEM_EXECUTABLE, folder / "scenario.toml", folder / "run.h5"));
+  CHECK(anew.exit_code == 0);
+  CHECK_THAT(anew.messages, Catch::Contains("begins anew"));
+}
+
+TEST_CASE("a run may be resumed from another working folder") {
+  const Folder folder;
+  prepare(folder, 6);
+  fs::create_directories(folder / "out");
+  const std::string program = fmt::format("'{}'", MPFEM_EXECUTABLE);
+  const Outcome first = run_command(fmt::format("cd '{}' && {} run scenario.toml -o out/run.h5 --quiet --set output.snapshot_relative_densities=[0.35] --time-limit 0.2",
+                                                folder / "", program));
+  REQUIRE(first.exit_code == 5);
+  const Outcome second = run_command(fmt::format("cd '{}' && {} run ../scenario.toml -o run.h5 --quiet --set output.snapshot_relative_densities=[0.35] --resume",
+                                                 folder / "out", program));
+  INFO(second.messages);
+  CHECK(second.exit_code == 0);
+  CHECK(schema::FileReader(folder / "out/run.h5").snapshots().size() == 2);
 }
 
 TEST_CASE("a damaged checkpoint is refused and nothing is lost") {
