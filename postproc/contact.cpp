@@ -19,8 +19,14 @@ ContactTable contact_table(const schema::FileReader& file, int snapshot) {
   for (std::size_t pair = 0; pair < area.size(); ++pair) {
     const double* f = force.data() + 3 * pair;
     const double magnitude = std::sqrt(f[0] * f[0] + f[1] * f[1] + f[2] * f[2]);
-    const double row[] = {static_cast<double>(grains[2 * pair]), static_cast<double>(grains[2 * pair + 1]), f[0], f[1], f[2],
-                          magnitude, area[pair], area[pair] > 0 ? magnitude / area[pair] : 0.0};
+    const double row[] = {static_cast<double>(grains[2 * pair]),
+                          static_cast<double>(grains[2 * pair + 1]),
+                          f[0],
+                          f[1],
+                          f[2],
+                          magnitude,
+                          area[pair],
+                          area[pair] > 0 ? magnitude / area[pair] : 0.0};
     for (std::size_t c = 0; c < table.columns.size(); ++c) table.columns[c].values.push_back(row[c]);
   }
   const auto grain_count = static_cast<double>(file.rows(run::mesh_grain_tet_offset)) - 1;
@@ -42,7 +48,8 @@ nlohmann::ordered_json to_json(const ContactTable& table) {
                                  {"coordination_number", table.coordination_number},
                                  {"contact_area_over_surface_area", table.contact_area_ratio},
                                  {"pairs", table.columns.front().values.size()}};
-  for (const Column& column : table.columns) json["columns"][column.unit == "1" ? column.name : column.name + " [" + column.unit + "]"] = column.values;
+  for (const Column& column : table.columns)
+    json["columns"][column.unit == "1" ? column.name : column.name + " [" + column.unit + "]"] = column.values;
   return json;
 }
 

@@ -6,9 +6,9 @@ namespace mpfem {
 
 std::vector<Column> energy_ledger(const HistoryTable& history) {
   std::vector<Column> ledger;
-  for (const char* name : {"time", "relative_density", "external_work", "kinetic_energy", "elastic_energy", "plastic_dissipation",
-                           "damage_dissipation", "bond_energy", "contact_energy", "viscous_dissipation", "damping_dissipation",
-                           "energy_residual"})
+  for (const char* name : {"time", "relative_density", "external_work", "kinetic_energy", "elastic_energy",
+                           "plastic_dissipation", "damage_dissipation", "bond_energy", "contact_energy",
+                           "viscous_dissipation", "damping_dissipation", "energy_residual"})
     ledger.push_back(history.column(name));
   Column residual{"residual_over_work", "1", {}}, kinetic{"kinetic_over_internal", "1", {}};
   for (std::size_t row = 0; row < history.rows(); ++row) {

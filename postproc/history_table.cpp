@@ -13,18 +13,24 @@ namespace mpfem {
 
 namespace {
 
-template <class T, int Rank> std::vector<double> as_double(const schema::FileReader& file, const schema::DatasetDescription& line) {
+template <class T, int Rank>
+std::vector<double> as_double(const schema::FileReader& file, const schema::DatasetDescription& line) {
   const auto values = file.read(schema::Dataset<T, Rank>{line});
   return {values.begin(), values.end()};
 }
 
 std::vector<double> read_numbers(const schema::FileReader& file, const schema::DatasetDescription& line) {
   switch (line.type) {
-  case schema::ElementType::float64: return line.rank == 1 ? as_double<double, 1>(file, line) : as_double<double, 2>(file, line);
-  case schema::ElementType::float32: return line.rank == 1 ? as_double<float, 1>(file, line) : as_double<float, 2>(file, line);
-  case schema::ElementType::int32: return line.rank == 1 ? as_double<std::int32_t, 1>(file, line) : as_double<std::int32_t, 2>(file, line);
-  case schema::ElementType::int64: return line.rank == 1 ? as_double<std::int64_t, 1>(file, line) : as_double<std::int64_t, 2>(file, line);
-  case schema::ElementType::string: break;
+  case schema::ElementType::float64:
+    return line.rank == 1 ? as_double<double, 1>(file, line) : as_double<double, 2>(file, line);
+  case schema::ElementType::float32:
+    return line.rank == 1 ? as_double<float, 1>(file, line) : as_double<float, 2>(file, line);
+  case schema::ElementType::int32:
+    return line.rank == 1 ? as_double<std::int32_t, 1>(file, line) : as_double<std::int32_t, 2>(file, line);
+  case schema::ElementType::int64:
+    return line.rank == 1 ? as_double<std::int64_t, 1>(file, line) : as_double<std::int64_t, 2>(file, line);
+  case schema::ElementType::string:
+    break;
   }
   throw InputError(fmt::format("{}: dataset {} holds no numbers", one_line(file.path()), line.path));
 }
@@ -54,7 +60,8 @@ const Column& HistoryTable::column(std::string_view name) const {
   for (const Column& c : columns_) names.push_back(c.name);
   const auto near = nearest_word(name, names);
   throw InputError(fmt::format("{}: no column '{}'; {}", path_, one_line(name),
-                               near ? fmt::format("did you mean '{}'?", *near) : fmt::format("allowed: {}", fmt::join(names, ", "))));
+                               near ? fmt::format("did you mean '{}'?", *near)
+                                    : fmt::format("allowed: {}", fmt::join(names, ", "))));
 }
 
 std::vector<const Column*> HistoryTable::select(const std::vector<std::string>& names) const {
@@ -63,7 +70,8 @@ std::vector<const Column*> HistoryTable::select(const std::vector<std::string>& 
     const std::size_t before = selected.size();
     for (int component = 0;; ++component) {
       const std::string full = fmt::format("{}_{}", name, component);
-      const auto found = std::find_if(columns_.begin(), columns_.end(), [&](const Column& c) { return c.name == full; });
+      const auto found =
+          std::find_if(columns_.begin(), columns_.end(), [&](const Column& c) { return c.name == full; });
       if (found == columns_.end()) break;
       selected.push_back(&*found);
     }

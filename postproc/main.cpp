@@ -32,7 +32,9 @@ struct Arguments {
   PictureRequest picture;
 };
 
-schema::FileReader open_run(const Arguments& arguments) { return {arguments.input, schema::FileKind::run}; }
+schema::FileReader open_run(const Arguments& arguments) {
+  return {arguments.input, schema::FileKind::run};
+}
 
 std::string table_text(const std::vector<Column>& columns) {
   std::vector<const Column*> pointers;
@@ -42,8 +44,10 @@ std::string table_text(const std::vector<Column>& columns) {
 
 /// To the file that -o names, or to standard output.
 void deliver(const Arguments& arguments, const std::string& text) {
-  if (arguments.output.empty()) fmt::print("{}", text);
-  else write_file(arguments.output, text);
+  if (arguments.output.empty())
+    fmt::print("{}", text);
+  else
+    write_file(arguments.output, text);
 }
 
 void summary(const Arguments& arguments) {
@@ -58,7 +62,8 @@ void curve(const Arguments& arguments) {
   std::vector<const Column*> columns;
   if (arguments.columns.empty())
     for (const Column& column : history.columns()) columns.push_back(&column);
-  else columns = history.select(arguments.columns);
+  else
+    columns = history.select(arguments.columns);
   deliver(arguments, csv_text(columns));
 }
 
@@ -66,9 +71,10 @@ void contact(const Arguments& arguments) {
   const ContactTable table = contact_table(open_run(arguments), arguments.snapshot);
   deliver(arguments, arguments.output.ends_with(".json") ? to_json(table).dump(1) + "\n" : table_text(table.columns));
   if (!arguments.quiet)
-    fmt::print(stderr, "D_r {:.4f}, p {:.4g} MPa: {} pairs, coordination number {:.2f}, contact area over surface {:.4f}\n",
-               table.relative_density, table.mean_stress, table.columns.front().values.size(), table.coordination_number,
-               table.contact_area_ratio);
+    fmt::print(stderr,
+               "D_r {:.4f}, p {:.4g} MPa: {} pairs, coordination number {:.2f}, contact area over surface {:.4f}\n",
+               table.relative_density, table.mean_stress, table.columns.front().values.size(),
+               table.coordination_number, table.contact_area_ratio);
 }
 
 void energy(const Arguments& arguments) {
@@ -78,8 +84,10 @@ void energy(const Arguments& arguments) {
 
 Snapshot read_state(const Arguments& arguments) {
   if (arguments.packing.empty() == arguments.input.empty())
-    throw InputError("found " + std::string(arguments.input.empty() ? "neither" : "both") + " of RUN.h5 and --packing, allowed: one of them");
-  return arguments.packing.empty() ? read_snapshot(open_run(arguments), arguments.snapshot) : read_packing_snapshot(arguments.packing);
+    throw InputError("found " + std::string(arguments.input.empty() ? "neither" : "both") +
+                     " of RUN.h5 and --packing, allowed: one of them");
+  return arguments.packing.empty() ? read_snapshot(open_run(arguments), arguments.snapshot)
+                                   : read_packing_snapshot(arguments.packing);
 }
 
 void vtk(const Arguments& arguments) {
@@ -93,20 +101,25 @@ void vtk(const Arguments& arguments) {
 }
 
 void section(Arguments arguments) {
-  if (arguments.output.empty() && arguments.data.empty()) throw InputError("found neither of -o and --data, allowed: one of them, or both");
+  if (arguments.output.empty() && arguments.data.empty())
+    throw InputError("found neither of -o and --data, allowed: one of them, or both");
   const Snapshot state = read_state(arguments);
   PictureRequest& request = arguments.picture;
   request.plane.axis = arguments.axis == "x" ? 0 : arguments.axis == "y" ? 1 : 2;
   const auto axis = static_cast<std::size_t>(request.plane.axis);
-  request.plane.position = arguments.relative ? state.box_low[axis] + arguments.position * (state.box_high[axis] - state.box_low[axis]) : arguments.position;
+  request.plane.position = arguments.relative
+                               ? state.box_low[axis] + arguments.position * (state.box_high[axis] - state.box_low[axis])
+                               : arguments.position;
   if (!arguments.range.empty()) {
     if (!(arguments.range[1] > arguments.range[0] && std::isfinite(arguments.range[1] - arguments.range[0])))
-      throw InputError(fmt::format("--range: found {},{}; allowed: low,high with low < high", arguments.range[0], arguments.range[1]));
+      throw InputError(fmt::format("--range: found {},{}; allowed: low,high with low < high", arguments.range[0],
+                                   arguments.range[1]));
     request.range = {arguments.range[0], arguments.range[1]};
   }
   if (!arguments.view.empty()) {
     const auto& v = arguments.view;
-    if (!(v[1] > v[0] && v[3] > v[2] && std::isfinite(v[1] - v[0]) && std::isfinite(v[3] - v[2]))) throw InputError(fmt::format("--view: found {}; allowed: low,high,low,high with low < high", fmt::join(v, ",")));
+    if (!(v[1] > v[0] && v[3] > v[2] && std::isfinite(v[1] - v[0]) && std::isfinite(v[3] - v[2])))
+      throw InputError(fmt::format("--view: found {}; allowed: low,high,low,high with low < high", fmt::join(v, ",")));
     request.view = View{{v[0], v[2]}, {v[1], v[3]}};
   }
   if (!arguments.packing.empty() && !arguments.field_given) request.field = "grain";
@@ -125,14 +138,15 @@ void validate_files(const Arguments& arguments) {
 }
 
 int body(int argc, char** argv) {
-  CLI::App app("postproc: numbers, tables and pictures from the runs of mpfem.\n"
-               "Examples:\n"
-               "  postproc summary run.h5 -o summary.json\n"
-               "  postproc curve run.h5 --columns relative_density,mean_stress -o curve.csv\n"
-               "  postproc section run.h5 --snapshot -1 --axis z --position 0.5 --relative --field von_mises -o section.png\n"
-               "  postproc vtk run.h5 -o vtk        (open vtk/run.pvd in ParaView)\n"
-               "  postproc validate run.h5\n"
-               "Exit codes: 0 done, 2 bad usage or input, 3 a picture could not be drawn, 4 storage failed.");
+  CLI::App app(
+      "postproc: numbers, tables and pictures from the runs of mpfem.\n"
+      "Examples:\n"
+      "  postproc summary run.h5 -o summary.json\n"
+      "  postproc curve run.h5 --columns relative_density,mean_stress -o curve.csv\n"
+      "  postproc section run.h5 --snapshot -1 --axis z --position 0.5 --relative --field von_mises -o section.png\n"
+      "  postproc vtk run.h5 -o vtk        (open vtk/run.pvd in ParaView)\n"
+      "  postproc validate run.h5\n"
+      "Exit codes: 0 done, 2 bad usage or input, 3 a picture could not be drawn, 4 storage failed.");
   app.set_version_flag("--version", std::string(version()));
   app.require_subcommand(1);
 
@@ -149,47 +163,77 @@ int body(int argc, char** argv) {
     if (required) option->required();
   };
   const auto add_snapshot = [&](CLI::App& command) {
-    command.add_option("--snapshot", arguments.snapshot, "Number of the snapshot; -1 is the last")->capture_default_str();
+    command.add_option("--snapshot", arguments.snapshot, "Number of the snapshot; -1 is the last")
+        ->capture_default_str();
   };
   const auto add_packing = [&](CLI::App& command) {
     command.add_option("--packing", arguments.packing, "A meshed packing in place of a run (HDF5)");
   };
 
-  CLI::App* summary_command = add("summary", "What a run came to.\nExample: postproc summary run.h5 -o summary.json", false, "JSON file to write");
+  CLI::App* summary_command = add("summary", "What a run came to.\nExample: postproc summary run.h5 -o summary.json",
+                                  false, "JSON file to write");
   add_run(*summary_command, true);
-  CLI::App* curve_command = add("curve", "History columns as CSV.\nExample: postproc curve run.h5 --columns relative_density,mean_stress -o curve.csv",
-                                false, "CSV file to write (default: standard output)");
+  CLI::App* curve_command =
+      add("curve",
+          "History columns as CSV.\nExample: postproc curve run.h5 --columns relative_density,mean_stress -o curve.csv",
+          false, "CSV file to write (default: standard output)");
   add_run(*curve_command, true);
-  curve_command->add_option("--columns", arguments.columns, "Columns, by comma (default: all); wall_stress stands for its six")->delimiter(',');
-  CLI::App* contact_command = add("contact", "Contacts between grains at a snapshot.\nExample: postproc contact run.h5 --snapshot -1 -o contacts.csv", false,
-                                  "File to write, .json or .csv (default: CSV on standard output)");
+  curve_command
+      ->add_option("--columns", arguments.columns, "Columns, by comma (default: all); wall_stress stands for its six")
+      ->delimiter(',');
+  CLI::App* contact_command =
+      add("contact",
+          "Contacts between grains at a snapshot.\nExample: postproc contact run.h5 --snapshot -1 -o contacts.csv",
+          false, "File to write, .json or .csv (default: CSV on standard output)");
   add_run(*contact_command, true);
   add_snapshot(*contact_command);
-  CLI::App* energy_command = add("energy", "The energy ledger over time, as CSV.\nExample: postproc energy run.h5 -o energy.csv", false,
-                                 "CSV file to write (default: standard output)");
+  CLI::App* energy_command =
+      add("energy", "The energy ledger over time, as CSV.\nExample: postproc energy run.h5 -o energy.csv", false,
+          "CSV file to write (default: standard output)");
   add_run(*energy_command, true);
-  CLI::App* vtk_command = add("vtk", "Snapshots for ParaView.\nExample: postproc vtk run.h5 -o vtk\nExample: postproc vtk --packing packing.h5 -o packing.vtu",
+  CLI::App* vtk_command = add("vtk",
+                              "Snapshots for ParaView.\nExample: postproc vtk run.h5 -o vtk\nExample: postproc vtk "
+                              "--packing packing.h5 -o packing.vtu",
                               true, "Folder to write, or with --packing a .vtu file");
   add_run(*vtk_command, false);
   add_packing(*vtk_command);
-  CLI::App* section_command = add("section", "A plane cut through the grains, as a picture.\n"
-                                  "Example: postproc section run.h5 --axis z --position 0.5 --relative --field von_mises -o section.png", false,
-                                  "PNG file to write");
+  CLI::App* section_command =
+      add("section",
+          "A plane cut through the grains, as a picture.\n"
+          "Example: postproc section run.h5 --axis z --position 0.5 --relative --field von_mises -o section.png",
+          false, "PNG file to write");
   add_run(*section_command, false);
   add_packing(*section_command);
   add_snapshot(*section_command);
-  section_command->add_option("--axis", arguments.axis, "Axis that the plane is normal to")->check(CLI::IsMember({"x", "y", "z"}))->capture_default_str();
-  section_command->add_option("--position", arguments.position, "Where on the axis, mm, or with --relative as a fraction of the box")->capture_default_str();
+  section_command->add_option("--axis", arguments.axis, "Axis that the plane is normal to")
+      ->check(CLI::IsMember({"x", "y", "z"}))
+      ->capture_default_str();
+  section_command
+      ->add_option("--position", arguments.position,
+                   "Where on the axis, mm, or with --relative as a fraction of the box")
+      ->capture_default_str();
   section_command->add_flag("--relative", arguments.relative, "Take --position as a fraction of the box (0 … 1)");
-  section_command->add_option("--field", arguments.picture.field, "von_mises, pressure, plastic_strain or grain (for --packing: grain)")->capture_default_str();
-  section_command->add_option("--range", arguments.range, "low,high of the colour scale (default: from the data)")->delimiter(',')->expected(2);
+  section_command
+      ->add_option("--field", arguments.picture.field,
+                   "von_mises, pressure, plastic_strain or grain (for --packing: grain)")
+      ->capture_default_str();
+  section_command->add_option("--range", arguments.range, "low,high of the colour scale (default: from the data)")
+      ->delimiter(',')
+      ->expected(2);
   section_command->add_flag("--mesh", arguments.picture.mesh_lines, "Draw the elements' edges");
-  section_command->add_option("--view", arguments.view, "Part of the plane to show: low,high of its first and of its second coordinate, mm (default: the box)")
-      ->delimiter(',')->expected(4);
+  section_command
+      ->add_option(
+          "--view", arguments.view,
+          "Part of the plane to show: low,high of its first and of its second coordinate, mm (default: the box)")
+      ->delimiter(',')
+      ->expected(4);
   section_command->add_option("--title", arguments.picture.title, "Title (default: the relative density)");
-  section_command->add_option("--pixels", arguments.picture.pixels, "Pixels along the longer side")->check(CLI::Range(50, 4000))->capture_default_str();
+  section_command->add_option("--pixels", arguments.picture.pixels, "Pixels along the longer side")
+      ->check(CLI::Range(50, 4000))
+      ->capture_default_str();
   section_command->add_option("--data", arguments.data, "Also write the section's polygons as CSV");
-  CLI::App* validate_command = app.add_subcommand("validate", "Hold files to the results schema.\nExample: postproc validate run.h5 packing.h5");
+  CLI::App* validate_command =
+      app.add_subcommand("validate", "Hold files to the results schema.\nExample: postproc validate run.h5 packing.h5");
   validate_command->add_option("files", arguments.files, "Files of any kind (HDF5)")->required();
   validate_command->add_flag("--quiet", arguments.quiet, "Nothing but findings");
 
@@ -198,7 +242,8 @@ int body(int argc, char** argv) {
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0 ? 0 : static_cast<int>(ExitCode::bad_input);
   }
-  if (section_command->parsed() && !arguments.relative && section_command->count("--position") == 0) arguments.relative = true;
+  if (section_command->parsed() && !arguments.relative && section_command->count("--position") == 0)
+    arguments.relative = true;
   arguments.field_given = section_command->count("--field") > 0;
   for (const std::string& input : {arguments.input, arguments.packing})
     for (const std::string& output : {arguments.output, arguments.data}) refuse_overwriting(output, input);
@@ -214,4 +259,6 @@ int body(int argc, char** argv) {
 
 } // namespace
 
-int main(int argc, char** argv) { return mpfem::run_program("postproc", body, argc, argv); }
+int main(int argc, char** argv) {
+  return mpfem::run_program("postproc", body, argc, argv);
+}

@@ -16,8 +16,10 @@ std::vector<SectionPolygon> cut(const Snapshot& snapshot, const CutPlane& plane)
       const auto node = static_cast<std::size_t>(snapshot.tet[4 * t + c]);
       for (std::size_t k = 0; k < 3; ++k) x[c][k] = static_cast<double>(snapshot.node[3 * node + k]);
       height[c] = x[c][axis] - plane.position;
-      if (height[c] < 0) below[belows++] = c;
-      else above[aboves++] = c;
+      if (height[c] < 0)
+        below[belows++] = c;
+      else
+        above[aboves++] = c;
     }
     if (belows == 0 || aboves == 0) continue;
     SectionPolygon polygon;

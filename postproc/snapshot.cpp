@@ -12,9 +12,12 @@ namespace mpfem {
 
 namespace {
 
-std::vector<std::int32_t> grain_of_tets(const std::vector<std::int32_t>& offset, std::size_t tets, const std::string& path) {
-  if (offset.empty() || offset.front() != 0 || static_cast<std::size_t>(offset.back()) != tets || !std::is_sorted(offset.begin(), offset.end()))
-    throw InputError(fmt::format("{}: /mesh/grain_tet_offset does not rise from 0 to the number of tets, {}", path, tets));
+std::vector<std::int32_t> grain_of_tets(const std::vector<std::int32_t>& offset, std::size_t tets,
+                                        const std::string& path) {
+  if (offset.empty() || offset.front() != 0 || static_cast<std::size_t>(offset.back()) != tets ||
+      !std::is_sorted(offset.begin(), offset.end()))
+    throw InputError(
+        fmt::format("{}: /mesh/grain_tet_offset does not rise from 0 to the number of tets, {}", path, tets));
   std::vector<std::int32_t> grain(tets);
   for (std::size_t g = 0; g + 1 < offset.size(); ++g)
     std::fill(grain.begin() + offset[g], grain.begin() + offset[g + 1], static_cast<std::int32_t>(g));
@@ -27,7 +30,8 @@ void check_tets(const Snapshot& s, const std::string& path) {
       throw InputError(fmt::format("{}: /mesh/tet names node {}, allowed 0 … {}", path, node, s.nodes() - 1));
 }
 
-void check_size(const std::vector<float>& values, std::size_t expected, std::string_view name, const std::string& path) {
+void check_size(const std::vector<float>& values, std::size_t expected, std::string_view name,
+                const std::string& path) {
   if (values.size() != expected)
     throw InputError(fmt::format("{}: {} has {} values, expected {}", path, name, values.size(), expected));
 }
@@ -48,7 +52,8 @@ std::string snapshot_name(const schema::FileReader& file, int number) {
   const int index = number < 0 ? count + number : number;
   if (count == 0) throw InputError(fmt::format("{}: the run has no snapshots", one_line(file.path())));
   if (index < 0 || index >= count)
-    throw InputError(fmt::format("{}: no snapshot {}, allowed 0 … {}, or -1 for the last", one_line(file.path()), number, count - 1));
+    throw InputError(fmt::format("{}: no snapshot {}, allowed 0 … {}, or -1 for the last", one_line(file.path()),
+                                 number, count - 1));
   return names[static_cast<std::size_t>(index)];
 }
 
@@ -73,7 +78,8 @@ Snapshot read_snapshot(const schema::FileReader& file, int number) {
     check_size(result.values, expected, dataset.path, path);
     return result;
   };
-  s.tet_fields = {field(run::snapshots_von_mises, "von_mises", s.tets()), field(run::snapshots_pressure, "pressure", s.tets()),
+  s.tet_fields = {field(run::snapshots_von_mises, "von_mises", s.tets()),
+                  field(run::snapshots_pressure, "pressure", s.tets()),
                   field(run::snapshots_plastic_strain, "plastic_strain", s.tets())};
   s.node_fields = {field(run::snapshots_contact_pressure, "contact_pressure", s.nodes())};
   check_size(s.velocity, 3 * s.nodes(), run::snapshots_velocity.path, path);
@@ -84,7 +90,8 @@ Snapshot read_snapshot(const schema::FileReader& file, int number) {
 Snapshot read_packing_snapshot(const std::string& path) {
   namespace packing = schema::packing;
   const schema::FileReader file(path, schema::FileKind::packing);
-  if (!file.has(packing::mesh_tet)) throw InputError(fmt::format("{}: a packing without meshes; pack-gen mesh makes them", one_line(path)));
+  if (!file.has(packing::mesh_tet))
+    throw InputError(fmt::format("{}: a packing without meshes; pack-gen mesh makes them", one_line(path)));
   Snapshot s;
   s.name = "packing";
   const auto lengths = file.read(packing::box_lengths);
@@ -94,7 +101,8 @@ Snapshot read_packing_snapshot(const std::string& path) {
   s.tet = file.read(packing::mesh_tet);
   s.tet_grain = grain_of_tets(file.read(packing::mesh_grain_tet_offset), s.tets(), one_line(path));
   check_tets(s, one_line(path));
-  if (file.has(packing::packing_relative_density)) s.relative_density = file.read_scalar(packing::packing_relative_density);
+  if (file.has(packing::packing_relative_density))
+    s.relative_density = file.read_scalar(packing::packing_relative_density);
   s.tet_fields = {{"grain", "1", {s.tet_grain.begin(), s.tet_grain.end()}}};
   return s;
 }

@@ -17,14 +17,14 @@ struct Field {
 };
 
 struct Snapshot {
-  std::string name; ///< "0003", "packing"
+  std::string name;                                       ///< "0003", "packing"
   double time = 0, relative_density = 0, mean_stress = 0; ///< s, 1, MPa
   std::array<double, 3> box_low{}, box_high{};            ///< mm
   std::vector<float> node;                                ///< [nodes * 3], mm
   std::vector<std::int32_t> tet;                          ///< [tets * 4]
   std::vector<std::int32_t> tet_grain;                    ///< [tets]
   std::vector<Field> tet_fields, node_fields;
-  std::vector<float> velocity;                            ///< [nodes * 3], mm/s; empty for a packing
+  std::vector<float> velocity; ///< [nodes * 3], mm/s; empty for a packing
 
   std::size_t nodes() const { return node.size() / 3; }
   std::size_t tets() const { return tet.size() / 4; }

@@ -30,7 +30,8 @@ Summary summarise(const schema::FileReader& file) {
   for (const Column& term : energy_ledger(history))
     if (term.unit == "mJ") s.energies.emplace_back(term.name, term.values[last]);
   s.coordination_number = history["coordination_number"][last];
-  if (const double area = history["surface_area"][last]; area > 0) s.contact_area_ratio = history["contact_area"][last] / area;
+  if (const double area = history["surface_area"][last]; area > 0)
+    s.contact_area_ratio = history["contact_area"][last] / area;
 
   double work = 0, residual = 0, largest_kinetic = 0, largest_internal = 0;
   const auto& stress = history["mean_stress"];
@@ -86,18 +87,23 @@ nlohmann::ordered_json to_json(const Summary& s) {
                                  {"largest_time_step_s", s.largest_time_step},
                                  {"coordination_number", s.coordination_number},
                                  {"contact_area_over_surface_area", s.contact_area_ratio}};
-  if (s.kinetic_small_from_density) json["relative_density_from_which_kinetic_below_1_percent"] = *s.kinetic_small_from_density;
+  if (s.kinetic_small_from_density)
+    json["relative_density_from_which_kinetic_below_1_percent"] = *s.kinetic_small_from_density;
   for (const auto& [name, energy] : s.energies) json["energies_mJ"][name] = energy;
-  for (std::size_t i = 0; i < s.profile_name.size(); ++i) json["wall_time_share"][s.profile_name[i]] = s.profile_share[i];
+  for (std::size_t i = 0; i < s.profile_name.size(); ++i)
+    json["wall_time_share"][s.profile_name[i]] = s.profile_share[i];
   return json;
 }
 
 std::string to_text(const Summary& s) {
   std::string text;
-  const auto line = [&text](std::string_view name, const std::string& value) { text += fmt::format("{:<38}{}\n", name, value); };
+  const auto line = [&text](std::string_view name, const std::string& value) {
+    text += fmt::format("{:<38}{}\n", name, value);
+  };
   line("status", s.status);
   line("grains, tets, steps", fmt::format("{}  {}  {}", s.grains, s.tets, s.steps));
-  line("wall time", fmt::format("{:.1f} s on {} threads, {:.1f} ns a tet and step", s.wall_time, s.threads, s.nanoseconds_per_tet_step));
+  line("wall time", fmt::format("{:.1f} s on {} threads, {:.1f} ns a tet and step", s.wall_time, s.threads,
+                                s.nanoseconds_per_tet_step));
   line("relative density at the end", fmt::format("{:.4f}", s.relative_density));
   line("mean stress, deviatoric stress", fmt::format("{:.4g} MPa, {:.3g} MPa", s.mean_stress, s.deviatoric_stress));
   for (std::size_t i = 0; i < s.energies.size(); ++i) {
@@ -106,11 +112,13 @@ std::string to_text(const Summary& s) {
     line(i == 0 ? "energies at the end" : "", fmt::format("{:11.4g} mJ  {}", s.energies[i].second, name));
   }
   line("energy residual, largest over work", fmt::format("{:.2e}", s.largest_residual));
-  line("kinetic over internal energy, largest", fmt::format("{:.2e} while p is above a tenth of its largest (D_r >= {:.3f})",
-                                                            s.kinetic_over_internal, s.loaded_from_density));
+  line("kinetic over internal energy, largest",
+       fmt::format("{:.2e} while p is above a tenth of its largest (D_r >= {:.3f})", s.kinetic_over_internal,
+                   s.loaded_from_density));
   line("  both at their largest", fmt::format("{:.2e}", s.kinetic_over_largest_internal));
-  line("  at most 1 %", s.kinetic_small_from_density ? fmt::format("from D_r = {:.3f} to the end", *s.kinetic_small_from_density)
-                                                                           : std::string("not at the end"));
+  line("  at most 1 %", s.kinetic_small_from_density
+                            ? fmt::format("from D_r = {:.3f} to the end", *s.kinetic_small_from_density)
+                            : std::string("not at the end"));
   line("penetration over h, largest", fmt::format("{:.4f}", s.largest_penetration));
   line("time step", fmt::format("{:.4g} … {:.4g} s", s.smallest_time_step, s.largest_time_step));
   line("coordination number", fmt::format("{:.2f}", s.coordination_number));

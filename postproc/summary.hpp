@@ -16,20 +16,20 @@ struct Summary {
   std::string status, version, host;
   std::int64_t tets = 0, grains = 0, steps = 0;
   int threads = 0;
-  double wall_time = 0;                   ///< s
-  double nanoseconds_per_tet_step = 0;    ///< wall-clock time over tets and steps, everything included
+  double wall_time = 0;                ///< s
+  double nanoseconds_per_tet_step = 0; ///< wall-clock time over tets and steps, everything included
   double relative_density = 0, mean_stress = 0, deviatoric_stress = 0; ///< at the end
-  std::vector<std::pair<std::string, double>> energies; ///< every term of the ledger at the end, mJ
-  double largest_residual = 0;            ///< |energy residual| over the largest external work
-  double kinetic_over_internal = 0;       ///< largest, while the mean stress is above a tenth of its largest
-  double loaded_from_density = 0;         ///< smallest relative density of the rows that this largest is taken over
+  std::vector<std::pair<std::string, double>> energies;                ///< every term of the ledger at the end, mJ
+  double largest_residual = 0;              ///< |energy residual| over the largest external work
+  double kinetic_over_internal = 0;         ///< largest, while the mean stress is above a tenth of its largest
+  double loaded_from_density = 0;           ///< smallest relative density of the rows that this largest is taken over
   double kinetic_over_largest_internal = 0; ///< largest kinetic energy of all rows over largest internal energy
   std::optional<double> kinetic_small_from_density; ///< relative density from which the ratio stays <= 1 % to the end
-  double largest_penetration = 0;         ///< over h
-  double smallest_time_step = 0, largest_time_step = 0; ///< s
+  double largest_penetration = 0;                   ///< over h
+  double smallest_time_step = 0, largest_time_step = 0;   ///< s
   double coordination_number = 0, contact_area_ratio = 0; ///< at the end
   std::vector<std::string> profile_name;
-  std::vector<double> profile_share;      ///< of the wall-clock time
+  std::vector<double> profile_share; ///< of the wall-clock time
 };
 
 /// Kinetic over internal energy: internal is elastic plus plastic (internal_energy of history_table.hpp); before jamming

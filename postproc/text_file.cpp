@@ -26,7 +26,8 @@ void write_file(const std::string& path, std::string_view content) {
   if (!file || error) {
     std::error_code ignored;
     std::filesystem::remove(partial, ignored);
-    throw StorageError(fmt::format("{}: cannot be written (missing folder, no permission, or disk full)", one_line(path)));
+    throw StorageError(
+        fmt::format("{}: cannot be written (missing folder, no permission, or disk full)", one_line(path)));
   }
 }
 

@@ -16,8 +16,8 @@ Verdict verdict_on(const std::string& path) {
     if (!verdict.text.empty()) return verdict;
     const schema::FileReader file(path);
     verdict.valid = true;
-    verdict.text = fmt::format("{}: valid ({}, schema {})\n", name, schema::kinds[static_cast<std::size_t>(file.kind())].name,
-                               schema::schema_version);
+    verdict.text = fmt::format("{}: valid ({}, schema {})\n", name,
+                               schema::kinds[static_cast<std::size_t>(file.kind())].name, schema::schema_version);
   } catch (const InputError& error) { // its message begins with the file's name
     verdict.text += fmt::format("{}\n", error.what());
   }

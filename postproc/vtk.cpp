@@ -18,9 +18,12 @@ namespace {
 class Appended {
 public:
   /// A DataArray element that refers to the appended bytes.
-  template <class T> std::string array(std::string_view name, std::string_view type, int components, std::span<const T> values) {
-    const std::string element = fmt::format(
-        R"(        <DataArray type="{}" Name="{}" NumberOfComponents="{}" format="appended" offset="{}"/>)" "\n", type, name, components, bytes_.size());
+  template <class T>
+  std::string array(std::string_view name, std::string_view type, int components, std::span<const T> values) {
+    const std::string element =
+        fmt::format(R"(        <DataArray type="{}" Name="{}" NumberOfComponents="{}" format="appended" offset="{}"/>)"
+                    "\n",
+                    type, name, components, bytes_.size());
     const std::uint64_t size = values.size_bytes();
     const std::size_t at = bytes_.size();
     bytes_.resize(at + sizeof size + size);
@@ -34,7 +37,9 @@ private:
   std::string bytes_;
 };
 
-std::string with_unit(const Field& field) { return field.unit == "1" ? field.name : fmt::format("{} [{}]", field.name, field.unit); }
+std::string with_unit(const Field& field) {
+  return field.unit == "1" ? field.name : fmt::format("{} [{}]", field.name, field.unit);
+}
 
 } // namespace
 
@@ -46,14 +51,22 @@ std::string vtu_text(const Snapshot& s) {
   for (std::size_t t = 0; t < s.tets(); ++t) ends[t] = 4 * static_cast<std::int64_t>(t + 1);
 
   Appended appended;
-  std::string xml = "<?xml version=\"1.0\"?>\n"
-                    "<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" byte_order=\"LittleEndian\" header_type=\"UInt64\">\n"
-                    "  <!-- units: mm, N, MPa, s; relative density and time of this state in FieldData -->\n"
-                    "  <UnstructuredGrid>\n    <FieldData>\n";
+  std::string xml =
+      "<?xml version=\"1.0\"?>\n"
+      "<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" byte_order=\"LittleEndian\" header_type=\"UInt64\">\n"
+      "  <!-- units: mm, N, MPa, s; relative density and time of this state in FieldData -->\n"
+      "  <UnstructuredGrid>\n    <FieldData>\n";
   const double time[] = {s.time}, density[] = {s.relative_density};
-  xml += fmt::format(R"(      <DataArray type="Float64" Name="TimeValue" NumberOfTuples="1" format="ascii">{}</DataArray>)" "\n", time[0]);
-  xml += fmt::format(R"(      <DataArray type="Float64" Name="relative_density" NumberOfTuples="1" format="ascii">{}</DataArray>)" "\n", density[0]);
-  xml += fmt::format("    </FieldData>\n    <Piece NumberOfPoints=\"{}\" NumberOfCells=\"{}\">\n      <Points>\n", s.nodes(), s.tets());
+  xml +=
+      fmt::format(R"(      <DataArray type="Float64" Name="TimeValue" NumberOfTuples="1" format="ascii">{}</DataArray>)"
+                  "\n",
+                  time[0]);
+  xml += fmt::format(
+      R"(      <DataArray type="Float64" Name="relative_density" NumberOfTuples="1" format="ascii">{}</DataArray>)"
+      "\n",
+      density[0]);
+  xml += fmt::format("    </FieldData>\n    <Piece NumberOfPoints=\"{}\" NumberOfCells=\"{}\">\n      <Points>\n",
+                     s.nodes(), s.tets());
   xml += appended.array("position [mm]", "Float32", 3, Floats(s.node));
   xml += "      </Points>\n      <Cells>\n";
   xml += appended.array("connectivity", "Int32", 1, std::span<const std::int32_t>(s.tet));
@@ -71,8 +84,12 @@ std::string vtu_text(const Snapshot& s) {
 }
 
 std::string pvd_text(const std::vector<Frame>& frames) {
-  std::string xml = "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"1.0\" byte_order=\"LittleEndian\">\n  <Collection>\n";
-  for (const Frame& frame : frames) xml += fmt::format(R"(    <DataSet timestep="{}" part="0" file="{}"/>)" "\n", frame.time, frame.file);
+  std::string xml = "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"1.0\" "
+                    "byte_order=\"LittleEndian\">\n  <Collection>\n";
+  for (const Frame& frame : frames)
+    xml += fmt::format(R"(    <DataSet timestep="{}" part="0" file="{}"/>)"
+                       "\n",
+                       frame.time, frame.file);
   return xml + "  </Collection>\n</VTKFile>\n";
 }
 

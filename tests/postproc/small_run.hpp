@@ -9,8 +9,10 @@ namespace mpfem::test {
 inline RunContents small_run() {
   const GrainMesh mesh = cube_mesh(2);
   RunContents c;
-  c.extents = {{"rows", 3}, {"tets", mesh.tet.size()}, {"nodes", mesh.node.size()}, {"grains", 2}, {"profile", 2}, {"*pairs", 1}};
-  for (const auto& x : mesh.node) c.numbers["/snapshots/*/node"].insert(c.numbers["/snapshots/*/node"].end(), x.begin(), x.end());
+  c.extents = {{"rows", 3},  {"tets", mesh.tet.size()}, {"nodes", mesh.node.size()}, {"grains", 2}, {"profile", 2},
+               {"*pairs", 1}};
+  for (const auto& x : mesh.node)
+    c.numbers["/snapshots/*/node"].insert(c.numbers["/snapshots/*/node"].end(), x.begin(), x.end());
   for (const auto& tet : mesh.tet) {
     c.numbers["/mesh/tet"].insert(c.numbers["/mesh/tet"].end(), tet.begin(), tet.end());
     c.numbers["/snapshots/*/von_mises"].push_back(static_cast<double>(c.numbers["/snapshots/*/von_mises"].size()));

@@ -16,7 +16,9 @@ using namespace mpfem::test;
 
 namespace {
 
-Outcome postproc(const std::string& arguments) { return run_command(fmt::format("'{}' {}", MPFEM_POSTPROC, arguments)); }
+Outcome postproc(const std::string& arguments) {
+  return run_command(fmt::format("'{}' {}", MPFEM_POSTPROC, arguments));
+}
 
 } // namespace
 
@@ -30,13 +32,14 @@ TEST_CASE("a summary holds the numbers of the run") {
   CHECK(s.steps == 20);
   CHECK(s.nanoseconds_per_tet_step == Approx(0.96e9 / (20 * 48)));
   CHECK(s.relative_density == 0.8);
-  CHECK(s.largest_residual == Approx(0.06 / 4));                   // over the largest work
-  CHECK(s.kinetic_over_internal == Approx(0.02));                  // the row at 5 MPa; the one at rest is not under load
+  CHECK(s.largest_residual == Approx(0.06 / 4));  // over the largest work
+  CHECK(s.kinetic_over_internal == Approx(0.02)); // the row at 5 MPa; the one at rest is not under load
   CHECK(s.loaded_from_density == 0.7);
-  CHECK(s.kinetic_over_largest_internal == Approx(0.5 / 4));       // the first row's over the last's
-  CHECK(s.kinetic_small_from_density == 0.8);                      // 2 % at 0.7, 0.5 % at 0.8
+  CHECK(s.kinetic_over_largest_internal == Approx(0.5 / 4)); // the first row's over the last's
+  CHECK(s.kinetic_small_from_density == 0.8);                // 2 % at 0.7, 0.5 % at 0.8
   const auto energy = [&](const std::string& name) {
-    const auto found = std::find_if(s.energies.begin(), s.energies.end(), [&](const auto& term) { return term.first == name; });
+    const auto found =
+        std::find_if(s.energies.begin(), s.energies.end(), [&](const auto& term) { return term.first == name; });
     return found == s.energies.end() ? -1.0 : found->second;
   };
   CHECK(s.energies.size() == 10);
@@ -73,12 +76,14 @@ TEST_CASE("a curve has the columns asked for, with units, and its numbers read b
   RunContents contents = small_run();
   contents.numbers["/history/mean_stress"] = {0.1, 1.0 / 3.0, 1e-300};
   write_run(folder / "run.h5", contents);
-  const Outcome outcome = postproc(fmt::format("curve {} --columns relative_density,mean_stress,wall_stress", folder / "run.h5"));
+  const Outcome outcome =
+      postproc(fmt::format("curve {} --columns relative_density,mean_stress,wall_stress", folder / "run.h5"));
   REQUIRE(outcome.exit_code == 0);
   std::istringstream lines(outcome.output);
   std::string line;
   std::getline(lines, line);
-  CHECK(line == "relative_density [1],mean_stress [MPa],wall_stress_0 [MPa],wall_stress_1 [MPa],wall_stress_2 [MPa],wall_stress_3 [MPa],"
+  CHECK(line == "relative_density [1],mean_stress [MPa],wall_stress_0 [MPa],wall_stress_1 [MPa],wall_stress_2 "
+                "[MPa],wall_stress_3 [MPa],"
                 "wall_stress_4 [MPa],wall_stress_5 [MPa]");
   std::getline(lines, line);
   std::getline(lines, line);
@@ -144,7 +149,8 @@ TEST_CASE("postproc refuses what it cannot use with one line and exit code 2") {
     CHECK_FALSE(std::filesystem::exists(folder / "x.png"));
   }
   CHECK(schema::validate(run).empty()); // still the run
-  const Outcome bare = run_command(fmt::format("PATH=/nonexistent '{}' section {} -o {}", MPFEM_POSTPROC, run, folder / "x.png"));
+  const Outcome bare =
+      run_command(fmt::format("PATH=/nonexistent '{}' section {} -o {}", MPFEM_POSTPROC, run, folder / "x.png"));
   CHECK(bare.exit_code == 3);
   CHECK(bare.one_error_line("postproc"));
   CHECK_THAT(bare.messages, Catch::Contains("gnuplot is not installed"));
@@ -164,7 +170,8 @@ TEST_CASE("validate passes a good file and finds a bad one") {
   CHECK(postproc("validate " + (folder / "good.h5")).exit_code == 0);
   // Bytes changed after writing: half of the file is missing.
   write_text(folder / "cut.h5", read_text(folder / "good.h5").substr(0, 2000));
-  const Outcome outcome = postproc(fmt::format("validate {} {} {} {}", folder / "absent.h5", folder / "cut.h5", folder / "good.h5", folder / "bad.h5"));
+  const Outcome outcome = postproc(fmt::format("validate {} {} {} {}", folder / "absent.h5", folder / "cut.h5",
+                                               folder / "good.h5", folder / "bad.h5"));
   CHECK(outcome.exit_code == 2);
   CHECK(outcome.one_error_line("postproc"));
   CHECK_THAT(outcome.messages, Catch::Contains("3 of 4"));

@@ -29,7 +29,8 @@ Snapshot snapshot_of(const GrainMesh& mesh) {
 }
 
 double total_area(const std::vector<SectionPolygon>& polygons) {
-  return std::accumulate(polygons.begin(), polygons.end(), 0.0, [](double sum, const auto& p) { return sum + area(p); });
+  return std::accumulate(polygons.begin(), polygons.end(), 0.0,
+                         [](double sum, const auto& p) { return sum + area(p); });
 }
 
 } // namespace
@@ -37,7 +38,8 @@ double total_area(const std::vector<SectionPolygon>& polygons) {
 TEST_CASE("the section of a tetrahedron has the area of its similar triangle, or of its parallelogram") {
   Snapshot s = snapshot_of({{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}}, {{0, 1, 2, 3}}});
   for (const double z : {0.1, 0.5, 0.9}) // (1 - z)^2 / 2
-    for (int axis = 0; axis < 3; ++axis) CHECK(total_area(cut(s, {axis, z})) == Approx(0.5 * (1 - z) * (1 - z)).epsilon(1e-6));
+    for (int axis = 0; axis < 3; ++axis)
+      CHECK(total_area(cut(s, {axis, z})) == Approx(0.5 * (1 - z) * (1 - z)).epsilon(1e-6));
   CHECK(cut(s, {2, 1.01}).empty());
   CHECK(cut(s, {2, -0.01}).empty());
   // Two nodes on either side: edges along x below, along y above; a rectangle, half the lengths half way.
@@ -71,9 +73,9 @@ TEST_CASE("a raster shows the section where it is, and nothing elsewhere") {
   REQUIRE(raster.height == 300);
   const auto at = [&](int x, int y) { return raster.pixel[static_cast<std::size_t>(y * 300 + x)]; };
   CHECK(at(150, 150) == Colour{200, 0, 0});
-  CHECK(at(60, 150) == Colour{200, 0, 0});   // 0.1 inside the left edge at pixel 50
+  CHECK(at(60, 150) == Colour{200, 0, 0}); // 0.1 inside the left edge at pixel 50
   CHECK(at(20, 150) == Colour{255, 255, 255});
-  CHECK(at(50, 150)[0] < 100);               // the outline
+  CHECK(at(50, 150)[0] < 100); // the outline
   std::size_t filled = 0;
   for (const Colour& pixel : raster.pixel) filled += pixel != Colour{255, 255, 255};
   CHECK(static_cast<double>(filled) == Approx(200.0 * 200.0).epsilon(0.03));
@@ -82,8 +84,9 @@ TEST_CASE("a raster shows the section where it is, and nothing elsewhere") {
 TEST_CASE("a section's picture is written as PNG, its polygons as CSV") {
   const Folder folder;
   write_run(folder / "run.h5", small_run());
-  const Outcome outcome = run_command(fmt::format("'{}' section {} --field von_mises -o {} --data {} --pixels 200 --title 'a \"quoted\" title'", MPFEM_POSTPROC,
-                                                  folder / "run.h5", folder / "s.png", folder / "s.csv"));
+  const Outcome outcome = run_command(
+      fmt::format("'{}' section {} --field von_mises -o {} --data {} --pixels 200 --title 'a \"quoted\" title'",
+                  MPFEM_POSTPROC, folder / "run.h5", folder / "s.png", folder / "s.csv"));
   INFO(outcome.messages);
   REQUIRE(outcome.exit_code == 0);
   CHECK(outcome.messages.empty());
@@ -124,7 +127,9 @@ TEST_CASE("a picture is drawn where some values are no numbers") {
   contents.numbers["/snapshots/*/von_mises"][40] = std::nan("");
   write_run(folder / "nan.h5", contents);
   for (const char* name : {"run", "nan"})
-    REQUIRE(run_command(fmt::format("'{}' section {}.h5 --pixels 100 -o {}.png", MPFEM_POSTPROC, folder / name, folder / name)).exit_code == 0);
+    REQUIRE(run_command(
+                fmt::format("'{}' section {}.h5 --pixels 100 -o {}.png", MPFEM_POSTPROC, folder / name, folder / name))
+                .exit_code == 0);
 }
 
 TEST_CASE("a meshed packing is cut and exported without a run") {
@@ -136,11 +141,15 @@ TEST_CASE("a meshed packing is cut and exported without a run") {
   const double z = packing.node[2]; // through the first grain
   const auto polygons = cut(s, {2, z});
   REQUIRE_FALSE(polygons.empty());
-  CHECK(run_command(fmt::format("'{}' section --packing {} --axis z --position {} -o {} --pixels 100", MPFEM_POSTPROC, folder / "packing.h5", z,
-                                folder / "p.png")).exit_code == 0);
+  CHECK(run_command(fmt::format("'{}' section --packing {} --axis z --position {} -o {} --pixels 100", MPFEM_POSTPROC,
+                                folder / "packing.h5", z, folder / "p.png"))
+            .exit_code == 0);
   CHECK(read_text(folder / "p.png").substr(1, 3) == "PNG");
-  CHECK(run_command(fmt::format("'{}' section --packing {} --field pressure -o {}", MPFEM_POSTPROC, folder / "packing.h5", folder / "q.png")).exit_code == 2);
-  CHECK(run_command(fmt::format("'{}' vtk --packing {} -o {}", MPFEM_POSTPROC, folder / "packing.h5", folder / "p.vtu")).exit_code == 0);
+  CHECK(run_command(fmt::format("'{}' section --packing {} --field pressure -o {}", MPFEM_POSTPROC,
+                                folder / "packing.h5", folder / "q.png"))
+            .exit_code == 2);
+  CHECK(run_command(fmt::format("'{}' vtk --packing {} -o {}", MPFEM_POSTPROC, folder / "packing.h5", folder / "p.vtu"))
+            .exit_code == 0);
   CHECK_THAT(read_text(folder / "p.vtu"), Catch::Contains(fmt::format("NumberOfCells=\"{}\"", packing.tet.size() / 4)));
 }
 
@@ -148,8 +157,9 @@ TEST_CASE("titles and file names are text, not commands") {
   const Folder folder;
   write_run(folder / "run.h5", small_run());
   const std::string title = fmt::format("`touch {0}` \\\" %s", folder / "made"), file = "it's `touch made`.png";
-  const Outcome outcome = run_command(fmt::format("cd {} && '{}' section run.h5 --pixels 100 --title '{}' -o \"it's \\`touch made\\`.png\"",
-                                                  folder / "", MPFEM_POSTPROC, title));
+  const Outcome outcome =
+      run_command(fmt::format("cd {} && '{}' section run.h5 --pixels 100 --title '{}' -o \"it's \\`touch made\\`.png\"",
+                              folder / "", MPFEM_POSTPROC, title));
   INFO(outcome.messages);
   CHECK(outcome.exit_code == 0);
   CHECK(std::filesystem::exists(folder / file));

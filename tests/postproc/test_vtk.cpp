@@ -15,7 +15,8 @@ using namespace mpfem::test;
 namespace {
 
 /// Values of a named array of a .vtu file with raw appended data.
-template <class T> std::vector<T> array_of(const std::string& vtu, const std::string& name) {
+template <class T>
+std::vector<T> array_of(const std::string& vtu, const std::string& name) {
   const std::size_t element = vtu.find("Name=\"" + name + "\"");
   REQUIRE(element != std::string::npos);
   const std::size_t at = vtu.find("offset=\"", element) + 8;
@@ -35,7 +36,8 @@ template <class T> std::vector<T> array_of(const std::string& vtu, const std::st
 TEST_CASE("a .vtu file gives back the mesh's volume, its fields and its grains") {
   const Folder folder;
   write_run(folder / "run.h5", small_run());
-  REQUIRE(run_command(fmt::format("'{}' vtk {} -o {} --quiet", MPFEM_POSTPROC, folder / "run.h5", folder / "vtk")).exit_code == 0);
+  REQUIRE(run_command(fmt::format("'{}' vtk {} -o {} --quiet", MPFEM_POSTPROC, folder / "run.h5", folder / "vtk"))
+              .exit_code == 0);
   const std::string vtu = read_text(folder / "vtk/0000.vtu");
   const auto x = array_of<float>(vtu, "position [mm]");
   const auto tet = array_of<std::int32_t>(vtu, "connectivity");
@@ -75,9 +77,11 @@ TEST_CASE("a .vtu file gives back the mesh's volume, its fields and its grains")
     double e[3][3];
     for (std::size_t c = 0; c < 3; ++c)
       for (std::size_t k = 0; k < 3; ++k)
-        e[c][k] = static_cast<double>(x[3 * static_cast<std::size_t>(tet[4 * t + c + 1]) + k] - x[3 * static_cast<std::size_t>(tet[4 * t]) + k]);
+        e[c][k] = static_cast<double>(x[3 * static_cast<std::size_t>(tet[4 * t + c + 1]) + k] -
+                                      x[3 * static_cast<std::size_t>(tet[4 * t]) + k]);
     volume += (e[0][0] * (e[1][1] * e[2][2] - e[1][2] * e[2][1]) - e[0][1] * (e[1][0] * e[2][2] - e[1][2] * e[2][0]) +
-               e[0][2] * (e[1][0] * e[2][1] - e[1][1] * e[2][0])) / 6;
+               e[0][2] * (e[1][0] * e[2][1] - e[1][1] * e[2][0])) /
+              6;
   }
   CHECK(volume == Approx(8));
   const auto stress = array_of<float>(vtu, "von_mises [MPa]");

@@ -1,0 +1,101 @@
+#include "postproc/raster.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace mpfem {
+
+namespace {
+
+constexpr int fineness = 3;          // each pixel is the mean of 3 x 3
+constexpr double line_pixels = 0.67; // half width of the outlines, in pixels
+
+/// A raster of tet numbers, -1 outside every tet; rows from the top.
+struct TetRaster {
+  int width, height;
+  std::vector<std::int32_t> tet;
+};
+
+TetRaster rasterise(const std::vector<SectionPolygon>& polygons, const View& view, int width, int height) {
+  TetRaster raster{width, height,
+                   std::vector<std::int32_t>(static_cast<std::size_t>(width) * static_cast<std::size_t>(height), -1)};
+  const double sx = width / (view.high[0] - view.low[0]), sy = height / (view.high[1] - view.low[1]);
+  for (const SectionPolygon& polygon : polygons) {
+    std::array<std::array<double, 2>, 4> p{};
+    const auto corners = static_cast<std::size_t>(polygon.corners);
+    double top = 1e300, bottom = -1e300;
+    for (std::size_t i = 0; i < corners; ++i) {
+      p[i] = {(polygon.corner[i][0] - view.low[0]) * sx, (view.high[1] - polygon.corner[i][1]) * sy};
+      top = std::min(top, p[i][1]), bottom = std::max(bottom, p[i][1]);
+    }
+    const int first = static_cast<int>(std::clamp(std::ceil(top - 0.5), 0.0, static_cast<double>(height)));
+    const int last = static_cast<int>(std::clamp(std::floor(bottom - 0.5), -1.0, height - 1.0));
+    for (int row = first; row <= last; ++row) { // the convex polygon's span on the row through the pixels' centres
+      const double y = row + 0.5;
+      double left = 1e300, right = -1e300;
+      for (std::size_t i = 0; i < corners; ++i) {
+        const auto &a = p[i], &b = p[(i + 1) % corners];
+        if ((a[1] <= y) == (b[1] <= y)) continue;
+        const double x = a[0] + (y - a[1]) / (b[1] - a[1]) * (b[0] - a[0]);
+        left = std::min(left, x), right = std::max(right, x);
+      }
+      const int from = static_cast<int>(std::clamp(std::ceil(left - 0.5), 0.0, static_cast<double>(width)));
+      const int to = static_cast<int>(std::clamp(std::floor(right - 0.5), -1.0, width - 1.0));
+      for (int column = from; column <= to; ++column)
+        raster.tet[static_cast<std::size_t>(row) * static_cast<std::size_t>(width) + static_cast<std::size_t>(column)] =
+            polygon.tet;
+    }
+  }
+  return raster;
+}
+
+} // namespace
+
+Raster draw_section(const std::vector<SectionPolygon>& polygons, const std::vector<Colour>& tet_colour,
+                    const std::vector<std::int32_t>& tet_grain, const View& view, int pixels, bool mesh_lines) {
+  const double extent[2] = {view.high[0] - view.low[0], view.high[1] - view.low[1]};
+  const double size = std::max(extent[0], extent[1]) / pixels;
+  Raster raster;
+  raster.width = std::max(1, static_cast<int>(std::lround(extent[0] / size)));
+  raster.height = std::max(1, static_cast<int>(std::lround(extent[1] / size)));
+  const TetRaster fine = rasterise(polygons, view, fineness * raster.width, fineness * raster.height);
+  const auto tet_at = [&](int x, int y) {
+    if (x < 0 || y < 0 || x >= fine.width || y >= fine.height) return std::int32_t{-1};
+    return fine.tet[static_cast<std::size_t>(y) * static_cast<std::size_t>(fine.width) + static_cast<std::size_t>(x)];
+  };
+  const auto grain_at = [&](int x, int y) {
+    const std::int32_t tet = tet_at(x, y);
+    return tet < 0 ? std::int32_t{-1} : tet_grain[static_cast<std::size_t>(tet)];
+  };
+  // A fine pixel is on a line where another grain, or none, lies within the line's half width.
+  const int reach = std::max(1, static_cast<int>(std::lround(line_pixels * fineness)));
+  constexpr Colour line{25, 25, 25}, mesh_line{90, 90, 90}, empty{255, 255, 255};
+  raster.pixel.resize(static_cast<std::size_t>(raster.width) * static_cast<std::size_t>(raster.height));
+  for (int row = 0; row < raster.height; ++row)
+    for (int column = 0; column < raster.width; ++column) {
+      std::array<int, 3> sum{};
+      for (int j = 0; j < fineness; ++j)
+        for (int i = 0; i < fineness; ++i) {
+          const int x = column * fineness + i, y = row * fineness + j;
+          const std::int32_t grain = grain_at(x, y);
+          const std::int32_t tet = tet_at(x, y);
+          bool edge = false;
+          if (grain >= 0)
+            for (const auto& [dx, dy] :
+                 {std::pair{reach, 0}, {-reach, 0}, {0, reach}, {0, -reach}, {1, 0}, {-1, 0}, {0, 1}, {0, -1}})
+              edge = edge || grain_at(x + dx, y + dy) != grain;
+          const bool between_tets = mesh_lines && (tet_at(x + 1, y) != tet || tet_at(x, y + 1) != tet);
+          const Colour& colour = edge                         ? line
+                                 : grain >= 0 && between_tets ? mesh_line
+                                 : grain >= 0                 ? tet_colour[static_cast<std::size_t>(tet)]
+                                                              : empty;
+          for (std::size_t c = 0; c < 3; ++c) sum[c] += colour[c];
+        }
+      Colour& pixel = raster.pixel[static_cast<std::size_t>(row) * static_cast<std::size_t>(raster.width) +
+                                   static_cast<std::size_t>(column)];
+      for (std::size_t c = 0; c < 3; ++c) pixel[c] = static_cast<std::uint8_t>(sum[c] / (fineness * fineness));
+    }
+  return raster;
+}
+
+} // namespace mpfem
