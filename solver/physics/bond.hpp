@@ -1,0 +1,89 @@
+#pragma once
+// The traction-separation law of a bond at one point of a contact, per unit of area (paper Eqs. 2-7).
+//
+// Undamaged, traction is K times separation, normal and tangential alike, up to a quadratic criterion in the tractions.
+// Then the effective separation delta = sqrt(<delta_n>^2 + delta_t^2) softens it: t = (1 - D) K delta, D a function of the
+// largest effective separation so far. Both laws are in closed form, so that the area under the curve is exactly G^c,
+// whatever the size of a step. Unloading goes to the origin; a closing separation is carried by the contact's own penalty,
+// undamaged.
+
+#include <cmath>
+
+namespace mpfem {
+
+/// Two readings of the paper's Eq. 5. With delta_0 = T_0/K, G_0 = T_0 delta_0 / 2 and b = G^c - G_0:
+enum class SofteningLaw {
+  exponential, ///< T = T_0 exp(-T_0 (delta - delta_0)/b): the peak is the strength, as the paper's Fig. 3 draws it
+  energy,      ///< 1 - D = exp(-K (delta^2 - delta_0^2)/(2 b)): Eq. 5 to the letter; the traction rises beyond the strength
+};
+
+/// Constants of a bond.
+struct BondLaw {
+  double stiffness = 0;        ///< K, MPa/mm
+  double tensile_strength = 0; ///< t_n^m, MPa
+  double shear_strength = 0;   ///< t_s^m = t_t^m, MPa (Table 1 has one value for both directions)
+  double fracture_energy = 0;  ///< G^c, N/mm; must exceed t^2/(2 K) of the larger strength
+  SofteningLaw softening = SofteningLaw::exponential;
+  bool normal_only = false;    ///< no traction against sliding (for comparison with theories of adhesion)
+};
+
+/// What a bond remembers.
+struct BondState {
+  double initiation = 0; ///< delta_0 of the mode in which damage began, mm; 0: undamaged so far
+  double largest = 0;    ///< largest effective separation, mm; counts from delta_0 on
+};
+
+/// Effective separation (mm) at which damage begins in a mode given by its share of opening: `opening` = <delta_n>/delta.
+inline double initiation_separation(const BondLaw& law, double opening) {
+  const double normal = opening / law.tensile_strength;
+  const double shear_square = law.normal_only ? 0.0 : (1 - opening * opening) / (law.shear_strength * law.shear_strength);
+  return 1 / (law.stiffness * std::sqrt(normal * normal + shear_square));
+}
+
+/// 1 - D, in [0, 1].
+inline double remaining_stiffness(const BondLaw& law, const BondState& state) {
+  if (state.initiation == 0) return 1;
+  const double d0 = state.initiation, d = state.largest, peak = law.stiffness * d0;
+  const double b = law.fracture_energy - 0.5 * peak * d0;
+  if (law.softening == SofteningLaw::exponential) return d0 / d * std::exp(-peak * (d - d0) / b);
+  return std::exp(-0.5 * law.stiffness * (d - d0) * (d + d0) / b);
+}
+
+/// Energy (mJ/mm^2 = N/mm) under the envelope up to the largest separation: what opening the bond so far has taken.
+inline double envelope_energy(const BondLaw& law, const BondState& state) {
+  if (state.initiation == 0) return 0;
+  const double d0 = state.initiation, peak = law.stiffness * d0, before = 0.5 * peak * d0, b = law.fracture_energy - before;
+  const double exponent = law.softening == SofteningLaw::exponential ? peak * (state.largest - d0) / b
+                                                                      : 0.5 * law.stiffness * (state.largest - d0) * (state.largest + d0) / b;
+  return before - b * std::expm1(-exponent);
+}
+
+/// Energy (N/mm) lost to damage so far.
+inline double damage_dissipation(const BondLaw& law, const BondState& state) {
+  if (state.initiation == 0) return 0;
+  return envelope_energy(law, state) - 0.5 * remaining_stiffness(law, state) * law.stiffness * state.largest * state.largest;
+}
+
+/// Tractions (MPa) that act against the separations, and what is stored.
+struct BondTraction {
+  double normal = 0;    ///< opening only: 0 where the point is closed
+  double shear[2] = {}; ///< along the two components of the tangential separation
+  double stored = 0;    ///< N/mm, released by closing
+};
+
+/// Traction at a separation: normal (mm, > 0 open) and two tangential components (mm). Moves the state along.
+inline BondTraction bond_traction(const BondLaw& law, BondState& state, double normal, double shear1, double shear2) {
+  const double open = normal > 0 ? normal : 0.0;
+  const double slide1 = law.normal_only ? 0.0 : shear1, slide2 = law.normal_only ? 0.0 : shear2;
+  const double effective = std::sqrt(open * open + slide1 * slide1 + slide2 * slide2);
+  if (state.initiation == 0) {
+    if (effective > 0)
+      if (const double begin = initiation_separation(law, open / effective); effective >= begin) state = {begin, effective};
+  } else if (effective > state.largest) {
+    state.largest = effective;
+  }
+  const double k = remaining_stiffness(law, state) * law.stiffness;
+  return {k * open, {k * slide1, k * slide2}, 0.5 * k * effective * effective};
+}
+
+} // namespace mpfem
