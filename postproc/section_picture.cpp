@@ -82,15 +82,19 @@ void write_section_picture(const std::string& path, const Snapshot& snapshot, co
                                 : "";
   const double pixel_width = (view.high[0] - view.low[0]) / raster.width,
                pixel_height = (view.high[1] - view.low[1]) / raster.height;
-  // Margins in pixels, so that a pixel of the raster is one of the picture.
-  const int left = 120, right = of_grains ? 40 : 190, bottom = 90, top = 55;
+  // Margins in pixels, so that a pixel of the raster is one of the picture; with the text they grow with the picture,
+  // so that a finer one looks the same in print.
+  const double scale = std::max(0.6, request.pixels / 900.0);
+  const auto scaled = [scale](int pixels) { return static_cast<int>(std::lround(scale * pixels)); };
+  const int left = scaled(120), right = scaled(of_grains ? 40 : 190), bottom = scaled(90), top = scaled(55);
   const double width = left + raster.width + right, height = bottom + raster.height + top;
-  std::string script = fmt::format("set terminal pngcairo size {},{} font 'Sans,15' enhanced\nset output {}\n", width,
-                                   height, gnuplot_string(picture.path()));
-  script += fmt::format(
-      "set title {} noenhanced\nset xlabel '{} (mm)'\nset ylabel '{} (mm)'\nset tics out nomirror\nset border lw 1.5\n"
-      "set xrange [{}:{}]\nset yrange [{}:{}]\n",
-      gnuplot_string(title), axis_name[u], axis_name[v], view.low[0], view.high[0], view.low[1], view.high[1]);
+  std::string script = fmt::format("set terminal pngcairo size {},{} font 'Sans,{:.1f}' enhanced\nset output {}\n",
+                                   width, height, 15 * scale, gnuplot_string(picture.path()));
+  script += fmt::format("set title {} noenhanced\nset xlabel '{} (mm)'\nset ylabel '{} (mm)'\nset tics out "
+                        "nomirror\nset border lw {:.2f}\n"
+                        "set xrange [{}:{}]\nset yrange [{}:{}]\n",
+                        gnuplot_string(title), axis_name[u], axis_name[v], 1.5 * scale, view.low[0], view.high[0],
+                        view.low[1], view.high[1]);
   script += fmt::format(
       "set lmargin at screen {}\nset rmargin at screen {}\nset bmargin at screen {}\nset tmargin at screen {}\n",
       left / width, (left + raster.width) / width, bottom / height, (bottom + raster.height) / height);

@@ -17,6 +17,8 @@ namespace {
 /// Collects arrays for the appended section and gives their offsets.
 class Appended {
 public:
+  /// `expected`: bytes to set aside, so that hundreds of MB are not moved about as they grow.
+  explicit Appended(std::size_t expected) { bytes_.reserve(expected); }
   /// A DataArray element that refers to the appended bytes.
   template <class T>
   std::string array(std::string_view name, std::string_view type, int components, std::span<const T> values) {
@@ -50,7 +52,8 @@ std::string vtu_text(const Snapshot& s) {
   std::vector<std::int64_t> ends(s.tets());
   for (std::size_t t = 0; t < s.tets(); ++t) ends[t] = 4 * static_cast<std::int64_t>(t + 1);
 
-  Appended appended;
+  constexpr std::size_t bytes_per_node = 28, bytes_per_tet = 16 + 8 + 1 + 4 + 4 * 3; // as written below
+  Appended appended(bytes_per_node * s.nodes() + bytes_per_tet * s.tets() + 1024);
   std::string xml =
       "<?xml version=\"1.0\"?>\n"
       "<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" byte_order=\"LittleEndian\" header_type=\"UInt64\">\n"
@@ -80,7 +83,9 @@ std::string vtu_text(const Snapshot& s) {
     if (field.name != "grain") xml += appended.array(with_unit(field), "Float32", 1, Floats(field.values));
   xml += appended.array("grain", "Int32", 1, std::span<const std::int32_t>(s.tet_grain));
   xml += "      </CellData>\n    </Piece>\n  </UnstructuredGrid>\n  <AppendedData encoding=\"raw\">\n_";
-  return xml + appended.bytes() + "\n  </AppendedData>\n</VTKFile>\n";
+  constexpr std::string_view end = "\n  </AppendedData>\n</VTKFile>\n";
+  xml.reserve(xml.size() + appended.bytes().size() + end.size());
+  return xml.append(appended.bytes()).append(end);
 }
 
 std::string pvd_text(const std::vector<Frame>& frames) {
