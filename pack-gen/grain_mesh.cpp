@@ -84,15 +84,18 @@ UnitBall mesh_unit_ball(double size_ratio, std::uint64_t seed) {
   // Edge of the regular tetrahedron of the mean volume; a first factor for the count that smoothing leads to.
   const double mean_edge = std::cbrt(6 * std::numbers::sqrt2 * unit_ball_volume / wanted);
   const bool large = wanted > 20000;
-  const int rounds = large ? 5 : 6, sweeps = large ? 40 : 60;
-  // A small ball's worst tet is a matter of luck, a large one's is not: more tries gain less there, and cost more.
-  const std::size_t tries = large ? 2 : wanted > 2500 ? 3 : std::size(candidates);
+  const int rounds = large ? 5 : 10, sweeps = large ? 80 : 60;
+  // The worst tet is a matter of luck: tries go on until one has the smallest step (in units of size/wave speed) that most
+  // sizes reach within three. Measured at radius/size 3.3 to 13; a try of a large ball gains less, and costs more.
+  const double enough = large ? 0.315 : wanted > 2500 ? 0.32 : 0.325;
+  const std::size_t tries = large ? 4 : 8;
 
   UnitBall best;
   std::string last_defect = "none of the candidates met the wanted number of tetrahedra";
   int failures = 0;
   double factor = 1 - 0.9 / std::cbrt(wanted);
   for (std::size_t c = 0; c < tries + static_cast<std::size_t>(std::min(failures, 10)); ++c) {
+    if (best.smallest_step * size_ratio >= enough) break;
     const Candidate& candidate = candidates[c % std::size(candidates)];
     const auto lay_out = [&](int smoothing, std::uint64_t shift) -> BallMesh {
       BallMesh trial;
