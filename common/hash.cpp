@@ -17,7 +17,8 @@ constexpr std::uint64_t prime_3 = 0x165667B19E3779F9ULL;
 constexpr std::uint64_t prime_4 = 0x85EBCA77C2B2AE63ULL;
 constexpr std::uint64_t prime_5 = 0x27D4EB2F165667C5ULL;
 
-template <class Word> std::uint64_t read_word(const std::byte* at) {
+template <class Word>
+std::uint64_t read_word(const std::byte* at) {
   Word word;
   std::memcpy(&word, at, sizeof word);
   return word;
@@ -78,6 +79,8 @@ std::uint64_t hash_string(std::string_view text, std::uint64_t seed) {
   return hash_bytes(std::as_bytes(std::span(text.data(), text.size())), seed);
 }
 
-std::string hash_text(std::uint64_t hash) { return fmt::format("{:016x}", hash); }
+std::string hash_text(std::uint64_t hash) {
+  return fmt::format("{:016x}", hash);
+}
 
 } // namespace mpfem

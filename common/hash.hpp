@@ -20,8 +20,8 @@ std::uint64_t hash_bytes(std::span<const std::byte> bytes, std::uint64_t seed = 
 
 /// The same of the memory of numbers (this machine's byte order; -0.0 differs from 0.0).
 template <class Number>
-  requires std::is_arithmetic_v<Number>
-std::uint64_t hash_values(std::span<const Number> values, std::uint64_t seed = hash_seed) {
+requires std::is_arithmetic_v<Number> std::uint64_t hash_values(std::span<const Number> values,
+                                                                std::uint64_t seed = hash_seed) {
   return hash_bytes(std::as_bytes(values), seed);
 }
 

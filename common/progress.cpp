@@ -83,8 +83,8 @@ void Progress::update(double fraction, std::string_view detail) {
 void Progress::finish(std::string_view summary) {
   if (quiet_ || finished_) return;
   finished_ = true;
-  const std::string line =
-      one_line(fmt::format("{}  done in {}  {}", label_, duration_text(seconds_between(start_, Clock::now())), summary));
+  const std::string line = one_line(
+      fmt::format("{}  done in {}  {}", label_, duration_text(seconds_between(start_, Clock::now())), summary));
   if (line_open_) fmt::print(stream_, "\r\x1b[K");
   fmt::print(stream_, "{}\n", line);
   std::fflush(stream_);

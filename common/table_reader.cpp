@@ -37,16 +37,24 @@ std::string place_text(const std::string& file, const toml::source_region& sourc
 
 std::string_view type_text(const toml::node& node) {
   switch (node.type()) {
-  case toml::node_type::table: return "a table";
-  case toml::node_type::array: return node.as_array()->is_array_of_tables() ? "an array of tables" : "an array";
-  case toml::node_type::string: return "a string";
-  case toml::node_type::integer: return "an integer";
-  case toml::node_type::floating_point: return "a number";
-  case toml::node_type::boolean: return "a boolean";
+  case toml::node_type::table:
+    return "a table";
+  case toml::node_type::array:
+    return node.as_array()->is_array_of_tables() ? "an array of tables" : "an array";
+  case toml::node_type::string:
+    return "a string";
+  case toml::node_type::integer:
+    return "an integer";
+  case toml::node_type::floating_point:
+    return "a number";
+  case toml::node_type::boolean:
+    return "a boolean";
   case toml::node_type::date:
   case toml::node_type::time:
-  case toml::node_type::date_time: return "a date or time";
-  default: return "nothing";
+  case toml::node_type::date_time:
+    return "a date or time";
+  default:
+    return "nothing";
   }
 }
 
@@ -114,8 +122,10 @@ std::vector<std::string> split_key(std::string_view key, const std::string& sour
     const std::size_t end = std::min(key.find('.', begin), key.size());
     parts.emplace_back(key.substr(begin, end - begin));
     if (parts.back().empty() || parts.back().find_first_of(" \t\r\n\"'[]") != std::string::npos)
-      throw_input_error(source, fmt::format("'{}' is not a key, expected words joined by dots, as 'contact.search_margin' "
-                                            "or 'stages.0.name'", key));
+      throw_input_error(source,
+                        fmt::format("'{}' is not a key, expected words joined by dots, as 'contact.search_margin' "
+                                    "or 'stages.0.name'",
+                                    key));
     begin = end + 1;
   }
   return parts;
@@ -125,9 +135,9 @@ std::size_t element_index(const toml::array& array, const std::string& index, co
   std::size_t i = 0;
   const auto [end, error] = std::from_chars(index.data(), index.data() + index.size(), i);
   if (error == std::errc{} && end == index.data() + index.size() && i < array.size()) return i;
-  throw_input_error(source, array.empty() ? fmt::format("found element '{}' of an empty array", index)
-                                          : fmt::format("found element '{}' of an array, allowed 0 … {}", index,
-                                                        array.size() - 1));
+  throw_input_error(
+      source, array.empty() ? fmt::format("found element '{}' of an empty array", index)
+                            : fmt::format("found element '{}' of an array, allowed 0 … {}", index, array.size() - 1));
 }
 
 /// The table or array element below `parent`, made where a table has none.
@@ -196,7 +206,8 @@ void TomlDocument::set(std::string_view assignment) {
     value.visit([&](auto& typed) { table->insert_or_assign(toml::key(last, at), std::move(typed)); });
   } else if (toml::array* array = parent->as_array()) {
     const std::size_t i = element_index(*array, last, source);
-    value.visit([&](auto& typed) { array->replace(array->begin() + static_cast<std::ptrdiff_t>(i), std::move(typed)); });
+    value.visit(
+        [&](auto& typed) { array->replace(array->begin() + static_cast<std::ptrdiff_t>(i), std::move(typed)); });
   } else {
     throw_input_error(source, fmt::format("'{}' stands below {}, which has no keys", last, type_text(*parent)));
   }
@@ -215,7 +226,9 @@ TableReader::TableReader(const TomlDocument& document) : TableReader(document.ro
 TableReader::TableReader(const toml::table& table, std::string file, std::string path)
     : table_(&table), file_(std::move(file)), path_(std::move(path)) {}
 
-bool TableReader::has(std::string_view key) const { return table_->get(key) != nullptr; }
+bool TableReader::has(std::string_view key) const {
+  return table_->get(key) != nullptr;
+}
 
 const toml::node* TableReader::find(std::string_view key) {
   asked_.emplace(key);
@@ -230,7 +243,8 @@ const toml::node& TableReader::require(std::string_view key, std::string_view al
     if (!asked_.contains(entry.first.str())) present.emplace_back(entry.first.str());
   if (const auto near = nearest_word(key, present)) {
     const auto line = table_->find(*near)->first.source().begin.line;
-    message += line > 0 ? fmt::format(" (is '{}' in line {} meant?)", *near, line) : fmt::format(" (is '{}' meant?)", *near);
+    message +=
+        line > 0 ? fmt::format(" (is '{}' in line {} meant?)", *near, line) : fmt::format(" (is '{}' meant?)", *near);
   }
   fail_at(table_->source(), key, message);
 }
@@ -337,7 +351,9 @@ bool TableReader::boolean_or(std::string_view key, bool fallback) {
   return node->as_boolean()->get();
 }
 
-std::string TableReader::string(std::string_view key) { return read_string(require(key, "a string"), key); }
+std::string TableReader::string(std::string_view key) {
+  return read_string(require(key, "a string"), key);
+}
 
 std::string TableReader::string_or(std::string_view key, std::string_view fallback) {
   const toml::node* node = find(key);

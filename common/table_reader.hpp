@@ -71,8 +71,8 @@ public:
 
   bool has(std::string_view key) const;
 
-  double number(std::string_view key, Range range = {});                           ///< required
-  double number_or(std::string_view key, double fallback, Range range = {});       ///< optional with default
+  double number(std::string_view key, Range range = {});                     ///< required
+  double number_or(std::string_view key, double fallback, Range range = {}); ///< optional with default
   std::optional<double> optional_number(std::string_view key, Range range = {});
   std::int64_t integer(std::string_view key, Range range = {}); ///< a whole number without decimal point
   std::int64_t integer_or(std::string_view key, std::int64_t fallback, Range range = {});
@@ -82,7 +82,7 @@ public:
   /// One of `allowed`; the message lists them.
   std::string choice(std::string_view key, const std::vector<std::string>& allowed);
   std::string choice_or(std::string_view key, std::string_view fallback, const std::vector<std::string>& allowed);
-  std::vector<double> numbers(std::string_view key, Range range = {});                        ///< required array
+  std::vector<double> numbers(std::string_view key, Range range = {}); ///< required array
   std::vector<double> numbers_or(std::string_view key, std::vector<double> fallback, Range range = {});
   std::array<double, 3> vector3(std::string_view key, Range range = {}); ///< required array of three numbers
   std::array<double, 3> vector3_or(std::string_view key, std::array<double, 3> fallback, Range range = {});

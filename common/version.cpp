@@ -2,6 +2,8 @@
 
 namespace mpfem {
 
-std::string_view version() { return MPFEM_VERSION; }
+std::string_view version() {
+  return MPFEM_VERSION;
+}
 
 } // namespace mpfem

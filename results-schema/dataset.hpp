@@ -41,7 +41,8 @@ struct DatasetDescription {
 };
 
 /// A dataset with its element type (double, float, std::int32_t, std::int64_t, std::string) and its rank.
-template <class T, int Rank> struct Dataset : DatasetDescription {};
+template <class T, int Rank>
+struct Dataset : DatasetDescription {};
 
 /// All datasets of one kind of file.
 struct KindDescription {

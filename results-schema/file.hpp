@@ -24,7 +24,8 @@ public:
   /// Writes an array with `rows` rows, row by row. `snapshot` takes the place of '*' in the path.
   /// Throws std::logic_error where the values do not fill the shape, or extents of one name differ.
   template <class T, int Rank>
-  void write(const Dataset<T, Rank>& dataset, std::span<const T> values, std::size_t rows, std::string_view snapshot = {}) {
+  void write(const Dataset<T, Rank>& dataset, std::span<const T> values, std::size_t rows,
+             std::string_view snapshot = {}) {
     static_assert(Rank > 0, "write_scalar writes scalars");
     write_values(dataset, values.data(), values.size(), rows, snapshot);
   }
@@ -60,13 +61,15 @@ public:
   std::string creator() const;
   bool has(const DatasetDescription& dataset, std::string_view snapshot = {}) const;
   /// All values, row by row. Type and shape are checked against the schema.
-  template <class T, int Rank> std::vector<T> read(const Dataset<T, Rank>& dataset, std::string_view snapshot = {}) const {
+  template <class T, int Rank>
+  std::vector<T> read(const Dataset<T, Rank>& dataset, std::string_view snapshot = {}) const {
     static_assert(Rank > 0, "read_scalar reads scalars");
     std::vector<T> values(count(dataset, snapshot));
     read_values(dataset, values.data(), snapshot);
     return values;
   }
-  template <class T> T read_scalar(const Dataset<T, 0>& dataset, std::string_view snapshot = {}) const {
+  template <class T>
+  T read_scalar(const Dataset<T, 0>& dataset, std::string_view snapshot = {}) const {
     T value{};
     count(dataset, snapshot);
     read_values(dataset, &value, snapshot);

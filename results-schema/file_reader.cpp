@@ -37,30 +37,40 @@ FileReader::FileReader(const std::string& path) : state_(std::make_unique<State>
   if (!std::filesystem::exists(path, ignored)) throw InputError(fmt::format("{}: no such file", one_line(path)));
   if (!std::filesystem::is_regular_file(path, ignored)) throw InputError(fmt::format("{}: not a file", one_line(path)));
   state_->file = Handle(H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), H5Fclose);
-  if (!state_->file) throw InputError(fmt::format("{}: not an HDF5 file that can be opened (damaged or not readable)", one_line(path)));
+  if (!state_->file)
+    throw InputError(fmt::format("{}: not an HDF5 file that can be opened (damaged or not readable)", one_line(path)));
 
   const std::string kind = read_text_attribute(state_->file, "file_kind");
   const std::string version = read_text_attribute(state_->file, "schema_version");
   const auto known = std::find_if(std::begin(kinds), std::end(kinds), [&](const auto& k) { return k.name == kind; });
   if (known == std::end(kinds))
-    throw InputError(fmt::format("{}: not a file of this toolkit (attribute file_kind is '{}')", one_line(path), one_line(kind)));
+    throw InputError(
+        fmt::format("{}: not a file of this toolkit (attribute file_kind is '{}')", one_line(path), one_line(kind)));
   if (version != schema_version)
-    throw InputError(fmt::format("{}: schema version '{}', this program reads {}", one_line(path), one_line(version), schema_version));
+    throw InputError(fmt::format("{}: schema version '{}', this program reads {}", one_line(path), one_line(version),
+                                 schema_version));
   state_->kind = static_cast<FileKind>(known - std::begin(kinds));
 }
 
 FileReader::FileReader(const std::string& path, FileKind kind) : FileReader(path) {
   if (state_->kind != kind)
-    throw InputError(fmt::format("{}: a {} file, expected a {} file", one_line(path), kinds[static_cast<std::size_t>(state_->kind)].name,
+    throw InputError(fmt::format("{}: a {} file, expected a {} file", one_line(path),
+                                 kinds[static_cast<std::size_t>(state_->kind)].name,
                                  kinds[static_cast<std::size_t>(kind)].name));
 }
 
 FileReader::~FileReader() = default;
 FileReader::FileReader(FileReader&&) noexcept = default;
 
-const std::string& FileReader::path() const { return state_->path; }
-FileKind FileReader::kind() const { return state_->kind; }
-std::string FileReader::creator() const { return read_text_attribute(state_->file, "creator"); }
+const std::string& FileReader::path() const {
+  return state_->path;
+}
+FileKind FileReader::kind() const {
+  return state_->kind;
+}
+std::string FileReader::creator() const {
+  return read_text_attribute(state_->file, "creator");
+}
 
 bool FileReader::has(const DatasetDescription& dataset, std::string_view snapshot) const {
   return path_exists(state_->file, path_of(dataset, snapshot));
@@ -102,7 +112,8 @@ void FileReader::read_values(const DatasetDescription& dataset, void* values, st
   } else {
     status = H5Dread(set, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, values);
   }
-  if (status < 0) throw InputError(fmt::format("{}: dataset {} cannot be read (damaged)", one_line(state_->path), path));
+  if (status < 0)
+    throw InputError(fmt::format("{}: dataset {} cannot be read (damaged)", one_line(state_->path), path));
 }
 
 std::size_t FileReader::rows(const DatasetDescription& dataset, std::string_view snapshot) const {

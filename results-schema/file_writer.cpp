@@ -27,7 +27,8 @@ struct FileWriter::State {
   std::map<std::string, std::size_t> extents; ///< named extents seen so far; of a snapshot: its name before them
 
   [[noreturn]] void storage_failed(std::string_view what) const {
-    throw StorageError(fmt::format("{}: {} could not be written (disk full, or the folder is not writable)", path, what));
+    throw StorageError(
+        fmt::format("{}: {} could not be written (disk full, or the folder is not writable)", path, what));
   }
 };
 
@@ -52,18 +53,20 @@ FileWriter::~FileWriter() {
   std::filesystem::remove(state_->partial, ignored);
 }
 
-void FileWriter::write_values(const DatasetDescription& dataset, const void* values, std::size_t count, std::size_t rows,
-                              std::string_view snapshot) {
+void FileWriter::write_values(const DatasetDescription& dataset, const void* values, std::size_t count,
+                              std::size_t rows, std::string_view snapshot) {
   const std::string path = path_of(dataset, snapshot);
   if (!state_->file) throw std::logic_error(path + ": written after commit()");
   const auto datasets = kinds[static_cast<std::size_t>(state_->kind)].datasets;
   if (std::none_of(datasets.begin(), datasets.end(), [&](const auto& known) { return known.path == dataset.path; }))
     throw std::logic_error(path + ": not a dataset of this kind of file");
   if (path_exists(state_->file, path)) throw std::logic_error(path + ": written twice");
-  if (dataset.of_snapshot() == snapshot.empty()) throw std::logic_error(path + ": a snapshot's name is missing or too much");
+  if (dataset.of_snapshot() == snapshot.empty())
+    throw std::logic_error(path + ": a snapshot's name is missing or too much");
 
   std::array<hsize_t, 2> extent{rows, 1};
-  if (dataset.rank == 2) extent[1] = dataset.extent[1].name.empty() ? dataset.extent[1].fixed : count / std::max<std::size_t>(rows, 1);
+  if (dataset.rank == 2)
+    extent[1] = dataset.extent[1].name.empty() ? dataset.extent[1].fixed : count / std::max<std::size_t>(rows, 1);
   if (extent[0] * extent[1] != count)
     throw std::logic_error(fmt::format("{}: {} values do not fill {}", path, count, dataset.shape));
   for (int i = 0; i < dataset.rank; ++i) {
@@ -90,15 +93,19 @@ void FileWriter::write_values(const DatasetDescription& dataset, const void* val
   const Handle creation(H5Pcreate(H5P_DATASET_CREATE), H5Pclose);
   const Handle type = memory_type(dataset.type);
   if (dataset.of_snapshot() && count * H5Tget_size(type) >= compressed_from) {
-    const std::array<hsize_t, 2> chunk{std::min<hsize_t>(extent[0], std::max<hsize_t>(1, chunk_values / extent[1])), extent[1]};
+    const std::array<hsize_t, 2> chunk{std::min<hsize_t>(extent[0], std::max<hsize_t>(1, chunk_values / extent[1])),
+                                       extent[1]};
     H5Pset_chunk(creation, dataset.rank, chunk.data());
     H5Pset_shuffle(creation);
     H5Pset_deflate(creation, 1);
   }
-  const Handle space(dataset.rank == 0 ? H5Screate(H5S_SCALAR) : H5Screate_simple(dataset.rank, extent.data(), nullptr), H5Sclose);
-  const Handle set(H5Dcreate2(state_->file, path.c_str(), file_type(dataset.type), space, link, creation, H5P_DEFAULT), H5Dclose);
+  const Handle space(dataset.rank == 0 ? H5Screate(H5S_SCALAR) : H5Screate_simple(dataset.rank, extent.data(), nullptr),
+                     H5Sclose);
+  const Handle set(H5Dcreate2(state_->file, path.c_str(), file_type(dataset.type), space, link, creation, H5P_DEFAULT),
+                   H5Dclose);
   if (!set) state_->storage_failed(path);
-  if (write_text_attribute(set, "unit", dataset.unit) < 0 || write_text_attribute(set, "description", dataset.description) < 0)
+  if (write_text_attribute(set, "unit", dataset.unit) < 0 ||
+      write_text_attribute(set, "description", dataset.description) < 0)
     state_->storage_failed(path);
   if (count == 0) return;
 
@@ -120,7 +127,8 @@ void FileWriter::commit() {
   std::error_code error;
   std::filesystem::rename(state_->partial, state_->path, error);
   if (error)
-    throw StorageError(fmt::format("{}: the complete file {} could not be renamed: {}", state_->path, state_->partial, error.message()));
+    throw StorageError(fmt::format("{}: the complete file {} could not be renamed: {}", state_->path, state_->partial,
+                                   error.message()));
 }
 
 } // namespace mpfem::schema

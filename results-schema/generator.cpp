@@ -45,7 +45,9 @@ std::string text(const toml::table& table, std::string_view key, bool required) 
   return *value;
 }
 
-bool is_number(const std::string& extent) { return extent.find_first_not_of("0123456789") == std::string::npos; }
+bool is_number(const std::string& extent) {
+  return extent.find_first_not_of("0123456789") == std::string::npos;
+}
 
 std::vector<std::string> read_shape(const toml::table& table) {
   const toml::array* shape = table["shape"].as_array();
@@ -63,7 +65,7 @@ std::vector<std::string> read_shape(const toml::table& table) {
 }
 
 Line read_line(const toml::table& table) {
-  static const std::set<std::string_view> known = {"path", "type",        "shape",   "unit",
+  static const std::set<std::string_view> known = {"path",     "type",        "shape",   "unit",
                                                    "required", "description", "indexes", "partitions"};
   for (const auto& [key, value] : table)
     if (!known.contains(key.str())) fail(value, fmt::format("unknown key '{}'", key.str()));
@@ -198,12 +200,14 @@ std::string markdown(const Schema& schema) {
                                   return fmt::format("{}", fmt::join(names, ", "));
                                 }());
   for (const std::string& line : schema.conventions) out += fmt::format("- {}\n", line);
-  out += "- A name in a shape is a free extent; the same name has the same value everywhere in one file (with a leading "
-         "`*`: in one snapshot). `NAME_plus_1` is one more than `NAME`.\n"
-         "- `*` in a path stands for a snapshot's name: `0000`, `0001`, …\n";
+  out +=
+      "- A name in a shape is a free extent; the same name has the same value everywhere in one file (with a leading "
+      "`*`: in one snapshot). `NAME_plus_1` is one more than `NAME`.\n"
+      "- `*` in a path stands for a snapshot's name: `0000`, `0001`, …\n";
   for (const Kind& kind : schema.kinds) {
-    out += fmt::format("\n## {}\n\n{}\n\n| path | type | shape | unit | required | meaning |\n|---|---|---|---|---|---|\n",
-                       kind.name, kind.description);
+    out +=
+        fmt::format("\n## {}\n\n{}\n\n| path | type | shape | unit | required | meaning |\n|---|---|---|---|---|---|\n",
+                    kind.name, kind.description);
     for (const Line& line : kind.lines) {
       std::string meaning = line.description;
       if (!line.indexes.empty()) meaning += fmt::format(" Indices below {}.", line.indexes);

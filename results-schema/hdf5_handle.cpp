@@ -24,22 +24,32 @@ Handle string_type() {
 
 Handle memory_type(ElementType type) {
   switch (type) {
-  case ElementType::float64: return {H5Tcopy(H5T_NATIVE_DOUBLE), H5Tclose};
-  case ElementType::float32: return {H5Tcopy(H5T_NATIVE_FLOAT), H5Tclose};
-  case ElementType::int32: return {H5Tcopy(H5T_NATIVE_INT32), H5Tclose};
-  case ElementType::int64: return {H5Tcopy(H5T_NATIVE_INT64), H5Tclose};
-  case ElementType::string: return string_type();
+  case ElementType::float64:
+    return {H5Tcopy(H5T_NATIVE_DOUBLE), H5Tclose};
+  case ElementType::float32:
+    return {H5Tcopy(H5T_NATIVE_FLOAT), H5Tclose};
+  case ElementType::int32:
+    return {H5Tcopy(H5T_NATIVE_INT32), H5Tclose};
+  case ElementType::int64:
+    return {H5Tcopy(H5T_NATIVE_INT64), H5Tclose};
+  case ElementType::string:
+    return string_type();
   }
   return {};
 }
 
 Handle file_type(ElementType type) {
   switch (type) {
-  case ElementType::float64: return {H5Tcopy(H5T_IEEE_F64LE), H5Tclose};
-  case ElementType::float32: return {H5Tcopy(H5T_IEEE_F32LE), H5Tclose};
-  case ElementType::int32: return {H5Tcopy(H5T_STD_I32LE), H5Tclose};
-  case ElementType::int64: return {H5Tcopy(H5T_STD_I64LE), H5Tclose};
-  case ElementType::string: return string_type();
+  case ElementType::float64:
+    return {H5Tcopy(H5T_IEEE_F64LE), H5Tclose};
+  case ElementType::float32:
+    return {H5Tcopy(H5T_IEEE_F32LE), H5Tclose};
+  case ElementType::int32:
+    return {H5Tcopy(H5T_STD_I32LE), H5Tclose};
+  case ElementType::int64:
+    return {H5Tcopy(H5T_STD_I64LE), H5Tclose};
+  case ElementType::string:
+    return string_type();
   }
   return {};
 }

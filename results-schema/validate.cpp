@@ -81,8 +81,8 @@ public:
 private:
   void finding(const std::string& path, const std::string& what) { findings.push_back(one_line(path + " " + what)); }
 
-  void check_extent(const DatasetDescription& dataset, const std::string& path, const std::string& snapshot, std::size_t i,
-                    hsize_t found) {
+  void check_extent(const DatasetDescription& dataset, const std::string& path, const std::string& snapshot,
+                    std::size_t i, hsize_t found) {
     const Extent& wanted = dataset.extent[i];
     if (wanted.name.empty()) {
       if (wanted.fixed != found) finding(path, fmt::format("has extent {}, expected {}", found, dataset.shape));
@@ -96,7 +96,8 @@ private:
       --value;
     }
     if (name.front() == '*') name = snapshot + name;
-    if (const auto [known, fresh] = extents_.emplace(name, std::pair{value, path}); !fresh && known->second.first != value)
+    if (const auto [known, fresh] = extents_.emplace(name, std::pair{value, path});
+        !fresh && known->second.first != value)
       finding(path, fmt::format("has {} {}, {} has {}", value, wanted.name, known->second.second, known->second.first));
   }
 
@@ -105,7 +106,8 @@ private:
     for (const hsize_t extent : extents_of(set)) count *= extent;
     std::vector<double> values(count);
     if (count == 0) return;
-    if (H5Dread(set, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()) < 0) return finding(path, "cannot be read");
+    if (H5Dread(set, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()) < 0)
+      return finding(path, "cannot be read");
     for (std::size_t i = 0; i < count; ++i)
       if (!std::isfinite(values[i])) return finding(path, fmt::format("holds {} at value {}", values[i], i));
   }
@@ -128,7 +130,8 @@ std::vector<std::string> validate(const std::string& path) {
   Validation validation(file.state_->file);
   const auto snapshots = file.snapshots();
   for (const DatasetDescription& dataset : kinds[static_cast<std::size_t>(file.kind())].datasets) {
-    if (!dataset.of_snapshot()) validation.check(dataset, "");
+    if (!dataset.of_snapshot())
+      validation.check(dataset, "");
     else
       for (const std::string& snapshot : snapshots) validation.check(dataset, snapshot);
   }

@@ -41,7 +41,8 @@ Scenario load_scenario(const Arguments& arguments) {
 
 void add_common(CLI::App& command, Arguments& arguments) {
   command.add_option("scenario", arguments.scenario, "Scenario file (TOML)")->required();
-  command.add_option("--set", arguments.assignments, "Override a value: KEY=VALUE, e.g. stages.0.wall_speed=2000")->take_all();
+  command.add_option("--set", arguments.assignments, "Override a value: KEY=VALUE, e.g. stages.0.wall_speed=2000")
+      ->take_all();
   command.add_option("--threads", arguments.run.threads, "Threads (default: all cores)")->check(CLI::Range(1, 1024));
   command.add_flag("--quiet", arguments.run.quiet, "No progress");
 }
@@ -70,7 +71,8 @@ int body(int argc, char** argv) {
   run->add_option("--time-limit", arguments.run.time_limit, "Stop resumably after so many seconds of wall-clock time")
       ->check(CLI::PositiveNumber);
 
-  CLI::App* check = app.add_subcommand("check", "Validate a scenario and print its plan.\nExample: mpfem check compaction.toml");
+  CLI::App* check =
+      app.add_subcommand("check", "Validate a scenario and print its plan.\nExample: mpfem check compaction.toml");
   add_common(*check, arguments);
 
   try {
@@ -92,4 +94,6 @@ int body(int argc, char** argv) {
 
 } // namespace
 
-int main(int argc, char** argv) { return mpfem::run_program("mpfem", body, argc, argv); }
+int main(int argc, char** argv) {
+  return mpfem::run_program("mpfem", body, argc, argv);
+}

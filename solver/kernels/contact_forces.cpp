@@ -15,7 +15,9 @@ namespace mpfem {
 
 namespace {
 
-std::size_t at(std::int32_t i) { return static_cast<std::size_t>(i); }
+std::size_t at(std::int32_t i) {
+  return static_cast<std::size_t>(i);
+}
 
 Vector3<double> row(const AlignedVector<double>& rows, std::int32_t node) {
   const double* r = rows.data() + 4 * at(node);
@@ -104,8 +106,8 @@ ContactSums contact_forces(Model& model, Contact& contact, int grain) {
       if (facet < 0 || travel >= contact.point_sure[at(point)]) {
         const std::int32_t first = candidates.point_facet_offset[at(point)],
                            last = candidates.point_facet_offset[at(point) + 1];
-        const Nearest nearest = nearest_facet(
-            model, node, {candidates.point_facet.data() + first, static_cast<std::size_t>(last - first)});
+        const Nearest nearest =
+            nearest_facet(model, node, {candidates.point_facet.data() + first, static_cast<std::size_t>(last - first)});
         facet = nearest.facet;
         // Facets that are no candidates were further than the margin at the search.
         const double others = std::min(nearest.second_distance, limit - travel);
@@ -121,16 +123,19 @@ ContactSums contact_forces(Model& model, Contact& contact, int grain) {
         continue;
       }
       if (distance > 0.9 * contact.margin)
-        throw SimulationError(fmt::format("contact: a node of grain {} is {:.3g} mm inside grain {}, allowed up to {:.3g} "
-                                          "mm: raise contact.stiffness_factor or lower the speed",
-                                          grain, distance, other, 0.9 * contact.margin));
+        throw SimulationError(
+            fmt::format("contact: a node of grain {} is {:.3g} mm inside grain {}, allowed up to {:.3g} "
+                        "mm: raise contact.stiffness_factor or lower the speed",
+                        grain, distance, other, 0.9 * contact.margin));
       // 3. Inside: pushed back to the closest point.
       const double k = stiffness * model.reference_area[at(node_index)];
       const Vector3<double> push = -(k * offset);
       ContactForce& record = contact.force[at(begin + active++)];
       record = {{push.x, push.y, push.z},
                 {1.0 - closest.weight1 - closest.weight2, closest.weight1, closest.weight2},
-                k, node_index, facet};
+                k,
+                node_index,
+                facet};
       double* force = model.force.data() + 4 * at(node_index);
       for (int axis = 0; axis < 3; ++axis) force[axis] += record.force[axis];
       sums.energy += 0.5 * k * distance * distance;
@@ -176,7 +181,8 @@ void raise_to_expected_rate(const Model& model, int grain, std::span<double> rat
   const std::int32_t first = model.node_offset[g];
   for (std::int32_t node = first; node < first + model.surface_node_count[g]; ++node) {
     // As a node with stiffness K/2 A and, by symmetry, a facet's share of the same size; against a wall K A alone.
-    const double expected = 2.0 * model.penalty_stiffness[g] * model.reference_area[at(node)] * model.inverse_mass[at(node)];
+    const double expected =
+        2.0 * model.penalty_stiffness[g] * model.reference_area[at(node)] * model.inverse_mass[at(node)];
     rate[at(node)] = std::max(rate[at(node)], expected);
   }
 }
@@ -188,8 +194,9 @@ std::vector<PairContact> pair_contacts(const Model& model, const Contact& contac
     const std::int32_t a = candidates.pair_first[p], b = candidates.pair_second[p];
     const auto points = contact.active_points(static_cast<std::int32_t>(p));
     if (points.empty()) continue;
-    auto& entry = pairs.try_emplace({std::min(a, b), std::max(a, b)}, PairContact{std::min(a, b), std::max(a, b), {}, 0})
-                      .first->second;
+    auto& entry =
+        pairs.try_emplace({std::min(a, b), std::max(a, b)}, PairContact{std::min(a, b), std::max(a, b), {}, 0})
+            .first->second;
     const double sign = a < b ? 1.0 : -1.0;
     for (const ContactForce& point : points) {
       for (int axis = 0; axis < 3; ++axis) entry.force[axis] += sign * point.force[axis];

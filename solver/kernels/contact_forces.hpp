@@ -18,32 +18,32 @@ namespace mpfem {
 
 /// One active contact point.
 struct ContactForce {
-  double force[3];     ///< N, on the node
-  double weight[3];    ///< shape functions of the facet's nodes at the foot point
-  double stiffness;    ///< K/2 A, N/mm
+  double force[3];  ///< N, on the node
+  double weight[3]; ///< shape functions of the facet's nodes at the foot point
+  double stiffness; ///< K/2 A, N/mm
   std::int32_t node;
   std::int32_t facet;
 };
 
 /// Sums of a grain's own nodes over one contact pass.
 struct ContactSums {
-  double energy = 0;       ///< mJ stored in the penalty
-  double area = 0;         ///< mm^2 of the grain's surface in contact
-  double penetration = 0;  ///< largest penetration over h
+  double energy = 0;      ///< mJ stored in the penalty
+  double area = 0;        ///< mm^2 of the grain's surface in contact
+  double penetration = 0; ///< largest penetration over h
   int active_points = 0;
 };
 
 /// Candidates and the running state of contact points.
 struct Contact {
   ContactCandidates candidates;
-  double margin = 0;                       ///< mm, of the search that made the candidates
-  std::vector<std::int32_t> point_facet;   ///< [points]: facet met last, -1 none
-  std::vector<double> point_wake;          ///< [points], mm: asleep until the two grains' travel adds up to this
-  std::vector<double> point_sure;          ///< [points], mm: point_facet is the closest until travel adds up to this
-  std::vector<ContactForce> force;         ///< [points]: active points first within every pair's range
-  std::vector<std::int32_t> active;        ///< [pairs]: number of active points
-  std::vector<double> travel;              ///< [grains], mm: bound of any node's path length since the run began
-  std::vector<double> travel_at_search;    ///< [grains], mm
+  double margin = 0;                     ///< mm, of the search that made the candidates
+  std::vector<std::int32_t> point_facet; ///< [points]: facet met last, -1 none
+  std::vector<double> point_wake;        ///< [points], mm: asleep until the two grains' travel adds up to this
+  std::vector<double> point_sure;        ///< [points], mm: point_facet is the closest until travel adds up to this
+  std::vector<ContactForce> force;       ///< [points]: active points first within every pair's range
+  std::vector<std::int32_t> active;      ///< [pairs]: number of active points
+  std::vector<double> travel;            ///< [grains], mm: bound of any node's path length since the run began
+  std::vector<double> travel_at_search;  ///< [grains], mm
 
   std::span<const ContactForce> active_points(std::int32_t pair) const {
     const auto p = static_cast<std::size_t>(pair);
@@ -75,8 +75,8 @@ void raise_to_expected_rate(const Model& model, int grain, std::span<double> rat
 /// Contact of one pair of grains at this moment.
 struct PairContact {
   std::int32_t first, second;
-  double force[3];  ///< N, of second on first
-  double area;      ///< mm^2, mean of both sides
+  double force[3]; ///< N, of second on first
+  double area;     ///< mm^2, mean of both sides
 };
 std::vector<PairContact> pair_contacts(const Model& model, const Contact& contact);
 

@@ -15,7 +15,9 @@ namespace mpfem {
 
 namespace {
 
-std::size_t at(std::int32_t i) { return static_cast<std::size_t>(i); }
+std::size_t at(std::int32_t i) {
+  return static_cast<std::size_t>(i);
+}
 
 struct Box {
   std::array<double, 3> low{std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity(),
@@ -41,7 +43,9 @@ struct Box {
   }
 };
 
-const double* node_row(const SurfaceView& surface, std::int32_t node) { return surface.position.data() + 4 * at(node); }
+const double* node_row(const SurfaceView& surface, std::int32_t node) {
+  return surface.position.data() + 4 * at(node);
+}
 
 Box facet_box(const SurfaceView& surface, std::int32_t facet) {
   Box box;
@@ -50,7 +54,9 @@ Box facet_box(const SurfaceView& surface, std::int32_t facet) {
 }
 
 /// A little more than asked for, so that rounding in the sieves cannot lose a node at exactly the margin.
-double safe(double margin) { return margin * (1 + 1e-9); }
+double safe(double margin) {
+  return margin * (1 + 1e-9);
+}
 
 /// Grains whose boxes come within the margin, for every grain, ascending.
 std::vector<std::vector<std::int32_t>> near_grains(const std::vector<Box>& box, double margin) {
@@ -85,7 +91,8 @@ struct NodeGrid {
   }
   std::size_t index(int x, int y, int z) const {
     return (static_cast<std::size_t>(z) * static_cast<std::size_t>(cells[1]) + static_cast<std::size_t>(y)) *
-               static_cast<std::size_t>(cells[0]) + static_cast<std::size_t>(x);
+               static_cast<std::size_t>(cells[0]) +
+           static_cast<std::size_t>(x);
   }
   /// `cell` in mm; at most some 30 cells an axis.
   void fill(const SurfaceView& surface, double cell) {
@@ -94,7 +101,8 @@ struct NodeGrid {
       cells[k] = static_cast<int>(std::clamp(length / cell, 1.0, 30.0));
       inverse_size[k] = length > 0 ? cells[k] / length : 0.0;
     }
-    offset.assign(index(0, 0, cells[2] - 1) + static_cast<std::size_t>(cells[0]) * static_cast<std::size_t>(cells[1]) + 1, 0);
+    offset.assign(
+        index(0, 0, cells[2] - 1) + static_cast<std::size_t>(cells[0]) * static_cast<std::size_t>(cells[1]) + 1, 0);
     cell_of.resize(node.size());
     for (std::size_t i = 0; i < node.size(); ++i) {
       const double* x = node_row(surface, node[i]);
@@ -108,7 +116,8 @@ struct NodeGrid {
     for (std::size_t i = 0; i < node.size(); ++i) sorted[at(next[at(cell_of[i])]++)] = node[i];
   }
   /// Calls visit(node) for all nodes in the cells that a box meets.
-  template <class Visit> void in(const Box& box, Visit visit) const {
+  template <class Visit>
+  void in(const Box& box, Visit visit) const {
     if (!region.meets(box)) return;
     const std::array<int, 3> from{coordinate(box.low[0], 0), coordinate(box.low[1], 1), coordinate(box.low[2], 2)};
     const std::array<int, 3> to{coordinate(box.high[0], 0), coordinate(box.high[1], 1), coordinate(box.high[2], 2)};
@@ -129,7 +138,8 @@ void near_points(const SurfaceView& surface, std::int32_t first, std::int32_t se
   const Box reach = box[at(second)].grown(safe(margin)), own = box[at(first)].grown(safe(margin));
   grid.node.clear();
   grid.region = Box{};
-  for (std::int32_t n = surface.node_offset[at(first)]; n < surface.node_offset[at(first)] + surface.surface_node_count[at(first)]; ++n)
+  for (std::int32_t n = surface.node_offset[at(first)];
+       n < surface.node_offset[at(first)] + surface.surface_node_count[at(first)]; ++n)
     if (const double* x = node_row(surface, n); reach.contains(x)) {
       grid.node.push_back(n);
       grid.region.add(x);
@@ -139,7 +149,8 @@ void near_points(const SurfaceView& surface, std::int32_t first, std::int32_t se
   // Cells as large as the boxes that will ask: the mean facet box of the second grain.
   const Box& other = box[at(second)];
   const auto facets = static_cast<double>(surface.facet_offset[at(second) + 1] - surface.facet_offset[at(second)]);
-  const double extent = std::max({other.high[0] - other.low[0], other.high[1] - other.low[1], other.high[2] - other.low[2]});
+  const double extent =
+      std::max({other.high[0] - other.low[0], other.high[1] - other.low[1], other.high[2] - other.low[2]});
   grid.fill(surface, std::max(2 * extent / std::sqrt(facets) + margin, 1e-300));
 
   for (std::int32_t f = surface.facet_offset[at(second)]; f < surface.facet_offset[at(second) + 1]; ++f) {
@@ -182,7 +193,8 @@ ContactCandidates find_contact_candidates(const SurfaceView& surface, double mar
   const int grains = static_cast<int>(surface.node_offset.size()) - 1;
   std::vector<Box> box(static_cast<std::size_t>(grains));
   team.for_each(grains, [&](int g, int) {
-    for (std::int32_t n = surface.node_offset[at(g)]; n < surface.node_offset[at(g)] + surface.surface_node_count[at(g)]; ++n)
+    for (std::int32_t n = surface.node_offset[at(g)];
+         n < surface.node_offset[at(g)] + surface.surface_node_count[at(g)]; ++n)
       box[at(g)].add(node_row(surface, n));
   });
   const auto near = near_grains(box, safe(margin));

@@ -12,11 +12,11 @@ namespace mpfem {
 /// Surfaces of all grains as the search sees them. Nodes are rows of four doubles (x, y, z, unused) in mm. The surface
 /// nodes of a grain are its first nodes.
 struct SurfaceView {
-  std::span<const double> position;               ///< [nodes * 4], mm
-  std::span<const std::int32_t> node_offset;      ///< [grains + 1]
+  std::span<const double> position;                 ///< [nodes * 4], mm
+  std::span<const std::int32_t> node_offset;        ///< [grains + 1]
   std::span<const std::int32_t> surface_node_count; ///< [grains]: nodes node_offset[g] … + count are on the surface
-  std::span<const std::int32_t> facet;            ///< [facets * 3], node indices, outward counter-clockwise
-  std::span<const std::int32_t> facet_offset;     ///< [grains + 1]
+  std::span<const std::int32_t> facet;              ///< [facets * 3], node indices, outward counter-clockwise
+  std::span<const std::int32_t> facet_offset;       ///< [grains + 1]
 };
 
 /// Candidate contact points. A contact point is a surface node of one grain and an opposing grain; it carries the
@@ -24,15 +24,15 @@ struct SurfaceView {
 /// second: the facets' grain), pairs sorted by first, then second; points of a pair by node; facets of a point
 /// ascending.
 struct ContactCandidates {
-  std::vector<std::int32_t> pair_first;          ///< [pairs]
-  std::vector<std::int32_t> pair_second;         ///< [pairs]
-  std::vector<std::int32_t> pair_point_offset;   ///< [pairs + 1]
-  std::vector<std::int32_t> outgoing_offset;     ///< [grains + 1]: pairs whose first is g
-  std::vector<std::int32_t> incoming_offset;     ///< [grains + 1] into incoming_pair
-  std::vector<std::int32_t> incoming_pair;       ///< [pairs]: pairs whose second is g, ascending
-  std::vector<std::int32_t> point_node;          ///< [points]
-  std::vector<std::int32_t> point_facet_offset;  ///< [points + 1]
-  std::vector<std::int32_t> point_facet;         ///< candidate facets
+  std::vector<std::int32_t> pair_first;         ///< [pairs]
+  std::vector<std::int32_t> pair_second;        ///< [pairs]
+  std::vector<std::int32_t> pair_point_offset;  ///< [pairs + 1]
+  std::vector<std::int32_t> outgoing_offset;    ///< [grains + 1]: pairs whose first is g
+  std::vector<std::int32_t> incoming_offset;    ///< [grains + 1] into incoming_pair
+  std::vector<std::int32_t> incoming_pair;      ///< [pairs]: pairs whose second is g, ascending
+  std::vector<std::int32_t> point_node;         ///< [points]
+  std::vector<std::int32_t> point_facet_offset; ///< [points + 1]
+  std::vector<std::int32_t> point_facet;        ///< candidate facets
 };
 
 /// All (node, facet) combinations of different grains with distance(node, facet) <= margin; none is ever missed (the

@@ -102,8 +102,8 @@ ElementSums element_pass(Model& model, int grain, double time_step, const Law& l
     plastic_work += weighted_volume * returned.plastic_work;
     viscous_work -= weighted_volume * viscous * volumetric_strain;
     const auto& e = increment.strain;
-    largest_strain = max(largest_strain, e.xx * e.xx + e.yy * e.yy + e.zz * e.zz +
-                                             S(2.0) * (e.xy * e.xy + e.yz * e.yz + e.zx * e.zx));
+    largest_strain = max(largest_strain,
+                         e.xx * e.xx + e.yy * e.yy + e.zz * e.zz + S(2.0) * (e.xy * e.xy + e.yz * e.yz + e.zx * e.zx));
     smallest_ratio = min(smallest_ratio, ratio);
     check += mean; // becomes NaN or infinite where anything above is
   }
@@ -175,7 +175,8 @@ StableStep stable_step(Model& model, int grain, std::span<const double> nodal_st
         for (const auto& node : block.node)
           contact.v[i] = std::max(contact.v[i], nodal_stiffness_rate[static_cast<std::size_t>(first_node + node[i])]);
     }
-    const S quadratic = S(model.viscosity.quadratic * model.viscosity.quadratic * strain_rate / material.wave_speed) * length;
+    const S quadratic =
+        S(model.viscosity.quadratic * model.viscosity.quadratic * strain_rate / material.wave_speed) * length;
     const S damped = S(2.0) * damped_step_factor(S(model.viscosity.linear) + quadratic);
     smallest_step = min(smallest_step, damped / sqrt(element + contact));
     smallest_no_contact = min(smallest_no_contact, damped / sqrt(element));

@@ -7,10 +7,10 @@ namespace mpfem {
 
 /// Sums of one grain over one element pass.
 struct ElementSums {
-  double plastic_work = 0;      ///< mJ, in this step
-  double viscous_work = 0;      ///< mJ, in this step
-  double largest_strain = 0;    ///< largest norm of a strain increment
-  bool admissible = true;       ///< false where a tet is inverted or a value is not finite
+  double plastic_work = 0;   ///< mJ, in this step
+  double viscous_work = 0;   ///< mJ, in this step
+  double largest_strain = 0; ///< largest norm of a strain increment
+  bool admissible = true;    ///< false where a tet is inverted or a value is not finite
 };
 
 /// Advances stresses over the step that led to the present positions and writes the internal forces (N) of the grain's
@@ -42,8 +42,8 @@ StableStep stable_step(Model& model, int grain, std::span<const double> nodal_st
 
 /// Fields of one tet for output, in file order of the whole packing.
 struct TetFields {
-  std::vector<float> von_mises;      ///< MPa
-  std::vector<float> pressure;       ///< MPa, compression positive
+  std::vector<float> von_mises; ///< MPa
+  std::vector<float> pressure;  ///< MPa, compression positive
   std::vector<float> plastic_strain;
 };
 TetFields tet_fields(const Model& model);

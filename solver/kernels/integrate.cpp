@@ -31,7 +31,8 @@ WallSums wall_forces(Model& model, const Walls& walls, const Bounds& bounds, int
   return sums;
 }
 
-void wall_stiffness_rate(const Model& model, const Walls& walls, const Bounds& bounds, int grain, std::span<double> rate) {
+void wall_stiffness_rate(const Model& model, const Walls& walls, const Bounds& bounds, int grain,
+                         std::span<double> rate) {
   if (!walls.present) return;
   const auto g = static_cast<std::size_t>(grain);
   const auto first = static_cast<std::size_t>(model.node_offset[g]);
@@ -99,7 +100,8 @@ AdvanceSums advance(Model& model, int grain, const Advance& p) {
 double kinetic_energy(const Model& model, int grain, double step_mean) {
   const auto g = static_cast<std::size_t>(grain);
   double energy = 0;
-  for (auto n = static_cast<std::size_t>(model.node_offset[g]); n < static_cast<std::size_t>(model.node_offset[g + 1]); ++n) {
+  for (auto n = static_cast<std::size_t>(model.node_offset[g]); n < static_cast<std::size_t>(model.node_offset[g + 1]);
+       ++n) {
     double square = 0, work = 0;
     for (std::size_t i = 4 * n; i < 4 * n + 3; ++i) {
       square += model.velocity[i] * model.velocity[i];

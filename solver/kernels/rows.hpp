@@ -21,8 +21,12 @@ inline void transpose(Row a, Row b, Row c, Row d, Row& x, Row& y, Row& z) {
   y = __builtin_shufflevector(ab_high, cd_high, 0, 1, 4, 5);
 }
 
-inline Row row(const double* rows, std::int32_t index) { return *reinterpret_cast<const Row*>(rows + 4 * index); }
-inline void add_row(double* rows, std::int32_t index, Row value) { *reinterpret_cast<Row*>(rows + 4 * index) += value; }
+inline Row row(const double* rows, std::int32_t index) {
+  return *reinterpret_cast<const Row*>(rows + 4 * index);
+}
+inline void add_row(double* rows, std::int32_t index, Row value) {
+  *reinterpret_cast<Row*>(rows + 4 * index) += value;
+}
 
 inline void load4(const double* rows, const std::int32_t* index, Row& x, Row& y, Row& z) {
   transpose(row(rows, index[0]), row(rows, index[1]), row(rows, index[2]), row(rows, index[3]), x, y, z);
@@ -41,7 +45,8 @@ inline void add4(double* rows, const std::int32_t* index, int lanes, Row x, Row 
 } // namespace detail
 
 /// x, y, z of the W nodes `index`.
-template <int W> Vector3<Pack<W>> load_rows(const double* rows, const std::int32_t* index) {
+template <int W>
+Vector3<Pack<W>> load_rows(const double* rows, const std::int32_t* index) {
   Vector3<Pack<W>> result;
   if constexpr (W == 4) {
     detail::load4(rows, index, result.x.v, result.y.v, result.z.v);
@@ -62,7 +67,8 @@ template <int W> Vector3<Pack<W>> load_rows(const double* rows, const std::int32
 }
 
 /// Adds the first `lanes` of the W vectors to the rows `index`, one after another.
-template <int W> void add_rows(double* rows, const std::int32_t* index, int lanes, const Vector3<Pack<W>>& value) {
+template <int W>
+void add_rows(double* rows, const std::int32_t* index, int lanes, const Vector3<Pack<W>>& value) {
   if constexpr (W == 4) {
     detail::add4(rows, index, lanes, value.x.v, value.y.v, value.z.v);
   } else if constexpr (W == 8) {

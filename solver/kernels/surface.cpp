@@ -22,7 +22,8 @@ Bounds update_surface(Model& model, int grain) {
     const int lanes = std::min(W, facet_end - f);
     std::int32_t corner[3][W];
     for (int i = 0; i < W; ++i)
-      for (int c = 0; c < 3; ++c) corner[c][i] = model.facet[static_cast<std::size_t>(3 * std::min(f + i, facet_end - 1) + c)];
+      for (int c = 0; c < 3; ++c)
+        corner[c][i] = model.facet[static_cast<std::size_t>(3 * std::min(f + i, facet_end - 1) + c)];
     const auto x0 = load_rows<W>(position, corner[0]);
     const auto area = cross(load_rows<W>(position, corner[1]) - x0, load_rows<W>(position, corner[2]) - x0);
     const auto third = Pack<W>(1.0 / 6.0) * area;
@@ -52,7 +53,8 @@ double surface_area(const Model& model, int grain) {
   for (std::int32_t f = model.facet_offset[g]; f < model.facet_offset[g + 1]; ++f) {
     Vector3<double> x[3];
     for (int c = 0; c < 3; ++c) {
-      const double* row = &model.position[4 * static_cast<std::size_t>(model.facet[static_cast<std::size_t>(3 * f + c)])];
+      const double* row =
+          &model.position[4 * static_cast<std::size_t>(model.facet[static_cast<std::size_t>(3 * f + c)])];
       x[c] = {row[0], row[1], row[2]};
     }
     area += 0.5 * norm(cross(x[1] - x[0], x[2] - x[0]));

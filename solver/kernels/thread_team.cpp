@@ -21,7 +21,8 @@ void pause_briefly() {
 
 /// Returns when the atomic no longer holds `old`. The loops of one time step follow each other within microseconds: a
 /// short spin saves the sleep and wake-up between them, and no more, since other programs may need the core.
-template <class Value> void wait_while_equal(const std::atomic<Value>& atomic, Value old) {
+template <class Value>
+void wait_while_equal(const std::atomic<Value>& atomic, Value old) {
   constexpr int spins = 2000;
   for (int i = 0; i < spins; ++i) {
     if (atomic.load(std::memory_order_acquire) != old) return;
@@ -43,7 +44,9 @@ ThreadTeam::ThreadTeam(int threads) {
   }
 }
 
-ThreadTeam::~ThreadTeam() { stop_workers(); }
+ThreadTeam::~ThreadTeam() {
+  stop_workers();
+}
 
 void ThreadTeam::stop_workers() {
   stop_.store(true, std::memory_order_relaxed);

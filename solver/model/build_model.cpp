@@ -17,7 +17,9 @@ namespace {
 
 using Index = std::int32_t;
 
-std::size_t at(Index i) { return static_cast<std::size_t>(i); }
+std::size_t at(Index i) {
+  return static_cast<std::size_t>(i);
+}
 
 Vector3<double> point(const std::vector<double>& node, Index i) {
   return {node[3 * at(i)], node[3 * at(i) + 1], node[3 * at(i) + 2]};
@@ -26,8 +28,8 @@ Vector3<double> point(const std::vector<double>& node, Index i) {
 double tet_volume(const MeshedPacking& packing, Index tet) {
   const Index* n = &packing.tet[4 * at(tet)];
   const auto x0 = point(packing.node, n[0]);
-  return dot(point(packing.node, n[1]) - x0,
-             cross(point(packing.node, n[2]) - x0, point(packing.node, n[3]) - x0)) / 6.0;
+  return dot(point(packing.node, n[1]) - x0, cross(point(packing.node, n[2]) - x0, point(packing.node, n[3]) - x0)) /
+         6.0;
 }
 
 /// Key that follows a Morton curve through the box of the grain: neighbours in space become neighbours in memory.
@@ -49,7 +51,8 @@ struct Face {
 
 /// Faces that belong to one tetrahedron only, outward counter-clockwise, for the tets [begin, end). Throws InputError where
 /// more than two tetrahedra share a face, or the faces left over do not close the grain.
-std::vector<std::array<Index, 3>> boundary_faces(const std::vector<Index>& tet, Index begin, Index end, const std::string& grain_name) {
+std::vector<std::array<Index, 3>> boundary_faces(const std::vector<Index>& tet, Index begin, Index end,
+                                                 const std::string& grain_name) {
   static constexpr int corner[4][3] = {{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}};
   std::vector<Face> faces;
   faces.reserve(4 * at(end - begin));
@@ -69,8 +72,8 @@ std::vector<std::array<Index, 3>> boundary_faces(const std::vector<Index>& tet, 
     while (j < faces.size() && faces[j].sorted == faces[i].sorted) ++j;
     if (j == i + 1) boundary.push_back(faces[i].outward);
     if (j > i + 2)
-      throw InputError(fmt::format("{}: {} tetrahedra share the face of nodes {}, {}, {}, allowed at most two", grain_name, j - i,
-                                   faces[i].sorted[0], faces[i].sorted[1], faces[i].sorted[2]));
+      throw InputError(fmt::format("{}: {} tetrahedra share the face of nodes {}, {}, {}, allowed at most two",
+                                   grain_name, j - i, faces[i].sorted[0], faces[i].sorted[1], faces[i].sorted[2]));
     i = j;
   }
   // Every edge once in each direction, or as often in both where parts of the surface touch along it.
@@ -83,16 +86,20 @@ std::vector<std::array<Index, 3>> boundary_faces(const std::vector<Index>& tet, 
   std::sort(forward.begin(), forward.end());
   std::sort(backward.begin(), backward.end());
   if (boundary.empty() || forward != backward)
-    throw InputError(fmt::format("{}: its surface is not closed, allowed tetrahedra that meet face to face", grain_name));
+    throw InputError(
+        fmt::format("{}: its surface is not closed, allowed tetrahedra that meet face to face", grain_name));
   return boundary;
 }
 
 FlowLaw make_flow_law(const MaterialParameters& p) {
   const HardeningParameters& h = p.hardening;
   switch (h.law) {
-  case HardeningLaw::elastic: return ElasticLaw{};
-  case HardeningLaw::power: return PowerLaw{h.yield_stress, h.coefficient, h.exponent};
-  case HardeningLaw::total_strain: return TotalStrainLaw{h.coefficient, h.exponent, p.youngs_modulus};
+  case HardeningLaw::elastic:
+    return ElasticLaw{};
+  case HardeningLaw::power:
+    return PowerLaw{h.yield_stress, h.coefficient, h.exponent};
+  case HardeningLaw::total_strain:
+    return TotalStrainLaw{h.coefficient, h.exponent, p.youngs_modulus};
   case HardeningLaw::table: {
     if (h.table_plastic_strain.size() > static_cast<std::size_t>(TableLaw::max_points))
       throw InputError(fmt::format("material.hardening: the table has {} points, allowed at most {}",
@@ -118,20 +125,22 @@ void check_packing(const MeshedPacking& packing, const std::string& name) {
   if (no.size() < 2 || no.size() != to.size() || no.front() != 0 || to.front() != 0 || no.back() != nodes ||
       to.back() != tets || !std::is_sorted(no.begin(), no.end()) || !std::is_sorted(to.begin(), to.end()))
     throw InputError(fmt::format("{}: /mesh/grain_node_offset and /mesh/grain_tet_offset do not divide {} nodes and {} "
-                                 "tets into grains", name, nodes, tets));
+                                 "tets into grains",
+                                 name, nodes, tets));
   for (std::size_t g = 0; g + 1 < no.size(); ++g) {
     if (to[g + 1] == to[g]) throw InputError(fmt::format("{}: grain {} has no tetrahedra", name, g));
     for (Index t = to[g]; t < to[g + 1]; ++t) {
       for (std::size_t i = 0; i < 4; ++i) {
         const Index n = packing.tet[4 * at(t) + i];
         if (n < no[g] || n >= no[g + 1])
-          throw InputError(fmt::format("{}: /mesh/tet row {}: node {} is not one of grain {} (allowed {} … {})", name, t,
-                                       n, g, no[g], no[g + 1] - 1));
+          throw InputError(fmt::format("{}: /mesh/tet row {}: node {} is not one of grain {} (allowed {} … {})", name,
+                                       t, n, g, no[g], no[g + 1] - 1));
       }
       const double volume = tet_volume(packing, t);
       if (!(volume > 0))
         throw InputError(fmt::format("{}: /mesh/tet row {} (grain {}) is inverted or degenerate: volume {:.3g} mm^3, "
-                                     "allowed > 0", name, t, g, volume));
+                                     "allowed > 0",
+                                     name, t, g, volume));
     }
   }
   for (Index i = 0; i < nodes; ++i)
@@ -157,8 +166,9 @@ void refuse_shared_places(const Model& model, const std::string& name) {
   std::sort(places.begin(), places.end());
   for (std::size_t i = 1; i < places.size(); ++i)
     if (places[i].x == places[i - 1].x && places[i].grain != places[i - 1].grain)
-      throw InputError(fmt::format("{}: grains {} and {} have a node in the same place ({:g}, {:g}, {:g}), allowed grains apart", name,
-                                   places[i - 1].grain, places[i].grain, places[i].x[0], places[i].x[1], places[i].x[2]));
+      throw InputError(
+          fmt::format("{}: grains {} and {} have a node in the same place ({:g}, {:g}, {:g}), allowed grains apart",
+                      name, places[i - 1].grain, places[i].grain, places[i].x[0], places[i].x[1], places[i].x[2]));
 }
 
 } // namespace
@@ -167,12 +177,14 @@ double Model::total_reference_volume() const {
   return std::accumulate(reference_volume.begin(), reference_volume.end(), 0.0);
 }
 
-SurfaceView Model::surface() const { return {position, node_offset, surface_node_count, facet, facet_offset}; }
+SurfaceView Model::surface() const {
+  return {position, node_offset, surface_node_count, facet, facet_offset};
+}
 
 std::size_t Model::memory() const {
   const auto bytes = [](const auto& v) { return v.size() * sizeof(v[0]); };
-  return bytes(position) + bytes(velocity) + bytes(force) + bytes(normal) + bytes(inverse_mass) + bytes(reference_area) + bytes(block) +
-         bytes(facet) + bytes(file_node) + bytes(file_tet);
+  return bytes(position) + bytes(velocity) + bytes(force) + bytes(normal) + bytes(inverse_mass) +
+         bytes(reference_area) + bytes(block) + bytes(facet) + bytes(file_node) + bytes(file_tet);
 }
 
 Material make_material(const MaterialParameters& parameters, double mass_scaling) {
@@ -210,8 +222,8 @@ Model build_model(const MeshedPacking& packing, const Scenario& scenario, const 
   model.inverse_mass.assign(nodes, 0.0);
   model.reference_area.assign(nodes, 0.0);
 
-  const double initial_flow_stress = std::visit([](const auto& law) { return law.initial_flow_stress(); },
-                                                model.material.flow);
+  const double initial_flow_stress =
+      std::visit([](const auto& law) { return law.initial_flow_stress(); }, model.material.flow);
   std::vector<Index> new_index(nodes); // file node -> model node
   for (int g = 0; g < model.grains; ++g) {
     const auto gs = static_cast<std::size_t>(g);
@@ -295,7 +307,8 @@ Model build_model(const MeshedPacking& packing, const Scenario& scenario, const 
     model.mass.push_back(volume * model.material.density);
     for (Index n = n0; n < n1; ++n) {
       double& m = model.inverse_mass[at(n)];
-      if (!(m > 0)) throw InputError(fmt::format("{}: node {} belongs to no tetrahedron", name, model.file_node[at(n)]));
+      if (!(m > 0))
+        throw InputError(fmt::format("{}: node {} belongs to no tetrahedron", name, model.file_node[at(n)]));
       m = 1.0 / m;
     }
   }

@@ -20,20 +20,20 @@ namespace mpfem {
 /// 88 bytes a tet. The last block of a grain repeats its last tet in unused lanes.
 struct alignas(64) TetBlock {
   static constexpr int lanes = native_lanes;
-  std::int32_t node[4][lanes];       ///< relative to the grain's first node
-  double reference_volume[lanes];    ///< mm^3
-  double deviator[5][lanes];         ///< Cauchy deviator xx, yy, xy, yz, zx, MPa
-  double flow_stress[lanes];         ///< MPa
+  std::int32_t node[4][lanes];    ///< relative to the grain's first node
+  double reference_volume[lanes]; ///< mm^3
+  double deviator[5][lanes];      ///< Cauchy deviator xx, yy, xy, yz, zx, MPa
+  double flow_stress[lanes];      ///< MPa
   double plastic_strain[lanes];
-  double length[lanes];              ///< c_d times the undamped critical step 2/omega_e, mm; set at each step estimate
+  double length[lanes]; ///< c_d times the undamped critical step 2/omega_e, mm; set at each step estimate
 };
 
 using FlowLaw = std::variant<ElasticLaw, PowerLaw, TotalStrainLaw, TableLaw>;
 
 struct Material {
-  ElasticModuli moduli;     ///< MPa
-  double density;           ///< tonne/mm^3, mass scaling included
-  double wave_speed;        ///< dilatational, mm/s, with the scaled density
+  ElasticModuli moduli; ///< MPa
+  double density;       ///< tonne/mm^3, mass scaling included
+  double wave_speed;    ///< dilatational, mm/s, with the scaled density
   FlowLaw flow;
 };
 
@@ -43,32 +43,32 @@ struct Model {
   Material material;
   BulkViscosity viscosity{};
 
-  std::vector<std::int32_t> node_offset;         ///< [grains + 1]
-  std::vector<std::int32_t> surface_node_count;  ///< [grains]
-  std::vector<std::int32_t> tet_offset;          ///< [grains + 1]
-  std::vector<std::int32_t> block_offset;        ///< [grains + 1]
-  std::vector<std::int32_t> facet_offset;        ///< [grains + 1]
-  std::vector<std::int32_t> facet;               ///< [facets * 3], outward counter-clockwise
-  std::vector<std::int32_t> file_node;           ///< [nodes]: index in the packing file
-  std::vector<std::int32_t> file_tet;            ///< [tets]: index in the packing file, in block order
+  std::vector<std::int32_t> node_offset;        ///< [grains + 1]
+  std::vector<std::int32_t> surface_node_count; ///< [grains]
+  std::vector<std::int32_t> tet_offset;         ///< [grains + 1]
+  std::vector<std::int32_t> block_offset;       ///< [grains + 1]
+  std::vector<std::int32_t> facet_offset;       ///< [grains + 1]
+  std::vector<std::int32_t> facet;              ///< [facets * 3], outward counter-clockwise
+  std::vector<std::int32_t> file_node;          ///< [nodes]: index in the packing file
+  std::vector<std::int32_t> file_tet;           ///< [tets]: index in the packing file, in block order
 
-  AlignedVector<double> position;    ///< mm
-  AlignedVector<double> velocity;    ///< mm/s, at the half step before the position
-  AlignedVector<double> force;       ///< N, internal and contact forces at the position
-  AlignedVector<double> normal;      ///< unit outward normal of surface nodes and, fourth, tributary area mm^2
-  std::vector<double> reference_area;///< [nodes]: tributary area of surface nodes at the start, mm^2
-  AlignedVector<double> inverse_mass;///< [nodes], 1/tonne
+  AlignedVector<double> position;     ///< mm
+  AlignedVector<double> velocity;     ///< mm/s, at the half step before the position
+  AlignedVector<double> force;        ///< N, internal and contact forces at the position
+  AlignedVector<double> normal;       ///< unit outward normal of surface nodes and, fourth, tributary area mm^2
+  std::vector<double> reference_area; ///< [nodes]: tributary area of surface nodes at the start, mm^2
+  AlignedVector<double> inverse_mass; ///< [nodes], 1/tonne
   std::vector<TetBlock> block;
 
-  std::vector<double> reference_volume;   ///< [grains], mm^3
-  std::vector<double> mass;               ///< [grains], tonne (scaled)
-  std::vector<double> element_size;       ///< [grains], h: mean edge length of the surface facets, mm
-  std::vector<double> penalty_stiffness;  ///< [grains], K = factor E / h, MPa/mm
+  std::vector<double> reference_volume;  ///< [grains], mm^3
+  std::vector<double> mass;              ///< [grains], tonne (scaled)
+  std::vector<double> element_size;      ///< [grains], h: mean edge length of the surface facets, mm
+  std::vector<double> penalty_stiffness; ///< [grains], K = factor E / h, MPa/mm
 
-  std::array<double, 3> box_low{};        ///< mm, at the start
+  std::array<double, 3> box_low{}; ///< mm, at the start
   std::array<double, 3> box_high{};
-  std::int64_t seed = -1;                 ///< of the packing, -1 where unknown
-  std::uint64_t mesh_hash = 0;            ///< of nodes and tets as read
+  std::int64_t seed = -1;      ///< of the packing, -1 where unknown
+  std::uint64_t mesh_hash = 0; ///< of nodes and tets as read
 
   std::int32_t nodes() const { return node_offset.back(); }
   std::int32_t tets() const { return tet_offset.back(); }

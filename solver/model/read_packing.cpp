@@ -13,7 +13,8 @@ MeshedPacking read_packing(const std::string& path) {
   const schema::FileReader reader(path, schema::FileKind::packing);
   if (!reader.has(schema::packing::mesh_tet))
     throw InputError(fmt::format("{}: holds spheres without a mesh; make one with: pack-gen mesh {} --size MM -o "
-                                 "packing.h5", path, path));
+                                 "packing.h5",
+                                 path, path));
   MeshedPacking packing;
   const auto lengths = reader.read(schema::packing::box_lengths);
   std::copy_n(lengths.begin(), 3, packing.box_lengths.begin());

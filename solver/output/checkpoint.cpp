@@ -19,7 +19,8 @@ namespace {
 namespace check = schema::checkpoint;
 
 std::vector<std::int64_t> integers(const RunState& s) {
-  return {s.step, s.stage, s.rows_in_stage, s.snapshots_passed, s.steps_since_estimate, s.controlled_by_contact, s.searches};
+  return {s.step,    s.stage, s.rows_in_stage, s.snapshots_passed, s.steps_since_estimate, s.controlled_by_contact,
+          s.searches};
 }
 
 void set_integers(RunState& s, const std::vector<std::int64_t>& v) {
@@ -28,7 +29,8 @@ void set_integers(RunState& s, const std::vector<std::int64_t>& v) {
 }
 
 /// Calls f(double&) for every number of state and record, always in the same order.
-template <class State, class Record, class F> void for_each_number(State& s, Record& r, F&& f) {
+template <class State, class Record, class F>
+void for_each_number(State& s, Record& r, F&& f) {
   for (auto* value : {&s.time, &s.stage_time, &s.stable_step, &s.last_step, &s.strain_since_estimate, &s.strain_rate,
                       &s.initial_energy, &s.plastic_dissipation, &s.viscous_dissipation, &s.damping_dissipation,
                       &s.external_work, &s.damping_force, &s.mean_stress, &r.wall_time})
@@ -46,7 +48,8 @@ struct TetState {
 };
 
 /// Calls f(block, lane, tet) for every tet of the model.
-template <class ModelType, class F> void for_each_tet(ModelType& model, F&& f) {
+template <class ModelType, class F>
+void for_each_tet(ModelType& model, F&& f) {
   for (int grain = 0; grain < model.grains; ++grain) {
     const auto g = static_cast<std::size_t>(grain);
     for (std::int32_t b = model.block_offset[g]; b < model.block_offset[g + 1]; ++b)
@@ -58,7 +61,8 @@ template <class ModelType, class F> void for_each_tet(ModelType& model, F&& f) {
 
 TetState tet_state(const Model& model) {
   const auto tets = static_cast<std::size_t>(model.tets());
-  TetState s{std::vector<double>(5 * tets), std::vector<double>(tets), std::vector<double>(tets), std::vector<double>(tets)};
+  TetState s{std::vector<double>(5 * tets), std::vector<double>(tets), std::vector<double>(tets),
+             std::vector<double>(tets)};
   for_each_tet(model, [&](const TetBlock& block, int lane, std::size_t tet) {
     for (std::size_t c = 0; c < 5; ++c) s.deviator[5 * tet + c] = block.deviator[c][lane];
     s.flow_stress[tet] = block.flow_stress[lane];
@@ -68,7 +72,8 @@ TetState tet_state(const Model& model) {
   return s;
 }
 
-template <class Vector> std::uint64_t add(const Vector& values, std::uint64_t hash) {
+template <class Vector>
+std::uint64_t add(const Vector& values, std::uint64_t hash) {
   return hash_values(std::span<const typename Vector::value_type>(values.data(), values.size()), hash);
 }
 
@@ -150,8 +155,8 @@ void write_checkpoint(const std::string& path, const Simulation& simulation, con
   file.commit();
 }
 
-void read_checkpoint(const std::string& path, Simulation& simulation, RunRecord& record, const std::string& scenario_text,
-                     bool any_scenario) {
+void read_checkpoint(const std::string& path, Simulation& simulation, RunRecord& record,
+                     const std::string& scenario_text, bool any_scenario) {
   const schema::FileReader file(path, schema::FileKind::checkpoint);
   Contents c;
   c.integers = file.read(check::run_integers);
@@ -180,17 +185,23 @@ void read_checkpoint(const std::string& path, Simulation& simulation, RunRecord&
   if (file.read_scalar(check::packing_hash) != hash_text(model.mesh_hash))
     throw InputError(fmt::format("{}: the checkpoint belongs to another packing than the scenario's", path));
   if (!any_scenario && file.read_scalar(check::scenario) != scenario_text)
-    throw InputError(fmt::format("{}: the checkpoint belongs to another scenario; run without --resume to begin anew", path));
+    throw InputError(
+        fmt::format("{}: the checkpoint belongs to another scenario; run without --resume to begin anew", path));
   if (file.read_scalar(check::lanes) != TetBlock::lanes)
-    throw InputError(fmt::format("{}: the checkpoint was written by a build with {} lanes, this one has {}: nodes and tets "
-                                 "would not go on bitwise", path, file.read_scalar(check::lanes), TetBlock::lanes));
+    throw InputError(
+        fmt::format("{}: the checkpoint was written by a build with {} lanes, this one has {}: nodes and tets "
+                    "would not go on bitwise",
+                    path, file.read_scalar(check::lanes), TetBlock::lanes));
 
   // A branch goes on with the same matter: its stresses and strains mean nothing in another material.
   if (any_scenario) {
     const std::string earlier = file.read_scalar(check::scenario);
-    const auto material_of = [&path](const std::string& text) { return read_scenario(TomlDocument::from_text(text, path)).material; };
+    const auto material_of = [&path](const std::string& text) {
+      return read_scenario(TomlDocument::from_text(text, path)).material;
+    };
     if (material_of(earlier) != material_of(scenario_text))
-      throw InputError(fmt::format("{}: the checkpoint's material differs from the scenario's, allowed the same [material]", path));
+      throw InputError(
+          fmt::format("{}: the checkpoint's material differs from the scenario's, allowed the same [material]", path));
   }
   set_integers(simulation.state(), c.integers);
   if (any_scenario) simulation.state().stage = 0;

@@ -12,7 +12,7 @@ namespace mpfem {
 struct RunRecord {
   std::vector<HistoryRow> history;
   std::vector<std::string> snapshot_files;
-  double wall_time = 0;                  ///< s, of all parts of the run so far
+  double wall_time = 0; ///< s, of all parts of the run so far
   std::array<double, profile_parts> profile_seconds{};
 };
 
@@ -22,7 +22,7 @@ void write_checkpoint(const std::string& path, const Simulation& simulation, con
 
 /// Replaces the simulation's state. Throws InputError where the file is damaged (checksum), belongs to another mesh, to
 /// another scenario text (unless `any_scenario`), or was written by a build with another block width.
-void read_checkpoint(const std::string& path, Simulation& simulation, RunRecord& record, const std::string& scenario_text,
-                     bool any_scenario);
+void read_checkpoint(const std::string& path, Simulation& simulation, RunRecord& record,
+                     const std::string& scenario_text, bool any_scenario);
 
 } // namespace mpfem

@@ -17,7 +17,8 @@ constexpr std::size_t row_values = sizeof(HistoryRow) / sizeof(double);
 using Rows = std::vector<HistoryRow>;
 
 template <class T>
-void write_column(schema::FileWriter& file, const Rows& rows, const schema::Dataset<T, 1>& dataset, double HistoryRow::*member) {
+void write_column(schema::FileWriter& file, const Rows& rows, const schema::Dataset<T, 1>& dataset,
+                  double HistoryRow::*member) {
   std::vector<T> values;
   for (const HistoryRow& row : rows) values.push_back(static_cast<T>(row.*member));
   file.write(dataset, std::span<const T>(values), rows.size());

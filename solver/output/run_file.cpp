@@ -36,7 +36,8 @@ std::vector<float> contact_pressure(const Simulation& simulation) {
                                          point.force[2] * point.force[2]);
       force[static_cast<std::size_t>(point.node)] += magnitude;
       for (std::size_t c = 0; c < 3; ++c)
-        force[static_cast<std::size_t>(model.facet[3 * static_cast<std::size_t>(point.facet) + c])] += point.weight[c] * magnitude;
+        force[static_cast<std::size_t>(model.facet[3 * static_cast<std::size_t>(point.facet) + c])] +=
+            point.weight[c] * magnitude;
     }
   std::vector<float> pressure(force.size(), 0.0F);
   for (int grain = 0; grain < model.grains; ++grain) {
@@ -152,8 +153,10 @@ void write_run_file(const std::string& path, const Model& model, const std::vect
   file.write_scalar(run::provenance_host, physical_host());
   file.write_scalar(run::provenance_threads, std::int32_t{provenance.threads});
   file.write_scalar(run::provenance_wall_time, provenance.wall_time);
-  file.write(run::provenance_profile_name, std::span<const std::string>(provenance.profile_name), provenance.profile_name.size());
-  file.write(run::provenance_profile_seconds, std::span<const double>(provenance.profile_seconds), provenance.profile_seconds.size());
+  file.write(run::provenance_profile_name, std::span<const std::string>(provenance.profile_name),
+             provenance.profile_name.size());
+  file.write(run::provenance_profile_seconds, std::span<const double>(provenance.profile_seconds),
+             provenance.profile_seconds.size());
   file.write_scalar(run::provenance_status, provenance.status);
   file.commit();
 }

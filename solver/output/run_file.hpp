@@ -17,9 +17,9 @@ void write_snapshot_file(const std::string& path, Simulation& simulation);
 
 struct Provenance {
   std::string scenario_text;
-  std::string status;      ///< complete, failed: REASON, interrupted
+  std::string status; ///< complete, failed: REASON, interrupted
   int threads = 1;
-  double wall_time = 0;    ///< s
+  double wall_time = 0; ///< s
   std::vector<std::string> profile_name;
   std::vector<double> profile_seconds;
 };

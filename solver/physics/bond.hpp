@@ -14,7 +14,7 @@ namespace mpfem {
 /// Two readings of the paper's Eq. 5. With delta_0 = T_0/K, G_0 = T_0 delta_0 / 2 and b = G^c - G_0:
 enum class SofteningLaw {
   exponential, ///< T = T_0 exp(-T_0 (delta - delta_0)/b): the peak is the strength, as the paper's Fig. 3 draws it
-  energy,      ///< 1 - D = exp(-K (delta^2 - delta_0^2)/(2 b)): Eq. 5 to the letter; the traction rises beyond the strength
+  energy, ///< 1 - D = exp(-K (delta^2 - delta_0^2)/(2 b)): Eq. 5 to the letter; the traction rises beyond the strength
 };
 
 /// Constants of a bond.
@@ -24,7 +24,7 @@ struct BondLaw {
   double shear_strength = 0;   ///< t_s^m = t_t^m, MPa (Table 1 has one value for both directions)
   double fracture_energy = 0;  ///< G^c, N/mm; must exceed t^2/(2 K) of the larger strength
   SofteningLaw softening = SofteningLaw::exponential;
-  bool normal_only = false;    ///< no traction against sliding (for comparison with theories of adhesion)
+  bool normal_only = false; ///< no traction against sliding (for comparison with theories of adhesion)
 };
 
 /// What a bond remembers.
@@ -36,7 +36,8 @@ struct BondState {
 /// Effective separation (mm) at which damage begins in a mode given by its share of opening: `opening` = <delta_n>/delta.
 inline double initiation_separation(const BondLaw& law, double opening) {
   const double normal = opening / law.tensile_strength;
-  const double shear_square = law.normal_only ? 0.0 : (1 - opening * opening) / (law.shear_strength * law.shear_strength);
+  const double shear_square =
+      law.normal_only ? 0.0 : (1 - opening * opening) / (law.shear_strength * law.shear_strength);
   return 1 / (law.stiffness * std::sqrt(normal * normal + shear_square));
 }
 
@@ -52,16 +53,19 @@ inline double remaining_stiffness(const BondLaw& law, const BondState& state) {
 /// Energy (mJ/mm^2 = N/mm) under the envelope up to the largest separation: what opening the bond so far has taken.
 inline double envelope_energy(const BondLaw& law, const BondState& state) {
   if (state.initiation == 0) return 0;
-  const double d0 = state.initiation, peak = law.stiffness * d0, before = 0.5 * peak * d0, b = law.fracture_energy - before;
-  const double exponent = law.softening == SofteningLaw::exponential ? peak * (state.largest - d0) / b
-                                                                      : 0.5 * law.stiffness * (state.largest - d0) * (state.largest + d0) / b;
+  const double d0 = state.initiation, peak = law.stiffness * d0, before = 0.5 * peak * d0,
+               b = law.fracture_energy - before;
+  const double exponent = law.softening == SofteningLaw::exponential
+                              ? peak * (state.largest - d0) / b
+                              : 0.5 * law.stiffness * (state.largest - d0) * (state.largest + d0) / b;
   return before - b * std::expm1(-exponent);
 }
 
 /// Energy (N/mm) lost to damage so far.
 inline double damage_dissipation(const BondLaw& law, const BondState& state) {
   if (state.initiation == 0) return 0;
-  return envelope_energy(law, state) - 0.5 * remaining_stiffness(law, state) * law.stiffness * state.largest * state.largest;
+  return envelope_energy(law, state) -
+         0.5 * remaining_stiffness(law, state) * law.stiffness * state.largest * state.largest;
 }
 
 /// Tractions (MPa) that act against the separations, and what is stored.
@@ -78,7 +82,8 @@ inline BondTraction bond_traction(const BondLaw& law, BondState& state, double n
   const double effective = std::sqrt(open * open + slide1 * slide1 + slide2 * slide2);
   if (state.initiation == 0) {
     if (effective > 0)
-      if (const double begin = initiation_separation(law, open / effective); effective >= begin) state = {begin, effective};
+      if (const double begin = initiation_separation(law, open / effective); effective >= begin)
+        state = {begin, effective};
   } else if (effective > state.largest) {
     state.largest = effective;
   }

@@ -20,17 +20,20 @@ inline ElasticModuli elastic_moduli(double youngs_modulus, double poissons_ratio
 }
 
 /// Cauchy mean stress (tension positive, MPa) at the volume ratio J.
-template <class S> S mean_stress(const ElasticModuli& moduli, const S& volume_ratio) {
+template <class S>
+S mean_stress(const ElasticModuli& moduli, const S& volume_ratio) {
   return S(moduli.bulk) * log(volume_ratio);
 }
 
 /// Energy per reference volume (MPa) whose derivative with respect to J is K ln J.
-template <class S> S volumetric_energy(const ElasticModuli& moduli, const S& volume_ratio) {
+template <class S>
+S volumetric_energy(const ElasticModuli& moduli, const S& volume_ratio) {
   return S(moduli.bulk) * (volume_ratio * log(volume_ratio) - volume_ratio + S(1.0));
 }
 
 /// Elastic distortion energy per current volume (MPa), s:s/(4G).
-template <class S> S distortion_energy(const ElasticModuli& moduli, const Deviator<S>& s) {
+template <class S>
+S distortion_energy(const ElasticModuli& moduli, const Deviator<S>& s) {
   return S(0.25 / moduli.shear) * double_contraction(s);
 }
 

@@ -13,7 +13,8 @@
 
 namespace mpfem {
 
-template <class S> struct HardeningState {
+template <class S>
+struct HardeningState {
   S flow_stress;    ///< MPa
   S plastic_strain; ///< equivalent plastic strain
 };
@@ -36,10 +37,10 @@ struct PowerLaw {
   template <class S>
   HardeningState<S> end_of_increment(const S& trial, const HardeningState<S>& old, double three_shear) const {
     const S excess = trial - old.flow_stress;
-    const S hardening = old.flow_stress - S(yield_stress);            // y = k eps_p^m
-    const S slope_strain = S(exponent) * hardening;                   // H' eps_p
-    const S elastic = S(three_shear) * old.plastic_strain;            // 3G eps_p
-    const S first = excess / (elastic + slope_strain);                // relative increment r = d eps_p / eps_p, explicit
+    const S hardening = old.flow_stress - S(yield_stress); // y = k eps_p^m
+    const S slope_strain = S(exponent) * hardening;        // H' eps_p
+    const S elastic = S(three_shear) * old.plastic_strain; // 3G eps_p
+    const S first = excess / (elastic + slope_strain);     // relative increment r = d eps_p / eps_p, explicit
     // 1. Small relative increments, nearly always: (1 + r)^m by its binomial series, Newton on
     //    3G eps_p r + y ((1 + r)^m - 1) = excess. Comparison is false for 0/0, so fresh points take the other way.
     if (!any(!(first < S(0.02)))) {
@@ -73,14 +74,16 @@ struct PowerLaw {
 
 private:
   /// (1 + r)^m - 1 for 0 <= r < 0.02 to rounding: seven terms, the next is below 0.02^8.
-  template <class S> S power_series(const S& r) const {
+  template <class S>
+  S power_series(const S& r) const {
     const double m = exponent;
     const double c2 = (m - 1) / 2, c3 = (m - 2) / 3, c4 = (m - 3) / 4, c5 = (m - 4) / 5, c6 = (m - 5) / 6,
                  c7 = (m - 6) / 7;
     const S one(1.0);
     return S(m) * r *
-           (one + S(c2) * r *
-                      (one + S(c3) * r * (one + S(c4) * r * (one + S(c5) * r * (one + S(c6) * r * (one + S(c7) * r))))));
+           (one +
+            S(c2) * r *
+                (one + S(c3) * r * (one + S(c4) * r * (one + S(c5) * r * (one + S(c6) * r * (one + S(c7) * r))))));
   }
 };
 
@@ -103,7 +106,8 @@ struct TotalStrainLaw {
     S stress = trial;
     for (int iteration = 0; iteration < 40; ++iteration) {
       const S strain = exp(log(stress * S(1.0 / coefficient)) * S(1.0 / exponent));
-      const S residual = S(three_shear) * (strain - stress * S(1.0 / youngs_modulus) - old.plastic_strain) + stress - trial;
+      const S residual =
+          S(three_shear) * (strain - stress * S(1.0 / youngs_modulus) - old.plastic_strain) + stress - trial;
       const S slope = S(three_shear) * (S(1.0 / exponent) * strain / stress - S(1.0 / youngs_modulus)) + S(1.0);
       const S step = residual / slope;
       stress = max(stress - step, old.flow_stress);

@@ -8,7 +8,8 @@ namespace mpfem {
 
 /// Edges from node 0 and their cross products. det = 6 V; gradient of shape function i is area[i-1] / det (i = 1, 2, 3)
 /// and that of node 0 minus their sum.
-template <class S> struct TetGeometry {
+template <class S>
+struct TetGeometry {
   Vector3<S> area[3]; ///< mm^2: e2 x e3, e3 x e1, e1 x e2
   S det;              ///< mm^3
 };
@@ -21,14 +22,16 @@ TetGeometry<S> tet_geometry(const Vector3<S>& e1, const Vector3<S>& e2, const Ve
 }
 
 /// Symmetric part and axial vector of the displacement increment's gradient.
-template <class S> struct Increment {
+template <class S>
+struct Increment {
   SymmetricTensor<S> strain; ///< dimensionless
   Vector3<S> rotation;       ///< axial vector of the spin increment, rad
 };
 
 /// Gradient of the displacement increment with respect to the half-step configuration. `du` are the displacement
 /// increments of nodes 1, 2, 3 relative to node 0 (mm); `middle` the geometry half way.
-template <class S> Increment<S> displacement_increment(const TetGeometry<S>& middle, const Vector3<S> (&du)[3]) {
+template <class S>
+Increment<S> displacement_increment(const TetGeometry<S>& middle, const Vector3<S> (&du)[3]) {
   const S inverse = S(1.0) / middle.det;
   const Vector3<S> g0 = inverse * middle.area[0], g1 = inverse * middle.area[1], g2 = inverse * middle.area[2];
   const S hxx = du[0].x * g0.x + du[1].x * g1.x + du[2].x * g2.x;
@@ -47,7 +50,8 @@ template <class S> Increment<S> displacement_increment(const TetGeometry<S>& mid
 
 /// R s R^T with R = (I - W/2)^-1 (I + W/2), W the spin increment with axial vector `rotation`. In closed form
 /// R = I + 2 (T + T^2) / (1 + t.t), t = rotation/2, T its cross-product matrix: a proper rotation for any increment.
-template <class S> Deviator<S> rotated(const Deviator<S>& s, const Vector3<S>& rotation) {
+template <class S>
+Deviator<S> rotated(const Deviator<S>& s, const Vector3<S>& rotation) {
   const Vector3<S> t = S(0.5) * rotation;
   const S two(2.0), one(1.0);
   const S c = two / (one + dot(t, t));

@@ -20,22 +20,27 @@ inline constexpr int native_lanes = 2;
 #endif
 
 /// The compiler's vector types. Written out per width: gcc drops the attribute where the width is a template parameter.
-template <int W> struct NativeVector;
-template <> struct NativeVector<2> {
+template <int W>
+struct NativeVector;
+template <>
+struct NativeVector<2> {
   typedef double Numbers __attribute__((vector_size(16)));
   typedef std::int64_t Truths __attribute__((vector_size(16)));
 };
-template <> struct NativeVector<4> {
+template <>
+struct NativeVector<4> {
   typedef double Numbers __attribute__((vector_size(32)));
   typedef std::int64_t Truths __attribute__((vector_size(32)));
 };
-template <> struct NativeVector<8> {
+template <>
+struct NativeVector<8> {
   typedef double Numbers __attribute__((vector_size(64)));
   typedef std::int64_t Truths __attribute__((vector_size(64)));
 };
 
 /// Lane-wise truth values of a Pack<W>.
-template <int W> struct Mask {
+template <int W>
+struct Mask {
   using Native = typename NativeVector<W>::Truths;
   Native v;
   friend Mask operator&(Mask a, Mask b) { return {a.v & b.v}; }
@@ -43,7 +48,8 @@ template <int W> struct Mask {
   Mask operator!() const { return {~v}; }
 };
 
-template <int W> struct Pack {
+template <int W>
+struct Pack {
   using Native = typename NativeVector<W>::Numbers;
   static constexpr int lanes = W;
   Native v;
@@ -62,9 +68,18 @@ template <int W> struct Pack {
   friend Pack operator*(Pack a, Pack b) { return a.v * b.v; }
   friend Pack operator/(Pack a, Pack b) { return a.v / b.v; }
   Pack operator-() const { return -v; }
-  Pack& operator+=(Pack b) { v += b.v; return *this; }
-  Pack& operator-=(Pack b) { v -= b.v; return *this; }
-  Pack& operator*=(Pack b) { v *= b.v; return *this; }
+  Pack& operator+=(Pack b) {
+    v += b.v;
+    return *this;
+  }
+  Pack& operator-=(Pack b) {
+    v -= b.v;
+    return *this;
+  }
+  Pack& operator*=(Pack b) {
+    v *= b.v;
+    return *this;
+  }
   friend Mask<W> operator<(Pack a, Pack b) { return {a.v < b.v}; }
   friend Mask<W> operator>(Pack a, Pack b) { return {a.v > b.v}; }
   friend Mask<W> operator<=(Pack a, Pack b) { return {a.v <= b.v}; }
@@ -73,58 +88,94 @@ template <int W> struct Pack {
 
 using NativePack = Pack<native_lanes>;
 
-template <int W> Pack<W> select(Mask<W> mask, Pack<W> yes, Pack<W> no) { return mask.v ? yes.v : no.v; }
-template <int W> Pack<W> max(Pack<W> a, Pack<W> b) { return a.v > b.v ? a.v : b.v; }
-template <int W> Pack<W> min(Pack<W> a, Pack<W> b) { return a.v < b.v ? a.v : b.v; }
-template <int W> bool any(Mask<W> mask) {
+template <int W>
+Pack<W> select(Mask<W> mask, Pack<W> yes, Pack<W> no) {
+  return mask.v ? yes.v : no.v;
+}
+template <int W>
+Pack<W> max(Pack<W> a, Pack<W> b) {
+  return a.v > b.v ? a.v : b.v;
+}
+template <int W>
+Pack<W> min(Pack<W> a, Pack<W> b) {
+  return a.v < b.v ? a.v : b.v;
+}
+template <int W>
+bool any(Mask<W> mask) {
   std::int64_t bits = 0;
   for (int i = 0; i < W; ++i) bits |= mask.v[i];
   return bits != 0;
 }
-template <int W> Pack<W> sqrt(Pack<W> a) {
+template <int W>
+Pack<W> sqrt(Pack<W> a) {
   Pack<W> root;
   for (int i = 0; i < W; ++i) root.v[i] = std::sqrt(a.v[i]);
   return root;
 }
 // exp and log are Eigen's vectorised ones (errors of a few units in the last place).
-template <int W> Pack<W> exp(Pack<W> a) {
+template <int W>
+Pack<W> exp(Pack<W> a) {
   Pack<W> result;
   Eigen::Map<Eigen::Array<double, W, 1>, Eigen::Aligned16>(reinterpret_cast<double*>(&result.v)) =
       Eigen::Map<const Eigen::Array<double, W, 1>, Eigen::Aligned16>(reinterpret_cast<const double*>(&a.v)).exp();
   return result;
 }
-template <int W> Pack<W> log(Pack<W> a) {
+template <int W>
+Pack<W> log(Pack<W> a) {
   Pack<W> result;
   Eigen::Map<Eigen::Array<double, W, 1>, Eigen::Aligned16>(reinterpret_cast<double*>(&result.v)) =
       Eigen::Map<const Eigen::Array<double, W, 1>, Eigen::Aligned16>(reinterpret_cast<const double*>(&a.v)).log();
   return result;
 }
-template <int W> double sum(Pack<W> a) {
+template <int W>
+double sum(Pack<W> a) {
   double total = 0;
   for (int i = 0; i < W; ++i) total += a.v[i];
   return total;
 }
-template <int W> double largest(Pack<W> a) {
+template <int W>
+double largest(Pack<W> a) {
   double value = a.v[0];
   for (int i = 1; i < W; ++i) value = a.v[i] > value ? a.v[i] : value;
   return value;
 }
-template <int W> double smallest(Pack<W> a) {
+template <int W>
+double smallest(Pack<W> a) {
   double value = a.v[0];
   for (int i = 1; i < W; ++i) value = a.v[i] < value ? a.v[i] : value;
   return value;
 }
 
 // The same vocabulary for one plain double.
-inline double select(bool mask, double yes, double no) { return mask ? yes : no; }
-inline double max(double a, double b) { return a > b ? a : b; }
-inline double min(double a, double b) { return a < b ? a : b; }
-inline bool any(bool mask) { return mask; }
-inline double sqrt(double a) { return std::sqrt(a); }
-inline double exp(double a) { return std::exp(a); }
-inline double log(double a) { return std::log(a); }
-inline double sum(double a) { return a; }
-inline double largest(double a) { return a; }
-inline double smallest(double a) { return a; }
+inline double select(bool mask, double yes, double no) {
+  return mask ? yes : no;
+}
+inline double max(double a, double b) {
+  return a > b ? a : b;
+}
+inline double min(double a, double b) {
+  return a < b ? a : b;
+}
+inline bool any(bool mask) {
+  return mask;
+}
+inline double sqrt(double a) {
+  return std::sqrt(a);
+}
+inline double exp(double a) {
+  return std::exp(a);
+}
+inline double log(double a) {
+  return std::log(a);
+}
+inline double sum(double a) {
+  return a;
+}
+inline double largest(double a) {
+  return a;
+}
+inline double smallest(double a) {
+  return a;
+}
 
 } // namespace mpfem

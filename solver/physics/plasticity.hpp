@@ -8,10 +8,11 @@
 
 namespace mpfem {
 
-template <class S> struct ReturnedStress {
-  Deviator<S> deviator;          ///< MPa
+template <class S>
+struct ReturnedStress {
+  Deviator<S> deviator; ///< MPa
   HardeningState<S> hardening;
-  S plastic_work;                ///< plastic work per volume in the increment, MPa
+  S plastic_work; ///< plastic work per volume in the increment, MPa
 };
 
 /// 1. trial von Mises stress; 2. admissible where it does not exceed the flow stress; 3. else scale the deviator back to

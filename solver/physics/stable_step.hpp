@@ -15,7 +15,7 @@ namespace mpfem {
 template <class S>
 S largest_frequency_squared(const ElasticModuli& moduli, const S& density, const TetGeometry<S>& geometry) {
   const S inverse = S(1.0) / (geometry.det * geometry.det);
-  const Vector3<S>*a = geometry.area;
+  const Vector3<S>* a = geometry.area;
   const Vector3<S> b = -(a[0] + a[1] + a[2]);
   const S mxx = a[0].x * a[0].x + a[1].x * a[1].x + a[2].x * a[2].x + b.x * b.x;
   const S myy = a[0].y * a[0].y + a[1].y * a[1].y + a[2].y * a[2].y + b.y * b.y;
@@ -27,7 +27,8 @@ S largest_frequency_squared(const ElasticModuli& moduli, const S& density, const
   const S squares = mxx * mxx + myy * myy + mzz * mzz + S(2.0) * (mxy * mxy + myz * myz + mzx * mzx);
   const S spread = max(squares - trace * trace * S(1.0 / 3.0), S(0.0));
   const S largest_eigenvalue = S(1.0 / 3.0) * trace + sqrt(S(2.0 / 3.0) * spread);
-  return S(4.0) * (S(std::max(moduli.lame(), 0.0)) * trace + S(2.0 * moduli.shear) * largest_eigenvalue) * inverse / density;
+  return S(4.0) * (S(std::max(moduli.lame(), 0.0)) * trace + S(2.0 * moduli.shear) * largest_eigenvalue) * inverse /
+         density;
 }
 
 /// Damping of volumetric oscillations.
@@ -39,14 +40,16 @@ struct BulkViscosity {
 /// Viscous pressure (compression positive, MPa): -b1 rho c L rate + (b2 L rate)^2 rho where rate < 0.
 /// `rate` volumetric strain rate 1/s; `length` mm; `wave_speed` mm/s; `density` tonne/mm^3.
 template <class S>
-S viscous_pressure(const BulkViscosity& viscosity, double wave_speed, const S& density, const S& length, const S& rate) {
+S viscous_pressure(const BulkViscosity& viscosity, double wave_speed, const S& density, const S& length,
+                   const S& rate) {
   const S compression = min(rate, S(0.0));
   const S quadratic = S(viscosity.quadratic) * length * compression;
   return density * (quadratic * quadratic - S(viscosity.linear * wave_speed) * length * rate);
 }
 
 /// Factor sqrt(1 + xi^2) - xi by which a damping ratio xi lowers the stable step 2/omega.
-template <class S> S damped_step_factor(const S& damping_ratio) {
+template <class S>
+S damped_step_factor(const S& damping_ratio) {
   return sqrt(S(1.0) + damping_ratio * damping_ratio) - damping_ratio;
 }
 

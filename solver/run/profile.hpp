@@ -11,8 +11,8 @@ namespace mpfem {
 enum class Part : std::size_t { elements, contact, contact_search, integration, surface, step_estimate, output };
 inline constexpr std::size_t profile_parts = 7;
 inline constexpr std::array<const char*, profile_parts> part_names = {
-    "element forces", "contact forces", "contact search", "integration and walls", "surface normals", "step estimate",
-    "output"};
+    "element forces",  "contact forces", "contact search", "integration and walls",
+    "surface normals", "step estimate",  "output"};
 
 /// Adds up seconds per part and thread. Parts that run on the calling thread alone count for all threads (the others
 /// wait), so that the sum over parts, divided by the threads, plus waiting, is the wall-clock time.
@@ -23,7 +23,9 @@ public:
   using Clock = std::chrono::steady_clock;
   static double since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
 
-  void add(Part part, int thread, double seconds) { seconds_[static_cast<std::size_t>(thread)].part[index(part)] += seconds; }
+  void add(Part part, int thread, double seconds) {
+    seconds_[static_cast<std::size_t>(thread)].part[index(part)] += seconds;
+  }
   void add_serial(Part part, double seconds) {
     for (auto& thread : seconds_) thread.part[index(part)] += seconds;
   }

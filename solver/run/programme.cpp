@@ -12,7 +12,9 @@ namespace mpfem {
 namespace {
 
 /// Integral of the smooth step 3 s^2 - 2 s^3 from 0 to s.
-double smooth_step_integral(double s) { return s * s * s - 0.5 * s * s * s * s; }
+double smooth_step_integral(double s) {
+  return s * s * s - 0.5 * s * s * s * s;
+}
 
 double volume(const std::array<double, 3>& low, const std::array<double, 3>& high) {
   return (high[0] - low[0]) * (high[1] - low[1]) * (high[2] - low[2]);
@@ -46,7 +48,8 @@ StageMotion::StageMotion(const Stage& stage, const std::array<double, 3>& low, c
   // Nearer than this, the walls would move by rounding errors.
   if (!(compaction.relative_density > density * (1 + 1e-9)))
     throw InputError(fmt::format("stage '{}': key 'relative_density': found {}, allowed more than the density at its "
-                                 "start, {:.4f}", stage.name, compaction.relative_density, density));
+                                 "start, {:.4f}",
+                                 stage.name, compaction.relative_density, density));
   end_scale_ = std::cbrt(density / compaction.relative_density);
   ramp_ = compaction.ramp_fraction;
   double longest = 0;
@@ -63,8 +66,8 @@ void StageMotion::place(Walls& walls, double time) const {
   }
 }
 
-void check_programme(const Scenario& scenario, std::int64_t first_stage, std::array<double, 3> low, std::array<double, 3> high,
-                     const Model& model, double stable_step) {
+void check_programme(const Scenario& scenario, std::int64_t first_stage, std::array<double, 3> low,
+                     std::array<double, 3> high, const Model& model, double stable_step) {
   constexpr double largest_travel = 0.05; // of h a step; a penetration of that size in one step is an impact
   const double smallest_size = *std::min_element(model.element_size.begin(), model.element_size.end());
   for (auto s = static_cast<std::size_t>(first_stage); s < scenario.stages.size(); ++s) {
@@ -75,8 +78,10 @@ void check_programme(const Scenario& scenario, std::int64_t first_stage, std::ar
     low = walls.low, high = walls.high;
     if (const double fastest = largest_travel * smallest_size / stable_step;
         stage.isotropic_compaction && stage.isotropic_compaction->wall_speed > fastest)
-      throw InputError(fmt::format("stage '{}': key 'wall_speed': found {:g} mm/s, allowed at most {:.4g} mm/s here ({} of an element in a "
-                                   "stable step of {:.3g} s)", stage.name, stage.isotropic_compaction->wall_speed, fastest, largest_travel, stable_step));
+      throw InputError(fmt::format(
+          "stage '{}': key 'wall_speed': found {:g} mm/s, allowed at most {:.4g} mm/s here ({} of an element in a "
+          "stable step of {:.3g} s)",
+          stage.name, stage.isotropic_compaction->wall_speed, fastest, largest_travel, stable_step));
   }
 }
 

@@ -33,7 +33,7 @@ private:
 
 /// Checks all stages from `first_stage` on before anything moves: every target can be reached from where the stage before
 /// ends, and no wall moves further in one stable step (s) than a small part of an element. Throws InputError.
-void check_programme(const Scenario& scenario, std::int64_t first_stage, std::array<double, 3> low, std::array<double, 3> high,
-                     const Model& model, double stable_step);
+void check_programme(const Scenario& scenario, std::int64_t first_stage, std::array<double, 3> low,
+                     std::array<double, 3> high, const Model& model, double stable_step);
 
 } // namespace mpfem

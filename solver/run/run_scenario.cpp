@@ -24,7 +24,9 @@ namespace mpfem {
 namespace {
 
 volatile std::sig_atomic_t interrupt_requested = 0;
-extern "C" void request_interrupt(int) { interrupt_requested = 1; }
+extern "C" void request_interrupt(int) {
+  interrupt_requested = 1;
+}
 
 /// Catches SIGINT and SIGTERM while it lives; a second signal acts as usual.
 class InterruptGuard {
@@ -45,14 +47,17 @@ public:
   InterruptGuard& operator=(const InterruptGuard&) = delete;
 
 private:
-  struct sigaction old_int_ {}, old_term_ {};
+  struct sigaction old_int_ {
+  }, old_term_{};
 };
 
 std::string stem(const std::string& run_file) {
   return run_file.ends_with(".h5") ? run_file.substr(0, run_file.size() - 3) : run_file;
 }
 
-std::string parts_folder(const std::string& run_file) { return stem(run_file) + ".parts"; }
+std::string parts_folder(const std::string& run_file) {
+  return stem(run_file) + ".parts";
+}
 
 /// The time loop and its records.
 class Runner {
@@ -98,8 +103,9 @@ private:
       read_checkpoint(rolling, simulation_, record_, scenario_.text, false);
       for (const std::string& name : record_.snapshot_files)
         if (const std::string part = snapshot_path(name); !std::filesystem::exists(part))
-          throw InputError(fmt::format("{}: the snapshot {} that was taken before the checkpoint is missing; run without --resume to begin anew",
-                                       rolling, part));
+          throw InputError(fmt::format(
+              "{}: the snapshot {} that was taken before the checkpoint is missing; run without --resume to begin anew",
+              rolling, part));
       if (!options_.quiet) fmt::print(stderr, "mpfem: resumed {} at step {}\n", rolling, simulation_.state().step);
       return;
     }
@@ -120,7 +126,9 @@ private:
   void drop_unfinished_run() const {
     const std::string rolling = checkpoint_path(options_.output);
     if (!options_.quiet && std::filesystem::exists(rolling))
-      fmt::print(stderr, "mpfem: {} of an unfinished run is dropped: this run begins anew (--resume would have gone on)\n", rolling);
+      fmt::print(stderr,
+                 "mpfem: {} of an unfinished run is dropped: this run begins anew (--resume would have gone on)\n",
+                 rolling);
     remove_parts();
   }
 
@@ -152,7 +160,8 @@ private:
   }
 
   double next_row_time() const {
-    return simulation_.stage_duration() * static_cast<double>(simulation_.state().rows_in_stage) / scenario_.output.history_rows;
+    return simulation_.stage_duration() * static_cast<double>(simulation_.state().rows_in_stage) /
+           scenario_.output.history_rows;
   }
   bool row_due() const { return simulation_.state().stage_time >= next_row_time(); }
 
@@ -190,11 +199,14 @@ private:
     const bool stage_end = simulation_.stage_complete();
     const bool interrupted = interrupt_requested != 0;
     const bool out_of_time = options_.time_limit > 0 && Profile::since(start_) > options_.time_limit;
-    if (!stage_end && !interrupted && !out_of_time && Profile::since(last_checkpoint_) < scenario_.output.checkpoint_interval)
+    if (!stage_end && !interrupted && !out_of_time &&
+        Profile::since(last_checkpoint_) < scenario_.output.checkpoint_interval)
       return;
     const auto start = Profile::Clock::now();
     save_checkpoint(checkpoint_path(options_.output));
-    if (stage_end) save_checkpoint(stage_checkpoint_path(options_.output, scenario_.stages[static_cast<std::size_t>(simulation_.state().stage)].name));
+    if (stage_end)
+      save_checkpoint(stage_checkpoint_path(
+          options_.output, scenario_.stages[static_cast<std::size_t>(simulation_.state().stage)].name));
     last_checkpoint_ = Profile::Clock::now();
     simulation_.profile().add_serial(Part::output, Profile::since(start));
     if (interrupted || out_of_time) {
@@ -214,7 +226,8 @@ private:
   /// Adds this process's share of wall-clock time to what earlier parts of the run took.
   void add_times(RunRecord& record) const {
     record.wall_time += Profile::since(start_);
-    for (std::size_t i = 0; i < profile_parts; ++i) record.profile_seconds[i] += simulation_.profile().seconds(static_cast<Part>(i));
+    for (std::size_t i = 0; i < profile_parts; ++i)
+      record.profile_seconds[i] += simulation_.profile().seconds(static_cast<Part>(i));
   }
 
   void write_result(const std::string& status) {
@@ -240,7 +253,8 @@ private:
   /// Removes the run's own files only; the folder goes if nothing else is in it.
   void remove_parts() const {
     std::error_code ignored;
-    for (std::size_t number = 0; std::filesystem::remove(snapshot_path(snapshot_name(number)), ignored); ++number) {}
+    for (std::size_t number = 0; std::filesystem::remove(snapshot_path(snapshot_name(number)), ignored); ++number) {
+    }
     std::filesystem::remove(parts_folder(options_.output), ignored);
     std::filesystem::remove(checkpoint_path(options_.output), ignored);
   }
@@ -259,9 +273,9 @@ private:
   void report_progress() {
     const RunState& state = simulation_.state();
     if (state.step % 16 != 0) return;
-    progress_.update(fraction_done(), fmt::format("step {}  D_r {:.4f}  p {:.4g} MPa  {:.0f} ns/tet-step", state.step,
-                                                  simulation_.relative_density(), state.mean_stress,
-                                                  nanoseconds_per_tet_step()));
+    progress_.update(fraction_done(),
+                     fmt::format("step {}  D_r {:.4f}  p {:.4g} MPa  {:.0f} ns/tet-step", state.step,
+                                 simulation_.relative_density(), state.mean_stress, nanoseconds_per_tet_step()));
   }
 
   /// Fixed-width report lines, twenty a stage.
@@ -269,12 +283,14 @@ private:
     const std::int64_t every = std::max(1, scenario_.output.history_rows / 20);
     if ((simulation_.state().rows_in_stage - 1) % every != 0 && !simulation_.stage_complete()) return;
     if (reported_lines_++ % 20 == 0)
-      fmt::print(stderr, "{:>8} {:>10} {:>10} {:>8} {:>7} {:>9} {:>9} {:>8} {:>9} {:>7} {:>8}\n", "step", "t/us", "dt/ns",
-                 "limit", "D_r", "p/MPa", "q/MPa", "KE/IE", "residual", "pen/h", "ns/tet");
+      fmt::print(stderr, "{:>8} {:>10} {:>10} {:>8} {:>7} {:>9} {:>9} {:>8} {:>9} {:>7} {:>8}\n", "step", "t/us",
+                 "dt/ns", "limit", "D_r", "p/MPa", "q/MPa", "KE/IE", "residual", "pen/h", "ns/tet");
     const double internal = row.elastic_energy + row.plastic_dissipation;
-    fmt::print(stderr, "{:>8.0f} {:>10.4f} {:>10.4f} {:>8} {:>7.4f} {:>9.4g} {:>9.3g} {:>8} {:>9.2e} {:>7.4f} {:>8.1f}\n",
-               row.step, row.time * 1e6, row.time_step * 1e9, simulation_.state().controlled_by_contact ? "contact" : "element",
-               row.relative_density, row.mean_stress, row.deviatoric_stress,
+    fmt::print(stderr,
+               "{:>8.0f} {:>10.4f} {:>10.4f} {:>8} {:>7.4f} {:>9.4g} {:>9.3g} {:>8} {:>9.2e} {:>7.4f} {:>8.1f}\n",
+               row.step, row.time * 1e6, row.time_step * 1e9,
+               simulation_.state().controlled_by_contact ? "contact" : "element", row.relative_density, row.mean_stress,
+               row.deviatoric_stress,
                row.kinetic_energy < 1e3 * internal ? fmt::format("{:.2e}", row.kinetic_energy / internal) : "-",
                row.external_work > 0 ? row.energy_residual / row.external_work : 0.0, row.max_penetration,
                nanoseconds_per_tet_step());
@@ -284,10 +300,12 @@ private:
     RunRecord record = record_;
     add_times(record);
     fmt::print(stderr, "{:<24} {:>10} {:>8} {:>12}\n", "part", "wall s", "share", "ns/tet-step");
-    const double tet_steps = static_cast<double>(simulation_.state().step) * static_cast<double>(simulation_.model().tets());
+    const double tet_steps =
+        static_cast<double>(simulation_.state().step) * static_cast<double>(simulation_.model().tets());
     double accounted = 0;
     const auto line = [&](const char* name, double seconds) {
-      fmt::print(stderr, "{:<24} {:>10.2f} {:>7.1f}% {:>12.2f}\n", name, seconds, 100 * seconds / record.wall_time, 1e9 * seconds / tet_steps);
+      fmt::print(stderr, "{:<24} {:>10.2f} {:>7.1f}% {:>12.2f}\n", name, seconds, 100 * seconds / record.wall_time,
+                 1e9 * seconds / tet_steps);
     };
     for (std::size_t i = 0; i < profile_parts; ++i) {
       line(part_names[i], record.profile_seconds[i]);
@@ -320,11 +338,13 @@ void check_output(const Scenario& scenario, const RunOptions& options) {
   const std::string& output = options.output;
   std::error_code ignored;
   if (output.empty() || output.back() == '/' || std::filesystem::is_directory(output, ignored))
-    throw InputError(fmt::format("--output '{}': found a folder or nothing, allowed the name of a file", one_line(output)));
+    throw InputError(
+        fmt::format("--output '{}': found a folder or nothing, allowed the name of a file", one_line(output)));
   if (!std::filesystem::is_directory(std::filesystem::absolute(output).parent_path(), ignored))
     throw InputError(fmt::format("--output {}: the folder does not exist", one_line(output)));
   const auto refuse = [&](const std::string& file, const std::string& what) {
-    if (same_file(output, file)) throw InputError(fmt::format("--output {}: is {} of this run, allowed another name", one_line(output), what));
+    if (same_file(output, file))
+      throw InputError(fmt::format("--output {}: is {} of this run, allowed another name", one_line(output), what));
   };
   refuse(scenario.packing_file, "the packing");
   refuse(options.scenario_file, "the scenario");
@@ -334,7 +354,9 @@ void check_output(const Scenario& scenario, const RunOptions& options) {
     for (const Stage& stage : scenario.stages) written.push_back(stage_checkpoint_path(output, stage.name));
     for (const std::string& path : written)
       if (same_file(path, *options.from))
-        throw InputError(fmt::format("--from {}: this run would write its own checkpoint there, allowed another --output", one_line(*options.from)));
+        throw InputError(
+            fmt::format("--from {}: this run would write its own checkpoint there, allowed another --output",
+                        one_line(*options.from)));
   }
   const std::string trial = output + ".partial";
   if (!std::ofstream(trial)) throw StorageError(fmt::format("{}: cannot be written", one_line(trial)));
@@ -343,7 +365,9 @@ void check_output(const Scenario& scenario, const RunOptions& options) {
 
 } // namespace
 
-std::string checkpoint_path(const std::string& run_file) { return stem(run_file) + ".checkpoint.h5"; }
+std::string checkpoint_path(const std::string& run_file) {
+  return stem(run_file) + ".checkpoint.h5";
+}
 
 std::string stage_checkpoint_path(const std::string& run_file, const std::string& stage) {
   return fmt::format("{}.{}.checkpoint.h5", stem(run_file), stage);
@@ -356,10 +380,11 @@ void run_scenario(const Scenario& scenario, const RunOptions& options) {
 
 void check_scenario(const Scenario& scenario, int threads) {
   ThreadTeam team(threads);
-  Simulation simulation(build_model(read_packing(scenario.packing_file), scenario, scenario.packing_file), scenario, team);
+  Simulation simulation(build_model(read_packing(scenario.packing_file), scenario, scenario.packing_file), scenario,
+                        team);
   const Model& model = simulation.model();
-  fmt::print("packing        {}: {} grains, {} tets, {} nodes, {} facets\n", scenario.packing_file, model.grains, model.tets(),
-             model.nodes(), model.facets());
+  fmt::print("packing        {}: {} grains, {} tets, {} nodes, {} facets\n", scenario.packing_file, model.grains,
+             model.tets(), model.nodes(), model.facets());
   fmt::print("relative density at the start  {:.4f}\n", simulation.relative_density());
   fmt::print("memory         {:.1f} MB of model data ({:.0f} B a tet)\n", 1e-6 * static_cast<double>(model.memory()),
              static_cast<double>(model.memory()) / model.tets());
@@ -386,9 +411,10 @@ void check_scenario(const Scenario& scenario, int threads) {
     simulation.advance();
   }
   const double seconds = Profile::since(start) / std::max(measured, 1);
-  fmt::print("estimate       {:.3g} ms a step measured here on {} threads; {:.0f} steps: {:.0f} s. Dense packings take about "
-             "half as long again (contact), and the step shrinks as tets flatten.\n",
-             1e3 * seconds, threads, steps, seconds * steps);
+  fmt::print(
+      "estimate       {:.3g} ms a step measured here on {} threads; {:.0f} steps: {:.0f} s. Dense packings take about "
+      "half as long again (contact), and the step shrinks as tets flatten.\n",
+      1e3 * seconds, threads, steps, seconds * steps);
 }
 
 } // namespace mpfem

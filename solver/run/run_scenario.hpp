@@ -9,13 +9,13 @@
 namespace mpfem {
 
 struct RunOptions {
-  std::string output;                    ///< RUN.h5
-  std::string scenario_file;             ///< never to be overwritten
-  bool resume = false;                   ///< go on from the rolling checkpoint if there is one
-  std::optional<std::string> from;       ///< begin the first stage from this checkpoint's state
+  std::string output;              ///< RUN.h5
+  std::string scenario_file;       ///< never to be overwritten
+  bool resume = false;             ///< go on from the rolling checkpoint if there is one
+  std::optional<std::string> from; ///< begin the first stage from this checkpoint's state
   int threads = 1;
   bool quiet = false;
-  double time_limit = 0;                 ///< s of wall-clock time, 0 none
+  double time_limit = 0; ///< s of wall-clock time, 0 none
 };
 
 /// Runs a scenario to its end and writes the run file. Throws SimulationError (a readable run file with the last state

@@ -33,8 +33,8 @@ Simulation::Simulation(Model model, const Scenario& scenario, ThreadTeam& team)
   const auto grains = static_cast<std::size_t>(model_.grains);
   for (const auto* list : {&scenario.grain_velocity, &scenario.grain_angular_velocity})
     if (!list->empty() && list->size() != grains)
-      throw InputError(fmt::format("{}: key 'initial': found {} rows for {} grains, allowed one row a grain", scenario.packing_file,
-                                   list->size(), grains));
+      throw InputError(fmt::format("{}: key 'initial': found {} rows for {} grains, allowed one row a grain",
+                                   scenario.packing_file, list->size(), grains));
   bounds_.resize(grains);
   contact_sums_.resize(grains);
   wall_sums_.resize(grains);
@@ -49,7 +49,8 @@ Simulation::Simulation(Model model, const Scenario& scenario, ThreadTeam& team)
   for (std::size_t axis = 0; axis < 3; ++axis) state_.initial_lengths[axis] = state_.high[axis] - state_.low[axis];
 
   for (std::size_t g = 0; g < grains; ++g) {
-    const auto first = static_cast<std::size_t>(model_.node_offset[g]), end = static_cast<std::size_t>(model_.node_offset[g + 1]);
+    const auto first = static_cast<std::size_t>(model_.node_offset[g]),
+               end = static_cast<std::size_t>(model_.node_offset[g + 1]);
     const auto& linear = scenario.grain_velocity.empty() ? scenario.initial_velocity : scenario.grain_velocity[g];
     const std::array<double, 3> spin =
         scenario.grain_angular_velocity.empty() ? std::array<double, 3>{} : scenario.grain_angular_velocity[g];
@@ -64,21 +65,21 @@ Simulation::Simulation(Model model, const Scenario& scenario, ThreadTeam& team)
       v[0] = linear[0] + spin[1] * r[2] - spin[2] * r[1];
       v[1] = linear[1] + spin[2] * r[0] - spin[0] * r[2];
       v[2] = linear[2] + spin[0] * r[1] - spin[1] * r[0];
-      for (int axis = 0; axis < 3; ++axis)
-        state_.initial_energy += 0.5 * v[axis] * v[axis] / model_.inverse_mass[n];
+      for (int axis = 0; axis < 3; ++axis) state_.initial_energy += 0.5 * v[axis] * v[axis] / model_.inverse_mass[n];
     }
   }
 
-  team_.for_each(model_.grains, [&](int grain, int) { bounds_[static_cast<std::size_t>(grain)] = update_surface(model_, grain); });
+  team_.for_each(model_.grains,
+                 [&](int grain, int) { bounds_[static_cast<std::size_t>(grain)] = update_surface(model_, grain); });
   renew_candidates(model_, margin_, team_, contact_);
   for (int grain = 0; grain < model_.grains; ++grain) {
     refuse_overlap(grain);
     const auto& b = bounds_[static_cast<std::size_t>(grain)];
     for (std::size_t axis = 0; walls_.present && axis < 3; ++axis)
       if (b.low[axis] < walls_.low[axis] - 1e-9 || b.high[axis] > walls_.high[axis] + 1e-9)
-        throw InputError(fmt::format("{}: grain {} spans {:.6g} … {:.6g} mm along axis {}, allowed within the box {:.6g} … {:.6g}",
-                                     scenario.packing_file, grain, b.low[axis], b.high[axis], axis, walls_.low[axis],
-                                     walls_.high[axis]));
+        throw InputError(fmt::format(
+            "{}: grain {} spans {:.6g} … {:.6g} mm along axis {}, allowed within the box {:.6g} … {:.6g}",
+            scenario.packing_file, grain, b.low[axis], b.high[axis], axis, walls_.low[axis], walls_.high[axis]));
   }
   std::fill(model_.force.begin(), model_.force.end(), 0.0);
   estimate_stable_step();
@@ -89,7 +90,8 @@ void Simulation::refuse_overlap(int grain) {
   const ContactCandidates& c = contact_.candidates;
   const auto g = static_cast<std::size_t>(grain);
   const auto refuse = [&](const std::string& what) {
-    throw InputError(fmt::format("{}: {}, allowed no overlap: pack with a larger smallest_gap", scenario_.packing_file, what));
+    throw InputError(
+        fmt::format("{}: {}, allowed no overlap: pack with a larger smallest_gap", scenario_.packing_file, what));
   };
   try {
     contact_forces(model_, contact_, grain);
@@ -99,7 +101,8 @@ void Simulation::refuse_overlap(int grain) {
   for (std::int32_t pair = c.outgoing_offset[g]; pair < c.outgoing_offset[g + 1]; ++pair) {
     double deepest = 0;
     for (const ContactForce& point : contact_.active_points(pair))
-      deepest = std::max(deepest, std::hypot(point.force[0], point.force[1], point.force[2]) / (point.stiffness * model_.element_size[g]));
+      deepest = std::max(deepest, std::hypot(point.force[0], point.force[1], point.force[2]) /
+                                      (point.stiffness * model_.element_size[g]));
     if (deepest > overlap_tolerance)
       refuse(fmt::format("grains {} and {} overlap at the start by {:.3g} of the element size", grain,
                          c.pair_second[static_cast<std::size_t>(pair)], deepest));
@@ -110,7 +113,8 @@ void Simulation::restored() {
   walls_.low = state_.low;
   walls_.high = state_.high;
   motion_.emplace(stage(), state_.stage_low, state_.stage_high, model_.total_reference_volume());
-  team_.for_each(model_.grains, [&](int grain, int) { bounds_[static_cast<std::size_t>(grain)] = update_surface(model_, grain); });
+  team_.for_each(model_.grains,
+                 [&](int grain, int) { bounds_[static_cast<std::size_t>(grain)] = update_surface(model_, grain); });
 }
 
 void Simulation::begin_stage() {
@@ -195,9 +199,10 @@ void Simulation::evaluate_forces() {
 
   for (std::size_t g = 0; g < wall_sums_.size(); ++g)
     if (wall_sums_[g].penetration > 0.5)
-      throw SimulationError(fmt::format("step {}, D_r = {:.4f}: a node of grain {} is {:.2f} of the element size behind a wall, allowed up to "
-                                        "0.5: raise contact.stiffness_factor or lower the speed",
-                                        state_.step, relative_density(), g, wall_sums_[g].penetration));
+      throw SimulationError(fmt::format(
+          "step {}, D_r = {:.4f}: a node of grain {} is {:.2f} of the element size behind a wall, allowed up to "
+          "0.5: raise contact.stiffness_factor or lower the speed",
+          state_.step, relative_density(), g, wall_sums_[g].penetration));
 
   // Work of the walls since the time level before, by the trapezoidal rule, which central differences conserve.
   std::array<double, 6> force{};
@@ -257,17 +262,19 @@ void Simulation::advance() {
   state_.strain_rate = strain / step;
   state_.strain_since_estimate += strain;
   ++state_.step;
-  if (++state_.steps_since_estimate >= steps_between_estimates || state_.strain_since_estimate > strain_between_estimates)
+  if (++state_.steps_since_estimate >= steps_between_estimates ||
+      state_.strain_since_estimate > strain_between_estimates)
     estimate_stable_step();
 }
 
 void Simulation::report_bad_grain(int grain) const {
   const BadTet bad = find_bad_tet(model_, grain);
   if (bad.file_tet >= 0)
-    throw SimulationError(fmt::format("step {}, t = {:.4g} s, D_r = {:.4f}: tet {} of grain {} is inverted (volume ratio {:.3g})",
-                                      state_.step, state_.time, relative_density(), bad.file_tet, grain, bad.volume_ratio));
-  throw SimulationError(fmt::format("step {}, t = {:.4g} s, D_r = {:.4f}: a stress of grain {} is not finite", state_.step,
-                                    state_.time, relative_density(), grain));
+    throw SimulationError(
+        fmt::format("step {}, t = {:.4g} s, D_r = {:.4f}: tet {} of grain {} is inverted (volume ratio {:.3g})",
+                    state_.step, state_.time, relative_density(), bad.file_tet, grain, bad.volume_ratio));
+  throw SimulationError(fmt::format("step {}, t = {:.4g} s, D_r = {:.4f}: a stress of grain {} is not finite",
+                                    state_.step, state_.time, relative_density(), grain));
 }
 
 HistoryRow Simulation::observe() {
@@ -318,7 +325,8 @@ HistoryRow Simulation::observe() {
   row.damping_dissipation = state_.damping_dissipation;
   row.external_work = state_.external_work;
   row.energy_residual = state_.external_work + state_.initial_energy - row.kinetic_energy - row.elastic_energy -
-                        row.plastic_dissipation - row.contact_energy - row.viscous_dissipation - row.damping_dissipation;
+                        row.plastic_dissipation - row.contact_energy - row.viscous_dissipation -
+                        row.damping_dissipation;
   if (rebase_ledger_) {
     state_.initial_energy -= row.energy_residual;
     row.energy_residual = 0;

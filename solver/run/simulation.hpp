@@ -34,25 +34,25 @@ struct RunState {
   std::int64_t controlled_by_contact = 0; ///< 1: contact lowers the step by more than 5 %
   std::int64_t searches = 0;
   // times
-  double time = 0;           ///< s
-  double stage_time = 0;     ///< s, since the stage began
-  double stable_step = 0;    ///< s, estimate times safety factor
-  double last_step = 0;      ///< s, the step that led to the present positions; 0 at the start
+  double time = 0;        ///< s
+  double stage_time = 0;  ///< s, since the stage began
+  double stable_step = 0; ///< s, estimate times safety factor
+  double last_step = 0;   ///< s, the step that led to the present positions; 0 at the start
   double strain_since_estimate = 0;
-  double strain_rate = 0;    ///< 1/s, largest in the last step
+  double strain_rate = 0; ///< 1/s, largest in the last step
   // energies, mJ
   double initial_energy = 0;
   double plastic_dissipation = 0;
   double viscous_dissipation = 0;
   double damping_dissipation = 0;
   double external_work = 0;
-  double damping_force = 0;  ///< N, sum of magnitudes at the last advance
-  double mean_stress = 0;    ///< MPa, at the last evaluation
+  double damping_force = 0; ///< N, sum of magnitudes at the last advance
+  double mean_stress = 0;   ///< MPa, at the last evaluation
   // walls
   std::array<double, 3> initial_lengths{}; ///< mm
   std::array<double, 3> stage_low{};       ///< mm, box when the stage began
   std::array<double, 3> stage_high{};
-  std::array<double, 3> low{};             ///< mm, now
+  std::array<double, 3> low{}; ///< mm, now
   std::array<double, 3> high{};
   std::array<double, 6> last_wall_force{}; ///< N, at the time level before
   std::array<double, 6> last_wall_move{};  ///< mm inward, in the last step

@@ -42,10 +42,14 @@ HardeningLaw hardening_law(const std::string& name) {
 
 std::vector<std::string> hardening_keys(HardeningLaw law) {
   switch (law) {
-  case HardeningLaw::elastic: return {};
-  case HardeningLaw::power: return {"yield_stress", "coefficient", "exponent"};
-  case HardeningLaw::total_strain: return {"coefficient", "exponent"};
-  case HardeningLaw::table: return {"plastic_strain", "flow_stress"};
+  case HardeningLaw::elastic:
+    return {};
+  case HardeningLaw::power:
+    return {"yield_stress", "coefficient", "exponent"};
+  case HardeningLaw::total_strain:
+    return {"coefficient", "exponent"};
+  case HardeningLaw::table:
+    return {"plastic_strain", "flow_stress"};
   }
   return {};
 }
@@ -55,10 +59,11 @@ void check_hardening_table(const TableReader& table, const HardeningParameters& 
   const auto& stress = hardening.table_flow_stress;
   if (strain.empty()) table.fail("plastic_strain", "found an empty array, expected at least one value");
   if (strain.size() > largest_hardening_table)
-    table.fail("plastic_strain", fmt::format("found {} values, allowed 1 … {}", strain.size(), largest_hardening_table));
+    table.fail("plastic_strain",
+               fmt::format("found {} values, allowed 1 … {}", strain.size(), largest_hardening_table));
   if (stress.size() != strain.size())
-    table.fail("flow_stress", fmt::format("found {} values, expected {}, as many as plastic_strain", stress.size(),
-                                          strain.size()));
+    table.fail("flow_stress",
+               fmt::format("found {} values, expected {}, as many as plastic_strain", stress.size(), strain.size()));
   if (strain[0] != 0) table.fail("plastic_strain", fmt::format("found first value {}, allowed 0", strain[0]));
   for (std::size_t i = 1; i < strain.size(); ++i) {
     if (!(strain[i] > strain[i - 1]))
@@ -79,7 +84,8 @@ HardeningParameters read_hardening(TableReader table, double youngs_modulus, dou
   refuse_foreign_keys(table, {"yield_stress", "coefficient", "exponent", "plastic_strain", "flow_stress"},
                       hardening_keys(hardening.law), fmt::format("law = '{}'", law));
   switch (hardening.law) {
-  case HardeningLaw::elastic: break;
+  case HardeningLaw::elastic:
+    break;
   case HardeningLaw::power:
     hardening.yield_stress = table.number("yield_stress", positive);
     hardening.coefficient = table.number("coefficient", positive);
@@ -114,8 +120,7 @@ ContactParameters read_contact(TableReader table) {
   ContactParameters contact;
   contact.stiffness_factor =
       table.number_or("stiffness_factor", contact.stiffness_factor, {.low = 0, .high = 1e4, .low_open = true});
-  contact.search_margin =
-      table.number_or("search_margin", contact.search_margin, Range::between(0.05, 2));
+  contact.search_margin = table.number_or("search_margin", contact.search_margin, Range::between(0.05, 2));
   table.finish();
   return contact;
 }
@@ -182,8 +187,7 @@ void check_stage_name(const TableReader& table, const std::string& name) {
 
 Stage read_stage(TableReader table, std::size_t number) {
   Stage stage;
-  const std::string type =
-      table.choice("type", {std::string(stage_isotropic_compaction), std::string(stage_hold)});
+  const std::string type = table.choice("type", {std::string(stage_isotropic_compaction), std::string(stage_hold)});
   stage.name = table.string_or("name", fmt::format("{}-{}", type, number));
   check_stage_name(table, stage.name);
 

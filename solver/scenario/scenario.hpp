@@ -21,49 +21,49 @@ enum class HardeningLaw {
 
 struct HardeningParameters {
   HardeningLaw law = HardeningLaw::power;
-  double yield_stress = 0;                   ///< sigma_y, MPa (power)
-  double coefficient = 0;                    ///< k (power) or n (total_strain), MPa
-  double exponent = 1;                       ///< m (power) or p (total_strain), dimensionless, in (0, 1]
-  std::vector<double> table_plastic_strain;  ///< table: increasing, first value 0
-  std::vector<double> table_flow_stress;     ///< table: MPa, positive
+  double yield_stress = 0;                  ///< sigma_y, MPa (power)
+  double coefficient = 0;                   ///< k (power) or n (total_strain), MPa
+  double exponent = 1;                      ///< m (power) or p (total_strain), dimensionless, in (0, 1]
+  std::vector<double> table_plastic_strain; ///< table: increasing, first value 0
+  std::vector<double> table_flow_stress;    ///< table: MPa, positive
   bool operator==(const HardeningParameters&) const = default;
 };
 
 struct MaterialParameters {
-  double density = 0;         ///< tonne/mm^3
-  double youngs_modulus = 0;  ///< MPa
-  double poissons_ratio = 0;  ///< dimensionless, (-1, 0.5)
+  double density = 0;        ///< tonne/mm^3
+  double youngs_modulus = 0; ///< MPa
+  double poissons_ratio = 0; ///< dimensionless, (-1, 0.5)
   HardeningParameters hardening;
   bool operator==(const MaterialParameters&) const = default;
 };
 
 struct ContactParameters {
-  double stiffness_factor = 10;      ///< penalty K = factor * E / h, h the mean facet edge of the grain
-  double search_margin = 0.3;        ///< candidates are kept for gaps up to this multiple of h
+  double stiffness_factor = 10; ///< penalty K = factor * E / h, h the mean facet edge of the grain
+  double search_margin = 0.3;   ///< candidates are kept for gaps up to this multiple of h
 };
 
 enum class ElementType { tet4 };
 
 struct NumericsParameters {
   ElementType element = ElementType::tet4;
-  double time_step_factor = 0.9;          ///< safety factor on the stable step, (0, 1]
+  double time_step_factor = 0.9; ///< safety factor on the stable step, (0, 1]
   double bulk_viscosity_linear = 0.06;
   double bulk_viscosity_quadratic = 1.2;
-  double mass_scaling = 1;                ///< uniform factor on the density
+  double mass_scaling = 1; ///< uniform factor on the density
 };
 
 struct OutputParameters {
   int history_rows = 200;                          ///< rows per stage
   std::vector<double> snapshot_relative_densities; ///< a snapshot when the density first passes each of these
   bool snapshot_at_stage_end = true;
-  double checkpoint_interval = 60;                 ///< s of wall-clock time between rolling checkpoints
+  double checkpoint_interval = 60; ///< s of wall-clock time between rolling checkpoints
 };
 
 /// Isotropic compaction by six walls to a relative density; smooth start and end.
 struct IsotropicCompaction {
-  double relative_density = 0;  ///< target, reference grain volume over box volume
-  double wall_speed = 0;        ///< plateau speed of every wall, mm/s
-  double ramp_fraction = 0.1;   ///< fraction of the stage's time spent in each of the smooth start and end
+  double relative_density = 0; ///< target, reference grain volume over box volume
+  double wall_speed = 0;       ///< plateau speed of every wall, mm/s
+  double ramp_fraction = 0.1;  ///< fraction of the stage's time spent in each of the smooth start and end
 };
 
 /// Nothing moves: free flight, vibration, settling.
@@ -74,8 +74,8 @@ struct Hold {
 /// Mass-proportional damping of each grain's velocity relative to the affine velocity at the grain's centre. It fades
 /// from full at mean stress 0 to nothing at `fade_stress`.
 struct DampingParameters {
-  double rate = 0;         ///< 1/s; force = -rate * m * (v - v_affine)
-  double fade_stress = 0;  ///< MPa
+  double rate = 0;        ///< 1/s; force = -rate * m * (v - v_affine)
+  double fade_stress = 0; ///< MPa
 };
 
 struct Stage {
@@ -86,8 +86,8 @@ struct Stage {
 };
 
 struct Scenario {
-  std::string packing_file;            ///< meshed packing; relative to the scenario's folder
-  bool walls = true;                   ///< the six walls of the box
+  std::string packing_file; ///< meshed packing; relative to the scenario's folder
+  bool walls = true;        ///< the six walls of the box
   MaterialParameters material;
   ContactParameters contact;
   NumericsParameters numerics;
@@ -96,7 +96,7 @@ struct Scenario {
   std::vector<std::array<double, 3>> grain_velocity;         ///< mm/s, of each grain (overrides; empty: none)
   std::vector<std::array<double, 3>> grain_angular_velocity; ///< rad/s, about each grain's centroid (empty: none)
   std::vector<Stage> stages;
-  std::string text;                    ///< the TOML text, with values set on the command line
+  std::string text; ///< the TOML text, with values set on the command line
 };
 
 /// Reads a scenario. Throws InputError with file, line and column for any mistake.

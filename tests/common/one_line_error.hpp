@@ -11,7 +11,8 @@
 namespace mpfem::test {
 
 /// The message of the InputError that `body` throws; fails the test where there is none or it has control characters.
-template <class Body> std::string input_error(Body body) {
+template <class Body>
+std::string input_error(Body body) {
   try {
     body();
   } catch (const InputError& error) {

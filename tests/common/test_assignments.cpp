@@ -61,7 +61,8 @@ TEST_CASE("The last assignment of a key wins") {
 }
 
 TEST_CASE("What is no TOML value is a string: words, paths, texts with quotes and equal signs") {
-  for (const std::string value : {"hold", "runs/a b.h5", "a=b", "C:\\runs\\x", "say \"this\"", "1.2.3", "Größe", "5 mm"}) {
+  for (const std::string value :
+       {"hold", "runs/a b.h5", "a=b", "C:\\runs\\x", "say \"this\"", "1.2.3", "Größe", "5 mm"}) {
     CAPTURE(value);
     TomlDocument document = example();
     document.set("size=" + value);
@@ -100,7 +101,8 @@ TEST_CASE("A value that is not finite is refused when it is read") {
   TomlDocument document = example();
   document.set("size=nan");
   TableReader table(document);
-  CHECK(input_error([&] { table.number("size"); }) == "--set size=nan: key 'size': found nan, expected a finite number");
+  CHECK(input_error([&] { table.number("size"); }) ==
+        "--set size=nan: key 'size': found nan, expected a finite number");
 }
 
 TEST_CASE("Assignments that cannot be understood are refused in one line and change nothing") {
@@ -108,7 +110,8 @@ TEST_CASE("Assignments that cannot be understood are refused in one line and cha
   CHECK(refusal("") == "--set : expected KEY=VALUE");
   CHECK(refusal("size=") == "--set size=: the value is empty, expected KEY=VALUE");
   CHECK(refusal("size=  ") == "--set size=  : the value is empty, expected KEY=VALUE");
-  for (const char* assignment : {"=5", ".a=5", "a.=5", "a..b=5", "a b=5", "box.length =5", "'a'=5", "stages[0].speed=5", "a\nb=5"}) {
+  for (const char* assignment :
+       {"=5", ".a=5", "a.=5", "a..b=5", "a b=5", "box.length =5", "'a'=5", "stages[0].speed=5", "a\nb=5"}) {
     CAPTURE(assignment);
     CHECK_THAT(refusal(assignment), Catch::Contains("is not a key, expected words joined by dots"));
   }
@@ -122,7 +125,8 @@ TEST_CASE("Assignments that cannot be understood are refused in one line and cha
 
 TEST_CASE("An assignment does not make array elements, nor keys below what has none") {
   CHECK(refusal("stages.2.speed=1") == "--set stages.2.speed=1: found element '2' of an array, allowed 0 … 1");
-  CHECK(refusal("stages.first.speed=1") == "--set stages.first.speed=1: found element 'first' of an array, allowed 0 … 1");
+  CHECK(refusal("stages.first.speed=1") ==
+        "--set stages.first.speed=1: found element 'first' of an array, allowed 0 … 1");
   CHECK(refusal("stages.-1.speed=1") == "--set stages.-1.speed=1: found element '-1' of an array, allowed 0 … 1");
   CHECK(refusal("words.2=c") == "--set words.2=c: found element '2' of an array, allowed 0 … 1");
   CHECK(refusal("none.0=1") == "--set none.0=1: found element '0' of an empty array");

@@ -23,7 +23,10 @@ Ending run(int (*body)(int, char**)) {
   return ending;
 }
 
-template <class Exception> int fail(int, char**) { throw Exception("line 1\nline 2\x1b[2J"); }
+template <class Exception>
+int fail(int, char**) {
+  throw Exception("line 1\nline 2\x1b[2J");
+}
 
 const std::string escaped_line = "program: error: line 1\\nline 2\\x1b[2J\n";
 

@@ -30,11 +30,12 @@ TEST_CASE("XXH64 gives the values of the reference implementation's self test") 
     std::uint64_t seed, hash;
   };
   // Sizes below, at and above the stripes of 32 bytes, with tails of every kind.
-  const auto [size, seed, hash] = GENERATE(
-      Vector{0, 0, 0xEF46DB3751D8E999ULL}, Vector{0, prime_32, 0xAC75FDA2929B17EFULL}, Vector{1, 0, 0xE934A84ADB052768ULL},
-      Vector{1, prime_32, 0x5014607643A9B4C3ULL}, Vector{4, 0, 0x9136A0DCA57457EEULL}, Vector{14, 0, 0x8282DCC4994E35C8ULL},
-      Vector{14, prime_32, 0xC3BD6BF63DEB6DF0ULL}, Vector{222, 0, 0xB641AE8CB691C174ULL},
-      Vector{222, prime_32, 0x20CB8AB7AE10C14AULL});
+  const auto [size, seed, hash] =
+      GENERATE(Vector{0, 0, 0xEF46DB3751D8E999ULL}, Vector{0, prime_32, 0xAC75FDA2929B17EFULL},
+               Vector{1, 0, 0xE934A84ADB052768ULL}, Vector{1, prime_32, 0x5014607643A9B4C3ULL},
+               Vector{4, 0, 0x9136A0DCA57457EEULL}, Vector{14, 0, 0x8282DCC4994E35C8ULL},
+               Vector{14, prime_32, 0xC3BD6BF63DEB6DF0ULL}, Vector{222, 0, 0xB641AE8CB691C174ULL},
+               Vector{222, prime_32, 0x20CB8AB7AE10C14AULL});
   CAPTURE(size, seed);
   CHECK(hash_bytes(sanity_buffer(size), seed) == hash);
 }

@@ -14,10 +14,13 @@ using test::input_error;
 
 namespace {
 
-TomlDocument parse(std::string_view text) { return TomlDocument::from_text(text, "case.toml"); }
+TomlDocument parse(std::string_view text) {
+  return TomlDocument::from_text(text, "case.toml");
+}
 
 /// The message of `read` on the document's root table.
-template <class Read> std::string mistake(std::string_view text, Read read) {
+template <class Read>
+std::string mistake(std::string_view text, Read read) {
   const TomlDocument document = parse(text);
   TableReader table(document);
   return input_error([&] { read(table); });
@@ -95,9 +98,11 @@ TEST_CASE("A value of the wrong type is named with place, key, what was found an
   CHECK(mistake("a = 1", [](auto& t) { t.boolean_or("a", true); }) ==
         "case.toml:1:5: key 'a': found 1, expected true or false");
   CHECK(mistake("a = 1", [](auto& t) { t.string("a"); }) == "case.toml:1:5: key 'a': found 1, expected a string");
-  CHECK(mistake("a = 1", [](auto& t) { t.string_or("a", ""); }) == "case.toml:1:5: key 'a': found 1, expected a string");
-  CHECK(mistake("a = [1]", [](auto& t) { t.choice("a", {"x", "y"}); }) ==
-        "case.toml:1:5: key 'a': found an array, expected one of 'x', 'y'");
+  CHECK(mistake("a = 1", [](auto& t) { t.string_or("a", ""); }) ==
+        "case.toml:1:5: key 'a': found 1, expected a string");
+  CHECK(mistake("a = [1]", [](auto& t) {
+          t.choice("a", {"x", "y"});
+        }) == "case.toml:1:5: key 'a': found an array, expected one of 'x', 'y'");
   CHECK(mistake("a = 1", [](auto& t) { t.numbers("a"); }) ==
         "case.toml:1:5: key 'a': found 1, expected an array of numbers");
   CHECK(mistake("a = [1, 2,\n 'x']", [](auto& t) { t.numbers("a"); }) ==
@@ -174,10 +179,12 @@ TEST_CASE("A vector has three numbers") {
 }
 
 TEST_CASE("A word that is none of the choices is answered with the choices and the nearest") {
-  CHECK(mistake("a = 'rigit'", [](auto& t) { t.choice("a", {"rigid", "free"}); }) ==
-        "case.toml:1:5: key 'a': found 'rigit', allowed 'rigid', 'free' (did you mean 'rigid'?)");
-  CHECK(mistake("a = 'zzz'", [](auto& t) { t.choice_or("a", "free", {"rigid", "free"}); }) ==
-        "case.toml:1:5: key 'a': found 'zzz', allowed 'rigid', 'free'");
+  CHECK(mistake("a = 'rigit'", [](auto& t) {
+          t.choice("a", {"rigid", "free"});
+        }) == "case.toml:1:5: key 'a': found 'rigit', allowed 'rigid', 'free' (did you mean 'rigid'?)");
+  CHECK(mistake("a = 'zzz'", [](auto& t) {
+          t.choice_or("a", "free", {"rigid", "free"});
+        }) == "case.toml:1:5: key 'a': found 'zzz', allowed 'rigid', 'free'");
 }
 
 TEST_CASE("A missing key is named with what is expected, in the table where it should be") {
@@ -187,7 +194,8 @@ TEST_CASE("A missing key is named with what is expected, in the table where it s
         "case.toml:2:1: key 'box.n': missing, expected an integer");
   CHECK(mistake("[[stage]]\nn = 1\n[[stage]]\n", [](auto& t) { t.tables("stage")[1].integer("n"); }) ==
         "case.toml:3:1: key 'stage.1.n': missing, expected an integer");
-  CHECK_THAT(mistake("", [](auto& t) { t.table("box"); }), Catch::EndsWith("key 'box': missing, expected a table [box]"));
+  CHECK_THAT(mistake("", [](auto& t) { t.table("box"); }),
+             Catch::EndsWith("key 'box': missing, expected a table [box]"));
 }
 
 TEST_CASE("A missing key is answered with a present one that looks like it") {
@@ -215,7 +223,8 @@ TEST_CASE("An unknown key is answered with the nearest known one, or with all") 
 }
 
 TEST_CASE("Of several unknown keys the first in the file is reported") {
-  CHECK_THAT(mistake("zebra = 1\nant = 2", [](auto& t) { t.finish(); }), Catch::StartsWith("case.toml:1:1: unknown key 'zebra'"));
+  CHECK_THAT(mistake("zebra = 1\nant = 2", [](auto& t) { t.finish(); }),
+             Catch::StartsWith("case.toml:1:1: unknown key 'zebra'"));
 }
 
 TEST_CASE("A check across keys fails at the place of its key") {
@@ -237,10 +246,10 @@ TEST_CASE("A message shortens long texts and stays one line whatever the file ho
 }
 
 TEST_CASE("Text that is no TOML is refused with line and column") {
-  for (const char* text : {"a = ", "a = 1\nb == 2", "[box", "a = 1\na = 2", "a = \"x\nb\"", "a = 0x", "\x01 = 2", "a = '\xff\xfe'"}) {
+  for (const char* text :
+       {"a = ", "a = 1\nb == 2", "[box", "a = 1\na = 2", "a = \"x\nb\"", "a = 0x", "\x01 = 2", "a = '\xff\xfe'"}) {
     CAPTURE(text);
-    CHECK_THAT(input_error([&] { parse(text); }),
-               Catch::Matches("case\\.toml:[0-9]+:[0-9]+: not valid TOML: .+"));
+    CHECK_THAT(input_error([&] { parse(text); }), Catch::Matches("case\\.toml:[0-9]+:[0-9]+: not valid TOML: .+"));
   }
   CHECK_THAT(input_error([&] { parse("a = 1\nb = = 2"); }), Catch::StartsWith("case.toml:2:"));
 }
@@ -253,8 +262,10 @@ TEST_CASE("A file that is missing or a folder is refused with its name") {
 }
 
 TEST_CASE("A file is read as its text is") {
-  const auto path = std::filesystem::temp_directory_path() / ("mpfem-test-common-" + std::to_string(getpid()) + ".toml");
-  std::ofstream(path) << "\xEF\xBB\xBF" << "a = 1\r\nb = 'x'\r\n"; // a byte order mark and line ends of another system
+  const auto path =
+      std::filesystem::temp_directory_path() / ("mpfem-test-common-" + std::to_string(getpid()) + ".toml");
+  std::ofstream(path) << "\xEF\xBB\xBF"
+                      << "a = 1\r\nb = 'x'\r\n"; // a byte order mark and line ends of another system
   const TomlDocument document = TomlDocument::from_file(path);
   std::filesystem::remove(path);
   TableReader table(document);

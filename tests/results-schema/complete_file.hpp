@@ -62,17 +62,23 @@ void write_as(FileWriter& writer, const DatasetDescription& dataset, const std::
               const std::string& snapshot) {
   const std::span<const T> all(values);
   switch (dataset.rank) {
-  case 0: return writer.write_scalar(Dataset<T, 0>{dataset}, values.front(), snapshot);
-  case 1: return writer.write(Dataset<T, 1>{dataset}, all, rows, snapshot);
-  default: return writer.write(Dataset<T, 2>{dataset}, all, rows, snapshot);
+  case 0:
+    return writer.write_scalar(Dataset<T, 0>{dataset}, values.front(), snapshot);
+  case 1:
+    return writer.write(Dataset<T, 1>{dataset}, all, rows, snapshot);
+  default:
+    return writer.write(Dataset<T, 2>{dataset}, all, rows, snapshot);
   }
 }
 
-template <class T> std::vector<T> converted(const std::vector<double>& numbers) {
+template <class T>
+std::vector<T> converted(const std::vector<double>& numbers) {
   std::vector<T> values;
   for (const double number : numbers) {
-    if constexpr (std::is_same_v<T, std::string>) values.push_back("text " + std::to_string(number));
-    else values.push_back(static_cast<T>(number));
+    if constexpr (std::is_same_v<T, std::string>)
+      values.push_back("text " + std::to_string(number));
+    else
+      values.push_back(static_cast<T>(number));
   }
   return values;
 }
@@ -80,11 +86,16 @@ template <class T> std::vector<T> converted(const std::vector<double>& numbers) 
 inline void write_values(FileWriter& writer, const DatasetDescription& dataset, const Values& values,
                          const std::string& snapshot) {
   switch (dataset.type) {
-  case ElementType::float64: return write_as(writer, dataset, values.numbers, values.rows, snapshot);
-  case ElementType::float32: return write_as(writer, dataset, converted<float>(values.numbers), values.rows, snapshot);
-  case ElementType::int32: return write_as(writer, dataset, converted<std::int32_t>(values.numbers), values.rows, snapshot);
-  case ElementType::int64: return write_as(writer, dataset, converted<std::int64_t>(values.numbers), values.rows, snapshot);
-  case ElementType::string: return write_as(writer, dataset, converted<std::string>(values.numbers), values.rows, snapshot);
+  case ElementType::float64:
+    return write_as(writer, dataset, values.numbers, values.rows, snapshot);
+  case ElementType::float32:
+    return write_as(writer, dataset, converted<float>(values.numbers), values.rows, snapshot);
+  case ElementType::int32:
+    return write_as(writer, dataset, converted<std::int32_t>(values.numbers), values.rows, snapshot);
+  case ElementType::int64:
+    return write_as(writer, dataset, converted<std::int64_t>(values.numbers), values.rows, snapshot);
+  case ElementType::string:
+    return write_as(writer, dataset, converted<std::string>(values.numbers), values.rows, snapshot);
   }
 }
 

@@ -32,7 +32,8 @@ inline void remove_dataset(const std::string& path, const std::string& dataset) 
 }
 
 /// Puts a dataset of zeros of this type and shape in the place of another, its attributes kept.
-inline void replace_dataset(const std::string& path, const std::string& dataset, hid_t type, const std::vector<hsize_t>& extents) {
+inline void replace_dataset(const std::string& path, const std::string& dataset, hid_t type,
+                            const std::vector<hsize_t>& extents) {
   const Handle file = open_to_write(path);
   std::string unit, description;
   if (schema::path_exists(file, dataset)) {
@@ -44,7 +45,8 @@ inline void replace_dataset(const std::string& path, const std::string& dataset,
   const Handle link(H5Pcreate(H5P_LINK_CREATE), H5Pclose);
   H5Pset_create_intermediate_group(link, 1);
   const Handle space(extents.empty() ? H5Screate(H5S_SCALAR)
-                                     : H5Screate_simple(static_cast<int>(extents.size()), extents.data(), nullptr), H5Sclose);
+                                     : H5Screate_simple(static_cast<int>(extents.size()), extents.data(), nullptr),
+                     H5Sclose);
   const Handle set(H5Dcreate2(file, dataset.c_str(), type, space, link, H5P_DEFAULT, H5P_DEFAULT), H5Dclose);
   REQUIRE(set);
   set_text_attribute(set, "unit", unit);

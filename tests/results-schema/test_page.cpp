@@ -29,6 +29,7 @@ TEST_CASE("The page names every dataset of every kind") {
   for (const auto& kind : mpfem::schema::kinds)
     for (const auto& dataset : kind.datasets) {
       CAPTURE(kind.name, dataset.path);
-      CHECK(page.find(fmt::format("| `{}` | {} |", dataset.path, mpfem::schema::type_name(dataset.type))) != std::string::npos);
+      CHECK(page.find(fmt::format("| `{}` | {} |", dataset.path, mpfem::schema::type_name(dataset.type))) !=
+            std::string::npos);
     }
 }

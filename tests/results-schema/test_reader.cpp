@@ -2,10 +2,10 @@
 
 #include <catch2/catch.hpp>
 
-#include "tests/common/one_line_error.hpp"
 #include "complete_file.hpp"
 #include "tamper.hpp"
 #include "temporary_folder.hpp"
+#include "tests/common/one_line_error.hpp"
 
 using namespace mpfem;
 using namespace mpfem::schema;
@@ -23,7 +23,8 @@ struct RunFile {
   std::string path = folder.file("run.h5");
   RunFile() { test::write_complete_file(path, FileKind::run); }
 
-  template <class Read> std::string mistake(Read read) const {
+  template <class Read>
+  std::string mistake(Read read) const {
     const FileReader reader(path, FileKind::run);
     return input_error([&] { read(reader); });
   }
@@ -65,8 +66,7 @@ TEST_CASE("A file of another kind is refused, with both kinds named") {
 TEST_CASE("A file with another schema version is refused") {
   const RunFile run;
   test::set_root_attribute(run.path, "schema_version", "0.9\n");
-  CHECK(refusal(run.path) ==
-        run.path + ": schema version '0.9\\n', this program reads " + std::string(schema_version));
+  CHECK(refusal(run.path) == run.path + ": schema version '0.9\\n', this program reads " + std::string(schema_version));
 }
 
 TEST_CASE("An HDF5 file of another program is refused") {
@@ -96,7 +96,8 @@ TEST_CASE("An HDF5 file of another program is refused") {
     const std::vector<const char*> texts(count, "run");
     H5Awrite(attribute, type, texts.data());
   }
-  CHECK_THAT(test::input_error([&] { FileReader reader(run.path, FileKind::packing); }), Catch::StartsWith(run.path + ": "));
+  CHECK_THAT(test::input_error([&] { FileReader reader(run.path, FileKind::packing); }),
+             Catch::StartsWith(run.path + ": "));
 }
 
 TEST_CASE("An attribute that is a text of fixed length is read as well") {

@@ -15,9 +15,12 @@ namespace {
 template <class T>
 std::vector<T> read_as(const FileReader& reader, const DatasetDescription& dataset, const std::string& snapshot) {
   switch (dataset.rank) {
-  case 0: return {reader.read_scalar(Dataset<T, 0>{dataset}, snapshot)};
-  case 1: return reader.read(Dataset<T, 1>{dataset}, snapshot);
-  default: return reader.read(Dataset<T, 2>{dataset}, snapshot);
+  case 0:
+    return {reader.read_scalar(Dataset<T, 0>{dataset}, snapshot)};
+  case 1:
+    return reader.read(Dataset<T, 1>{dataset}, snapshot);
+  default:
+    return reader.read(Dataset<T, 2>{dataset}, snapshot);
   }
 }
 
@@ -47,11 +50,21 @@ TEST_CASE("Every dataset of every kind of file is read as it was written") {
       CHECK(reader.has(dataset, snapshot));
       CHECK(reader.rows(dataset, snapshot) == values.rows);
       switch (dataset.type) {
-      case ElementType::float64: check_values<double>(reader, dataset, values, snapshot); break;
-      case ElementType::float32: check_values<float>(reader, dataset, values, snapshot); break;
-      case ElementType::int32: check_values<std::int32_t>(reader, dataset, values, snapshot); break;
-      case ElementType::int64: check_values<std::int64_t>(reader, dataset, values, snapshot); break;
-      case ElementType::string: check_values<std::string>(reader, dataset, values, snapshot); break;
+      case ElementType::float64:
+        check_values<double>(reader, dataset, values, snapshot);
+        break;
+      case ElementType::float32:
+        check_values<float>(reader, dataset, values, snapshot);
+        break;
+      case ElementType::int32:
+        check_values<std::int32_t>(reader, dataset, values, snapshot);
+        break;
+      case ElementType::int64:
+        check_values<std::int64_t>(reader, dataset, values, snapshot);
+        break;
+      case ElementType::string:
+        check_values<std::string>(reader, dataset, values, snapshot);
+        break;
       }
     }
 }
@@ -72,13 +85,15 @@ TEST_CASE("The schema has datasets of every element type and of rank 0, 1 and 2"
 TEST_CASE("Numbers come back bit by bit, the extreme ones and the sign of zero included") {
   using Limits = std::numeric_limits<double>;
   const test::TemporaryFolder folder;
-  const std::vector<double> written = {-0.0, Limits::denorm_min(), Limits::max(), Limits::lowest(), 1.0 / 3, Limits::epsilon()};
+  const std::vector<double> written = {-0.0,    Limits::denorm_min(), Limits::max(), Limits::lowest(),
+                                       1.0 / 3, Limits::epsilon()};
   {
     FileWriter writer(folder.file("f.h5"), FileKind::checkpoint, "test");
     writer.write(checkpoint::run_numbers, std::span(written), written.size());
     writer.write(checkpoint::run_integers,
                  std::span<const std::int64_t>(std::vector<std::int64_t>{std::numeric_limits<std::int64_t>::min(),
-                                                                         std::numeric_limits<std::int64_t>::max()}), 2);
+                                                                         std::numeric_limits<std::int64_t>::max()}),
+                 2);
     writer.commit();
   }
   const FileReader reader(folder.file("f.h5"));
@@ -136,12 +151,14 @@ TEST_CASE("Snapshots are listed in ascending order and hold their own values") {
   const test::TemporaryFolder folder;
   {
     FileWriter writer(folder.file("run.h5"), FileKind::run, "test");
-    for (const std::string name : {"0010", "0002", "0000"}) writer.write_scalar(run::snapshots_time, std::stod(name), name);
+    for (const std::string name : {"0010", "0002", "0000"})
+      writer.write_scalar(run::snapshots_time, std::stod(name), name);
     writer.commit();
   }
   const FileReader reader(folder.file("run.h5"));
   CHECK(reader.snapshots() == std::vector<std::string>{"0000", "0002", "0010"});
-  for (const std::string& name : reader.snapshots()) CHECK(reader.read_scalar(run::snapshots_time, name) == std::stod(name));
+  for (const std::string& name : reader.snapshots())
+    CHECK(reader.read_scalar(run::snapshots_time, name) == std::stod(name));
   CHECK(!reader.has(run::snapshots_time, "0001"));
   CHECK(!reader.has(run::snapshots_step, "0000"));
 }
@@ -160,7 +177,8 @@ TEST_CASE("Large arrays of snapshots are compressed and come back bit by bit") {
   {
     FileWriter writer(folder.file("run.h5"), FileKind::run, "test");
     writer.write(run::snapshots_node, std::span<const float>(node), node.size() / 3, "0000");
-    writer.write(run::snapshots_contact_pressure, std::span<const float>(node).first(node.size() / 3), node.size() / 3, "0000");
+    writer.write(run::snapshots_contact_pressure, std::span<const float>(node).first(node.size() / 3), node.size() / 3,
+                 "0000");
     writer.commit();
   }
   const FileReader reader(folder.file("run.h5"));

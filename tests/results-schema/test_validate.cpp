@@ -26,7 +26,9 @@ std::string place_of(const DatasetDescription& dataset) {
   return path_of(dataset, test::snapshots_of(dataset).front());
 }
 
-std::span<const DatasetDescription> datasets_of(FileKind kind) { return kinds[static_cast<std::size_t>(kind)].datasets; }
+std::span<const DatasetDescription> datasets_of(FileKind kind) {
+  return kinds[static_cast<std::size_t>(kind)].datasets;
+}
 
 } // namespace
 
@@ -55,8 +57,10 @@ TEST_CASE("A wrong or missing unit or description of any dataset is found") {
     const Handle opened = test::open_to_write(file.path);
     for (const DatasetDescription& dataset : datasets_of(kind)) {
       const Handle set(H5Dopen2(opened, place_of(dataset).c_str(), H5P_DEFAULT), H5Dclose);
-      if (spoilt++ % 2 == 0) test::set_text_attribute(set, "unit", "furlong\n");
-      else H5Adelete(set, "description");
+      if (spoilt++ % 2 == 0)
+        test::set_text_attribute(set, "unit", "furlong\n");
+      else
+        H5Adelete(set, "description");
     }
   }
   const Findings findings = file.findings();
@@ -90,8 +94,8 @@ TEST_CASE("Indices out of range are found in every dataset of indices") {
     test::set_value(file.path, place, 1, wrong);
     const Findings findings = file.findings();
     REQUIRE(findings.size() == 1);
-    CHECK_THAT(findings.front(),
-               Catch::StartsWith(place + " holds the index " + std::to_string(static_cast<int>(wrong)) + ", allowed 0 … "));
+    CHECK_THAT(findings.front(), Catch::StartsWith(place + " holds the index " +
+                                                   std::to_string(static_cast<int>(wrong)) + ", allowed 0 … "));
   }
 }
 
@@ -134,7 +138,8 @@ TEST_CASE("A number that is not finite is found in every dataset of numbers") {
     if (dataset.type != ElementType::float64 && dataset.type != ElementType::float32) continue;
     const std::size_t index = dataset.rank == 0 ? 0 : 2;
     test::set_value(file.path, place_of(dataset), index, wrong);
-    expected.push_back(place_of(dataset) + (std::isnan(wrong) ? " holds nan" : " holds -inf") + " at value " + std::to_string(index));
+    expected.push_back(place_of(dataset) + (std::isnan(wrong) ? " holds nan" : " holds -inf") + " at value " +
+                       std::to_string(index));
   }
   CHECK(file.findings() == expected);
 }
@@ -145,8 +150,8 @@ TEST_CASE("Extents that disagree are found, with both places named") {
   test::replace_dataset(file.path, "/spheres/radius", H5T_IEEE_F64LE, {radii + 1});
   const Findings findings = file.findings();
   REQUIRE(findings.size() == 1);
-  CHECK(findings.front() == "/spheres/radius has " + std::to_string(radii + 1) + " spheres, /spheres/center has " +
-                                std::to_string(radii));
+  CHECK(findings.front() ==
+        "/spheres/radius has " + std::to_string(radii + 1) + " spheres, /spheres/center has " + std::to_string(radii));
 }
 
 TEST_CASE("Offsets with as many values as parts lack their end and are found") {
@@ -175,10 +180,9 @@ TEST_CASE("A wrong type, rank or fixed extent is found") {
   test::replace_dataset(file.path, "/provenance/wall_time", H5T_IEEE_F32LE, {});
   test::replace_dataset(file.path, "/provenance/threads", H5T_STD_I32LE, {1});
   test::replace_dataset(file.path, "/snapshots/0000/box_low", H5T_IEEE_F64LE, {4});
-  CHECK_THAT(file.findings(), Catch::UnorderedEquals(Findings{
-                                  "/provenance/wall_time is not of type float64",
-                                  "/provenance/threads has the shape [1], expected scalar",
-                                  "/snapshots/0000/box_low has extent 4, expected [3]"}));
+  CHECK_THAT(file.findings(), Catch::UnorderedEquals(Findings{"/provenance/wall_time is not of type float64",
+                                                              "/provenance/threads has the shape [1], expected scalar",
+                                                              "/snapshots/0000/box_low has extent 4, expected [3]"}));
 }
 
 TEST_CASE("A missing creator is found") {

@@ -22,7 +22,9 @@ namespace {
 using Doubles = std::span<const double>;
 const std::vector<double> numbers(100, 1.0);
 
-Doubles some(std::size_t count) { return Doubles(numbers).first(count); }
+Doubles some(std::size_t count) {
+  return Doubles(numbers).first(count);
+}
 
 /// A file that stood there before.
 void write_older(const std::string& path) {
@@ -94,7 +96,7 @@ TEST_CASE("A stale partial file does not hinder the next") {
 TEST_CASE("Values that do not fill the shape are refused") {
   const test::TemporaryFolder folder;
   FileWriter writer(folder.file("f.h5"), FileKind::packing, "test");
-  CHECK_THROWS_AS(writer.write(packing::box_lengths, some(2), 2), std::logic_error);    // fixed extent 3
+  CHECK_THROWS_AS(writer.write(packing::box_lengths, some(2), 2), std::logic_error); // fixed extent 3
   CHECK_THROWS_AS(writer.write(packing::box_lengths, some(4), 4), std::logic_error);
   CHECK_THROWS_AS(writer.write(packing::box_lengths, some(3), 4), std::logic_error);    // rows against values
   CHECK_THROWS_AS(writer.write(packing::spheres_center, some(7), 2), std::logic_error); // 2 rows of 3
@@ -164,7 +166,8 @@ TEST_CASE("A folder that is missing, is a file, or cannot be written gives a Sto
   CHECK_THROWS_AS(FileWriter(folder.file("plain/f.h5"), FileKind::packing, "test"), StorageError);
   if (geteuid() != 0) { // permissions do not bind the superuser
     std::filesystem::create_directory(folder.file("locked"));
-    std::filesystem::permissions(folder.file("locked"), std::filesystem::perms::owner_read | std::filesystem::perms::owner_exec);
+    std::filesystem::permissions(folder.file("locked"),
+                                 std::filesystem::perms::owner_read | std::filesystem::perms::owner_exec);
     CHECK_THROWS_AS(FileWriter(folder.file("locked/f.h5"), FileKind::packing, "test"), StorageError);
   }
 }

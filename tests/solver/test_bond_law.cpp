@@ -14,7 +14,9 @@ using namespace mpfem::test;
 
 namespace {
 
-BondLaw table_1(SofteningLaw softening, double fracture_energy = 0.5) { return {3.3e6, 25, 18, fracture_energy, softening, false}; }
+BondLaw table_1(SofteningLaw softening, double fracture_energy = 0.5) {
+  return {3.3e6, 25, 18, fracture_energy, softening, false};
+}
 
 /// Work (N/mm) of opening along a direction to `end` (mm) by the trapezoidal rule, in equal steps to `knee` (mm), around
 /// the law's peak, and in equal steps from there.
@@ -47,7 +49,8 @@ TEST_CASE("damage of both laws is that of the reference table") {
       BondState state;
       bond_traction(law, state, number(3), 0, 0);
       // The table's eight digits of the separation leave damage uncertain by as much.
-      CHECK(1 - remaining_stiffness(law, state) == Approx(number(static_cast<std::size_t>(column))).epsilon(1e-6).margin(1e-7));
+      CHECK(1 - remaining_stiffness(law, state) ==
+            Approx(number(static_cast<std::size_t>(column))).epsilon(1e-6).margin(1e-7));
     }
   }
 }
@@ -55,7 +58,8 @@ TEST_CASE("damage of both laws is that of the reference table") {
 TEST_CASE("the area under the curve is the fracture energy, in opening, shear and mixed mode") {
   for (const SofteningLaw softening : both_laws)
     for (const double g : {0.01, 0.5})
-      for (const auto& [n, s, t] : {std::tuple{1.0, 0.0, 0.0}, {0.0, 1.0, 0.0}, {0.0, 0.6, 0.8}, {0.6, 0.0, 0.8}, {0.8, 0.36, 0.48}}) {
+      for (const auto& [n, s, t] :
+           {std::tuple{1.0, 0.0, 0.0}, {0.0, 1.0, 0.0}, {0.0, 0.6, 0.8}, {0.6, 0.0, 0.8}, {0.8, 0.36, 0.48}}) {
         const BondLaw law = table_1(softening, g);
         // To where the closed form says that all but 1e-9 is spent; steps small enough for the trapezoidal rule.
         const double end = softening == SofteningLaw::exponential ? 21 * g / 18 : std::sqrt(42 * g / law.stiffness);
@@ -81,7 +85,8 @@ TEST_CASE("what is dissipated and stored does not depend on the steps that led t
 
 TEST_CASE("the peak of the exponential law is the strength of its mode") {
   const BondLaw law = table_1(SofteningLaw::exponential);
-  for (const auto& [opening, strength] : {std::pair{1.0, 25.0}, {0.0, 18.0}, {0.6, 1 / std::sqrt(0.36 / 625 + 0.64 / 324)}}) {
+  for (const auto& [opening, strength] :
+       {std::pair{1.0, 25.0}, {0.0, 18.0}, {0.6, 1 / std::sqrt(0.36 / 625 + 0.64 / 324)}}) {
     double peak = 0;
     BondState state;
     const double shear = std::sqrt(1 - opening * opening);

@@ -64,7 +64,8 @@ TEST_CASE("the gap is continuous as a node slides inside over the edge of two fa
   double last = -1;
   for (int i = -1000; i <= 1000; ++i) {
     const Vector3<double> p{1e-4 * i, 0.5, -0.05};
-    const double gap = std::min(norm(p - closest_point_on_triangle(p, right).point), norm(p - closest_point_on_triangle(p, left).point));
+    const double gap = std::min(norm(p - closest_point_on_triangle(p, right).point),
+                                norm(p - closest_point_on_triangle(p, left).point));
     if (last > 0) CHECK(std::abs(gap - last) <= 1.0001e-4); // the distance to a set has slope at most one
     last = gap;
   }

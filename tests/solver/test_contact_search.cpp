@@ -56,8 +56,10 @@ std::set<Combination> by_brute_force(const SurfaceView& s, double margin) {
 std::set<Combination> combinations(const ContactCandidates& c) {
   std::set<Combination> found;
   for (std::size_t pair = 0; pair < c.pair_first.size(); ++pair)
-    for (auto p = static_cast<std::size_t>(c.pair_point_offset[pair]); p < static_cast<std::size_t>(c.pair_point_offset[pair + 1]); ++p)
-      for (auto f = static_cast<std::size_t>(c.point_facet_offset[p]); f < static_cast<std::size_t>(c.point_facet_offset[p + 1]); ++f)
+    for (auto p = static_cast<std::size_t>(c.pair_point_offset[pair]);
+         p < static_cast<std::size_t>(c.pair_point_offset[pair + 1]); ++p)
+      for (auto f = static_cast<std::size_t>(c.point_facet_offset[p]);
+           f < static_cast<std::size_t>(c.point_facet_offset[p + 1]); ++f)
         found.insert({c.pair_second[pair], c.point_node[p], c.point_facet[f]});
   return found;
 }
@@ -83,7 +85,8 @@ TEST_CASE("the contact search finds exactly what brute force finds") {
 TEST_CASE("the contact search gives the same lists in the same order on any number of threads") {
   const Model model = random_heap(9, 11);
   ThreadTeam one(1), four(4);
-  const ContactCandidates a = find_contact_candidates(model.surface(), 0.02, one), b = find_contact_candidates(model.surface(), 0.02, four);
+  const ContactCandidates a = find_contact_candidates(model.surface(), 0.02, one),
+                          b = find_contact_candidates(model.surface(), 0.02, four);
   CHECK(a.pair_first == b.pair_first);
   CHECK(a.pair_second == b.pair_second);
   CHECK(a.pair_point_offset == b.pair_point_offset);
@@ -100,9 +103,11 @@ TEST_CASE("pairs are indexed by both of their grains") {
   REQUIRE(c.pair_first.size() > 4);
   std::size_t incoming = 0;
   for (std::size_t g = 0; g < 9; ++g) {
-    for (auto p = static_cast<std::size_t>(c.outgoing_offset[g]); p < static_cast<std::size_t>(c.outgoing_offset[g + 1]); ++p)
+    for (auto p = static_cast<std::size_t>(c.outgoing_offset[g]);
+         p < static_cast<std::size_t>(c.outgoing_offset[g + 1]); ++p)
       CHECK(c.pair_first[p] == static_cast<std::int32_t>(g));
-    for (auto i = static_cast<std::size_t>(c.incoming_offset[g]); i < static_cast<std::size_t>(c.incoming_offset[g + 1]); ++i, ++incoming)
+    for (auto i = static_cast<std::size_t>(c.incoming_offset[g]);
+         i < static_cast<std::size_t>(c.incoming_offset[g + 1]); ++i, ++incoming)
       CHECK(c.pair_second[static_cast<std::size_t>(c.incoming_pair[i])] == static_cast<std::int32_t>(g));
   }
   CHECK(incoming == c.pair_first.size());

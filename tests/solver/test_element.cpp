@@ -63,7 +63,8 @@ TEST_CASE("patch test: a linear displacement field gives one stress everywhere a
     const double scale = static_cast<double>(fields.von_mises[0]) * 0.25; // stress times facet area
     double largest = 0;
     for (std::int32_t n = model.surface_node_count[0]; n < model.nodes(); ++n)
-      for (std::size_t a = 0; a < 3; ++a) largest = std::max(largest, std::abs(model.force[4 * static_cast<std::size_t>(n) + a]));
+      for (std::size_t a = 0; a < 3; ++a)
+        largest = std::max(largest, std::abs(model.force[4 * static_cast<std::size_t>(n) + a]));
     CHECK(largest < accumulated_rounding * scale);
   }
 }
@@ -105,7 +106,8 @@ TEST_CASE("a full turn of a stressed grain in steps leaves its stress as it was"
     for (std::size_t n = 0; n < static_cast<std::size_t>(model.nodes()); ++n) {
       const double* x0 = &positions[4 * n];
       const double d = axis[0] * x0[0] + axis[1] * x0[1] + axis[2] * x0[2];
-      const double k[3] = {axis[1] * x0[2] - axis[2] * x0[1], axis[2] * x0[0] - axis[0] * x0[2], axis[0] * x0[1] - axis[1] * x0[0]};
+      const double k[3] = {axis[1] * x0[2] - axis[2] * x0[1], axis[2] * x0[0] - axis[0] * x0[2],
+                           axis[0] * x0[1] - axis[1] * x0[0]};
       for (std::size_t a = 0; a < 3; ++a) {
         const double x = std::cos(angle) * x0[a] + std::sin(angle) * k[a] + (1 - std::cos(angle)) * d * axis[a];
         model.velocity[4 * n + a] = (x - model.position[4 * n + a]) / step;
@@ -154,7 +156,8 @@ TEST_CASE("a freely spinning grain keeps its energy and angular momentum over ma
   worst = std::max(worst, std::abs(simulation.observe().energy_residual));
   CHECK(worst < 2e-3 * initial);
   const auto end = momentum();
-  for (std::size_t a = 0; a < 3; ++a) CHECK(std::abs(end[a] - start[a]) < 1e-9 * (std::abs(start[0]) + std::abs(start[2])));
+  for (std::size_t a = 0; a < 3; ++a)
+    CHECK(std::abs(end[a] - start[a]) < 1e-9 * (std::abs(start[0]) + std::abs(start[2])));
 }
 
 TEST_CASE("the step estimate bounds the eigenfrequency of a single tet and is not far from it") {

@@ -24,7 +24,8 @@ std::vector<ReferenceRow> reference(const std::string& test) {
   std::vector<ReferenceRow> rows;
   const auto number = [](const std::string& text) { return text.empty() ? 0.0 : std::stod(text); };
   for (const auto& row : read_reference("single_element.csv"))
-    if (row[0].starts_with(test)) rows.push_back({number(row[1]), number(row[2]), number(row[3]), number(row[4]), number(row[5])});
+    if (row[0].starts_with(test))
+      rows.push_back({number(row[1]), number(row[2]), number(row[3]), number(row[4]), number(row[5])});
   REQUIRE(!rows.empty());
   return rows;
 }
@@ -129,7 +130,8 @@ TEST_CASE("the return map solves its equation for any increment, from zero plast
   std::uniform_real_distribution<double> uniform(0, 1);
   const double three_shear = 3 * moduli.shear;
   for (int i = 0; i < 20000; ++i) {
-    const PowerLaw law{std::pow(10, -1 + 3 * uniform(random)), std::pow(10, 3 * uniform(random)), 0.05 + 0.95 * uniform(random)};
+    const PowerLaw law{std::pow(10, -1 + 3 * uniform(random)), std::pow(10, 3 * uniform(random)),
+                       0.05 + 0.95 * uniform(random)};
     const double strain = i % 4 == 0 ? 0.0 : std::pow(10, -12 + 12 * uniform(random));
     const HardeningState<double> old{law.yield_stress + law.coefficient * std::pow(strain, law.exponent), strain};
     const double excess = old.flow_stress * std::pow(10, -10 + 12 * uniform(random));
@@ -179,9 +181,20 @@ TEST_CASE("every lane of a pack gives the scalar answer") {
       Deviator<S> s;
       HardeningState<S> hardening;
       Increment<S> increment;
-      S* const fields[] = {&s.xx, &s.yy, &s.xy, &s.yz, &s.zx, &increment.strain.xx, &increment.strain.yy,
-                           &increment.strain.zz, &increment.strain.xy, &increment.strain.yz, &increment.strain.zx,
-                           &increment.rotation.x, &increment.rotation.y, &increment.rotation.z};
+      S* const fields[] = {&s.xx,
+                           &s.yy,
+                           &s.xy,
+                           &s.yz,
+                           &s.zx,
+                           &increment.strain.xx,
+                           &increment.strain.yy,
+                           &increment.strain.zz,
+                           &increment.strain.xy,
+                           &increment.strain.yz,
+                           &increment.strain.zx,
+                           &increment.rotation.x,
+                           &increment.rotation.y,
+                           &increment.rotation.z};
       const double size = std::pow(10, -5 + 2 * (uniform(random) + 1));
       for (int lane = 0; lane < W; ++lane) {
         for (int k = 0; k < 14; ++k) fields[k]->v[lane] = uniform(random) * (k < 5 ? 15.0 : size);

@@ -17,7 +17,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-Outcome mpfem_command(const std::string& arguments) { return run_command(fmt::format("'{}' {}", MPFEM_EXECUTABLE, arguments)); }
+Outcome mpfem_command(const std::string& arguments) {
+  return run_command(fmt::format("'{}' {}", MPFEM_EXECUTABLE, arguments));
+}
 
 const std::string scenario_text = R"(packing = "packing.h5"
 [material]
@@ -87,7 +89,8 @@ TEST_CASE("a run is bitwise the same on one, two and four threads") {
   std::vector<std::vector<double>> all;
   for (const int threads : {1, 2, 4}) {
     const std::string run = folder / fmt::format("run{}.h5", threads);
-    const Outcome outcome = mpfem_command(fmt::format("run {} -o {} --threads {} --quiet", folder / "scenario.toml", run, threads));
+    const Outcome outcome =
+        mpfem_command(fmt::format("run {} -o {} --threads {} --quiet", folder / "scenario.toml", run, threads));
     REQUIRE(outcome.exit_code == 0);
     CHECK(outcome.messages.empty()); // --quiet
     all.push_back(results(run));
@@ -105,7 +108,8 @@ TEST_CASE("a run that is stopped and resumed again and again ends bitwise as if 
   REQUIRE(whole.exit_code == 0);
   int stops = 0;
   for (int code = 5; code == 5;) {
-    const Outcome outcome = mpfem_command(common + fmt::format("{} --resume --time-limit {}", folder / "parts.h5", whole.seconds / 5));
+    const Outcome outcome =
+        mpfem_command(common + fmt::format("{} --resume --time-limit {}", folder / "parts.h5", whole.seconds / 5));
     code = outcome.exit_code;
     INFO(outcome.messages);
     REQUIRE((code == 0 || code == 5));
@@ -127,11 +131,13 @@ TEST_CASE("a killed run goes on from its checkpoint, and ends bitwise as if it h
   const std::string common = fmt::format("run {} --threads 2 --quiet -o ", folder / "scenario.toml");
   const Outcome whole = mpfem_command(common + (folder / "whole.h5"));
   REQUIRE(whole.exit_code == 0);
-  write_text(folder / "scenario.toml",
-             replaced(scenario_text, "[output]\n", fmt::format("[output]\ncheckpoint_interval = {}\n", whole.seconds / 20)));
+  write_text(
+      folder / "scenario.toml",
+      replaced(scenario_text, "[output]\n", fmt::format("[output]\ncheckpoint_interval = {}\n", whole.seconds / 20)));
   int kills = 0;
   for (int code = -1; code != 0;) {
-    code = run_command(fmt::format("timeout -s KILL {} '{}' {} --resume", whole.seconds / 3, MPFEM_EXECUTABLE, common + (folder / "killed.h5")))
+    code = run_command(fmt::format("timeout -s KILL {} '{}' {} --resume", whole.seconds / 3, MPFEM_EXECUTABLE,
+                                   common + (folder / "killed.h5")))
                .exit_code;
     REQUIRE((code == 0 || code == 137));
     kills += code != 0;
@@ -144,7 +150,8 @@ TEST_CASE("a killed run goes on from its checkpoint, and ends bitwise as if it h
 TEST_CASE("files of a run hold to the schema, and the ledger closes") {
   const Folder folder;
   prepare(folder);
-  REQUIRE(mpfem_command(fmt::format("run {} -o {} --quiet", folder / "scenario.toml", folder / "run.h5")).exit_code == 0);
+  REQUIRE(mpfem_command(fmt::format("run {} -o {} --quiet", folder / "scenario.toml", folder / "run.h5")).exit_code ==
+          0);
   CHECK(schema::validate(folder / "run.h5").empty());
   CHECK(schema::validate(folder / "packing.h5").empty());
   CHECK(schema::validate(folder / "run.compaction.checkpoint.h5").empty());
@@ -165,10 +172,13 @@ TEST_CASE("files of a run hold to the schema, and the ledger closes") {
 TEST_CASE("a stage checkpoint is the start of another run") {
   const Folder folder;
   prepare(folder);
-  REQUIRE(mpfem_command(fmt::format("run {} -o {} --quiet", folder / "scenario.toml", folder / "first.h5")).exit_code == 0);
-  write_text(folder / "second.toml", replaced(replaced(scenario_text, "relative_density = 0.62", "relative_density = 0.64"), "[0.52]", "[]"));
+  REQUIRE(mpfem_command(fmt::format("run {} -o {} --quiet", folder / "scenario.toml", folder / "first.h5")).exit_code ==
+          0);
+  write_text(folder / "second.toml",
+             replaced(replaced(scenario_text, "relative_density = 0.62", "relative_density = 0.64"), "[0.52]", "[]"));
   REQUIRE(mpfem_command(fmt::format("run {} -o {} --from {} --quiet", folder / "second.toml", folder / "second.h5",
-                                    folder / "first.compaction.checkpoint.h5")).exit_code == 0);
+                                    folder / "first.compaction.checkpoint.h5"))
+              .exit_code == 0);
   const schema::FileReader file(folder / "second.h5", schema::FileKind::run);
   const auto density = file.read(schema::run::history_relative_density);
   CHECK(density.front() == Approx(0.62).epsilon(1e-9));
@@ -193,14 +203,15 @@ TEST_CASE("every bad input is refused with one clear line and exit code 2") {
   ++twice.grain_tet_offset.back();
   write_packing(folder / "twice.h5", twice, std::vector<double>(8, 0.1));
   MeshedPacking copies = eight_grains(2);
-  std::copy_n(copies.node.begin(), 3 * copies.grain_node_offset[1], copies.node.begin() + 3 * copies.grain_node_offset[1]);
+  std::copy_n(copies.node.begin(), 3 * copies.grain_node_offset[1],
+              copies.node.begin() + 3 * copies.grain_node_offset[1]);
   write_packing(folder / "copies.h5", copies, std::vector<double>(8, 0.1));
   MeshedPacking flat = eight_grains(2);
   flat.box_lengths[1] = 0;
   write_packing(folder / "flat.h5", flat, std::vector<double>(8, 0.1));
 
   struct Case {
-    std::string from, to;             ///< change of the good scenario
+    std::string from, to;              ///< change of the good scenario
     std::vector<std::string> expected; ///< all of these stand in the message
   };
   const std::vector<Case> cases = {
@@ -218,7 +229,10 @@ TEST_CASE("every bad input is refused with one clear line and exit code 2") {
       {"packing.h5", "flat.h5", {"flat.h5", "/box/lengths"}},
       {"[output]", "[contact]\nsearch_margin = 1e-6\n[output]", {"search_margin", "0.05"}},
       {"[output]", "[initial]\ngrain_velocity = [[1, 0, 0]]\n[output]", {"1 rows for 8 grains"}},
-      {"damping_fade_stress = 5", "damping_fade_stress = 5\n[[stages]]\ntype = \"isotropic_compaction\"\nrelative_density = 0.61\nwall_speed = 1e4", {"0.61", "0.6200"}},
+      {"damping_fade_stress = 5",
+       "damping_fade_stress = 5\n[[stages]]\ntype = \"isotropic_compaction\"\nrelative_density = 0.61\nwall_speed = "
+       "1e4",
+       {"0.61", "0.6200"}},
       {"wall_speed = 20000", "wall_speed = 1e300", {"wall_speed", "allowed at most"}},
       {"relative_density = 0.62", "relative_density = 1.4", {"relative_density", "1.4"}},
       {"relative_density = 0.62", "relative_density = 0.1", {"relative_density", "0.1", "0.3467"}},
@@ -228,8 +242,8 @@ TEST_CASE("every bad input is refused with one clear line and exit code 2") {
   for (const Case& c : cases) {
     write_text(folder / "scenario.toml", replaced(scenario_text, c.from, c.to));
     for (const std::string command : {"run", "check"}) {
-      const Outcome outcome =
-          mpfem_command(command + " " + (folder / "scenario.toml") + (command == "run" ? " -o " + (folder / "run.h5") : ""));
+      const Outcome outcome = mpfem_command(command + " " + (folder / "scenario.toml") +
+                                            (command == "run" ? " -o " + (folder / "run.h5") : ""));
       INFO(c.to << ": " << outcome.messages);
       CHECK(outcome.exit_code == 2);
       CHECK(std::count(outcome.messages.begin(), outcome.messages.end(), '\n') == 1);
@@ -260,12 +274,17 @@ TEST_CASE("a branch may change how it is computed, but not the matter") {
   const Folder folder;
   prepare(folder);
   const std::string from = " --quiet --from " + (folder / "first.compaction.checkpoint.h5");
-  REQUIRE(mpfem_command(fmt::format("run {} -o {} --quiet", folder / "scenario.toml", folder / "first.h5")).exit_code == 0);
+  REQUIRE(mpfem_command(fmt::format("run {} -o {} --quiet", folder / "scenario.toml", folder / "first.h5")).exit_code ==
+          0);
   const std::string further = replaced(scenario_text, "relative_density = 0.62", "relative_density = 0.64");
-  write_text(folder / "second.toml", replaced(further, "[output]", "[contact]\nsearch_margin = 1\nstiffness_factor = 12\n[numerics]\nmass_scaling = 4\n[output]"));
-  REQUIRE(mpfem_command(fmt::format("run {} -o {}{}", folder / "second.toml", folder / "second.h5", from)).exit_code == 0);
+  write_text(folder / "second.toml",
+             replaced(further, "[output]",
+                      "[contact]\nsearch_margin = 1\nstiffness_factor = 12\n[numerics]\nmass_scaling = 4\n[output]"));
+  REQUIRE(mpfem_command(fmt::format("run {} -o {}{}", folder / "second.toml", folder / "second.h5", from)).exit_code ==
+          0);
   const schema::FileReader file(folder / "second.h5", schema::FileKind::run);
-  const auto residual = file.read(schema::run::history_energy_residual), work = file.read(schema::run::history_external_work);
+  const auto residual = file.read(schema::run::history_energy_residual),
+             work = file.read(schema::run::history_external_work);
   CHECK(residual.front() == 0);
   CHECK(std::abs(residual.back()) < 0.01 * work.back());
 
@@ -293,7 +312,8 @@ TEST_CASE("resuming a complete run leaves it as it is, and a fresh run does not 
   CHECK(fs::last_write_time(folder / "run.h5") == written);
   REQUIRE(mpfem_command(command + " --time-limit 0.001").exit_code == 5);
   CHECK(fs::exists(folder / "run.checkpoint.h5"));
-  const Outcome anew = run_command(fmt::format("'{}' run {} -o {}", MPFEM_EXECUTABLE, folder / "scenario.toml", folder / "run.h5"));
+  const Outcome anew =
+      run_command(fmt::format("'{}' run {} -o {}", MPFEM_EXECUTABLE, folder / "scenario.toml", folder / "run.h5"));
   CHECK(anew.exit_code == 0);
   CHECK_THAT(anew.messages, Catch::Contains("begins anew"));
 }
@@ -303,11 +323,13 @@ TEST_CASE("a run may be resumed from another working folder") {
   prepare(folder, 6);
   fs::create_directories(folder / "out");
   const std::string program = fmt::format("'{}'", MPFEM_EXECUTABLE);
-  const Outcome first = run_command(fmt::format("cd '{}' && {} run scenario.toml -o out/run.h5 --quiet --set output.snapshot_relative_densities=[0.35] --time-limit 0.2",
+  const Outcome first = run_command(fmt::format("cd '{}' && {} run scenario.toml -o out/run.h5 --quiet --set "
+                                                "output.snapshot_relative_densities=[0.35] --time-limit 0.2",
                                                 folder / "", program));
   REQUIRE(first.exit_code == 5);
-  const Outcome second = run_command(fmt::format("cd '{}' && {} run ../scenario.toml -o run.h5 --quiet --set output.snapshot_relative_densities=[0.35] --resume",
-                                                 folder / "out", program));
+  const Outcome second = run_command(fmt::format(
+      "cd '{}' && {} run ../scenario.toml -o run.h5 --quiet --set output.snapshot_relative_densities=[0.35] --resume",
+      folder / "out", program));
   INFO(second.messages);
   CHECK(second.exit_code == 0);
   CHECK(schema::FileReader(folder / "out/run.h5").snapshots().size() == 2);
@@ -316,7 +338,8 @@ TEST_CASE("a run may be resumed from another working folder") {
 TEST_CASE("a damaged checkpoint is refused and nothing is lost") {
   const Folder folder;
   prepare(folder, 6);
-  const std::string command = fmt::format("run {} -o {} --threads 2 --quiet --resume", folder / "scenario.toml", folder / "run.h5");
+  const std::string command =
+      fmt::format("run {} -o {} --threads 2 --quiet --resume", folder / "scenario.toml", folder / "run.h5");
   REQUIRE(mpfem_command(command + " --time-limit 0.02").exit_code == 5);
   const std::string checkpoint = folder / "run.checkpoint.h5";
   const auto size = static_cast<std::streamoff>(fs::file_size(checkpoint));
@@ -332,7 +355,8 @@ TEST_CASE("a damaged checkpoint is refused and nothing is lost") {
 }
 
 TEST_CASE("help and version are there for every command") {
-  for (const std::string arguments : {"--help", "run --help", "check --help", "--version"}) CHECK(mpfem_command(arguments).exit_code == 0);
+  for (const std::string arguments : {"--help", "run --help", "check --help", "--version"})
+    CHECK(mpfem_command(arguments).exit_code == 0);
   CHECK(mpfem_command("").exit_code == 2);
   CHECK(mpfem_command("fly").exit_code == 2);
 }

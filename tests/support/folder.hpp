@@ -54,13 +54,16 @@ inline std::string read_text(const std::string& path) {
   return text.str();
 }
 
-inline void write_text(const std::string& path, const std::string& text) { std::ofstream(path, std::ios::binary) << text; }
+inline void write_text(const std::string& path, const std::string& text) {
+  std::ofstream(path, std::ios::binary) << text;
+}
 
 /// Runs a shell command; standard error and output are kept apart.
 inline Outcome run_command(const std::string& command) {
   const Folder scratch;
   const auto start = std::chrono::steady_clock::now();
-  const int status = std::system(("( " + command + " ) >'" + (scratch / "out") + "' 2>'" + (scratch / "err") + "'").c_str());
+  const int status =
+      std::system(("( " + command + " ) >'" + (scratch / "out") + "' 2>'" + (scratch / "err") + "'").c_str());
   Outcome outcome;
   outcome.exit_code = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
   outcome.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();

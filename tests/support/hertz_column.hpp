@@ -23,7 +23,8 @@ inline GrainMesh sphere_mesh(double size_ratio, double radius, std::uint64_t see
 /// Ratio of the converged finite-element force of a sphere of finite size to Hertz, for the approach of two sphere
 /// centres over the radius between 0.02 and 0.08 (tests/reference/README.md, hertz-finite-sphere).
 inline double finite_sphere_factor(double approach_over_radius) {
-  static constexpr double at[] = {0.005, 0.01, 0.02, 0.04, 0.06, 0.08}, factor[] = {1.019, 1.030, 1.045, 1.068, 1.087, 1.105};
+  static constexpr double at[] = {0.005, 0.01, 0.02, 0.04, 0.06, 0.08},
+                          factor[] = {1.019, 1.030, 1.045, 1.068, 1.087, 1.105};
   for (int i = 1; i < 6; ++i)
     if (approach_over_radius <= at[i] || i == 5)
       return factor[i - 1] + (factor[i] - factor[i - 1]) * (approach_over_radius - at[i - 1]) / (at[i] - at[i - 1]);
@@ -33,9 +34,9 @@ inline double finite_sphere_factor(double approach_over_radius) {
 /// What the column shows at the end of pressing. Forces over the finite-sphere reference at the approach of the centres
 /// that the run itself ended with.
 struct ColumnResult {
-  int tets = 0;                      ///< of one sphere
-  double wall_error = 0;             ///< sphere on plane, relative
-  double sphere_error = 0;           ///< sphere on sphere, relative; 0 for one sphere
+  int tets = 0;                        ///< of one sphere
+  double wall_error = 0;               ///< sphere on plane, relative
+  double sphere_error = 0;             ///< sphere on sphere, relative; 0 for one sphere
   double contact_radius_over_size = 0; ///< sqrt(R d)/h: elements across the contact's radius
   double kinetic_over_elastic = 0, residual_over_work = 0, wall_imbalance = 0;
 };

@@ -17,7 +17,8 @@ inline Increment<double> increment_of(const Gradient& g) {
           {0.5 * (h[2][1] - h[1][2]), 0.5 * (h[0][2] - h[2][0]), 0.5 * (h[1][0] - h[0][1])}};
 }
 
-template <class Law> struct MaterialPoint {
+template <class Law>
+struct MaterialPoint {
   Law law;
   ElasticModuli moduli;
   Deviator<double> deviator{0, 0, 0, 0, 0};

@@ -17,9 +17,11 @@ inline void write_packing(const std::string& path, const MeshedPacking& packing,
   const std::size_t grains = radius.size();
   std::vector<double> center(3 * grains, 0.0);
   for (std::size_t g = 0; g < grains; ++g) {
-    const auto first = static_cast<std::size_t>(packing.grain_node_offset[g]), last = static_cast<std::size_t>(packing.grain_node_offset[g + 1]);
+    const auto first = static_cast<std::size_t>(packing.grain_node_offset[g]),
+               last = static_cast<std::size_t>(packing.grain_node_offset[g + 1]);
     for (std::size_t n = first; n < last; ++n)
-      for (std::size_t a = 0; a < 3; ++a) center[3 * g + a] += packing.node[3 * n + a] / static_cast<double>(last - first);
+      for (std::size_t a = 0; a < 3; ++a)
+        center[3 * g + a] += packing.node[3 * n + a] / static_cast<double>(last - first);
   }
   schema::FileWriter writer(path, schema::FileKind::packing, "mpfem tests");
   writer.write(file::box_lengths, Doubles(packing.box_lengths), 3);
@@ -41,7 +43,8 @@ inline MeshedPacking eight_grains(int n) {
     rotate(grains.back(), {0.6, 0, 0.8}, 0.4 * i);
     // A little off the lattice, so that nothing is symmetric.
     const auto corner = [i](int bit) { return (i >> bit & 1) == 0 ? 0.105 : 0.315; };
-    move(grains.back(), {corner(0) + 0.002 * (i % 3 - 1), corner(1) + 0.002 * ((i + 1) % 3 - 1), corner(2) + 0.001 * (i % 2)});
+    move(grains.back(),
+         {corner(0) + 0.002 * (i % 3 - 1), corner(1) + 0.002 * ((i + 1) % 3 - 1), corner(2) + 0.001 * (i % 2)});
   }
   return pack(grains, {0.42, 0.42, 0.42});
 }

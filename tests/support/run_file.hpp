@@ -13,8 +13,8 @@ namespace mpfem::test {
 /// Contents of a run file by dataset path ('*' for the snapshot "0000"). What is not given is filled with zeros of the
 /// right extent, strings with "text".
 struct RunContents {
-  std::map<std::string, std::size_t> extents;          ///< rows, tets, nodes, grains, profile, *pairs
-  std::map<std::string, std::vector<double>> numbers;  ///< by path
+  std::map<std::string, std::size_t> extents;         ///< rows, tets, nodes, grains, profile, *pairs
+  std::map<std::string, std::vector<double>> numbers; ///< by path
   std::map<std::string, std::vector<std::string>> texts;
 };
 
@@ -36,21 +36,33 @@ inline void write_run(const std::string& path, const RunContents& contents) {
       if (i == 0) rows = value;
     }
     const auto write = [&]<class T>(const std::vector<T>& values) {
-      if (line.rank == 0) writer.write_scalar(schema::Dataset<T, 0>{line}, values.at(0), snapshot);
-      else if (line.rank == 1) writer.write(schema::Dataset<T, 1>{line}, std::span<const T>(values), rows, snapshot);
-      else writer.write(schema::Dataset<T, 2>{line}, std::span<const T>(values), rows, snapshot);
+      if (line.rank == 0)
+        writer.write_scalar(schema::Dataset<T, 0>{line}, values.at(0), snapshot);
+      else if (line.rank == 1)
+        writer.write(schema::Dataset<T, 1>{line}, std::span<const T>(values), rows, snapshot);
+      else
+        writer.write(schema::Dataset<T, 2>{line}, std::span<const T>(values), rows, snapshot);
     };
     const std::string key(line.path);
     if (line.type == schema::ElementType::string) {
       write(contents.texts.contains(key) ? contents.texts.at(key) : std::vector<std::string>(count, "text"));
       continue;
     }
-    const std::vector<double> numbers = contents.numbers.contains(key) ? contents.numbers.at(key) : std::vector<double>(count, 0.0);
+    const std::vector<double> numbers =
+        contents.numbers.contains(key) ? contents.numbers.at(key) : std::vector<double>(count, 0.0);
     switch (line.type) {
-    case schema::ElementType::float64: write(numbers); break;
-    case schema::ElementType::float32: write(std::vector<float>(numbers.begin(), numbers.end())); break;
-    case schema::ElementType::int32: write(std::vector<std::int32_t>(numbers.begin(), numbers.end())); break;
-    default: write(std::vector<std::int64_t>(numbers.begin(), numbers.end())); break;
+    case schema::ElementType::float64:
+      write(numbers);
+      break;
+    case schema::ElementType::float32:
+      write(std::vector<float>(numbers.begin(), numbers.end()));
+      break;
+    case schema::ElementType::int32:
+      write(std::vector<std::int32_t>(numbers.begin(), numbers.end()));
+      break;
+    default:
+      write(std::vector<std::int64_t>(numbers.begin(), numbers.end()));
+      break;
     }
   }
   writer.commit();
