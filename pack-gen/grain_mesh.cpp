@@ -12,9 +12,9 @@
 #include <gmsh.h>
 
 #include "common/errors.hpp"
-#include "pack-gen/mesh_report.hpp"
 #include "pack-gen/parallel.hpp"
 #include "pack-gen/random.hpp"
+#include "pack-gen/separate_grains.hpp"
 #include "pack-gen/step_optimiser.hpp"
 
 namespace mpfem {
@@ -228,32 +228,20 @@ PackingMesh mesh_packing(const SpherePacking& packing, const MeshRequest& reques
   }
   mesh.node.resize(3 * nodes);
   mesh.tet.resize(4 * tets);
-  const auto place = [&](std::size_t i, int attempt) {
-    place_grain(library.at(key[i]), packing.center[i], packing.radius[i], orientation_seed(request.seed, i, attempt),
-                mesh.node.data() + 3 * static_cast<std::size_t>(mesh.grain_node_offset[i]));
+  const auto place = [&](std::size_t i, int attempt, double* node) {
+    place_grain(library.at(key[i]), packing.center[i], packing.radius[i], orientation_seed(request.seed, i, attempt), node);
   };
   for_each_parallel(n, request.threads, [&](std::size_t i) {
-    place(i, 0);
+    place(i, 0, mesh.node.data() + 3 * static_cast<std::size_t>(mesh.grain_node_offset[i]));
     std::int32_t* tet = mesh.tet.data() + 4 * static_cast<std::size_t>(mesh.grain_tet_offset[i]);
     for (const Tet& t : library.at(key[i]).ball.mesh.tet)
       for (const std::int32_t corner : t) *tet++ = mesh.grain_node_offset[i] + corner;
   });
 
-  // 4. Facets of neighbours must stay apart: a grain that touches is turned again.
-  report(0.9, "checking facet gaps");
-  constexpr int most_turns = 200;
-  for (int turn = 1;; ++turn) {
-    const SurfaceGap gap = smallest_facet_gap(packing, mesh, request.threads);
-    if (gap.gap > 0) break;
-    if (turn > most_turns)
-      throw InputError(fmt::format("size {:g} mm: the facets of grain {} and {} overlap by {:.2g} mm in every orientation "
-                                   "tried, as the spheres' gap is too small for it; allowed: a finer size or a larger "
-                                   "smallest_gap", request.nominal_size, gap.first,
-                                   gap.second < 0 ? "a wall" : fmt::format("grain {}", gap.second), -gap.gap));
-    place(static_cast<std::size_t>(gap.first), turn);
-    if (gap.second >= 0) place(static_cast<std::size_t>(gap.second), turn);
-    if (turn == 1) mesh.notes.push_back("some grains were turned again to keep their facets apart");
-  }
+  // 4. Meshes of neighbours must stay apart.
+  report(0.9, "turning grains apart");
+  if (const std::size_t turned = separate_grains(packing, mesh, request.nominal_size, request.threads, place); turned > 0)
+    mesh.notes.push_back(fmt::format("{} grains were turned to keep their facets apart", turned));
   return mesh;
 }
 

@@ -127,3 +127,40 @@ TEST_CASE("a size too large for the smallest sphere is refused and says what is 
   CHECK_THROWS_WITH(mesh_packing(three_spheres(), {.nominal_size = 0.2}), Catch::Contains("0.12") && Catch::Contains("allowed"));
   CHECK_THROWS_AS(mesh_packing(three_spheres(), {.nominal_size = 1e-6}), InputError);
 }
+
+namespace {
+
+/// A sphere and its twelve neighbours of a face-centred cubic packing, `gap` apart.
+SpherePacking cluster(double radius, double gap) {
+  SpherePacking packing{.box = {8 * radius, 8 * radius, 8 * radius}, .center = {{4 * radius, 4 * radius, 4 * radius}}, .radius = {radius}};
+  const double step = (2 * radius + gap) / std::sqrt(2.0);
+  for (const double a : {-step, step})
+    for (const double b : {-step, step})
+      for (const Point& offset : {Point{a, b, 0}, Point{a, 0, b}, Point{0, a, b}}) {
+        packing.center.push_back({4 * radius + offset[0], 4 * radius + offset[1], 4 * radius + offset[2]});
+        packing.radius.push_back(radius);
+      }
+  return packing;
+}
+
+} // namespace
+
+TEST_CASE("grains that stick out of their spheres are turned until none touch, on any number of threads alike") {
+  // At radius/size 3 nodes lie 1.2 % of the radius outside: two of them need more than the gap of 1 %.
+  const SpherePacking packing = cluster(0.06, 0.0006);
+  const PackingMesh one = mesh_packing(packing, {.nominal_size = 0.02, .seed = 1, .threads = 1});
+  REQUIRE(one.notes.size() == 1);
+  CHECK_THAT(one.notes[0], Catch::Contains("turned"));
+  CHECK(smallest_facet_gap(packing, one).gap > 0);
+  for (std::size_t g = 0; g < packing.radius.size(); ++g) {
+    const TetMesh grain{nodes_of(one, g), tets_of(one, g)};
+    CHECK(mesh_volume(grain) == Approx(4.0 / 3.0 * M_PI * std::pow(0.06, 3)).epsilon(1e-12));
+  }
+  CHECK((one.node == mesh_packing(packing, {.nominal_size = 0.02, .seed = 1, .threads = 3}).node));
+}
+
+TEST_CASE("spheres too near for so coarse a mesh are refused, with the grains named") {
+  // At radius/size 1.2 nodes lie 6 % of the radius outside: no orientation clears twelve neighbours all but touching.
+  CHECK_THROWS_WITH(mesh_packing(cluster(0.06, 1e-9), {.nominal_size = 0.05}),
+                    Catch::Contains("grain") && Catch::Contains("allowed: a finer size or a larger smallest_gap"));
+}
