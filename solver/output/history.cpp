@@ -61,6 +61,7 @@ void write_history(schema::FileWriter& file, const Rows& rows) {
   write_column(file, rows, run::history_contact_area, &Row::contact_area);
   write_column(file, rows, run::history_surface_area, &Row::surface_area);
   write_column(file, rows, run::history_bonded_area, &Row::bonded_area);
+  write_column(file, rows, run::history_bonds, &Row::bonds);
   write_column(file, rows, run::history_mean_damage, &Row::mean_damage);
   write_column(file, rows, run::history_coordination_number, &Row::coordination_number);
   write_column(file, rows, run::history_max_penetration, &Row::max_penetration);

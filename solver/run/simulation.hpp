@@ -66,8 +66,8 @@ struct HistoryRow {
   double mean_stress, deviatoric_stress, axial_strain, volumetric_strain;
   double kinetic_energy, elastic_energy, plastic_dissipation, damage_dissipation, bond_energy, contact_energy,
       viscous_dissipation, damping_dissipation, external_work, energy_residual;
-  double contact_area, surface_area, bonded_area, mean_damage, coordination_number, max_penetration, damping_drag_ratio,
-      time_step;
+  double contact_area, surface_area, bonded_area, bonds, mean_damage, coordination_number, max_penetration,
+      damping_drag_ratio, time_step;
 };
 
 class Simulation {
