@@ -23,6 +23,8 @@ constexpr Range non_negative{.low = 0};
 constexpr std::size_t largest_hardening_table = 64; // TableLaw::max_points
 
 constexpr std::string_view stage_isotropic_compaction = "isotropic_compaction";
+constexpr std::string_view stage_isotropic_unloading = "isotropic_unloading";
+constexpr std::string_view stage_grip = "grip";
 constexpr std::string_view stage_hold = "hold";
 
 /// Refuses keys of `all` that are given but do not belong to the choice made ("law = 'elastic'").
@@ -140,6 +142,7 @@ NumericsParameters read_numerics(TableReader table) {
       table.number_or("bulk_viscosity_quadratic", numerics.bulk_viscosity_quadratic, Range::between(0, 10));
   numerics.mass_scaling =
       table.number_or("mass_scaling", numerics.mass_scaling, {.low = 0, .high = 1e12, .low_open = true});
+  if (table.has("mass_scaling_step")) numerics.mass_scaling_step = table.number("mass_scaling_step", positive);
   table.finish();
   return numerics;
 }
@@ -185,23 +188,55 @@ void check_stage_name(const TableReader& table, const std::string& name) {
                                    name.size() > longest ? "a longer text" : name, longest));
 }
 
+/// Keys of each type of stage, besides those that all have.
+const std::vector<std::pair<std::string, std::vector<std::string>>> stage_keys = {
+    {std::string(stage_isotropic_compaction), {"relative_density", "wall_speed", "ramp_fraction"}},
+    {std::string(stage_isotropic_unloading), {"mean_stress", "wall_speed", "ramp_fraction"}},
+    {std::string(stage_grip), {"axis", "grip_depth", "lateral", "displacement", "speed", "ramp_fraction"}},
+    {std::string(stage_hold), {"duration"}},
+};
+
+GripMotion read_grip(TableReader& table) {
+  GripMotion grip;
+  const std::string axis = table.choice_or("axis", "z", {"x", "y", "z"});
+  grip.axis = axis[0] - 'x';
+  grip.depth = table.number("grip_depth", positive);
+  grip.lateral_fixed = table.choice_or("lateral", "fixed", {"fixed", "free"}) == "fixed";
+  grip.displacement = table.number("displacement", {});
+  if (grip.displacement == 0) table.fail("displacement", "found 0, allowed < 0 (together) or > 0 (apart)");
+  grip.speed = table.number("speed", positive);
+  grip.ramp_fraction = table.number_or("ramp_fraction", grip.ramp_fraction, Range::between(0, 0.5));
+  return grip;
+}
+
 Stage read_stage(TableReader table, std::size_t number) {
   Stage stage;
-  const std::string type = table.choice("type", {std::string(stage_isotropic_compaction), std::string(stage_hold)});
+  std::vector<std::string> types, all_keys;
+  for (const auto& [name, keys] : stage_keys) {
+    types.push_back(name);
+    all_keys.insert(all_keys.end(), keys.begin(), keys.end());
+  }
+  const std::string type = table.choice("type", types);
   stage.name = table.string_or("name", fmt::format("{}-{}", type, number));
   check_stage_name(table, stage.name);
+  for (const auto& [name, keys] : stage_keys)
+    if (name == type) refuse_foreign_keys(table, all_keys, keys, fmt::format("type = '{}'", type));
 
-  const std::vector<std::string> compaction_keys = {"relative_density", "wall_speed", "ramp_fraction"};
-  const std::vector<std::string> hold_keys = {"duration"};
   if (type == stage_isotropic_compaction) {
-    refuse_foreign_keys(table, hold_keys, {}, fmt::format("type = '{}'", type));
     IsotropicCompaction compaction;
     compaction.relative_density = table.number("relative_density", target_density);
     compaction.wall_speed = table.number("wall_speed", positive);
     compaction.ramp_fraction = table.number_or("ramp_fraction", compaction.ramp_fraction, Range::between(0, 0.5));
     stage.isotropic_compaction = compaction;
+  } else if (type == stage_isotropic_unloading) {
+    IsotropicUnloading unloading;
+    unloading.mean_stress = table.number("mean_stress", non_negative);
+    unloading.wall_speed = table.number("wall_speed", positive);
+    unloading.ramp_fraction = table.number_or("ramp_fraction", unloading.ramp_fraction, Range::between(0, 0.5));
+    stage.isotropic_unloading = unloading;
+  } else if (type == stage_grip) {
+    stage.grip = read_grip(table);
   } else {
-    refuse_foreign_keys(table, compaction_keys, {}, fmt::format("type = '{}'", type));
     stage.hold = Hold{.duration = table.number("duration", positive)};
   }
   stage.damping = read_damping(table);
@@ -228,7 +263,7 @@ std::vector<Stage> read_stages(TableReader& root) {
 void check_walls(const TableReader& root, const Scenario& scenario) {
   if (scenario.walls) return;
   for (const Stage& stage : scenario.stages)
-    if (stage.isotropic_compaction)
+    if (stage.isotropic_compaction || stage.isotropic_unloading)
       root.fail("walls", fmt::format("found false, expected true, since stage '{}' moves the walls", stage.name));
 }
 
@@ -242,6 +277,19 @@ std::string packing_path(TableReader& root, const std::string& scenario_file) {
 
 } // namespace
 
+BondParameters read_bond(TableReader table) {
+  BondParameters bond;
+  bond.tensile_strength = table.number("tensile_strength", positive);
+  bond.shear_strength = table.number("shear_strength", positive);
+  bond.fracture_energy = table.number("fracture_energy", positive);
+  if (table.choice_or("softening", "exponential", {"exponential", "energy"}) == "energy")
+    bond.softening = SofteningLaw::energy;
+  bond.rebond_on_contact = table.choice_or("rebond", "never", {"never", "on_contact"}) == "on_contact";
+  bond.normal_only = table.boolean_or("normal_only", bond.normal_only);
+  table.finish();
+  return bond;
+}
+
 Scenario read_scenario(const TomlDocument& document) {
   Scenario scenario;
   TableReader root(document);
@@ -250,6 +298,7 @@ Scenario read_scenario(const TomlDocument& document) {
   scenario.walls = root.boolean_or("walls", true);
   scenario.material = read_material(root.table("material"));
   if (auto table = root.optional_table("contact")) scenario.contact = read_contact(*table);
+  if (auto table = root.optional_table("bond")) scenario.bond = read_bond(*table);
   if (auto table = root.optional_table("numerics")) scenario.numerics = read_numerics(*table);
   if (auto table = root.optional_table("element")) scenario.numerics.element = read_element(*table);
   if (auto table = root.optional_table("output")) scenario.output = read_output(*table);

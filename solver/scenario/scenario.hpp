@@ -7,8 +7,11 @@
 #include <string>
 #include <vector>
 
+#include "solver/physics/bond.hpp"
+
 namespace mpfem {
 
+class TableReader;
 class TomlDocument;
 
 /// Flow stress as a function of the equivalent plastic strain.
@@ -42,6 +45,17 @@ struct ContactParameters {
   double search_margin = 0.3;   ///< candidates are kept for gaps up to this multiple of h
 };
 
+/// Cohesive bonds that form where grains touch (paper Eqs. 2-7, Table 1).
+struct BondParameters {
+  double tensile_strength = 0; ///< MPa
+  double shear_strength = 0;   ///< MPa, in both tangential directions
+  double fracture_energy = 0;  ///< G^c, N/mm, in every mode
+  SofteningLaw softening = SofteningLaw::exponential;
+  bool rebond_on_contact = false; ///< a broken bond's point bonds anew when it has opened and closes again
+  bool normal_only = false;       ///< no resistance against sliding (for comparison with theories of adhesion)
+  bool operator==(const BondParameters&) const = default;
+};
+
 enum class ElementType { tet4 };
 
 struct NumericsParameters {
@@ -49,7 +63,8 @@ struct NumericsParameters {
   double time_step_factor = 0.9; ///< safety factor on the stable step, (0, 1]
   double bulk_viscosity_linear = 0.06;
   double bulk_viscosity_quadratic = 1.2;
-  double mass_scaling = 1; ///< uniform factor on the density
+  double mass_scaling = 1;  ///< uniform factor on the density
+  double mass_scaling_step = 0; ///< s: nodes are made heavier where the step at the start would be smaller; 0 nowhere
 };
 
 struct OutputParameters {
@@ -64,6 +79,23 @@ struct IsotropicCompaction {
   double relative_density = 0; ///< target, reference grain volume over box volume
   double wall_speed = 0;       ///< plateau speed of every wall, mm/s
   double ramp_fraction = 0.1;  ///< fraction of the stage's time spent in each of the smooth start and end
+};
+
+/// Six walls move apart until the mean stress has fallen to a target. They slow down as they come near it.
+struct IsotropicUnloading {
+  double mean_stress = 0;     ///< target, MPa
+  double wall_speed = 0;      ///< largest speed of every wall, mm/s
+  double ramp_fraction = 0.1; ///< smooth start, as a fraction of the time in which the box would grow by 3 % in length
+};
+
+/// The nodes near two opposite faces of the box are gripped and moved along the box's axis. Walls take no part.
+struct GripMotion {
+  int axis = 2;              ///< 0 x, 1 y, 2 z
+  double depth = 0;          ///< mm: nodes so near to a face of the box when the stage begins
+  bool lateral_fixed = true; ///< gripped nodes do not move across the axis
+  double displacement = 0;   ///< mm, change of the distance between both grips; positive apart
+  double speed = 0;          ///< plateau speed of each grip, mm/s
+  double ramp_fraction = 0.1;
 };
 
 /// Nothing moves: free flight, vibration, settling.
@@ -81,6 +113,8 @@ struct DampingParameters {
 struct Stage {
   std::string name;
   std::optional<IsotropicCompaction> isotropic_compaction; ///< exactly one of these is set
+  std::optional<IsotropicUnloading> isotropic_unloading;
+  std::optional<GripMotion> grip;
   std::optional<Hold> hold;
   DampingParameters damping;
 };
@@ -90,6 +124,7 @@ struct Scenario {
   bool walls = true;        ///< the six walls of the box
   MaterialParameters material;
   ContactParameters contact;
+  std::optional<BondParameters> bond; ///< none: grains do not stick
   NumericsParameters numerics;
   OutputParameters output;
   std::array<double, 3> initial_velocity{};                  ///< mm/s, of all grains
@@ -98,6 +133,9 @@ struct Scenario {
   std::vector<Stage> stages;
   std::string text; ///< the TOML text, with values set on the command line
 };
+
+/// Reads the keys of a [bond] table. Throws InputError.
+BondParameters read_bond(TableReader table);
 
 /// Reads a scenario. Throws InputError with file, line and column for any mistake.
 Scenario read_scenario(const TomlDocument& document);
