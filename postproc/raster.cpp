@@ -49,16 +49,61 @@ TetRaster rasterise(const std::vector<SectionPolygon>& polygons, const View& vie
   return raster;
 }
 
+/// Colour of the nearest of a grain's bands at every fine pixel within their width; `painted` where there is one.
+struct BandRaster {
+  std::vector<Colour> colour;
+  std::vector<bool> painted;
+};
+
+BandRaster paint_bands(const Lines& lines, const TetRaster& fine, const std::vector<std::int32_t>& tet_grain,
+                       const View& view) {
+  BandRaster raster;
+  if (lines.bands.empty()) return raster;
+  raster.colour.resize(fine.tet.size());
+  raster.painted.resize(fine.tet.size());
+  const double reach = lines.band_pixels * fineness;
+  std::vector<float> nearest(fine.tet.size(), static_cast<float>(reach * reach));
+  const double sx = fine.width / (view.high[0] - view.low[0]), sy = fine.height / (view.high[1] - view.low[1]);
+  const auto pixel_range = [reach](double a, double b, int size) {
+    const double low = std::floor(std::min(a, b) - reach), high = std::ceil(std::max(a, b) + reach);
+    return std::pair{static_cast<int>(std::clamp(low, 0.0, static_cast<double>(size))),
+                     static_cast<int>(std::clamp(high, 0.0, static_cast<double>(size)))};
+  };
+  for (const Band& band : lines.bands) {
+    const double x0 = (band.from[0] - view.low[0]) * sx, y0 = (view.high[1] - band.from[1]) * sy;
+    const double dx = (band.to[0] - band.from[0]) * sx, dy = (band.from[1] - band.to[1]) * sy;
+    const double square = dx * dx + dy * dy;
+    const auto [left, right] = pixel_range(x0, x0 + dx, fine.width);
+    const auto [top, bottom] = pixel_range(y0, y0 + dy, fine.height);
+    for (int row = top; row < bottom; ++row)
+      for (int column = left; column < right; ++column) {
+        const std::size_t at =
+            static_cast<std::size_t>(row) * static_cast<std::size_t>(fine.width) + static_cast<std::size_t>(column);
+        const std::int32_t tet = fine.tet[at];
+        if (tet < 0 || tet_grain[static_cast<std::size_t>(tet)] != band.grain) continue;
+        const double x = column + 0.5 - x0, y = row + 0.5 - y0;
+        const double w = square > 0 ? std::clamp((x * dx + y * dy) / square, 0.0, 1.0) : 0.0;
+        const auto distance = static_cast<float>((x - w * dx) * (x - w * dx) + (y - w * dy) * (y - w * dy));
+        if (!(distance < nearest[at])) continue;
+        nearest[at] = distance;
+        raster.colour[at] = scale_colour(band.value_from + w * (band.value_to - band.value_from));
+        raster.painted[at] = true;
+      }
+  }
+  return raster;
+}
+
 } // namespace
 
 Raster draw_section(const std::vector<SectionPolygon>& polygons, const std::vector<Colour>& tet_colour,
-                    const std::vector<std::int32_t>& tet_grain, const View& view, int pixels, bool mesh_lines) {
+                    const std::vector<std::int32_t>& tet_grain, const View& view, int pixels, const Lines& lines) {
   const double extent[2] = {view.high[0] - view.low[0], view.high[1] - view.low[1]};
   const double size = std::max(extent[0], extent[1]) / pixels;
   Raster raster;
   raster.width = std::max(1, static_cast<int>(std::lround(extent[0] / size)));
   raster.height = std::max(1, static_cast<int>(std::lround(extent[1] / size)));
   const TetRaster fine = rasterise(polygons, view, fineness * raster.width, fineness * raster.height);
+  const BandRaster bands = paint_bands(lines, fine, tet_grain, view);
   const auto tet_at = [&](int x, int y) {
     if (x < 0 || y < 0 || x >= fine.width || y >= fine.height) return std::int32_t{-1};
     return fine.tet[static_cast<std::size_t>(y) * static_cast<std::size_t>(fine.width) + static_cast<std::size_t>(x)];
@@ -69,7 +114,7 @@ Raster draw_section(const std::vector<SectionPolygon>& polygons, const std::vect
   };
   // A fine pixel is on a line where another grain, or none, lies within the line's half width.
   const int reach = std::max(1, static_cast<int>(std::lround(line_pixels * fineness)));
-  constexpr Colour line{25, 25, 25}, mesh_line{90, 90, 90}, empty{255, 255, 255};
+  constexpr Colour mesh_line{90, 90, 90}, empty{255, 255, 255};
   raster.pixel.resize(static_cast<std::size_t>(raster.width) * static_cast<std::size_t>(raster.height));
   for (int row = 0; row < raster.height; ++row)
     for (int column = 0; column < raster.width; ++column) {
@@ -84,8 +129,12 @@ Raster draw_section(const std::vector<SectionPolygon>& polygons, const std::vect
             for (const auto& [dx, dy] :
                  {std::pair{reach, 0}, {-reach, 0}, {0, reach}, {0, -reach}, {1, 0}, {-1, 0}, {0, 1}, {0, -1}})
               edge = edge || grain_at(x + dx, y + dy) != grain;
-          const bool between_tets = mesh_lines && (tet_at(x + 1, y) != tet || tet_at(x, y + 1) != tet);
-          const Colour& colour = edge                         ? line
+          const bool between_tets = lines.mesh && (tet_at(x + 1, y) != tet || tet_at(x, y + 1) != tet);
+          const std::size_t at = static_cast<std::size_t>(y) * static_cast<std::size_t>(fine.width) +
+                                 static_cast<std::size_t>(x);
+          const bool banded = !bands.painted.empty() && bands.painted[at];
+          const Colour& colour = banded                       ? bands.colour[at]
+                                 : edge                       ? lines.outline
                                  : grain >= 0 && between_tets ? mesh_line
                                  : grain >= 0                 ? tet_colour[static_cast<std::size_t>(tet)]
                                                               : empty;

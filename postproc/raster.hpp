@@ -21,10 +21,24 @@ struct View {
   std::array<double, 2> low{}, high{};
 };
 
-/// Fills the polygons with their tets' colours (one a tet) and draws a dark line between different grains and around
-/// them, with `mesh_lines` also a thin one between tets. `pixels` along the longer side; smoothed by drawing three times
-/// as fine.
+/// A line along a grain's boundary, painted inside the grain. Values are fractions of scale_colour, linear in between.
+struct Band {
+  std::array<double, 2> from{}, to{}; ///< mm
+  double value_from = 0, value_to = 0;
+  std::int32_t grain = 0;
+};
+
+/// What is drawn over the polygons.
+struct Lines {
+  bool mesh = false;            ///< thin ones between tets
+  Colour outline{25, 25, 25};   ///< between different grains and around them
+  std::vector<Band> bands;      ///< over the outlines
+  double band_pixels = 5;       ///< width of a band
+};
+
+/// Fills the polygons with their tets' colours (one a tet) and draws lines over them. `pixels` along the longer side; smoothed by
+/// drawing three times as fine.
 Raster draw_section(const std::vector<SectionPolygon>& polygons, const std::vector<Colour>& tet_colour,
-                    const std::vector<std::int32_t>& tet_grain, const View& view, int pixels, bool mesh_lines = false);
+                    const std::vector<std::int32_t>& tet_grain, const View& view, int pixels, const Lines& lines = {});
 
 } // namespace mpfem

@@ -6,7 +6,8 @@
 #include <fmt/format.h>
 
 #include "common/errors.hpp"
-#include "postproc/gnuplot.hpp"
+#include "postproc/damage_section.hpp"
+#include "postproc/raster_picture.hpp"
 #include "postproc/text_file.hpp"
 
 namespace mpfem {
@@ -43,7 +44,8 @@ bool overlaps(const SectionPolygon& polygon, const View& view) {
 } // namespace
 
 void write_section_picture(const std::string& path, const Snapshot& snapshot, const PictureRequest& request) {
-  const Field& field = snapshot.tet_field(request.field);
+  const bool of_damage = request.field == "damage";
+  const Field& field = of_damage ? snapshot.node_field(request.field) : snapshot.tet_field(request.field);
   std::vector<SectionPolygon> polygons = cut(snapshot, request.plane);
   const auto axis = static_cast<std::size_t>(request.plane.axis), u = (axis + 1) % 3, v = (axis + 2) % 3;
   if (polygons.empty())
@@ -61,68 +63,41 @@ void write_section_picture(const std::string& path, const Snapshot& snapshot, co
   std::pair<double, double> range{0, 1};
   if (request.range)
     range = *request.range;
-  else if (!of_grains)
+  else if (!of_grains && !of_damage)
     range = {std::min(0.0, percentile(polygons, field.values, 0.005)), percentile(polygons, field.values, 0.995)};
   if (!(range.second > range.first)) range.second = range.first + 1;
 
-  std::vector<Colour> colour(snapshot.tets());
-  for (std::size_t t = 0; t < snapshot.tets(); ++t)
-    colour[t] = of_grains
-                    ? grain_colour(snapshot.tet_grain[t])
-                    : scale_colour((static_cast<double>(field.values[t]) - range.first) / (range.second - range.first));
-  const Raster raster = draw_section(polygons, colour, snapshot.tet_grain, view, request.pixels, request.mesh_lines);
-  std::string bytes;
-  for (const Colour& pixel : raster.pixel) bytes.append(reinterpret_cast<const char*>(pixel.data()), 3);
-  const ScratchFile data(bytes), picture("");
-
-  constexpr const char* axis_name[] = {"x", "y", "z"};
-  const std::string title = !request.title.empty() ? request.title
-                            : snapshot.relative_density > 0
-                                ? fmt::format("Relative density {:.3f}", snapshot.relative_density)
-                                : "";
-  const double pixel_width = (view.high[0] - view.low[0]) / raster.width,
-               pixel_height = (view.high[1] - view.low[1]) / raster.height;
-  // Margins in pixels, so that a pixel of the raster is one of the picture; with the text they grow with the picture,
-  // so that a finer one looks the same in print.
-  const double scale = std::max(0.6, request.pixels / 900.0);
-  const auto scaled = [scale](int pixels) { return static_cast<int>(std::lround(scale * pixels)); };
-  const int left = scaled(120), right = scaled(of_grains ? 40 : 190), bottom = scaled(90), top = scaled(55);
-  const double width = left + raster.width + right, height = bottom + raster.height + top;
-  std::string script = fmt::format("set terminal pngcairo size {},{} font 'Sans,{:.1f}' enhanced\nset output {}\n",
-                                   width, height, 15 * scale, gnuplot_string(picture.path()));
-  script += fmt::format("set title {} noenhanced\nset xlabel '{} (mm)'\nset ylabel '{} (mm)'\nset tics out "
-                        "nomirror\nset border lw {:.2f}\n"
-                        "set xrange [{}:{}]\nset yrange [{}:{}]\n",
-                        gnuplot_string(title), axis_name[u], axis_name[v], 1.5 * scale, view.low[0], view.high[0],
-                        view.low[1], view.high[1]);
-  script += fmt::format(
-      "set lmargin at screen {}\nset rmargin at screen {}\nset bmargin at screen {}\nset tmargin at screen {}\n",
-      left / width, (left + raster.width) / width, bottom / height, (bottom + raster.height) / height);
-  if (!of_grains) {
-    script += "set palette defined (";
-    constexpr int steps = 32;
-    for (int i = 0; i <= steps; ++i) {
-      const Colour c = scale_colour(static_cast<double>(i) / steps);
-      script += fmt::format("{}{} '#{:02x}{:02x}{:02x}'", i ? ", " : "", i, c[0], c[1], c[2]);
-    }
-    std::string label = field.name == "von_mises"  ? "von Mises stress"
-                        : field.name == "pressure" ? "Pressure"
-                                                   : "Equivalent plastic strain";
-    if (field.unit != "1") label += fmt::format(" ({})", field.unit);
-    script += fmt::format(")\nset cbrange [{}:{}]\nset cblabel '{}'\nset colorbox\n", range.first, range.second, label);
+  const auto fraction = [&range](double value) { return (value - range.first) / (range.second - range.first); };
+  constexpr Colour light_grey{232, 232, 232}, grey{140, 140, 140};
+  std::vector<Colour> colour(snapshot.tets(), light_grey);
+  Lines lines;
+  lines.mesh = request.mesh_lines;
+  if (of_damage) {
+    lines.outline = grey;
+    lines.band_pixels = std::max(1.0, 5 * request.pixels / 900.0);
+    for (const BoundarySegment& s : cut_boundaries(snapshot, request.plane))
+      if (s.damage_from >= 0)
+        lines.bands.push_back({s.from, s.to, fraction(s.damage_from), fraction(s.damage_to), s.grain});
+  } else {
+    for (std::size_t t = 0; t < snapshot.tets(); ++t)
+      colour[t] = of_grains ? grain_colour(snapshot.tet_grain[t])
+                            : scale_colour(fraction(static_cast<double>(field.values[t])));
   }
-  script += "unset key\n";
-  script += fmt::format(
-      "plot {} binary array=({},{}) format='%uchar' flipy origin=({},{}) dx={} dy={} using 1:2:3 with rgbimage",
-      gnuplot_string(data.path()), raster.width, raster.height, view.low[0] + 0.5 * pixel_width,
-      view.low[1] + 0.5 * pixel_height, pixel_width, pixel_height);
-  // A curve of nothing that carries the palette, so that the colour bar is drawn.
-  script += of_grains ? "\n" : ", '-' using 1:2:3 with points pt 0 lc palette\n0 0 0\ne\n";
-  script += "set output\n";
-  run_gnuplot(script);
-  const std::string png = picture.content();
-  if (!png.starts_with("\x89PNG")) throw SimulationError("gnuplot made no PNG picture");
-  write_file(path, png);
+  const Raster raster = draw_section(polygons, colour, snapshot.tet_grain, view, request.pixels, lines);
+  constexpr const char* axis_name[] = {"x", "y", "z"};
+  Frame2d frame{view, request.title, fmt::format("{} (mm)", axis_name[u]), fmt::format("{} (mm)", axis_name[v]), {},
+                request.pixels};
+  if (frame.title.empty() && snapshot.relative_density > 0)
+    frame.title = fmt::format("Relative density {:.3f}", snapshot.relative_density);
+  if (!of_grains) {
+    std::string label = of_damage                  ? "Damage of bonds (0 intact, 1 broken)"
+                        : field.name == "von_mises" ? "von Mises stress"
+                        : field.name == "pressure"  ? "Pressure"
+                                                    : "Equivalent plastic strain";
+    if (field.unit != "1") label += fmt::format(" ({})", field.unit);
+    frame.bar = ColourBar{range, label};
+  }
+  write_raster_picture(path, raster, frame);
 }
 
 std::string section_csv(const Snapshot& snapshot, const std::vector<SectionPolygon>& polygons,
@@ -143,9 +118,7 @@ std::string section_csv(const Snapshot& snapshot, const std::vector<SectionPolyg
                           middle[1]};
     for (std::size_t c = 0; c < columns.size(); ++c) columns[c].values.push_back(row[c]);
   }
-  std::vector<const Column*> pointers;
-  for (const Column& column : columns) pointers.push_back(&column);
-  return csv_text(pointers);
+  return csv_text(columns);
 }
 
 } // namespace mpfem

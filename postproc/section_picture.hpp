@@ -22,7 +22,8 @@ struct PictureRequest {
   std::optional<View> view; ///< default: the box
 };
 
-/// Writes the PNG through gnuplot. Throws InputError where the plane misses the grains or the field is unknown,
+/// The field "damage" is drawn along the grains' boundaries, on a scale from 0 to 1 where no range is given: a coloured
+/// line inside either grain where its nodes have been bonded, a thin grey one elsewhere. Writes the PNG through gnuplot. Throws InputError where the plane misses the grains or the field is unknown,
 /// SimulationError where gnuplot is missing or fails, StorageError.
 void write_section_picture(const std::string& path, const Snapshot& snapshot, const PictureRequest& request);
 

@@ -43,7 +43,16 @@ const Field& Snapshot::tet_field(const std::string& field_name) const {
     if (field.name == field_name) return field;
   std::vector<std::string> names;
   for (const Field& field : tet_fields) names.push_back(field.name);
+  for (const Field& field : node_fields)
+    if (field.name == "damage") names.push_back(field.name); // the one node field that sections show
   throw InputError(fmt::format("no field '{}'; allowed: {}", one_line(field_name), fmt::join(names, ", ")));
+}
+
+const Field& Snapshot::node_field(const std::string& field_name) const {
+  for (const Field& field : node_fields)
+    if (field.name == field_name) return field;
+  throw InputError(fmt::format("no field '{}' at the nodes of snapshot {}{}", one_line(field_name), name,
+                               field_name == "damage" ? ": the run is without bonds" : ""));
 }
 
 std::string snapshot_name(const schema::FileReader& file, int number) {
@@ -82,6 +91,8 @@ Snapshot read_snapshot(const schema::FileReader& file, int number) {
                   field(run::snapshots_pressure, "pressure", s.tets()),
                   field(run::snapshots_plastic_strain, "plastic_strain", s.tets())};
   s.node_fields = {field(run::snapshots_contact_pressure, "contact_pressure", s.nodes())};
+  if (file.has(run::snapshots_damage, s.name))
+    s.node_fields.push_back(field(run::snapshots_damage, "damage", s.nodes()));
   check_size(s.velocity, 3 * s.nodes(), run::snapshots_velocity.path, path);
   s.tet_fields.push_back({"grain", "1", {s.tet_grain.begin(), s.tet_grain.end()}});
   return s;

@@ -30,6 +30,8 @@ struct Snapshot {
   std::size_t tets() const { return tet.size() / 4; }
   /// Throws InputError listing the fields where there is none of this name.
   const Field& tet_field(const std::string& field_name) const;
+  /// Throws InputError where there is none of this name.
+  const Field& node_field(const std::string& field_name) const;
 };
 
 /// Snapshots of a run file by number, as given: 0 the first, negative from the end (-1 the last). Throws InputError.

@@ -46,4 +46,10 @@ std::string csv_text(const std::vector<const Column*>& columns) {
   return text;
 }
 
+std::string csv_text(const std::vector<Column>& columns) {
+  std::vector<const Column*> pointers;
+  for (const Column& column : columns) pointers.push_back(&column);
+  return csv_text(pointers);
+}
+
 } // namespace mpfem

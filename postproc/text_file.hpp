@@ -17,5 +17,6 @@ void write_file(const std::string& path, std::string_view content);
 
 /// CSV with the heading "name [unit],…"; all columns have as many values.
 std::string csv_text(const std::vector<const Column*>& columns);
+std::string csv_text(const std::vector<Column>& columns);
 
 } // namespace mpfem

@@ -61,10 +61,70 @@ Nearest nearest_facet(const Model& model, const Vector3<double>& node, std::span
   return nearest;
 }
 
+/// Adds to new candidates the points of the old ones that have, or had, a bond, and carries the bonds over.
+void keep_bonded_points(const ContactCandidates& old, const std::vector<PointBond>& old_bond, int grains,
+                        ContactCandidates& candidates, std::vector<PointBond>& bond) {
+  using Pair = std::pair<std::int32_t, std::int32_t>;
+  const ContactCandidates found = std::move(candidates);
+  candidates = {};
+  bond.clear();
+  candidates.pair_point_offset.push_back(0);
+  candidates.point_facet_offset.push_back(0);
+  const auto is_kept = [&](std::int32_t point) {
+    return old_bond[at(point)].exists() || old_bond[at(point)].spent > 0;
+  };
+  const auto pair_of = [](const ContactCandidates& c, std::size_t p) {
+    return Pair(c.pair_first[p], c.pair_second[p]);
+  };
+  std::size_t p = 0, q = 0; // next pair of found, of old
+  while (p < found.pair_first.size() || q < old.pair_first.size()) {
+    const bool has_found = p < found.pair_first.size(), has_old = q < old.pair_first.size();
+    const Pair pair = !has_old     ? pair_of(found, p)
+                      : !has_found ? pair_of(old, q)
+                                   : std::min(pair_of(found, p), pair_of(old, q));
+    std::int32_t i = 0, i_end = 0, j = 0, j_end = 0;
+    if (has_found && pair_of(found, p) == pair)
+      i = found.pair_point_offset[p], i_end = found.pair_point_offset[p + 1], ++p;
+    if (has_old && pair_of(old, q) == pair) j = old.pair_point_offset[q], j_end = old.pair_point_offset[q + 1], ++q;
+    const std::size_t before = candidates.point_node.size();
+    while (i < i_end || j < j_end) {
+      if (j < j_end && !is_kept(j)) {
+        ++j;
+        continue;
+      }
+      const std::int32_t found_node = i < i_end ? found.point_node[at(i)] : std::numeric_limits<std::int32_t>::max();
+      const std::int32_t old_node = j < j_end ? old.point_node[at(j)] : std::numeric_limits<std::int32_t>::max();
+      candidates.point_node.push_back(std::min(found_node, old_node));
+      bond.push_back(old_node <= found_node ? old_bond[at(j)] : PointBond{});
+      if (found_node <= old_node) {
+        candidates.point_facet.insert(candidates.point_facet.end(),
+                                      found.point_facet.begin() + found.point_facet_offset[at(i)],
+                                      found.point_facet.begin() + found.point_facet_offset[at(i) + 1]);
+        ++i;
+      }
+      if (old_node <= found_node) ++j;
+      candidates.point_facet_offset.push_back(static_cast<std::int32_t>(candidates.point_facet.size()));
+    }
+    if (candidates.point_node.size() == before) continue;
+    candidates.pair_first.push_back(pair.first);
+    candidates.pair_second.push_back(pair.second);
+    candidates.pair_point_offset.push_back(static_cast<std::int32_t>(candidates.point_node.size()));
+  }
+  index_pairs(candidates, grains);
+}
+
 } // namespace
 
 void renew_candidates(const Model& model, double margin, ThreadTeam& team, Contact& contact) {
-  contact.candidates = find_contact_candidates(model.surface(), margin, team);
+  ContactCandidates candidates = find_contact_candidates(model.surface(), margin, team);
+  if (contact.bonding) {
+    std::vector<PointBond> bond;
+    keep_bonded_points(contact.candidates, contact.bond, model.grains, candidates, bond);
+    contact.bond = std::move(bond);
+    contact.bond_force.resize(contact.bond.size());
+    contact.pulling.assign(candidates.pair_first.size(), 0);
+  }
+  contact.candidates = std::move(candidates);
   contact.margin = margin;
   const std::size_t points = contact.candidates.point_node.size();
   contact.point_facet.assign(points, -1);
@@ -83,23 +143,65 @@ bool search_is_due(const Contact& contact) {
   return 2.0 * largest > 0.9 * contact.margin;
 }
 
-ContactSums contact_forces(Model& model, Contact& contact, int grain) {
+namespace {
+
+/// Half of the harmonic mean of both grains' penalties: a pass's share, MPa/mm.
+double pass_stiffness(const Model& model, std::size_t first, std::size_t second) {
+  const double a = model.penalty_stiffness[first], b = model.penalty_stiffness[second];
+  return a * b / (a + b);
+}
+
+/// Adds a force to its node, and gives it back as it is.
+void act_on_node(Model& model, const ContactForce& record) {
+  double* force = model.force.data() + 4 * at(record.node);
+  for (int axis = 0; axis < 3; ++axis) force[axis] += record.force[axis];
+}
+
+ContactForce bond_record(const BondPull& pull, double stiffness, std::int32_t node, const PointBond& bond) {
+  return {{stiffness * pull.pull.x, stiffness * pull.pull.y, stiffness * pull.pull.z},
+          {pull.weight[0], pull.weight[1], pull.weight[2]},
+          bond.remaining * stiffness,
+          node,
+          bond.facet};
+}
+
+template <bool bonding>
+ContactSums forces_of_points(Model& model, Contact& contact, int grain) {
   const ContactCandidates& candidates = contact.candidates;
   ContactSums sums;
   const auto g = static_cast<std::size_t>(grain);
   const double h = model.element_size[g];
   for (std::int32_t pair = candidates.outgoing_offset[g]; pair < candidates.outgoing_offset[g + 1]; ++pair) {
-    const std::size_t other = at(candidates.pair_second[at(pair)]);
+    const std::int32_t other_grain = candidates.pair_second[at(pair)];
+    const std::size_t other = at(other_grain);
     const double travel = contact.travel[g] + contact.travel[other];
     const double limit = contact.travel_at_search[g] + contact.travel_at_search[other] + contact.margin;
-    // Harmonic mean of both grains' penalties; half of it in each of the two passes.
-    const double stiffness = model.penalty_stiffness[g] * model.penalty_stiffness[other] /
-                             (model.penalty_stiffness[g] + model.penalty_stiffness[other]);
+    const double stiffness = pass_stiffness(model, g, other);
     const std::int32_t begin = candidates.pair_point_offset[at(pair)], end = candidates.pair_point_offset[at(pair) + 1];
-    std::int32_t active = 0;
+    std::int32_t active = 0, pulling = 0;
+    BondLaw law;
+    if constexpr (bonding) law = pair_bond_law(model, *contact.bonding, grain, other_grain);
+    const auto pull = [&](PointBond& bond, std::int32_t node_index, const Vector3<double>& node, double gap) {
+      const Facet facet = facet_geometry(model, bond.facet);
+      const double k = stiffness * model.reference_area[at(node_index)];
+      ContactForce& record = contact.bond_force[at(begin + pulling++)];
+      record = bond_record(law.normal_only ? pull_of_normal_bond(law, bond, node, facet.x)
+                                           : pull_of_bond(law, bond, node, facet.x, gap),
+                           k, node_index, bond);
+      act_on_node(model, record);
+    };
     for (std::int32_t point = begin; point < end; ++point) {
-      if (travel < contact.point_wake[at(point)]) continue;
       const std::int32_t node_index = candidates.point_node[at(point)];
+      if (travel < contact.point_wake[at(point)]) {
+        // The mode in which damage begins depends on the gap; later on a bond needs none, and its point may sleep.
+        if constexpr (!bonding) continue;
+        PointBond& bond = contact.bond[at(point)];
+        if (!bond.intact()) continue;
+        if (bond.state.initiation > 0) {
+          pull(bond, node_index, row(model.position, node_index), contact.margin);
+          continue;
+        }
+      }
       const Vector3<double> node = row(model.position, node_index);
       // 1. The closest facet. It stays the closest until both grains' travel could make up its lead on the second.
       std::int32_t& facet = contact.point_facet[at(point)];
@@ -111,7 +213,12 @@ ContactSums contact_forces(Model& model, Contact& contact, int grain) {
         facet = nearest.facet;
         // Facets that are no candidates were further than the margin at the search.
         const double others = std::min(nearest.second_distance, limit - travel);
-        contact.point_sure[at(point)] = travel + 0.5 * (others - nearest.distance);
+        contact.point_sure[at(point)] = facet < 0 ? limit : travel + 0.5 * (others - nearest.distance);
+      }
+      if (bonding && facet < 0) { // kept for its bond alone: the other surface is further than the margin
+        contact.point_wake[at(point)] = limit;
+        if (contact.bond[at(point)].intact()) pull(contact.bond[at(point)], node_index, node, limit - travel);
+        continue;
       }
       const Facet geometry = facet_geometry(model, facet);
       const ClosestPoint closest = closest_point_on_triangle(node, geometry.x);
@@ -120,6 +227,16 @@ ContactSums contact_forces(Model& model, Contact& contact, int grain) {
       // 2. Outside: asleep until the grains could have met.
       if (dot(offset, outward_direction(closest, geometry.x, geometry.n)) >= 0 || distance == 0) {
         contact.point_wake[at(point)] = std::min(travel + distance, limit);
+        if constexpr (bonding) {
+          PointBond& bond = contact.bond[at(point)];
+          if (bond.intact()) {
+            pull(bond, node_index, node, distance);
+          } else if (bond.exists() && contact.bonding->rebond_on_contact) {
+            const double spent = bond.spent + law.fracture_energy;
+            bond = {};
+            bond.spent = spent;
+          }
+        }
         continue;
       }
       if (distance > 0.9 * contact.margin)
@@ -127,37 +244,70 @@ ContactSums contact_forces(Model& model, Contact& contact, int grain) {
             fmt::format("contact: a node of grain {} is {:.3g} mm inside grain {}, allowed up to {:.3g} "
                         "mm: raise contact.stiffness_factor or lower the speed",
                         grain, distance, other, 0.9 * contact.margin));
-      // 3. Inside: pushed back to the closest point.
+      // 3. Inside: pushed back to the closest point. What an unbroken bond holds of the point, it holds itself.
       const double k = stiffness * model.reference_area[at(node_index)];
-      const Vector3<double> push = -(k * offset);
+      double pushed = k;
+      if constexpr (bonding) {
+        PointBond& bond = contact.bond[at(point)];
+        if (!bond.exists() || (law.normal_only && bond.intact())) {
+          bond.facet = facet;
+          bond.weight1 = closest.weight1, bond.weight2 = closest.weight2;
+        }
+        if (law.normal_only) {
+          bond.opening = bond.separation = 0;
+        } else if (bond.intact()) {
+          pull(bond, node_index, node, -distance);
+          pushed *= 1.0 - bond.remaining;
+        }
+      }
+      const Vector3<double> push = -(pushed * offset);
       ContactForce& record = contact.force[at(begin + active++)];
       record = {{push.x, push.y, push.z},
                 {1.0 - closest.weight1 - closest.weight2, closest.weight1, closest.weight2},
-                k,
+                pushed,
                 node_index,
                 facet};
-      double* force = model.force.data() + 4 * at(node_index);
-      for (int axis = 0; axis < 3; ++axis) force[axis] += record.force[axis];
+      act_on_node(model, record);
       sums.energy += 0.5 * k * distance * distance;
       sums.area += model.normal[4 * at(node_index) + 3];
       sums.penetration = std::max(sums.penetration, distance / h);
     }
     contact.active[at(pair)] = active;
+    if constexpr (bonding) contact.pulling[at(pair)] = pulling;
     sums.active_points += active;
   }
   return sums;
 }
 
+} // namespace
+
+BondLaw pair_bond_law(const Model& model, const BondParameters& parameters, std::int32_t first, std::int32_t second) {
+  return {2 * pass_stiffness(model, at(first), at(second)),
+          parameters.tensile_strength,
+          parameters.shear_strength,
+          parameters.fracture_energy,
+          parameters.softening,
+          parameters.normal_only};
+}
+
+ContactSums contact_forces(Model& model, Contact& contact, int grain) {
+  return contact.bonding ? forces_of_points<true>(model, contact, grain)
+                         : forces_of_points<false>(model, contact, grain);
+}
+
 void contact_reactions(Model& model, const Contact& contact, int grain) {
   const ContactCandidates& candidates = contact.candidates;
   const auto g = static_cast<std::size_t>(grain);
-  for (std::int32_t i = candidates.incoming_offset[g]; i < candidates.incoming_offset[g + 1]; ++i) {
-    for (const ContactForce& point : contact.active_points(candidates.incoming_pair[at(i)])) {
+  const auto react = [&model](std::span<const ContactForce> points) {
+    for (const ContactForce& point : points)
       for (std::size_t c = 0; c < 3; ++c) {
         double* force = model.force.data() + 4 * at(model.facet[3 * at(point.facet) + c]);
         for (int axis = 0; axis < 3; ++axis) force[axis] -= point.weight[c] * point.force[axis];
       }
-    }
+  };
+  for (std::int32_t i = candidates.incoming_offset[g]; i < candidates.incoming_offset[g + 1]; ++i) {
+    react(contact.active_points(candidates.incoming_pair[at(i)]));
+    react(contact.pulling_bonds(candidates.incoming_pair[at(i)]));
   }
 }
 
@@ -169,11 +319,17 @@ void contact_stiffness_rate(const Model& model, const Contact& contact, int grai
   const auto add = [&](std::int32_t node, double stiffness) {
     rate[at(node)] += 2.0 * stiffness * model.inverse_mass[at(node)];
   };
+  // Weights of a point beneath an opened bond may lie outside the facet: their magnitudes bound what they add.
   for (std::int32_t pair = candidates.outgoing_offset[g]; pair < candidates.outgoing_offset[g + 1]; ++pair)
-    for (const ContactForce& point : contact.active_points(pair)) add(point.node, point.stiffness);
-  for (std::int32_t i = candidates.incoming_offset[g]; i < candidates.incoming_offset[g + 1]; ++i)
-    for (const ContactForce& point : contact.active_points(candidates.incoming_pair[at(i)]))
-      for (std::size_t c = 0; c < 3; ++c) add(model.facet[3 * at(point.facet) + c], point.weight[c] * point.stiffness);
+    for (const auto points : {contact.active_points(pair), contact.pulling_bonds(pair)})
+      for (const ContactForce& point : points) add(point.node, point.stiffness);
+  for (std::int32_t i = candidates.incoming_offset[g]; i < candidates.incoming_offset[g + 1]; ++i) {
+    const std::int32_t pair = candidates.incoming_pair[at(i)];
+    for (const auto points : {contact.active_points(pair), contact.pulling_bonds(pair)})
+      for (const ContactForce& point : points)
+        for (std::size_t c = 0; c < 3; ++c)
+          add(model.facet[3 * at(point.facet) + c], std::abs(point.weight[c]) * point.stiffness);
+  }
 }
 
 void raise_to_expected_rate(const Model& model, int grain, std::span<double> rate) {
@@ -187,21 +343,49 @@ void raise_to_expected_rate(const Model& model, int grain, std::span<double> rat
   }
 }
 
+BondSums bond_sums(const Model& model, const Contact& contact, std::int32_t pair) {
+  BondSums sums;
+  if (contact.bond.empty()) return sums;
+  const ContactCandidates& candidates = contact.candidates;
+  const BondLaw law =
+      pair_bond_law(model, *contact.bonding, candidates.pair_first[at(pair)], candidates.pair_second[at(pair)]);
+  for (std::int32_t p = candidates.pair_point_offset[at(pair)]; p < candidates.pair_point_offset[at(pair) + 1]; ++p) {
+    const PointBond& bond = contact.bond[at(p)];
+    if (!bond.exists() && bond.spent == 0) continue;
+    const double area = model.reference_area[at(candidates.point_node[at(p)])];
+    // Each of the two passes carries half of the traction, so half of the energy.
+    const double share = 0.5 * area;
+    sums.formed_area += area;
+    sums.damaged_area += bond.exists() ? (1.0 - bond.remaining) * area : area;
+    sums.dissipated += share * bond.spent;
+    if (!bond.exists()) continue;
+    sums.dissipated += share * damage_dissipation(law, bond.state);
+    sums.stored += 0.5 * share * bond.remaining * law.stiffness * bond.separation * bond.separation;
+    if (!bond.intact()) continue;
+    sums.bonded_area += area;
+    ++sums.bonds;
+  }
+  return sums;
+}
+
 std::vector<PairContact> pair_contacts(const Model& model, const Contact& contact) {
   std::map<std::pair<std::int32_t, std::int32_t>, PairContact> pairs;
   const ContactCandidates& candidates = contact.candidates;
   for (std::size_t p = 0; p < candidates.pair_first.size(); ++p) {
     const std::int32_t a = candidates.pair_first[p], b = candidates.pair_second[p];
-    const auto points = contact.active_points(static_cast<std::int32_t>(p));
-    if (points.empty()) continue;
+    const auto pair = static_cast<std::int32_t>(p);
+    const BondSums bonds = bond_sums(model, contact, pair);
+    const auto touching = contact.active_points(pair), pulling = contact.pulling_bonds(pair);
+    if (touching.empty() && bonds.formed_area == 0) continue;
     auto& entry =
-        pairs.try_emplace({std::min(a, b), std::max(a, b)}, PairContact{std::min(a, b), std::max(a, b), {}, 0})
+        pairs.try_emplace({std::min(a, b), std::max(a, b)}, PairContact{std::min(a, b), std::max(a, b), {}, 0, {}})
             .first->second;
     const double sign = a < b ? 1.0 : -1.0;
-    for (const ContactForce& point : points) {
-      for (int axis = 0; axis < 3; ++axis) entry.force[axis] += sign * point.force[axis];
-      entry.area += 0.5 * model.normal[4 * at(point.node) + 3];
-    }
+    for (const auto points : {touching, pulling})
+      for (const ContactForce& point : points)
+        for (int axis = 0; axis < 3; ++axis) entry.force[axis] += sign * point.force[axis];
+    for (const ContactForce& point : touching) entry.area += 0.5 * model.normal[4 * at(point.node) + 3];
+    entry.bonds.add(bonds);
   }
   std::vector<PairContact> result;
   for (const auto& [key, pair] : pairs) result.push_back(pair);

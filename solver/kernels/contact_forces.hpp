@@ -6,21 +6,25 @@
 // K/2 A gap^2 / 2 is an exact potential (with the current area it would not be); the facet's nodes receive -w_i f, so
 // that action equals reaction exactly. The pass is split so that every grain writes to its own nodes only: a grain computes
 // the points of its own nodes, and after a barrier every grain collects the reactions on its facets in a fixed order.
+// Bonds, where the scenario asks for them, belong to the same points (bonds.hpp); an unbroken bond keeps its point among
+// the candidates however far it has opened.
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
+#include "solver/kernels/bonds.hpp"
 #include "solver/kernels/contact_search.hpp"
 #include "solver/model/model.hpp"
 
 namespace mpfem {
 
-/// One active contact point.
+/// Force of one contact point, of the penalty or of its bond.
 struct ContactForce {
   double force[3];  ///< N, on the node
-  double weight[3]; ///< shape functions of the facet's nodes at the foot point
-  double stiffness; ///< K/2 A, N/mm
+  double weight[3]; ///< shape functions of the facet's nodes where the reaction acts
+  double stiffness; ///< N/mm
   std::int32_t node;
   std::int32_t facet;
 };
@@ -42,6 +46,10 @@ struct Contact {
   std::vector<double> point_sure;        ///< [points], mm: point_facet is the closest until travel adds up to this
   std::vector<ContactForce> force;       ///< [points]: active points first within every pair's range
   std::vector<std::int32_t> active;      ///< [pairs]: number of active points
+  std::optional<BondParameters> bonding; ///< none: no bonds, and the three arrays below stay empty
+  std::vector<PointBond> bond;           ///< [points]
+  std::vector<ContactForce> bond_force;  ///< [points]: pulling bonds first within every pair's range
+  std::vector<std::int32_t> pulling;     ///< [pairs]: number of pulling bonds
   std::vector<double> travel;            ///< [grains], mm: bound of any node's path length since the run began
   std::vector<double> travel_at_search;  ///< [grains], mm
 
@@ -49,9 +57,14 @@ struct Contact {
     const auto p = static_cast<std::size_t>(pair);
     return {force.data() + candidates.pair_point_offset[p], static_cast<std::size_t>(active[p])};
   }
+  std::span<const ContactForce> pulling_bonds(std::int32_t pair) const {
+    if (bond.empty()) return {};
+    const auto p = static_cast<std::size_t>(pair);
+    return {bond_force.data() + candidates.pair_point_offset[p], static_cast<std::size_t>(pulling[p])};
+  }
 };
 
-/// Searches anew and resets the points' running state.
+/// Searches anew and resets the points' running state, apart from bonds.
 void renew_candidates(const Model& model, double margin, ThreadTeam& team, Contact& contact);
 
 /// True when two nodes may have approached by more than the candidates' margin.
@@ -72,12 +85,37 @@ void contact_stiffness_rate(const Model& model, const Contact& contact, int grai
 /// Raises `rate` to what a node in contact has as a rule, so that the step does not jump when one comes into contact.
 void raise_to_expected_rate(const Model& model, int grain, std::span<double> rate);
 
+/// Law of the bonds of points whose nodes are on `first` and whose facets are on `second`.
+BondLaw pair_bond_law(const Model& model, const BondParameters& parameters, std::int32_t first, std::int32_t second);
+
+/// Sums over bonds at the present time level.
+struct BondSums {
+  double stored = 0;       ///< mJ
+  double dissipated = 0;   ///< mJ, lost to damage so far
+  double bonded_area = 0;  ///< mm^2 of both sides carrying unbroken bonds, at the start of the run
+  double formed_area = 0;  ///< mm^2 of both sides where a bond was ever formed
+  double damaged_area = 0; ///< mm^2, integral of the damage over formed_area
+  std::int64_t bonds = 0;  ///< unbroken
+
+  void add(const BondSums& other) {
+    stored += other.stored;
+    dissipated += other.dissipated;
+    bonded_area += other.bonded_area;
+    formed_area += other.formed_area;
+    damaged_area += other.damaged_area;
+    bonds += other.bonds;
+  }
+};
+BondSums bond_sums(const Model& model, const Contact& contact, std::int32_t pair);
+
 /// Contact of one pair of grains at this moment.
 struct PairContact {
   std::int32_t first, second;
-  double force[3]; ///< N, of second on first
+  double force[3]; ///< N, of second on first, bonds included
   double area;     ///< mm^2, mean of both sides
+  BondSums bonds;
 };
+/// Pairs in contact or bonded, first < second.
 std::vector<PairContact> pair_contacts(const Model& model, const Contact& contact);
 
 } // namespace mpfem

@@ -48,6 +48,89 @@ void wall_stiffness_rate(const Model& model, const Walls& walls, const Bounds& b
   }
 }
 
+namespace {
+
+/// Velocity towards which damping draws a grain: that of the affine field at its centre.
+std::array<double, 4> drag_target(const Model& model, int grain, const Advance& p) {
+  std::array<double, 4> target{};
+  if (!(p.damping_rate > 0)) return target;
+  const auto g = static_cast<std::size_t>(grain);
+  std::array<double, 3> centre{};
+  for (auto n = static_cast<std::size_t>(model.node_offset[g]); n < static_cast<std::size_t>(model.node_offset[g + 1]);
+       ++n)
+    for (std::size_t axis = 0; axis < 3; ++axis) centre[axis] += model.position[4 * n + axis] / model.inverse_mass[n];
+  for (std::size_t axis = 0; axis < 3; ++axis)
+    target[axis] = p.rate[axis] * (centre[axis] / model.mass[g] - p.centre[axis]);
+  return target;
+}
+
+/// The damped update v+ = keep v- + gain f/m + pull target.
+struct DampedUpdate {
+  double keep, gain, pull;
+};
+DampedUpdate damped_update(const Advance& p) {
+  const double beta = 0.5 * p.damping_rate * p.step_mean;
+  return {(1.0 - beta) / (1.0 + beta), p.step_mean / (1.0 + beta), 2.0 * beta / (1.0 + beta)};
+}
+
+} // namespace
+
+void Grips::make_offsets(std::span<const std::int32_t> node_offset) {
+  offset.assign(node_offset.size(), 0);
+  for (const GrippedNode& gripped : node) {
+    const auto grain = std::upper_bound(node_offset.begin(), node_offset.end(), gripped.node) - node_offset.begin() - 1;
+    ++offset[static_cast<std::size_t>(grain) + 1];
+  }
+  for (std::size_t g = 1; g < offset.size(); ++g) offset[g] += offset[g - 1];
+}
+
+Grips grip_nodes(const Model& model, const Walls& box, std::size_t axis, double depth, bool lateral_fixed) {
+  Grips grips{.axis = axis, .lateral_fixed = lateral_fixed, .node = {}, .offset = {}};
+  for (std::size_t g = 0; g < static_cast<std::size_t>(model.grains); ++g) {
+    for (std::int32_t node = model.node_offset[g]; node < model.node_offset[g + 1]; ++node) {
+      const double* x = &model.position[4 * static_cast<std::size_t>(node)];
+      const bool low = x[axis] - box.low[axis] <= depth, high = box.high[axis] - x[axis] <= depth;
+      if (!low && !high) continue;
+      GrippedNode gripped{node, low ? 0 : 1, {x[0], x[1], x[2]}};
+      gripped.reference[axis] -= low ? box.low[axis] : box.high[axis];
+      grips.node.push_back(gripped);
+    }
+  }
+  grips.make_offsets(model.node_offset);
+  return grips;
+}
+
+GripSums grip_forces(Model& model, const Grips& grips, const Walls& next, const std::array<double, 3>& sliding,
+                     const Advance& p, double last_step, int grain) {
+  GripSums sums;
+  const auto g = static_cast<std::size_t>(grain);
+  const auto first = static_cast<std::size_t>(grips.offset[g]), end = static_cast<std::size_t>(grips.offset[g + 1]);
+  if (first == end) return sums;
+  const auto target = drag_target(model, grain, p);
+  const auto [keep, gain, pull] = damped_update(p);
+  for (std::size_t i = first; i < end; ++i) {
+    const GrippedNode& gripped = grips.node[i];
+    const auto n = static_cast<std::size_t>(gripped.node);
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const bool along = axis == grips.axis;
+      if (!along && !grips.lateral_fixed) continue;
+      const double face = !along              ? (gripped.side == 0 ? -0.5 : 0.5) * sliding[axis]
+                          : gripped.side == 0 ? next.low[axis]
+                                              : next.high[axis];
+      const double before = model.velocity[4 * n + axis];
+      const double after = (face + gripped.reference[axis] - model.position[4 * n + axis]) / p.step;
+      double& force = model.force[4 * n + axis];
+      const double needed = (after - keep * before - pull * target[axis]) / (gain * model.inverse_mass[n]);
+      const double grip = needed - force;
+      force = needed;
+      if (along) sums.force[static_cast<std::size_t>(gripped.side)] += gripped.side == 0 ? grip : -grip;
+      sums.work_behind += 0.5 * grip * before * last_step;
+      sums.work_ahead += 0.5 * grip * after * p.step;
+    }
+  }
+  return sums;
+}
+
 AdvanceSums advance(Model& model, int grain, const Advance& p) {
   const auto g = static_cast<std::size_t>(grain);
   const auto first = static_cast<std::size_t>(model.node_offset[g]);
@@ -58,16 +141,8 @@ AdvanceSums advance(Model& model, int grain, const Advance& p) {
   const double* inverse_mass = model.inverse_mass.data();
 
   const bool damped = p.damping_rate > 0;
-  double target[4] = {0, 0, 0, 0};
-  if (damped) {
-    double centre[3] = {0, 0, 0};
-    for (std::size_t n = first; n < end; ++n)
-      for (std::size_t axis = 0; axis < 3; ++axis) centre[axis] += x[4 * n + axis] / inverse_mass[n];
-    for (std::size_t axis = 0; axis < 3; ++axis)
-      target[axis] = p.rate[axis] * (centre[axis] / model.mass[g] - p.centre[axis]);
-  }
-  const double beta = 0.5 * p.damping_rate * p.step_mean;
-  const double keep = (1.0 - beta) / (1.0 + beta), gain = p.step_mean / (1.0 + beta), pull = 2.0 * beta / (1.0 + beta);
+  const auto target = drag_target(model, grain, p);
+  const auto [keep, gain, pull] = damped_update(p);
 
   AdvanceSums sums;
   double largest = 0;

@@ -272,7 +272,8 @@ Model build_model(const MeshedPacking& packing, const Scenario& scenario, const 
     model.facet_offset.push_back(static_cast<Index>(model.facet.size() / 3));
     const double h = edge_sum / (3.0 * static_cast<double>(faces.size()));
     model.element_size.push_back(h);
-    model.penalty_stiffness.push_back(scenario.contact.stiffness_factor * scenario.material.youngs_modulus / h);
+    model.penalty_stiffness.push_back(
+        scenario.contact.stiffness.value_or(scenario.contact.stiffness_factor * scenario.material.youngs_modulus / h));
 
     // 2. Tets along the same curve, in blocks.
     std::vector<std::pair<std::uint64_t, Index>> tet_order;
@@ -313,6 +314,8 @@ Model build_model(const MeshedPacking& packing, const Scenario& scenario, const 
     }
   }
   refuse_shared_places(model, name);
+  if (scenario.numerics.mass_scaling_step > 0)
+    scale_masses(model, scenario.numerics.mass_scaling_step / scenario.numerics.time_step_factor);
   return model;
 }
 

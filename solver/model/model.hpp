@@ -62,6 +62,9 @@ struct Model {
 
   std::vector<double> reference_volume;  ///< [grains], mm^3
   std::vector<double> mass;              ///< [grains], tonne (scaled)
+  std::vector<double> mass_factor;       ///< [nodes]: scaled over own mass; empty where nothing was scaled to a step
+  double added_mass = 0;                 ///< by scaling to a step, over the mass of the packing
+  double largest_added_mass = 0;         ///< the same of the grain that it concerns most
   std::vector<double> element_size;      ///< [grains], h: mean edge length of the surface facets, mm
   std::vector<double> penalty_stiffness; ///< [grains], K = factor E / h, MPa/mm
 
@@ -99,6 +102,10 @@ MeshedPacking read_packing(const std::string& path);
 
 /// Material constants of the kernels from the scenario's.
 Material make_material(const MaterialParameters& parameters, double mass_scaling);
+
+/// Makes nodes heavier until no tet, with contact as it is as a rule, asks for a smaller step than `step` (s) in the
+/// reference state; sets mass_factor, added_mass and largest_added_mass.
+void scale_masses(Model& model, double step);
 
 /// Builds the model: surfaces found, nodes and tets renumbered for locality, masses lumped. `name` stands for the file
 /// in messages. Throws InputError: inverted or degenerate tetrahedron, nodes out of range, open surface, node outside

@@ -19,21 +19,23 @@ namespace {
 namespace check = schema::checkpoint;
 
 std::vector<std::int64_t> integers(const RunState& s) {
-  return {s.step,    s.stage, s.rows_in_stage, s.snapshots_passed, s.steps_since_estimate, s.controlled_by_contact,
-          s.searches};
+  return {
+      s.step,     s.stage,      s.rows_in_stage, s.snapshots_passed, s.steps_since_estimate, s.controlled_by_contact,
+      s.searches, s.stage_ended};
 }
 
 void set_integers(RunState& s, const std::vector<std::int64_t>& v) {
   s.step = v[0], s.stage = v[1], s.rows_in_stage = v[2], s.snapshots_passed = v[3], s.steps_since_estimate = v[4],
-  s.controlled_by_contact = v[5], s.searches = v[6];
+  s.controlled_by_contact = v[5], s.searches = v[6], s.stage_ended = v[7];
 }
 
 /// Calls f(double&) for every number of state and record, always in the same order.
 template <class State, class Record, class F>
 void for_each_number(State& s, Record& r, F&& f) {
-  for (auto* value : {&s.time, &s.stage_time, &s.stable_step, &s.last_step, &s.strain_since_estimate, &s.strain_rate,
-                      &s.initial_energy, &s.plastic_dissipation, &s.viscous_dissipation, &s.damping_dissipation,
-                      &s.external_work, &s.damping_force, &s.mean_stress, &r.wall_time})
+  for (auto* value :
+       {&s.time, &s.stage_time, &s.stable_step, &s.last_step, &s.strain_since_estimate, &s.strain_rate,
+        &s.initial_energy, &s.plastic_dissipation, &s.viscous_dissipation, &s.damping_dissipation, &s.external_work,
+        &s.grip_work_ahead, &s.damping_force, &s.mean_stress, &s.stage_mean_stress, &r.wall_time})
     f(*value);
   for (auto* values : {&s.initial_lengths, &s.stage_low, &s.stage_high, &s.low, &s.high})
     for (auto& value : *values) f(value);
@@ -86,14 +88,17 @@ struct Contents {
   std::vector<std::int32_t> pair_first, pair_second, pair_point_offset, point_node, point_facet_offset, candidate_facet,
       point_facet;
   std::vector<double> point_wake, point_sure;
+  std::vector<std::int32_t> bond_facet, grip_node, grip_side;
+  std::vector<double> bond_values, grip_reference;
 
   std::uint64_t checksum() const {
     std::uint64_t hash = add(integers, hash_seed);
-    for (const auto* v : {&numbers, &history, &position, &velocity, &force, &tet.deviator, &tet.flow_stress,
-                          &tet.plastic_strain, &tet.length, &travel, &travel_at_search, &point_wake, &point_sure})
+    for (const auto* v :
+         {&numbers, &history, &position, &velocity, &force, &tet.deviator, &tet.flow_stress, &tet.plastic_strain,
+          &tet.length, &travel, &travel_at_search, &point_wake, &point_sure, &bond_values, &grip_reference})
       hash = add(*v, hash);
     for (const auto* v : {&pair_first, &pair_second, &pair_point_offset, &point_node, &point_facet_offset,
-                          &candidate_facet, &point_facet})
+                          &candidate_facet, &point_facet, &bond_facet, &grip_node, &grip_side})
       hash = add(*v, hash);
     return hash;
   }
@@ -119,6 +124,16 @@ void write_checkpoint(const std::string& path, const Simulation& simulation, con
   c.pair_point_offset = candidates.pair_point_offset, c.point_node = candidates.point_node;
   c.point_facet_offset = candidates.point_facet_offset, c.candidate_facet = candidates.point_facet;
   c.point_facet = contact.point_facet, c.point_wake = contact.point_wake, c.point_sure = contact.point_sure;
+  for (const PointBond& bond : contact.bond) {
+    c.bond_facet.push_back(bond.facet);
+    c.bond_values.insert(c.bond_values.end(), {bond.weight1, bond.weight2, bond.state.initiation, bond.state.largest,
+                                               bond.remaining, bond.spent});
+  }
+  for (const GrippedNode& gripped : simulation.grips().node) {
+    c.grip_node.push_back(gripped.node);
+    c.grip_side.push_back(gripped.side);
+    c.grip_reference.insert(c.grip_reference.end(), gripped.reference.begin(), gripped.reference.end());
+  }
 
   schema::FileWriter file(path, schema::FileKind::checkpoint, fmt::format("mpfem {}", version()));
   const auto write = [&file](const auto& dataset, const auto& values, std::size_t rows) {
@@ -152,6 +167,15 @@ void write_checkpoint(const std::string& path, const Simulation& simulation, con
   write(check::contact_point_facet, c.point_facet, c.point_facet.size());
   write(check::contact_point_wake, c.point_wake, c.point_wake.size());
   write(check::contact_point_sure, c.point_sure, c.point_sure.size());
+  if (contact.bonding) {
+    write(check::bond_facet, c.bond_facet, c.bond_facet.size());
+    write(check::bond_values, c.bond_values, c.bond_facet.size());
+  }
+  if (simulation.grips().present()) {
+    write(check::grip_node, c.grip_node, c.grip_node.size());
+    write(check::grip_side, c.grip_side, c.grip_side.size());
+    write(check::grip_reference, c.grip_reference, c.grip_node.size());
+  }
   file.commit();
 }
 
@@ -178,6 +202,16 @@ void read_checkpoint(const std::string& path, Simulation& simulation, RunRecord&
   c.point_facet = file.read(check::contact_point_facet);
   c.point_wake = file.read(check::contact_point_wake);
   c.point_sure = file.read(check::contact_point_sure);
+  const bool bonded = file.has(check::bond_facet);
+  if (bonded) {
+    c.bond_facet = file.read(check::bond_facet);
+    c.bond_values = file.read(check::bond_values);
+  }
+  if (file.has(check::grip_node)) {
+    c.grip_node = file.read(check::grip_node);
+    c.grip_side = file.read(check::grip_side);
+    c.grip_reference = file.read(check::grip_reference);
+  }
   if (file.read_scalar(check::checksum) != hash_text(c.checksum()))
     throw InputError(fmt::format("{}: the checkpoint is damaged: its numbers do not match its checksum", path));
 
@@ -196,12 +230,14 @@ void read_checkpoint(const std::string& path, Simulation& simulation, RunRecord&
   // A branch goes on with the same matter: its stresses and strains mean nothing in another material.
   if (any_scenario) {
     const std::string earlier = file.read_scalar(check::scenario);
-    const auto material_of = [&path](const std::string& text) {
-      return read_scenario(TomlDocument::from_text(text, path)).material;
-    };
-    if (material_of(earlier) != material_of(scenario_text))
+    const Scenario before = read_scenario(TomlDocument::from_text(earlier, path)),
+                   now = read_scenario(TomlDocument::from_text(scenario_text, path));
+    if (before.material != now.material)
       throw InputError(
           fmt::format("{}: the checkpoint's material differs from the scenario's, allowed the same [material]", path));
+    if (bonded && before.bond != now.bond)
+      throw InputError(fmt::format(
+          "{}: the checkpoint has bonds of another law than the scenario's, allowed the same [bond]", path));
   }
   set_integers(simulation.state(), c.integers);
   if (any_scenario) simulation.state().stage = 0;
@@ -244,7 +280,34 @@ void read_checkpoint(const std::string& path, Simulation& simulation, RunRecord&
   contact.point_facet = c.point_facet, contact.point_wake = c.point_wake, contact.point_sure = c.point_sure;
   contact.force.resize(k.point_node.size());
   contact.active.assign(k.pair_first.size(), 0);
-  simulation.restored();
+  if (contact.bonding) {
+    // A checkpoint without bonds goes on with them: they form where grains touch.
+    contact.bond.assign(k.point_node.size(), {});
+    contact.bond_force.resize(k.point_node.size());
+    contact.pulling.assign(k.pair_first.size(), 0);
+    for (std::size_t i = 0; i < c.bond_facet.size(); ++i) {
+      const double* v = &c.bond_values[6 * i];
+      contact.bond[i] = {.facet = c.bond_facet[i],
+                         .weight1 = v[0],
+                         .weight2 = v[1],
+                         .state = {v[2], v[3]},
+                         .remaining = v[4],
+                         .spent = v[5],
+                         .opening = 0,
+                         .separation = 0};
+    }
+  }
+  Grips grips;
+  if (const auto& grip = simulation.stage().grip; grip && !c.grip_node.empty()) {
+    grips = {
+        .axis = static_cast<std::size_t>(grip->axis), .lateral_fixed = grip->lateral_fixed, .node = {}, .offset = {}};
+    for (std::size_t i = 0; i < c.grip_node.size(); ++i)
+      grips.node.push_back({c.grip_node[i],
+                            c.grip_side[i],
+                            {c.grip_reference[3 * i], c.grip_reference[3 * i + 1], c.grip_reference[3 * i + 2]}});
+    grips.make_offsets(model.node_offset);
+  }
+  simulation.restored(std::move(grips));
 }
 
 } // namespace mpfem

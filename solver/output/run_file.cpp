@@ -24,22 +24,27 @@ std::vector<float> in_file_order(const Model& model, const AlignedVector<double>
   return result;
 }
 
-/// Normal traction at surface nodes: contact points' forces along the node's normal over its tributary area.
+/// Normal traction at surface nodes: the sum of contact and bond forces along the inward normal over the tributary area.
 std::vector<float> contact_pressure(const Simulation& simulation) {
   const Model& model = simulation.model();
   const Contact& contact = simulation.contact();
   const RunState& state = simulation.state();
   std::vector<double> force(static_cast<std::size_t>(model.nodes()), 0.0);
+  const auto add = [&](std::int32_t node, double share, const ContactForce& point) {
+    const double* normal = &model.normal[4 * static_cast<std::size_t>(node)];
+    for (std::size_t axis = 0; axis < 3; ++axis)
+      force[static_cast<std::size_t>(node)] -= share * point.force[axis] * normal[axis];
+  };
   for (std::size_t pair = 0; pair < contact.active.size(); ++pair)
-    for (const ContactForce& point : contact.active_points(static_cast<std::int32_t>(pair))) {
-      const double magnitude = std::sqrt(point.force[0] * point.force[0] + point.force[1] * point.force[1] +
-                                         point.force[2] * point.force[2]);
-      force[static_cast<std::size_t>(point.node)] += magnitude;
-      for (std::size_t c = 0; c < 3; ++c)
-        force[static_cast<std::size_t>(model.facet[3 * static_cast<std::size_t>(point.facet) + c])] +=
-            point.weight[c] * magnitude;
-    }
+    for (const auto points : {contact.active_points(static_cast<std::int32_t>(pair)),
+                              contact.pulling_bonds(static_cast<std::int32_t>(pair))})
+      for (const ContactForce& point : points) {
+        add(point.node, 1.0, point);
+        for (std::size_t c = 0; c < 3; ++c)
+          add(model.facet[3 * static_cast<std::size_t>(point.facet) + c], -point.weight[c], point);
+      }
   std::vector<float> pressure(force.size(), 0.0F);
+
   for (int grain = 0; grain < model.grains; ++grain) {
     const auto g = static_cast<std::size_t>(grain);
     for (std::int32_t n = model.node_offset[g]; n < model.node_offset[g] + model.surface_node_count[g]; ++n) {
@@ -58,9 +63,65 @@ std::vector<float> contact_pressure(const Simulation& simulation) {
   return pressure;
 }
 
+/// Writes the bonds of a snapshot: pairs, nodes, and every bond.
+void write_bonds(schema::FileWriter& file, const std::string& name, const Simulation& simulation,
+                 const std::vector<PairContact>& pairs) {
+  const Model& model = simulation.model();
+  const Contact& contact = simulation.contact();
+  std::vector<double> bonded_area, pair_damage, energy, dissipation;
+  for (const PairContact& pair : pairs) {
+    const BondSums& b = pair.bonds;
+    bonded_area.push_back(0.5 * b.bonded_area);
+    pair_damage.push_back(b.formed_area > 0 ? b.damaged_area / b.formed_area : -1.0);
+    energy.push_back(b.stored);
+    dissipation.push_back(b.dissipated);
+  }
+  const auto write = [&](const auto& dataset, const auto& values, std::size_t rows) {
+    using T = typename std::decay_t<decltype(values)>::value_type;
+    file.write(dataset, std::span<const T>(values), rows, name);
+  };
+  write(run::snapshots_pair_bonded_area, bonded_area, pairs.size());
+  write(run::snapshots_pair_damage, pair_damage, pairs.size());
+  write(run::snapshots_pair_bond_energy, energy, pairs.size());
+  write(run::snapshots_pair_damage_dissipation, dissipation, pairs.size());
+
+  const auto nodes = static_cast<std::size_t>(model.nodes());
+  std::vector<double> sum(nodes, 0.0), count(nodes, 0.0);
+  std::vector<std::int32_t> node, grain;
+  std::vector<float> damage, separation;
+  std::vector<double> area;
+  const ContactCandidates& candidates = contact.candidates;
+  for (std::size_t p = 0; p < candidates.pair_first.size(); ++p)
+    for (std::int32_t i = candidates.pair_point_offset[p]; i < candidates.pair_point_offset[p + 1]; ++i) {
+      const PointBond& bond = contact.bond[static_cast<std::size_t>(i)];
+      if (!bond.exists() && bond.spent == 0) continue;
+      const auto n = static_cast<std::size_t>(candidates.point_node[static_cast<std::size_t>(i)]);
+      const auto file_node = static_cast<std::size_t>(model.file_node[n]);
+      const double d = bond.exists() ? 1.0 - bond.remaining : 1.0;
+      sum[file_node] += d;
+      count[file_node] += 1.0;
+      node.push_back(model.file_node[n]);
+      grain.push_back(candidates.pair_second[p]);
+      damage.push_back(static_cast<float>(d));
+      area.push_back(model.reference_area[n]);
+      const double sliding = std::sqrt(std::max(bond.separation * bond.separation - bond.opening * bond.opening, 0.0));
+      separation.insert(separation.end(), {static_cast<float>(bond.opening), static_cast<float>(sliding)});
+    }
+  std::vector<float> nodal(nodes, -1.0F);
+  for (std::size_t n = 0; n < nodes; ++n)
+    if (count[n] > 0) nodal[n] = static_cast<float>(sum[n] / count[n]);
+  write(run::snapshots_damage, nodal, nodes);
+  write(run::snapshots_bond_node, node, node.size());
+  write(run::snapshots_bond_grain, grain, node.size());
+  write(run::snapshots_bond_damage, damage, node.size());
+  write(run::snapshots_bond_area, area, node.size());
+  write(run::snapshots_bond_separation, separation, node.size());
+}
+
 template <class T, int R>
 void copy(schema::FileWriter& to, const schema::FileReader& from, const schema::Dataset<T, R>& dataset,
           const std::string& source, const std::string& target) {
+  if (!dataset.required && !from.has(dataset, source)) return;
   if constexpr (R == 0) {
     to.write_scalar(dataset, from.read_scalar(dataset, source), target);
   } else {
@@ -94,7 +155,8 @@ void write_snapshot_file(const std::string& path, Simulation& simulation) {
   file.write(run::snapshots_contact_pressure, std::span<const float>(pressure), nodes, name);
   std::vector<std::int32_t> grains;
   std::vector<double> force, area;
-  for (const PairContact& pair : pair_contacts(model, simulation.contact())) {
+  const auto pairs = pair_contacts(model, simulation.contact());
+  for (const PairContact& pair : pairs) {
     grains.insert(grains.end(), {pair.first, pair.second});
     force.insert(force.end(), std::begin(pair.force), std::end(pair.force));
     area.push_back(pair.area);
@@ -102,6 +164,7 @@ void write_snapshot_file(const std::string& path, Simulation& simulation) {
   file.write(run::snapshots_pair_grains, std::span<const std::int32_t>(grains), area.size(), name);
   file.write(run::snapshots_pair_force, std::span<const double>(force), area.size(), name);
   file.write(run::snapshots_pair_area, std::span<const double>(area), area.size(), name);
+  if (simulation.contact().bonding) write_bonds(file, name, simulation, pairs);
   file.commit();
 }
 
@@ -144,6 +207,16 @@ void write_run_file(const std::string& path, const Model& model, const std::vect
     copy(file, from, run::snapshots_pair_grains, source, target);
     copy(file, from, run::snapshots_pair_force, source, target);
     copy(file, from, run::snapshots_pair_area, source, target);
+    copy(file, from, run::snapshots_pair_bonded_area, source, target);
+    copy(file, from, run::snapshots_pair_damage, source, target);
+    copy(file, from, run::snapshots_pair_bond_energy, source, target);
+    copy(file, from, run::snapshots_pair_damage_dissipation, source, target);
+    copy(file, from, run::snapshots_damage, source, target);
+    copy(file, from, run::snapshots_bond_node, source, target);
+    copy(file, from, run::snapshots_bond_grain, source, target);
+    copy(file, from, run::snapshots_bond_damage, source, target);
+    copy(file, from, run::snapshots_bond_area, source, target);
+    copy(file, from, run::snapshots_bond_separation, source, target);
   }
 
   file.write_scalar(run::provenance_version, std::string(version()));

@@ -41,24 +41,35 @@ inline double initiation_separation(const BondLaw& law, double opening) {
   return 1 / (law.stiffness * std::sqrt(normal * normal + shear_square));
 }
 
+/// What the exponential function of the softening law has for its argument, without its sign; 0 where undamaged.
+inline double softening_exponent(const BondLaw& law, const BondState& state) {
+  if (state.initiation == 0) return 0;
+  const double d0 = state.initiation, d = state.largest, peak = law.stiffness * d0;
+  const double b = law.fracture_energy - 0.5 * peak * d0;
+  return law.softening == SofteningLaw::exponential ? peak * (d - d0) / b
+                                                    : 0.5 * law.stiffness * (d - d0) * (d + d0) / b;
+}
+
+/// True when the bond has failed completely. The exponential never ends: where less than e^-16 = 1.1e-7 of the energy is
+/// left to spend, the rest counts as spent.
+inline bool is_broken(const BondLaw& law, const BondState& state) {
+  return softening_exponent(law, state) > 16;
+}
+
 /// 1 - D, in [0, 1].
 inline double remaining_stiffness(const BondLaw& law, const BondState& state) {
   if (state.initiation == 0) return 1;
-  const double d0 = state.initiation, d = state.largest, peak = law.stiffness * d0;
-  const double b = law.fracture_energy - 0.5 * peak * d0;
-  if (law.softening == SofteningLaw::exponential) return d0 / d * std::exp(-peak * (d - d0) / b);
-  return std::exp(-0.5 * law.stiffness * (d - d0) * (d + d0) / b);
+  if (is_broken(law, state)) return 0;
+  const double remaining = std::exp(-softening_exponent(law, state));
+  return law.softening == SofteningLaw::exponential ? state.initiation / state.largest * remaining : remaining;
 }
 
 /// Energy (mJ/mm^2 = N/mm) under the envelope up to the largest separation: what opening the bond so far has taken.
 inline double envelope_energy(const BondLaw& law, const BondState& state) {
   if (state.initiation == 0) return 0;
-  const double d0 = state.initiation, peak = law.stiffness * d0, before = 0.5 * peak * d0,
-               b = law.fracture_energy - before;
-  const double exponent = law.softening == SofteningLaw::exponential
-                              ? peak * (state.largest - d0) / b
-                              : 0.5 * law.stiffness * (state.largest - d0) * (state.largest + d0) / b;
-  return before - b * std::expm1(-exponent);
+  if (is_broken(law, state)) return law.fracture_energy;
+  const double before = 0.5 * law.stiffness * state.initiation * state.initiation;
+  return before - (law.fracture_energy - before) * std::expm1(-softening_exponent(law, state));
 }
 
 /// Energy (N/mm) lost to damage so far.
@@ -66,6 +77,20 @@ inline double damage_dissipation(const BondLaw& law, const BondState& state) {
   if (state.initiation == 0) return 0;
   return envelope_energy(law, state) -
          0.5 * remaining_stiffness(law, state) * law.stiffness * state.largest * state.largest;
+}
+
+/// Moves the state along to an effective separation (mm), of which `open` (mm) is opening. True when damage grew.
+inline bool advance_damage(const BondLaw& law, BondState& state, double open, double effective) {
+  if (state.initiation == 0) {
+    if (effective == 0) return false;
+    const double begin = initiation_separation(law, open / effective);
+    if (effective < begin) return false;
+    state = {begin, effective};
+    return true;
+  }
+  if (effective <= state.largest) return false;
+  state.largest = effective;
+  return true;
 }
 
 /// Tractions (MPa) that act against the separations, and what is stored.
@@ -80,13 +105,7 @@ inline BondTraction bond_traction(const BondLaw& law, BondState& state, double n
   const double open = normal > 0 ? normal : 0.0;
   const double slide1 = law.normal_only ? 0.0 : shear1, slide2 = law.normal_only ? 0.0 : shear2;
   const double effective = std::sqrt(open * open + slide1 * slide1 + slide2 * slide2);
-  if (state.initiation == 0) {
-    if (effective > 0)
-      if (const double begin = initiation_separation(law, open / effective); effective >= begin)
-        state = {begin, effective};
-  } else if (effective > state.largest) {
-    state.largest = effective;
-  }
+  advance_damage(law, state, open, effective);
   const double k = remaining_stiffness(law, state) * law.stiffness;
   return {k * open, {k * slide1, k * slide2}, 0.5 * k * effective * effective};
 }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include <fmt/format.h>
 
@@ -15,6 +16,9 @@ namespace {
 double smooth_step_integral(double s) {
   return s * s * s - 0.5 * s * s * s * s;
 }
+
+/// Growth of the box edges, in parts of their length, in which an unloading is expected to end.
+constexpr double expected_growth = 0.03;
 
 double volume(const std::array<double, 3>& low, const std::array<double, 3>& high) {
   return (high[0] - low[0]) * (high[1] - low[1]) * (high[2] - low[2]);
@@ -37,33 +41,94 @@ double motion_fraction(double time, double ramp) {
 }
 
 StageMotion::StageMotion(const Stage& stage, const std::array<double, 3>& low, const std::array<double, 3>& high,
-                         double solid_volume)
-    : low_(low), high_(high) {
+                         double solid_volume, double mean_stress)
+    : stage_(stage), low_(low), high_(high), mean_stress_(mean_stress) {
+  for (std::size_t axis = 0; axis < 3; ++axis) longest_ = std::max(longest_, high[axis] - low[axis]);
   if (stage.hold) {
     duration_ = stage.hold->duration;
+  } else if (stage.grip) {
+    const auto axis = static_cast<std::size_t>(stage.grip->axis);
+    const double length = high[axis] - low[axis];
+    end_scale_[axis] = 1.0 + stage.grip->displacement / length;
+    if (!(end_scale_[axis] > 0))
+      throw InputError(fmt::format("stage '{}': key 'displacement': found {:g} mm, allowed > {:g} mm, the distance of "
+                                   "the grips",
+                                   stage.name, stage.grip->displacement, -length));
+    ramp_ = stage.grip->ramp_fraction;
+    const auto& s = stage.grip->sliding;
+    const double way = std::hypot(stage.grip->displacement, std::hypot(s[0], s[1], s[2]));
+    duration_ = 0.5 * way / (stage.grip->speed * (1.0 - ramp_));
+  } else if (stage.isotropic_unloading) {
+    duration_ = std::numeric_limits<double>::infinity();
+    expected_duration_ = 0.5 * longest_ * expected_growth / stage.isotropic_unloading->wall_speed;
     return;
+  } else {
+    const IsotropicCompaction& compaction = *stage.isotropic_compaction;
+    const double density = solid_volume / volume(low, high);
+    // Nearer than this, the walls would move by rounding errors.
+    if (!(compaction.relative_density > density * (1 + 1e-9)))
+      throw InputError(fmt::format("stage '{}': key 'relative_density': found {}, allowed more than the density at its "
+                                   "start, {:.4f}",
+                                   stage.name, compaction.relative_density, density));
+    end_scale_.fill(std::cbrt(density / compaction.relative_density));
+    ramp_ = compaction.ramp_fraction;
+    duration_ = 0.5 * longest_ * (1.0 - end_scale_[0]) / (compaction.wall_speed * (1.0 - ramp_));
   }
-  const IsotropicCompaction& compaction = *stage.isotropic_compaction;
-  const double density = solid_volume / volume(low, high);
-  // Nearer than this, the walls would move by rounding errors.
-  if (!(compaction.relative_density > density * (1 + 1e-9)))
-    throw InputError(fmt::format("stage '{}': key 'relative_density': found {}, allowed more than the density at its "
-                                 "start, {:.4f}",
-                                 stage.name, compaction.relative_density, density));
-  end_scale_ = std::cbrt(density / compaction.relative_density);
-  ramp_ = compaction.ramp_fraction;
-  double longest = 0;
-  for (std::size_t axis = 0; axis < 3; ++axis) longest = std::max(longest, high[axis] - low[axis]);
-  duration_ = 0.5 * longest * (1.0 - end_scale_) / (compaction.wall_speed * (1.0 - ramp_));
+  expected_duration_ = duration_;
 }
 
-void StageMotion::place(Walls& walls, double time) const {
-  const double scale = duration_ > 0 ? 1.0 + (end_scale_ - 1.0) * motion_fraction(time / duration_, ramp_) : 1.0;
+double StageMotion::fraction_done(double time, double mean_stress) const {
+  if (!stage_.isotropic_unloading) return duration_ > 0 ? std::clamp(time / duration_, 0.0, 1.0) : 1.0;
+  const double way = mean_stress_ - stage_.isotropic_unloading->mean_stress;
+  return way > 0 ? std::clamp((mean_stress_ - mean_stress) / way, 0.0, 1.0) : 1.0;
+}
+
+double StageMotion::unloading_speed(double time, double mean_stress) const {
+  const IsotropicUnloading& unloading = *stage_.isotropic_unloading;
+  const double ramp = unloading.ramp_fraction * expected_duration_;
+  const double s = ramp > 0 ? std::min(time / ramp, 1.0) : 1.0;
+  // The walls leave the last fifth of the stress ever more slowly, so that the packing is nearly at rest at the end.
+  const double left = (mean_stress - unloading.mean_stress) / (mean_stress_ - unloading.mean_stress);
+  return unloading.wall_speed * (3 - 2 * s) * s * s * std::clamp(5 * left, 0.05, 1.0);
+}
+
+void StageMotion::move(Walls& walls, double time, double step, double mean_stress) const {
+  if (stage_.isotropic_unloading) {
+    const double half = unloading_speed(time, mean_stress) * step / longest_;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      walls.low[axis] -= half * (high_[axis] - low_[axis]);
+      walls.high[axis] += half * (high_[axis] - low_[axis]);
+    }
+    return;
+  }
+  const double fraction = duration_ > 0 ? motion_fraction(time / duration_, ramp_) : 0.0;
   for (std::size_t axis = 0; axis < 3; ++axis) {
+    const double scale = 1.0 + (end_scale_[axis] - 1.0) * fraction;
     const double centre = 0.5 * (low_[axis] + high_[axis]), half = 0.5 * scale * (high_[axis] - low_[axis]);
     walls.low[axis] = centre - half;
     walls.high[axis] = centre + half;
   }
+}
+
+std::array<double, 3> StageMotion::sliding(double time) const {
+  if (!stage_.grip) return {};
+  std::array<double, 3> result = stage_.grip->sliding;
+  for (double& component : result) component *= motion_fraction(time / duration_, ramp_);
+  return result;
+}
+
+bool StageMotion::reached(const Walls& walls, double mean_stress) const {
+  if (!stage_.isotropic_unloading) return false;
+  // Single grains that still touch a wall keep a little stress for long.
+  constexpr double tolerance = 1e-3;
+  const double target = stage_.isotropic_unloading->mean_stress;
+  if (mean_stress <= target + tolerance * (mean_stress_ - target)) return true;
+  constexpr double largest_growth = 0.3;
+  if (walls.high[0] - walls.low[0] > (1 + largest_growth) * (high_[0] - low_[0]))
+    throw SimulationError(fmt::format("stage '{}': the mean stress is still {:.3g} MPa, target {:g} MPa, after the box "
+                                      "grew by {:.0f} % in length",
+                                      stage_.name, mean_stress, target, 100 * largest_growth));
+  return false;
 }
 
 void check_programme(const Scenario& scenario, std::int64_t first_stage, std::array<double, 3> low,
@@ -72,16 +137,20 @@ void check_programme(const Scenario& scenario, std::int64_t first_stage, std::ar
   const double smallest_size = *std::min_element(model.element_size.begin(), model.element_size.end());
   for (auto s = static_cast<std::size_t>(first_stage); s < scenario.stages.size(); ++s) {
     const Stage& stage = scenario.stages[s];
-    const StageMotion motion(stage, low, high, model.total_reference_volume());
-    Walls walls;
-    motion.place(walls, motion.duration());
+    const StageMotion motion(stage, low, high, model.total_reference_volume(), 0.0);
+    Walls walls{.low = low, .high = high};
+    motion.move(walls, motion.expected_duration(), 0.0, 0.0);
     low = walls.low, high = walls.high;
-    if (const double fastest = largest_travel * smallest_size / stable_step;
-        stage.isotropic_compaction && stage.isotropic_compaction->wall_speed > fastest)
-      throw InputError(fmt::format(
-          "stage '{}': key 'wall_speed': found {:g} mm/s, allowed at most {:.4g} mm/s here ({} of an element in a "
-          "stable step of {:.3g} s)",
-          stage.name, stage.isotropic_compaction->wall_speed, fastest, largest_travel, stable_step));
+    const double speed = stage.isotropic_compaction  ? stage.isotropic_compaction->wall_speed
+                         : stage.isotropic_unloading ? stage.isotropic_unloading->wall_speed
+                         : stage.grip                ? stage.grip->speed
+                                                     : 0.0;
+    if (const double fastest = largest_travel * smallest_size / stable_step; speed > fastest)
+      throw InputError(
+          fmt::format("stage '{}': key '{}': found {:g} mm/s, allowed at most {:.4g} mm/s here ({} of an element in a "
+                      "stable step of {:.3g} s)",
+                      stage.name, stage.grip ? "speed" : "wall_speed", speed, fastest, largest_travel, stable_step));
+    if (stage.isotropic_unloading) return; // where that ends is not known beforehand
   }
 }
 

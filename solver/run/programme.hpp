@@ -16,23 +16,37 @@ double motion_fraction(double time, double ramp);
 /// One stage, made concrete by the box with which it starts.
 class StageMotion {
 public:
-  /// `solid_volume` in mm^3. Throws InputError where the target cannot be reached by this kind of stage.
+  /// `solid_volume` in mm^3, `mean_stress` (MPa) when it starts. Throws InputError where the target cannot be reached by
+  /// this kind of stage.
   StageMotion(const Stage& stage, const std::array<double, 3>& low, const std::array<double, 3>& high,
-              double solid_volume);
+              double solid_volume, double mean_stress);
 
-  double duration() const { return duration_; } ///< s
-  /// Sets the planes to where they are at a time (s) since the stage began.
-  void place(Walls& walls, double time) const;
+  double duration() const { return duration_; } ///< s; infinite where the stage ends at a stress
+  /// s: the duration, or where that is infinite, a time in which the stage is expected to end.
+  double expected_duration() const { return expected_duration_; }
+  /// Part of the stage that is done, in [0, 1].
+  double fraction_done(double time, double mean_stress) const;
+  /// Moves the planes from where they are to where they are at a time (s) since the stage began, `step` s later.
+  void move(Walls& walls, double time, double step, double mean_stress) const;
+  /// How far (mm) the high grip has slid across the axis against the low one at a time (s) since the stage began.
+  std::array<double, 3> sliding(double time) const;
+  /// Whether a stage that ends at a stress has reached it. Throws SimulationError where the walls have gone far without.
+  bool reached(const Walls& walls, double mean_stress) const;
 
 private:
+  double unloading_speed(double time, double mean_stress) const;
+
+  Stage stage_;
   std::array<double, 3> low_, high_;
-  double end_scale_ = 1; ///< box length at the end over that at the start
+  std::array<double, 3> end_scale_{1, 1, 1}; ///< box lengths at the end over those at the start
+  double longest_ = 0;                       ///< mm, box edge when the stage starts
+  double mean_stress_ = 0;                   ///< MPa, when the stage starts
   double ramp_ = 0;
-  double duration_ = 0;
+  double duration_ = 0, expected_duration_ = 0;
 };
 
-/// Checks all stages from `first_stage` on before anything moves: every target can be reached from where the stage before
-/// ends, and no wall moves further in one stable step (s) than a small part of an element. Throws InputError.
+/// Checks the stages from `first_stage` on before anything moves: every target can be reached from where the stage before
+/// ends (as far as that is known beforehand), and no wall moves further in one stable step (s) than a small part of an element. Throws InputError.
 void check_programme(const Scenario& scenario, std::int64_t first_stage, std::array<double, 3> low,
                      std::array<double, 3> high, const Model& model, double stable_step);
 

@@ -13,6 +13,7 @@
 #include "common/hash.hpp"
 #include "common/one_line.hpp"
 #include "common/progress.hpp"
+#include "solver/model/bond_resolution.hpp"
 #include "solver/output/checkpoint.hpp"
 #include "solver/output/history.hpp"
 #include "solver/output/run_file.hpp"
@@ -59,6 +60,11 @@ std::string parts_folder(const std::string& run_file) {
   return stem(run_file) + ".parts";
 }
 
+std::string added_mass_text(const Model& model) {
+  return fmt::format("mass scaled for the step: {:.3g} % added to the packing, at most {:.3g} % to a grain",
+                     100 * model.added_mass, 100 * model.largest_added_mass);
+}
+
 /// The time loop and its records.
 class Runner {
 public:
@@ -66,7 +72,12 @@ public:
       : scenario_(scenario), options_(options), team_(options.threads),
         simulation_(build_model(read_packing(scenario.packing_file), scenario, scenario.packing_file), scenario, team_),
         progress_("mpfem", options.quiet) {
+    const auto warnings = check_bonds(simulation_.model(), scenario_);
     begin();
+    if (!options_.quiet && !already_complete_) {
+      for (const std::string& warning : warnings) fmt::print(stderr, "mpfem: warning: {}\n", warning);
+      if (simulation_.model().added_mass > 0) fmt::print(stderr, "mpfem: {}\n", added_mass_text(simulation_.model()));
+    }
     const RunState& state = simulation_.state();
     check_programme(scenario_, state.stage, state.stage_low, state.stage_high, simulation_.model(), state.stable_step);
   }
@@ -169,7 +180,8 @@ private:
     const auto start = Profile::Clock::now();
     record_.history.push_back(simulation_.observe());
     RunState& state = simulation_.state();
-    while (row_due() && state.rows_in_stage <= scenario_.output.history_rows) ++state.rows_in_stage;
+    do ++state.rows_in_stage;
+    while (row_due() && simulation_.stage_duration() > 0);
     simulation_.profile().add_serial(Part::output, Profile::since(start));
     if (!options_.quiet) report_row(record_.history.back());
   }
@@ -266,7 +278,7 @@ private:
 
   double fraction_done() const {
     const RunState& state = simulation_.state();
-    const double inside = simulation_.stage_duration() > 0 ? state.stage_time / simulation_.stage_duration() : 1.0;
+    const double inside = simulation_.stage_fraction_done();
     return (static_cast<double>(state.stage) + inside) / static_cast<double>(scenario_.stages.size());
   }
 
@@ -391,18 +403,29 @@ void check_scenario(const Scenario& scenario, int threads) {
   fmt::print("stable step    {:.4g} s, set by {}\n", simulation.state().stable_step,
              simulation.state().controlled_by_contact ? "contact" : "elements");
 
+  if (model.added_mass > 0) fmt::print("masses         {}\n", added_mass_text(model));
+  const auto warnings = check_bonds(model, scenario);
+  if (scenario.bond) {
+    const BondResolution r = bond_resolution(model, scenario);
+    fmt::print(
+        "bonds          cohesive zone {:.3g} mm, {:.2g} elements of {:.3g} mm; fracture energy {:g} N/mm, softening "
+        "as steep as the elements at {:.3g}, none left at {:.3g} N/mm\n",
+        r.cohesive_zone, r.cohesive_zone / r.element_size, r.element_size, scenario.bond->fracture_energy,
+        r.steep_fracture_energy, r.smallest_fracture_energy);
+  }
+  for (const std::string& warning : warnings) fmt::print("warning        {}\n", warning);
   check_programme(scenario, 0, model.box_low, model.box_high, model, simulation.state().stable_step);
   // The steps of all stages at the present stable step, and the time of a few steps measured here.
   std::array<double, 3> low = model.box_low, high = model.box_high;
   double steps = 0;
   for (const Stage& stage : scenario.stages) {
-    const StageMotion motion(stage, low, high, model.total_reference_volume());
-    Walls walls;
-    motion.place(walls, motion.duration());
+    const StageMotion motion(stage, low, high, model.total_reference_volume(), 0.0);
+    Walls walls{.low = low, .high = high};
+    motion.move(walls, motion.expected_duration(), 0.0, 0.0);
     low = walls.low, high = walls.high;
-    steps += motion.duration() / simulation.state().stable_step;
-    fmt::print("stage          {}: {:.4g} s, {:.0f} steps at the present step\n", stage.name, motion.duration(),
-               motion.duration() / simulation.state().stable_step);
+    steps += motion.expected_duration() / simulation.state().stable_step;
+    fmt::print("stage          {}: {:.4g} s, {:.0f} steps at the present step\n", stage.name,
+               motion.expected_duration(), motion.expected_duration() / simulation.state().stable_step);
   }
   int measured = 0;
   const auto start = Profile::Clock::now();

@@ -38,11 +38,13 @@ Simulation::Simulation(Model model, const Scenario& scenario, ThreadTeam& team)
   bounds_.resize(grains);
   contact_sums_.resize(grains);
   wall_sums_.resize(grains);
+  grip_sums_.resize(grains);
   advance_sums_.resize(grains);
   element_sums_.resize(grains);
   stable_steps_.resize(grains);
   stiffness_rate_.resize(static_cast<std::size_t>(model_.nodes()));
   walls_.present = scenario.walls;
+  contact_.bonding = scenario.bond;
   margin_ = scenario.contact.search_margin * *std::max_element(model_.element_size.begin(), model_.element_size.end());
   state_.low = state_.stage_low = walls_.low = model_.box_low;
   state_.high = state_.stage_high = walls_.high = model_.box_high;
@@ -109,20 +111,39 @@ void Simulation::refuse_overlap(int grain) {
   }
 }
 
-void Simulation::restored() {
+void Simulation::restored(Grips grips) {
   walls_.low = state_.low;
   walls_.high = state_.high;
-  motion_.emplace(stage(), state_.stage_low, state_.stage_high, model_.total_reference_volume());
+  make_motion();
+  grips_ = std::move(grips);
   team_.for_each(model_.grains,
                  [&](int grain, int) { bounds_[static_cast<std::size_t>(grain)] = update_surface(model_, grain); });
 }
 
+void Simulation::make_motion() {
+  motion_.emplace(stage(), state_.stage_low, state_.stage_high, model_.total_reference_volume(),
+                  state_.stage_mean_stress);
+  walls_.present = scenario_.walls && !stage().grip;
+}
+
 void Simulation::begin_stage() {
   state_.stage_time = 0;
+  state_.stage_ended = 0;
   state_.rows_in_stage = 0;
   state_.stage_low = walls_.low;
   state_.stage_high = walls_.high;
-  motion_.emplace(stage(), state_.stage_low, state_.stage_high, model_.total_reference_volume());
+  state_.stage_mean_stress = state_.mean_stress;
+  make_motion();
+  grips_ = {};
+  if (const auto& grip = stage().grip) {
+    grips_ = grip_nodes(model_, walls_, static_cast<std::size_t>(grip->axis), grip->depth, grip->lateral_fixed);
+    std::array<bool, 2> holds{};
+    for (const GrippedNode& node : grips_.node) holds[static_cast<std::size_t>(node.side)] = true;
+    if (!holds[0] || !holds[1])
+      throw SimulationError(
+          fmt::format("stage '{}': no node lies within grip_depth = {:g} mm of the {} face of the box", stage().name,
+                      grip->depth, holds[0] ? "high" : "low"));
+  }
 }
 
 void Simulation::begin_branch() {
@@ -143,8 +164,10 @@ double Simulation::relative_density() const {
 }
 
 double Simulation::next_step() const {
+  if (stage_complete()) return state_.last_step;
   // The last steps of a stage are shortened equally, so that the stage ends at its time without a tiny step.
   const double left = motion_->duration() - state_.stage_time;
+  if (!std::isfinite(left)) return state_.stable_step;
   const double steps = std::ceil(left / state_.stable_step * (1.0 - 1e-12));
   return steps <= 2 ? left / std::max(steps, 1.0) : state_.stable_step;
 }
@@ -152,6 +175,23 @@ double Simulation::next_step() const {
 double Simulation::damping_rate() const {
   const DampingParameters& damping = stage().damping;
   return damping.rate > 0 ? damping.rate * smooth_fade(state_.mean_stress, damping.fade_stress) : 0.0;
+}
+
+Simulation::Plan Simulation::plan_step() const {
+  Plan plan{.step = next_step(),
+            .walls = walls_,
+            .sliding = motion_->sliding(state_.stage_time + next_step()),
+            .advance = {}};
+  motion_->move(plan.walls, state_.stage_time + plan.step, plan.step, state_.mean_stress);
+  plan.advance.step = plan.step;
+  plan.advance.step_mean = 0.5 * (state_.last_step + plan.step);
+  plan.advance.damping_rate = damping_rate();
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const double length = walls_.high[axis] - walls_.low[axis];
+    plan.advance.centre[axis] = 0.5 * (walls_.high[axis] + walls_.low[axis]);
+    plan.advance.rate[axis] = ((plan.walls.high[axis] - plan.walls.low[axis]) / length - 1.0) / plan.step;
+  }
+  return plan;
 }
 
 void Simulation::estimate_stable_step() {
@@ -204,13 +244,31 @@ void Simulation::evaluate_forces() {
           "0.5: raise contact.stiffness_factor or lower the speed",
           state_.step, relative_density(), g, wall_sums_[g].penetration));
 
-  // Work of the walls since the time level before, by the trapezoidal rule, which central differences conserve.
   std::array<double, 6> force{};
+  if (grips_.present()) {
+    const Plan plan = plan_step();
+    team_.for_each(model_.grains, [&](int grain, int) {
+      grip_sums_[static_cast<std::size_t>(grain)] =
+          grip_forces(model_, grips_, plan.walls, plan.sliding, plan.advance, state_.last_step, grain);
+    });
+    state_.external_work += state_.grip_work_ahead;
+    state_.grip_work_ahead = 0;
+    for (const GripSums& sums : grip_sums_) {
+      force[2 * grips_.axis] += sums.force[0];
+      force[2 * grips_.axis + 1] += sums.force[1];
+      state_.external_work += sums.work_behind;
+      state_.grip_work_ahead += sums.work_ahead;
+    }
+  }
+
+  // Work of the walls since the time level before, by the trapezoidal rule, which central differences conserve.
+  std::array<double, 6> wall_force{};
   for (const WallSums& sums : wall_sums_)
-    for (std::size_t side = 0; side < 6; ++side) force[side] += sums.force[side];
+    for (std::size_t side = 0; side < 6; ++side) wall_force[side] += sums.force[side];
   double stress = 0;
   for (std::size_t side = 0; side < 6; ++side) {
-    state_.external_work += 0.5 * (force[side] + state_.last_wall_force[side]) * state_.last_wall_move[side];
+    state_.external_work += 0.5 * (wall_force[side] + state_.last_wall_force[side]) * state_.last_wall_move[side];
+    force[side] += wall_force[side];
     const std::size_t b = (side / 2 + 1) % 3, c = (side / 2 + 2) % 3;
     stress += force[side] / ((walls_.high[b] - walls_.low[b]) * (walls_.high[c] - walls_.low[c])) / 6.0;
   }
@@ -220,22 +278,19 @@ void Simulation::evaluate_forces() {
 }
 
 void Simulation::advance() {
-  const double step = next_step();
-  const Walls before = walls_;
-  motion_->place(walls_, state_.stage_time + step);
-  Advance parameters{.step_mean = 0.5 * (state_.last_step + step), .step = step, .damping_rate = damping_rate()};
+  const Plan plan = plan_step();
+  const double step = plan.step;
   for (std::size_t axis = 0; axis < 3; ++axis) {
-    const double length = before.high[axis] - before.low[axis];
-    parameters.centre[axis] = 0.5 * (before.high[axis] + before.low[axis]);
-    parameters.rate[axis] = ((walls_.high[axis] - walls_.low[axis]) / length - 1.0) / step;
-    state_.last_wall_move[2 * axis] = walls_.low[axis] - before.low[axis];
-    state_.last_wall_move[2 * axis + 1] = before.high[axis] - walls_.high[axis];
+    state_.last_wall_move[2 * axis] = walls_.present ? plan.walls.low[axis] - walls_.low[axis] : 0.0;
+    state_.last_wall_move[2 * axis + 1] = walls_.present ? walls_.high[axis] - plan.walls.high[axis] : 0.0;
   }
+  walls_.low = plan.walls.low;
+  walls_.high = plan.walls.high;
 
   team_.for_each(model_.grains, [&](int grain, int thread) {
     const auto g = static_cast<std::size_t>(grain);
     Stopwatch watch(profile_, thread);
-    advance_sums_[g] = mpfem::advance(model_, grain, parameters);
+    advance_sums_[g] = mpfem::advance(model_, grain, plan.advance);
     watch.mark(Part::integration);
     bounds_[g] = update_surface(model_, grain);
     watch.mark(Part::surface);
@@ -258,6 +313,7 @@ void Simulation::advance() {
   state_.high = walls_.high;
   state_.time += step;
   state_.stage_time = step >= motion_->duration() - state_.stage_time ? motion_->duration() : state_.stage_time + step;
+  if (motion_->reached(walls_, state_.mean_stress)) state_.stage_ended = 1;
   state_.last_step = step;
   state_.strain_rate = strain / step;
   state_.strain_since_estimate += strain;
@@ -275,6 +331,17 @@ void Simulation::report_bad_grain(int grain) const {
                     state_.step, state_.time, relative_density(), bad.file_tet, grain, bad.volume_ratio));
   throw SimulationError(fmt::format("step {}, t = {:.4g} s, D_r = {:.4f}: a stress of grain {} is not finite",
                                     state_.step, state_.time, relative_density(), grain));
+}
+
+BondSums Simulation::total_bonds() {
+  const auto pairs = static_cast<int>(contact_.candidates.pair_first.size());
+  std::vector<BondSums> sums(static_cast<std::size_t>(pairs));
+  if (!contact_.bonding) return {};
+  team_.for_each(pairs,
+                 [&](int pair, int) { sums[static_cast<std::size_t>(pair)] = bond_sums(model_, contact_, pair); });
+  BondSums total;
+  for (const BondSums& pair : sums) total.add(pair);
+  return total;
 }
 
 HistoryRow Simulation::observe() {
@@ -324,9 +391,15 @@ HistoryRow Simulation::observe() {
   row.viscous_dissipation = state_.viscous_dissipation;
   row.damping_dissipation = state_.damping_dissipation;
   row.external_work = state_.external_work;
+  const BondSums bonds = total_bonds();
+  row.bond_energy = bonds.stored;
+  row.damage_dissipation = bonds.dissipated;
+  row.bonded_area = bonds.bonded_area;
+  row.bonds = static_cast<double>(bonds.bonds);
+  row.mean_damage = bonds.formed_area > 0 ? bonds.damaged_area / bonds.formed_area : 0.0;
   row.energy_residual = state_.external_work + state_.initial_energy - row.kinetic_energy - row.elastic_energy -
                         row.plastic_dissipation - row.contact_energy - row.viscous_dissipation -
-                        row.damping_dissipation;
+                        row.damping_dissipation - row.bond_energy - row.damage_dissipation;
   if (rebase_ledger_) {
     state_.initial_energy -= row.energy_residual;
     row.energy_residual = 0;

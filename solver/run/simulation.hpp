@@ -33,6 +33,7 @@ struct RunState {
   std::int64_t steps_since_estimate = 0;  ///< since the stable step was estimated
   std::int64_t controlled_by_contact = 0; ///< 1: contact lowers the step by more than 5 %
   std::int64_t searches = 0;
+  std::int64_t stage_ended = 0; ///< 1: the stage has reached the stress at which it ends
   // times
   double time = 0;        ///< s
   double stage_time = 0;  ///< s, since the stage began
@@ -46,8 +47,10 @@ struct RunState {
   double viscous_dissipation = 0;
   double damping_dissipation = 0;
   double external_work = 0;
-  double damping_force = 0; ///< N, sum of magnitudes at the last advance
-  double mean_stress = 0;   ///< MPa, at the last evaluation
+  double grip_work_ahead = 0;   ///< half of the grips' forces times the step that follows
+  double damping_force = 0;     ///< N, sum of magnitudes at the last advance
+  double mean_stress = 0;       ///< MPa, at the last evaluation
+  double stage_mean_stress = 0; ///< MPa, when the stage began
   // walls
   std::array<double, 3> initial_lengths{}; ///< mm
   std::array<double, 3> stage_low{};       ///< mm, box when the stage began
@@ -85,16 +88,18 @@ public:
   const Profile& profile() const { return profile_; }
 
   /// Takes up model, contact and state that were replaced from a checkpoint.
-  void restored();
+  void restored(Grips grips);
 
   /// Begins the stage `state().stage` at the present box.
   void begin_stage();
   /// After a checkpoint of another run: its state is the beginning of this scenario's first stage. Candidates and step
   /// are found anew with this scenario's settings; what energies jump by, where those differ, is not in the residual.
   void begin_branch();
-  double stage_duration() const { return motion_->duration(); }
+  /// s: how long the stage takes, or is expected to take.
+  double stage_duration() const { return motion_->expected_duration(); }
+  double stage_fraction_done() const { return motion_->fraction_done(state_.stage_time, state_.mean_stress); }
   /// True when the present time level is the stage's last.
-  bool stage_complete() const { return state_.stage_time >= motion_->duration(); }
+  bool stage_complete() const { return state_.stage_ended != 0 || state_.stage_time >= motion_->duration(); }
 
   /// Adds contact and wall forces at the present positions.
   void evaluate_forces();
@@ -105,9 +110,20 @@ public:
   HistoryRow observe();
   double relative_density() const;
   bool has_walls() const { return walls_.present; }
+  const Grips& grips() const { return grips_; }
+  const Stage& stage() const { return scenario_.stages[static_cast<std::size_t>(state_.stage)]; }
 
 private:
-  const Stage& stage() const { return scenario_.stages[static_cast<std::size_t>(state_.stage)]; }
+  /// What the next advance does: its step, where the walls go, and the constants of the velocity update.
+  struct Plan {
+    double step;
+    Walls walls;
+    std::array<double, 3> sliding; ///< mm, of the grips
+    Advance advance;
+  };
+  Plan plan_step() const;
+  BondSums total_bonds();
+  void make_motion();
   double next_step() const;
   void estimate_stable_step();
   double damping_rate() const;
@@ -122,6 +138,7 @@ private:
   RunState state_;
   Profile profile_;
   std::optional<StageMotion> motion_;
+  Grips grips_;
   double margin_ = 0; ///< mm, of the contact search
   bool rebase_ledger_ = false;
 
@@ -129,6 +146,7 @@ private:
   std::vector<Bounds> bounds_;
   std::vector<ContactSums> contact_sums_;
   std::vector<WallSums> wall_sums_;
+  std::vector<GripSums> grip_sums_;
   std::vector<AdvanceSums> advance_sums_;
   std::vector<ElementSums> element_sums_;
   std::vector<StableStep> stable_steps_;

@@ -122,6 +122,10 @@ ContactParameters read_contact(TableReader table) {
   ContactParameters contact;
   contact.stiffness_factor =
       table.number_or("stiffness_factor", contact.stiffness_factor, {.low = 0, .high = 1e4, .low_open = true});
+  if (table.has("stiffness")) {
+    if (table.has("stiffness_factor")) table.fail("stiffness", "has no meaning with 'stiffness_factor'");
+    contact.stiffness = table.number("stiffness", positive);
+  }
   contact.search_margin = table.number_or("search_margin", contact.search_margin, Range::between(0.05, 2));
   table.finish();
   return contact;
@@ -192,7 +196,7 @@ void check_stage_name(const TableReader& table, const std::string& name) {
 const std::vector<std::pair<std::string, std::vector<std::string>>> stage_keys = {
     {std::string(stage_isotropic_compaction), {"relative_density", "wall_speed", "ramp_fraction"}},
     {std::string(stage_isotropic_unloading), {"mean_stress", "wall_speed", "ramp_fraction"}},
-    {std::string(stage_grip), {"axis", "grip_depth", "lateral", "displacement", "speed", "ramp_fraction"}},
+    {std::string(stage_grip), {"axis", "grip_depth", "lateral", "displacement", "sliding", "speed", "ramp_fraction"}},
     {std::string(stage_hold), {"duration"}},
 };
 
@@ -202,8 +206,14 @@ GripMotion read_grip(TableReader& table) {
   grip.axis = axis[0] - 'x';
   grip.depth = table.number("grip_depth", positive);
   grip.lateral_fixed = table.choice_or("lateral", "fixed", {"fixed", "free"}) == "fixed";
-  grip.displacement = table.number("displacement", {});
-  if (grip.displacement == 0) table.fail("displacement", "found 0, allowed < 0 (together) or > 0 (apart)");
+  grip.displacement = table.number_or("displacement", 0, {});
+  grip.sliding = table.vector3_or("sliding", {0, 0, 0});
+  const bool slides = grip.sliding != std::array<double, 3>{};
+  if (slides && !grip.lateral_fixed) table.fail("sliding", "has no meaning with lateral = 'free'");
+  if (grip.sliding[static_cast<std::size_t>(grip.axis)] != 0)
+    table.fail("sliding", fmt::format("found a part along the axis {}, allowed only across it", axis));
+  if (grip.displacement == 0 && !slides)
+    table.fail("displacement", "missing or 0, expected a number < 0 (together) or > 0 (apart), or 'sliding'");
   grip.speed = table.number("speed", positive);
   grip.ramp_fraction = table.number_or("ramp_fraction", grip.ramp_fraction, Range::between(0, 0.5));
   return grip;

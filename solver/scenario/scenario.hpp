@@ -41,8 +41,9 @@ struct MaterialParameters {
 };
 
 struct ContactParameters {
-  double stiffness_factor = 10; ///< penalty K = factor * E / h, h the mean facet edge of the grain
-  double search_margin = 0.3;   ///< candidates are kept for gaps up to this multiple of h
+  double stiffness_factor = 10;    ///< penalty K = factor * E / h, h the mean facet edge of the grain
+  std::optional<double> stiffness; ///< K itself, MPa/mm, where it is given instead (locally refined meshes)
+  double search_margin = 0.3;      ///< candidates are kept for gaps up to this multiple of h
 };
 
 /// Cohesive bonds that form where grains touch (paper Eqs. 2-7, Table 1).
@@ -63,8 +64,8 @@ struct NumericsParameters {
   double time_step_factor = 0.9; ///< safety factor on the stable step, (0, 1]
   double bulk_viscosity_linear = 0.06;
   double bulk_viscosity_quadratic = 1.2;
-  double mass_scaling = 1;  ///< uniform factor on the density
-  double mass_scaling_step = 0; ///< s: nodes are made heavier where the step at the start would be smaller; 0 nowhere
+  double mass_scaling = 1;      ///< uniform factor on the density
+  double mass_scaling_step = 0; ///< s: nodes are made heavier where the step at the start would be smaller; 0: none
 };
 
 struct OutputParameters {
@@ -90,11 +91,12 @@ struct IsotropicUnloading {
 
 /// The nodes near two opposite faces of the box are gripped and moved along the box's axis. Walls take no part.
 struct GripMotion {
-  int axis = 2;              ///< 0 x, 1 y, 2 z
-  double depth = 0;          ///< mm: nodes so near to a face of the box when the stage begins
-  bool lateral_fixed = true; ///< gripped nodes do not move across the axis
-  double displacement = 0;   ///< mm, change of the distance between both grips; positive apart
-  double speed = 0;          ///< plateau speed of each grip, mm/s
+  int axis = 2;                    ///< 0 x, 1 y, 2 z
+  double depth = 0;                ///< mm: nodes so near to a face of the box when the stage begins
+  bool lateral_fixed = true;       ///< gripped nodes do not move across the axis
+  double displacement = 0;         ///< mm, change of the distance between both grips; positive apart
+  std::array<double, 3> sliding{}; ///< mm, of the high grip against the low one, across the axis
+  double speed = 0;                ///< plateau speed of each grip, mm/s
   double ramp_fraction = 0.1;
 };
 

@@ -1,0 +1,50 @@
+#include "solver/model/bond_resolution.hpp"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "common/errors.hpp"
+
+namespace mpfem {
+
+BondResolution bond_resolution(const Model& model, const Scenario& scenario) {
+  const BondParameters& bond = *scenario.bond;
+  const double youngs = scenario.material.youngs_modulus, poissons = scenario.material.poissons_ratio;
+  const double reduced = youngs / (2 * (1 - poissons * poissons));
+  const double strength =
+      bond.normal_only ? bond.tensile_strength : std::max(bond.tensile_strength, bond.shear_strength);
+  // Two grains' penalties act as their harmonic mean, at least the softest's.
+  const double stiffness = *std::min_element(model.penalty_stiffness.begin(), model.penalty_stiffness.end());
+  BondResolution result;
+  result.element_size = *std::max_element(model.element_size.begin(), model.element_size.end());
+  result.cohesive_zone = 0.34 * 2 * reduced * bond.fracture_energy / (bond.tensile_strength * bond.tensile_strength);
+  result.smallest_fracture_energy = 0.5 * strength * strength / stiffness;
+  result.steep_fracture_energy = strength * strength * result.element_size / youngs + result.smallest_fracture_energy;
+  return result;
+}
+
+std::vector<std::string> check_bonds(const Model& model, const Scenario& scenario) {
+  std::vector<std::string> warnings;
+  if (!scenario.bond) return warnings;
+  const BondResolution r = bond_resolution(model, scenario);
+  const double energy = scenario.bond->fracture_energy;
+  if (!(energy > 1.01 * r.smallest_fracture_energy))
+    throw InputError(
+        fmt::format("[bond] key 'fracture_energy': found {:g} N/mm, allowed > {:.3g} N/mm with this mesh's "
+                    "penalty (strength^2/(2 K)): raise it, lower the strength or refine the mesh",
+                    energy, 1.01 * r.smallest_fracture_energy));
+  if (energy < r.steep_fracture_energy)
+    warnings.push_back(
+        fmt::format("bonds soften more steeply than elements of {:.3g} mm can unload: fracture_energy "
+                    "{:g} N/mm is below strength^2 h/E = {:.3g} N/mm; breaking bonds will shake the grains",
+                    r.element_size, energy, r.steep_fracture_energy));
+  if (r.cohesive_zone < 3 * r.element_size)
+    warnings.push_back(
+        fmt::format("the cohesive zone ({:.3g} mm) has fewer than three elements of {:.3g} mm: strengths of "
+                    "contacts depend on the mesh",
+                    r.cohesive_zone, r.element_size));
+  return warnings;
+}
+
+} // namespace mpfem

@@ -1,0 +1,67 @@
+#include <algorithm>
+#include <cmath>
+
+#include "solver/model/model.hpp"
+
+namespace mpfem {
+
+namespace {
+
+Vector3<double> position(const Model& model, std::int32_t node) {
+  const double* x = &model.position[4 * static_cast<std::size_t>(node)];
+  return {x[0], x[1], x[2]};
+}
+
+} // namespace
+
+void scale_masses(Model& model, double step) {
+  const auto nodes = static_cast<std::size_t>(model.nodes());
+  const double damped = 2.0 * damped_step_factor(model.viscosity.linear);
+  const double largest_rate = (damped / step) * (damped / step);
+  model.mass_factor.assign(nodes, 1.0);
+  double added = 0, total = 0;
+  for (int grain = 0; grain < model.grains; ++grain) {
+    const auto g = static_cast<std::size_t>(grain);
+    const std::int32_t first = model.node_offset[g], surface_end = first + model.surface_node_count[g];
+    // What contact adds to the frequency squared as a rule, as in raise_to_expected_rate.
+    const auto contact_rate = [&](std::int32_t node) {
+      const auto n = static_cast<std::size_t>(node);
+      return node < surface_end ? 2.0 * model.penalty_stiffness[g] * model.reference_area[n] * model.inverse_mass[n]
+                                : 0.0;
+    };
+    for (std::int32_t b = model.block_offset[g]; b < model.block_offset[g + 1]; ++b) {
+      const TetBlock& block = model.block[static_cast<std::size_t>(b)];
+      for (int lane = 0; lane < model.tets_in_block(grain, b); ++lane) {
+        std::int32_t corner[4];
+        double contact = 0;
+        for (int c = 0; c < 4; ++c) {
+          corner[c] = first + block.node[c][lane];
+          contact = std::max(contact, contact_rate(corner[c]));
+        }
+        const auto x0 = position(model, corner[0]);
+        const auto geometry = tet_geometry(position(model, corner[1]) - x0, position(model, corner[2]) - x0,
+                                           position(model, corner[3]) - x0);
+        const double factor =
+            (largest_frequency_squared(model.material.moduli, model.material.density, geometry) + contact) /
+            largest_rate;
+        for (const std::int32_t node : corner) {
+          double& largest = model.mass_factor[static_cast<std::size_t>(node)];
+          largest = std::max(largest, factor);
+        }
+      }
+    }
+    double mass = 0;
+    for (std::int32_t node = first; node < model.node_offset[g + 1]; ++node) {
+      const auto n = static_cast<std::size_t>(node);
+      mass += model.mass_factor[n] / model.inverse_mass[n];
+      model.inverse_mass[n] /= model.mass_factor[n];
+    }
+    added += mass - model.mass[g];
+    total += model.mass[g];
+    model.largest_added_mass = std::max(model.largest_added_mass, mass / model.mass[g] - 1.0);
+    model.mass[g] = mass;
+  }
+  model.added_mass = added / total;
+}
+
+} // namespace mpfem
