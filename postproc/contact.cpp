@@ -29,6 +29,13 @@ ContactTable contact_table(const schema::FileReader& file, int snapshot) {
                           area[pair] > 0 ? magnitude / area[pair] : 0.0};
     for (std::size_t c = 0; c < table.columns.size(); ++c) table.columns[c].values.push_back(row[c]);
   }
+  const auto add_where_present = [&](const schema::Dataset<double, 1>& dataset, const char* column) {
+    if (file.has(dataset, name)) table.columns.push_back({column, std::string(dataset.unit), file.read(dataset, name)});
+  };
+  add_where_present(run::snapshots_pair_bonded_area, "bonded_area");
+  add_where_present(run::snapshots_pair_damage, "damage");
+  add_where_present(run::snapshots_pair_bond_energy, "bond_energy");
+  add_where_present(run::snapshots_pair_damage_dissipation, "damage_dissipation");
   const auto grain_count = static_cast<double>(file.rows(run::mesh_grain_tet_offset)) - 1;
   table.coordination_number = 2 * static_cast<double>(area.size()) / grain_count;
 

@@ -9,6 +9,8 @@
 #include "common/errors.hpp"
 #include "common/version.hpp"
 #include "postproc/contact.hpp"
+#include "postproc/contact_picture.hpp"
+#include "postproc/damage_section.hpp"
 #include "postproc/energy.hpp"
 #include "postproc/section_picture.hpp"
 #include "postproc/summary.hpp"
@@ -21,7 +23,7 @@ namespace {
 using namespace mpfem;
 
 struct Arguments {
-  std::string input, output, packing, data;
+  std::string input, output, packing, data, contact_picture;
   std::vector<std::string> files, columns;
   int snapshot = -1;
   std::string axis = "z";
@@ -29,17 +31,12 @@ struct Arguments {
   bool relative = false, quiet = false;
   bool field_given = false;
   std::vector<double> range, view;
+  std::vector<int> pair;
   PictureRequest picture;
 };
 
 schema::FileReader open_run(const Arguments& arguments) {
   return {arguments.input, schema::FileKind::run};
-}
-
-std::string table_text(const std::vector<Column>& columns) {
-  std::vector<const Column*> pointers;
-  for (const Column& column : columns) pointers.push_back(&column);
-  return csv_text(pointers);
 }
 
 /// To the file that -o names, or to standard output.
@@ -67,9 +64,28 @@ void curve(const Arguments& arguments) {
   deliver(arguments, csv_text(columns));
 }
 
+void contact_of_pair(const Arguments& arguments) {
+  if (arguments.output.ends_with(".csv"))
+    throw InputError("-o with --pair: found a .csv file, allowed: .json; --data writes the points as CSV");
+  const schema::FileReader file = open_run(arguments);
+  const ContactMap map = contact_map(file, arguments.snapshot, {arguments.pair[0], arguments.pair[1]});
+  const std::string points = contact_points_csv(map);
+  if (!arguments.contact_picture.empty()) // first, since it alone can still be refused
+    write_contact_picture(arguments.contact_picture, read_snapshot(file, arguments.snapshot), map,
+                          {arguments.picture.title, arguments.picture.pixels, arguments.picture.mesh_lines});
+  if (!arguments.data.empty()) write_file(arguments.data, points);
+  deliver(arguments, to_json(map).dump(2) + "\n");
+}
+
 void contact(const Arguments& arguments) {
+  if (!arguments.pair.empty()) {
+    contact_of_pair(arguments);
+    return;
+  }
+  if (!arguments.data.empty() || !arguments.contact_picture.empty())
+    throw InputError("--data and --view belong to one contact: found no --pair, allowed: --pair FIRST,SECOND");
   const ContactTable table = contact_table(open_run(arguments), arguments.snapshot);
-  deliver(arguments, arguments.output.ends_with(".json") ? to_json(table).dump(1) + "\n" : table_text(table.columns));
+  deliver(arguments, arguments.output.ends_with(".json") ? to_json(table).dump(1) + "\n" : csv_text(table.columns));
   if (!arguments.quiet)
     fmt::print(stderr,
                "D_r {:.4f}, p {:.4g} MPa: {} pairs, coordination number {:.2f}, contact area over surface {:.4f}\n",
@@ -79,7 +95,7 @@ void contact(const Arguments& arguments) {
 
 void energy(const Arguments& arguments) {
   const schema::FileReader file = open_run(arguments);
-  deliver(arguments, table_text(energy_ledger(HistoryTable(file))));
+  deliver(arguments, csv_text(energy_ledger(HistoryTable(file))));
 }
 
 Snapshot read_state(const Arguments& arguments) {
@@ -123,7 +139,10 @@ void section(Arguments arguments) {
     request.view = View{{v[0], v[2]}, {v[1], v[3]}};
   }
   if (!arguments.packing.empty() && !arguments.field_given) request.field = "grain";
-  if (!arguments.data.empty()) write_file(arguments.data, section_csv(state, cut(state, request.plane), request.field));
+  if (!arguments.data.empty())
+    write_file(arguments.data, request.field == "damage"
+                                   ? damage_section_csv(cut_boundaries(state, request.plane))
+                                   : section_csv(state, cut(state, request.plane), request.field));
   if (!arguments.output.empty()) write_section_picture(arguments.output, state, request);
 }
 
@@ -144,6 +163,8 @@ int body(int argc, char** argv) {
       "  postproc summary run.h5 -o summary.json\n"
       "  postproc curve run.h5 --columns relative_density,mean_stress -o curve.csv\n"
       "  postproc section run.h5 --snapshot -1 --axis z --position 0.5 --relative --field von_mises -o section.png\n"
+      "  postproc section run.h5 --field damage -o damage.png\n"
+      "  postproc contact run.h5 --pair 3,17 --view contact.png\n"
       "  postproc vtk run.h5 -o vtk        (open vtk/run.pvd in ParaView)\n"
       "  postproc validate run.h5\n"
       "Exit codes: 0 done, 2 bad usage or input, 3 a picture could not be drawn, 4 storage failed.");
@@ -166,6 +187,14 @@ int body(int argc, char** argv) {
     command.add_option("--snapshot", arguments.snapshot, "Number of the snapshot; -1 is the last")
         ->capture_default_str();
   };
+  const auto add_drawing = [&](CLI::App& command, const std::string& when, const std::string& title,
+                               const std::string& patches) {
+    command.add_flag("--mesh", arguments.picture.mesh_lines, when + "Draw the edges of " + patches);
+    command.add_option("--title", arguments.picture.title, when + "Title (default: " + title + ")");
+    command.add_option("--pixels", arguments.picture.pixels, when + "Pixels along the longer side")
+        ->check(CLI::Range(50, 4000))
+        ->capture_default_str();
+  };
   const auto add_packing = [&](CLI::App& command) {
     command.add_option("--packing", arguments.packing, "A meshed packing in place of a run (HDF5)");
   };
@@ -181,12 +210,22 @@ int body(int argc, char** argv) {
   curve_command
       ->add_option("--columns", arguments.columns, "Columns, by comma (default: all); wall_stress stands for its six")
       ->delimiter(',');
-  CLI::App* contact_command =
-      add("contact",
-          "Contacts between grains at a snapshot.\nExample: postproc contact run.h5 --snapshot -1 -o contacts.csv",
-          false, "File to write, .json or .csv (default: CSV on standard output)");
+  CLI::App* contact_command = add(
+      "contact",
+      "Contacts between grains at a snapshot: force and area of every pair, with bonds also their area, damage and\n"
+      "energies. With --pair one contact in detail: its force, areas, damage and bonds.\n"
+      "Example: postproc contact run.h5 --snapshot -1 -o contacts.csv\n"
+      "Example: postproc contact run.h5 --pair 3,17 -o contact.json --data bonds.csv --view damage.png",
+      false, "File to write, .json or .csv (default: CSV on standard output); with --pair JSON");
   add_run(*contact_command, true);
   add_snapshot(*contact_command);
+  contact_command->add_option("--pair", arguments.pair, "Two grains, by comma: their contact in detail")
+      ->delimiter(',')
+      ->expected(2);
+  contact_command->add_option("--data", arguments.data, "With --pair: CSV file to write, a row a bond");
+  contact_command->add_option("--view", arguments.contact_picture,
+                              "With --pair: PNG file to write, damage in the contact's plane");
+  add_drawing(*contact_command, "With --view: ", "the grains and the relative density", "the nodes' patches");
   CLI::App* energy_command =
       add("energy", "The energy ledger over time, as CSV.\nExample: postproc energy run.h5 -o energy.csv", false,
           "CSV file to write (default: standard output)");
@@ -200,7 +239,8 @@ int body(int argc, char** argv) {
   CLI::App* section_command =
       add("section",
           "A plane cut through the grains, as a picture.\n"
-          "Example: postproc section run.h5 --axis z --position 0.5 --relative --field von_mises -o section.png",
+          "Example: postproc section run.h5 --axis z --position 0.5 --relative --field von_mises -o section.png\n"
+          "Example: postproc section run.h5 --axis x --field damage -o damage.png --data boundaries.csv",
           false, "PNG file to write");
   add_run(*section_command, false);
   add_packing(*section_command);
@@ -215,23 +255,23 @@ int body(int argc, char** argv) {
   section_command->add_flag("--relative", arguments.relative, "Take --position as a fraction of the box (0 … 1)");
   section_command
       ->add_option("--field", arguments.picture.field,
-                   "von_mises, pressure, plastic_strain or grain (for --packing: grain)")
+                   "von_mises, pressure, plastic_strain, grain (for --packing: grain) or, for runs with bonds, damage: "
+                   "along the cut boundaries")
       ->capture_default_str();
-  section_command->add_option("--range", arguments.range, "low,high of the colour scale (default: from the data)")
+  section_command
+      ->add_option("--range", arguments.range, "low,high of the colour scale (default: from the data; of damage 0,1)")
       ->delimiter(',')
       ->expected(2);
-  section_command->add_flag("--mesh", arguments.picture.mesh_lines, "Draw the elements' edges");
   section_command
       ->add_option(
           "--view", arguments.view,
           "Part of the plane to show: low,high of its first and of its second coordinate, mm (default: the box)")
       ->delimiter(',')
       ->expected(4);
-  section_command->add_option("--title", arguments.picture.title, "Title (default: the relative density)");
-  section_command->add_option("--pixels", arguments.picture.pixels, "Pixels along the longer side")
-      ->check(CLI::Range(50, 4000))
-      ->capture_default_str();
-  section_command->add_option("--data", arguments.data, "Also write the section's polygons as CSV");
+  add_drawing(*section_command, "", "the relative density", "the elements");
+  section_command->add_option(
+      "--data", arguments.data,
+      "Also write the section's polygons as CSV; of damage the cut boundaries, a row a segment");
   CLI::App* validate_command =
       app.add_subcommand("validate", "Hold files to the results schema.\nExample: postproc validate run.h5 packing.h5");
   validate_command->add_option("files", arguments.files, "Files of any kind (HDF5)")->required();
@@ -246,7 +286,8 @@ int body(int argc, char** argv) {
     arguments.relative = true;
   arguments.field_given = section_command->count("--field") > 0;
   for (const std::string& input : {arguments.input, arguments.packing})
-    for (const std::string& output : {arguments.output, arguments.data}) refuse_overwriting(output, input);
+    for (const std::string& output : {arguments.output, arguments.data, arguments.contact_picture})
+      refuse_overwriting(output, input);
   if (summary_command->parsed()) summary(arguments);
   if (curve_command->parsed()) curve(arguments);
   if (contact_command->parsed()) contact(arguments);

@@ -130,8 +130,8 @@ Raster draw_section(const std::vector<SectionPolygon>& polygons, const std::vect
                  {std::pair{reach, 0}, {-reach, 0}, {0, reach}, {0, -reach}, {1, 0}, {-1, 0}, {0, 1}, {0, -1}})
               edge = edge || grain_at(x + dx, y + dy) != grain;
           const bool between_tets = lines.mesh && (tet_at(x + 1, y) != tet || tet_at(x, y + 1) != tet);
-          const std::size_t at = static_cast<std::size_t>(y) * static_cast<std::size_t>(fine.width) +
-                                 static_cast<std::size_t>(x);
+          const std::size_t at =
+              static_cast<std::size_t>(y) * static_cast<std::size_t>(fine.width) + static_cast<std::size_t>(x);
           const bool banded = !bands.painted.empty() && bands.painted[at];
           const Colour& colour = banded                       ? bands.colour[at]
                                  : edge                       ? lines.outline

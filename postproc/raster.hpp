@@ -30,10 +30,10 @@ struct Band {
 
 /// What is drawn over the polygons.
 struct Lines {
-  bool mesh = false;            ///< thin ones between tets
-  Colour outline{25, 25, 25};   ///< between different grains and around them
-  std::vector<Band> bands;      ///< over the outlines
-  double band_pixels = 5;       ///< width of a band
+  bool mesh = false;          ///< thin ones between tets
+  Colour outline{25, 25, 25}; ///< between different grains and around them
+  std::vector<Band> bands;    ///< over the outlines
+  double band_pixels = 5;     ///< width of a band
 };
 
 /// Fills the polygons with their tets' colours (one a tet) and draws lines over them. `pixels` along the longer side; smoothed by

@@ -85,12 +85,12 @@ void write_section_picture(const std::string& path, const Snapshot& snapshot, co
   }
   const Raster raster = draw_section(polygons, colour, snapshot.tet_grain, view, request.pixels, lines);
   constexpr const char* axis_name[] = {"x", "y", "z"};
-  Frame2d frame{view, request.title, fmt::format("{} (mm)", axis_name[u]), fmt::format("{} (mm)", axis_name[v]), {},
-                request.pixels};
+  Frame2d frame{view, request.title, fmt::format("{} (mm)", axis_name[u]), fmt::format("{} (mm)", axis_name[v]),
+                {},   request.pixels};
   if (frame.title.empty() && snapshot.relative_density > 0)
     frame.title = fmt::format("Relative density {:.3f}", snapshot.relative_density);
   if (!of_grains) {
-    std::string label = of_damage                  ? "Damage of bonds (0 intact, 1 broken)"
+    std::string label = of_damage                   ? "Damage of bonds (0 intact, 1 broken)"
                         : field.name == "von_mises" ? "von Mises stress"
                         : field.name == "pressure"  ? "Pressure"
                                                     : "Equivalent plastic strain";

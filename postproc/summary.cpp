@@ -33,6 +33,13 @@ Summary summarise(const schema::FileReader& file) {
   if (const double area = history["surface_area"][last]; area > 0)
     s.contact_area_ratio = history["contact_area"][last] / area;
 
+  const auto ever = [&](std::string_view name) {
+    return std::any_of(history[name].begin(), history[name].end(), [](double value) { return value > 0; });
+  };
+  if (ever("bonds") || ever("damage_dissipation")) // where all bonds broke between two rows, they were never counted
+    s.bonds = {static_cast<std::int64_t>(history["bonds"][last]), history["bonded_area"][last],
+               history["mean_damage"][last]};
+
   double work = 0, residual = 0, largest_kinetic = 0, largest_internal = 0;
   const auto& stress = history["mean_stress"];
   const double loaded = 0.1 * *std::max_element(stress.begin(), stress.end());
@@ -89,6 +96,11 @@ nlohmann::ordered_json to_json(const Summary& s) {
                                  {"contact_area_over_surface_area", s.contact_area_ratio}};
   if (s.kinetic_small_from_density)
     json["relative_density_from_which_kinetic_below_1_percent"] = *s.kinetic_small_from_density;
+  if (s.bonds) {
+    json["unbroken_bonds"] = s.bonds->unbroken;
+    json["bonded_area_mm2"] = s.bonds->area;
+    json["mean_damage"] = s.bonds->mean_damage;
+  }
   for (const auto& [name, energy] : s.energies) json["energies_mJ"][name] = energy;
   for (std::size_t i = 0; i < s.profile_name.size(); ++i)
     json["wall_time_share"][s.profile_name[i]] = s.profile_share[i];
@@ -123,6 +135,10 @@ std::string to_text(const Summary& s) {
   line("time step", fmt::format("{:.4g} … {:.4g} s", s.smallest_time_step, s.largest_time_step));
   line("coordination number", fmt::format("{:.2f}", s.coordination_number));
   line("contact area over surface", fmt::format("{:.3f}", s.contact_area_ratio));
+  if (s.bonds) {
+    line("unbroken bonds, area", fmt::format("{}  {:.4g} mm^2", s.bonds->unbroken, s.bonds->area));
+    line("mean damage of bonds", fmt::format("{:.4f}", s.bonds->mean_damage));
+  }
   for (std::size_t i = 0; i < s.profile_name.size(); ++i)
     line(i == 0 ? "wall time in" : "", fmt::format("{:5.1f} %  {}", 100 * s.profile_share[i], s.profile_name[i]));
   return text;

@@ -28,6 +28,11 @@ struct Summary {
   double largest_penetration = 0;                   ///< over h
   double smallest_time_step = 0, largest_time_step = 0;   ///< s
   double coordination_number = 0, contact_area_ratio = 0; ///< at the end
+  struct Bonds {
+    std::int64_t unbroken = 0;        ///< of both sides of every contact
+    double area = 0, mean_damage = 0; ///< mm^2, 1
+  };
+  std::optional<Bonds> bonds; ///< at the end; none where the run never had any
   std::vector<std::string> profile_name;
   std::vector<double> profile_share; ///< of the wall-clock time
 };

@@ -1,0 +1,170 @@
+#include "postproc/contact_map.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "common/errors.hpp"
+#include "common/one_line.hpp"
+#include "postproc/text_file.hpp"
+
+namespace mpfem {
+
+namespace {
+
+namespace run = schema::run;
+
+/// Row of the pair in pair_grains. Throws InputError naming the grains that the first does touch.
+std::size_t row_of_pair(const std::vector<std::int32_t>& pair_grains, std::pair<int, int> grains,
+                        const std::string& path, const std::string& snapshot) {
+  std::vector<std::int32_t> neighbours;
+  for (std::size_t row = 0; 2 * row < pair_grains.size(); ++row) {
+    const std::int32_t a = pair_grains[2 * row], b = pair_grains[2 * row + 1];
+    if (a == grains.first && b == grains.second) return row;
+    if (a == grains.first || b == grains.first) neighbours.push_back(a == grains.first ? b : a);
+  }
+  throw InputError(fmt::format("{}: grains {} and {} are not in contact in snapshot {}; grain {} touches {}", path,
+                               grains.first, grains.second, snapshot, grains.first,
+                               neighbours.empty() ? "no other" : fmt::format("{}", fmt::join(neighbours, ", "))));
+}
+
+/// Mean position of a grain's nodes, mm.
+std::array<double, 3> centre(const std::vector<float>& node, const std::vector<std::int32_t>& offset,
+                             std::int32_t grain) {
+  std::array<double, 3> sum{};
+  const auto g = static_cast<std::size_t>(grain);
+  const auto first = static_cast<std::size_t>(offset[g]), end = static_cast<std::size_t>(offset[g + 1]);
+  for (std::size_t n = first; n < end; ++n)
+    for (std::size_t k = 0; k < 3; ++k)
+      sum[k] += static_cast<double>(node[3 * n + k]) / static_cast<double>(end - first);
+  return sum;
+}
+
+double dot(const std::array<double, 3>& a, const std::array<double, 3>& b) {
+  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+
+} // namespace
+
+ContactMap contact_map(const schema::FileReader& file, int snapshot, std::pair<int, int> grains) {
+  const std::string path = one_line(file.path());
+  ContactMap map;
+  map.snapshot = snapshot_name(file, snapshot);
+  const std::string& name = map.snapshot;
+  const auto offset = file.read(run::mesh_grain_node_offset);
+  const auto node = file.read(run::snapshots_node, name);
+  const auto nodes = static_cast<std::int32_t>(node.size() / 3);
+  const int count = static_cast<int>(offset.size()) - 1;
+  if (offset.empty() || offset.front() != 0 || offset.back() != nodes || !std::is_sorted(offset.begin(), offset.end()))
+    throw InputError(
+        fmt::format("{}: /mesh/grain_node_offset does not rise from 0 to the number of nodes, {}", path, nodes));
+  if (grains.first > grains.second) std::swap(grains.first, grains.second);
+  if (grains.first < 0 || grains.second >= count || grains.first == grains.second)
+    throw InputError(fmt::format("{}: --pair names the grains {} and {}, allowed: two different ones of 0 … {}", path,
+                                 grains.first, grains.second, count - 1));
+  map.grains = grains;
+  for (const schema::DatasetDescription& line :
+       {schema::DatasetDescription(run::snapshots_bond_node), schema::DatasetDescription(run::snapshots_pair_damage)})
+    if (!file.has(line, name))
+      throw InputError(fmt::format("{}: snapshot {} has no bonds; --pair needs a run with bonds", path, name));
+
+  const std::size_t row = row_of_pair(file.read(run::snapshots_pair_grains, name), grains, path, name);
+  map.relative_density = file.read_scalar(run::snapshots_relative_density, name);
+  map.mean_stress = file.read_scalar(run::snapshots_mean_stress, name);
+  const auto number = [&](const schema::Dataset<double, 1>& dataset) { return file.read(dataset, name).at(row); };
+  const auto force = file.read(run::snapshots_pair_force, name);
+  for (std::size_t k = 0; k < 3; ++k) map.force[k] = force.at(3 * row + k);
+  map.area = number(run::snapshots_pair_area);
+  map.bonded_area = number(run::snapshots_pair_bonded_area);
+  map.damage = number(run::snapshots_pair_damage);
+  map.bond_energy = number(run::snapshots_pair_bond_energy);
+  map.damage_dissipation = number(run::snapshots_pair_damage_dissipation);
+
+  const auto bond_node = file.read(run::snapshots_bond_node, name),
+             bond_grain = file.read(run::snapshots_bond_grain, name);
+  const auto damage = file.read(run::snapshots_bond_damage, name),
+             separation = file.read(run::snapshots_bond_separation, name);
+  const auto area = file.read(run::snapshots_bond_area, name);
+  const auto is_of = [&](std::int32_t n, int grain) {
+    const auto g = static_cast<std::size_t>(grain);
+    return n >= offset[g] && n < offset[g + 1];
+  };
+  std::vector<AreaPoint> points;
+  for (std::size_t b = 0; b < bond_node.size(); ++b) {
+    const std::int32_t n = bond_node[b], other = bond_grain.at(b);
+    const bool of_first = other == grains.second && is_of(n, grains.first);
+    if (!of_first && !(other == grains.first && is_of(n, grains.second))) continue;
+    ContactBond bond;
+    bond.node = n;
+    bond.grain = of_first ? grains.first : grains.second;
+    for (std::size_t k = 0; k < 3; ++k) bond.x[k] = static_cast<double>(node[3 * static_cast<std::size_t>(n) + k]);
+    bond.damage = static_cast<double>(damage.at(b));
+    bond.area = area.at(b);
+    bond.opening = static_cast<double>(separation.at(2 * b));
+    bond.sliding = static_cast<double>(separation.at(2 * b + 1));
+    map.bonds.push_back(bond);
+    points.push_back({bond.x, bond.area});
+  }
+  const auto from = centre(node, offset, grains.first), to = centre(node, offset, grains.second);
+  map.plane = contact_plane(points, map.force, {to[0] - from[0], to[1] - from[1], to[2] - from[2]});
+  for (ContactBond& bond : map.bonds) {
+    const auto position = in_plane(map.plane, bond.x);
+    bond.u = position[0];
+    bond.v = position[1];
+  }
+  return map;
+}
+
+nlohmann::ordered_json to_json(const ContactMap& map) {
+  constexpr const char* source[] = {"pair force", "principal axes of the bonds", "centres of the grains"};
+  const double pushing = -dot(map.force, map.plane.normal); // the second grain pushes the first against the normal
+  const auto unbroken = std::count_if(map.bonds.begin(), map.bonds.end(), [](const auto& b) { return b.damage < 1; });
+  nlohmann::ordered_json json = {
+      {"snapshot", map.snapshot},
+      {"relative_density", map.relative_density},
+      {"mean_stress_MPa", map.mean_stress},
+      {"grains", {map.grains.first, map.grains.second}},
+      {"force_on_first_N", map.force},
+      {"normal_force_N", pushing},
+      {"tangential_force_N", std::sqrt(std::max(0.0, dot(map.force, map.force) - pushing * pushing))},
+      {"normal", map.plane.normal},
+      {"normal_from", source[static_cast<std::size_t>(map.plane.from)]},
+      {"area_mm2", map.area},
+      {"bonded_area_mm2", map.bonded_area},
+      {"mean_damage", nullptr},
+      {"bond_energy_mJ", map.bond_energy},
+      {"damage_dissipation_mJ", map.damage_dissipation},
+      {"bonds", map.bonds.size()},
+      {"unbroken_bonds", unbroken},
+      {"centroid_mm", nullptr},
+      {"u_direction", map.plane.u},
+      {"v_direction", map.plane.v}};
+  if (map.damage >= 0) json["mean_damage"] = map.damage;
+  if (!map.bonds.empty()) json["centroid_mm"] = map.plane.origin;
+  return json;
+}
+
+std::string contact_points_csv(const ContactMap& map) {
+  std::vector<Column> columns = {{"node", "1", {}},    {"grain", "1", {}},    {"x", "mm", {}},      {"y", "mm", {}},
+                                 {"z", "mm", {}},      {"u", "mm", {}},       {"v", "mm", {}},      {"damage", "1", {}},
+                                 {"area", "mm^2", {}}, {"opening", "mm", {}}, {"sliding", "mm", {}}};
+  for (const ContactBond& b : map.bonds) {
+    const double row[] = {static_cast<double>(b.node),
+                          static_cast<double>(b.grain),
+                          b.x[0],
+                          b.x[1],
+                          b.x[2],
+                          b.u,
+                          b.v,
+                          b.damage,
+                          b.area,
+                          b.opening,
+                          b.sliding};
+    for (std::size_t c = 0; c < columns.size(); ++c) columns[c].values.push_back(row[c]);
+  }
+  return csv_text(columns);
+}
+
+} // namespace mpfem
