@@ -1,5 +1,5 @@
 #pragma once
-// A run of two cubes of 2 mm that are bonded over the plane square x = 1, and how files with and without bonds are written.
+// A run of two cubes of 2 mm that are bonded over the plane square x = 1, beside a third that is not.
 
 #include <cmath>
 

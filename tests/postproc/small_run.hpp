@@ -1,8 +1,8 @@
 #pragma once
 // A run of one grain, the cube [-1, 1]^3 of 48 tets, with three rows of history and one snapshot.
 
+#include "run_file.hpp"
 #include "tests/support/meshes.hpp"
-#include "tests/support/run_file.hpp"
 
 namespace mpfem::test {
 
