@@ -1,7 +1,6 @@
 #include "postproc/contact_map.hpp"
 
 #include <algorithm>
-#include <cmath>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -121,26 +120,24 @@ nlohmann::ordered_json to_json(const ContactMap& map) {
   constexpr const char* source[] = {"pair force", "principal axes of the bonds", "centres of the grains"};
   const double pushing = -dot(map.force, map.plane.normal); // the second grain pushes the first against the normal
   const auto unbroken = std::count_if(map.bonds.begin(), map.bonds.end(), [](const auto& b) { return b.damage < 1; });
-  nlohmann::ordered_json json = {
-      {"snapshot", map.snapshot},
-      {"relative_density", map.relative_density},
-      {"mean_stress_MPa", map.mean_stress},
-      {"grains", {map.grains.first, map.grains.second}},
-      {"force_on_first_N", map.force},
-      {"normal_force_N", pushing},
-      {"tangential_force_N", std::sqrt(std::max(0.0, dot(map.force, map.force) - pushing * pushing))},
-      {"normal", map.plane.normal},
-      {"normal_from", source[static_cast<std::size_t>(map.plane.from)]},
-      {"area_mm2", map.area},
-      {"bonded_area_mm2", map.bonded_area},
-      {"mean_damage", nullptr},
-      {"bond_energy_mJ", map.bond_energy},
-      {"damage_dissipation_mJ", map.damage_dissipation},
-      {"bonds", map.bonds.size()},
-      {"unbroken_bonds", unbroken},
-      {"centroid_mm", nullptr},
-      {"u_direction", map.plane.u},
-      {"v_direction", map.plane.v}};
+  nlohmann::ordered_json json = {{"snapshot", map.snapshot},
+                                 {"relative_density", map.relative_density},
+                                 {"mean_stress_MPa", map.mean_stress},
+                                 {"grains", {map.grains.first, map.grains.second}},
+                                 {"force_on_first_N", map.force},
+                                 {"normal_force_N", pushing},
+                                 {"normal", map.plane.normal},
+                                 {"normal_from", source[static_cast<std::size_t>(map.plane.from)]},
+                                 {"area_mm2", map.area},
+                                 {"bonded_area_mm2", map.bonded_area},
+                                 {"mean_damage", nullptr},
+                                 {"bond_energy_mJ", map.bond_energy},
+                                 {"damage_dissipation_mJ", map.damage_dissipation},
+                                 {"bonds", map.bonds.size()},
+                                 {"unbroken_bonds", unbroken},
+                                 {"centroid_mm", nullptr},
+                                 {"u_direction", map.plane.u},
+                                 {"v_direction", map.plane.v}};
   if (map.damage >= 0) json["mean_damage"] = map.damage;
   if (!map.bonds.empty()) json["centroid_mm"] = map.plane.origin;
   return json;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <map>
+#include <numeric>
 
 #include <fmt/format.h>
 
@@ -75,16 +76,15 @@ void write_contact_picture(const std::string& path, const Snapshot& snapshot, co
   const View view = square_around(patches);
   std::vector<Colour> colour;
   for (const ContactBond& bond : map.bonds) colour.push_back(scale_colour(bond.damage));
-  Lines lines;
-  lines.mesh = request.mesh_lines;
-  const Raster raster =
-      draw_section(patches, colour, std::vector<std::int32_t>(map.bonds.size(), 0), view, request.pixels, lines);
+  std::vector<std::int32_t> outlined(map.bonds.size(), 0); // as one patch, or each of its own
+  if (request.mesh_lines) std::iota(outlined.begin(), outlined.end(), 0);
+  const Raster raster = draw_section(patches, colour, outlined, view, request.pixels);
   Frame2d frame{
       view,          request.title, "u (mm)", "v (mm)", ColourBar{{0, 1}, "Damage of bonds (0 intact, 1 broken)"},
       request.pixels};
   if (frame.title.empty())
-    frame.title = fmt::format("Contact of grains {} and {}, relative density {:.3f}", map.grains.first,
-                              map.grains.second, map.relative_density);
+    frame.title = fmt::format("Contact of grains {} and {}, nodes of grain {}, relative density {:.3f}",
+                              map.grains.first, map.grains.second, drawn_side(map), map.relative_density);
   write_raster_picture(path, raster, frame);
 }
 

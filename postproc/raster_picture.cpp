@@ -50,8 +50,10 @@ void write_raster_picture(const std::string& path, const Raster& raster, const F
       "plot {} binary array=({},{}) format='%uchar' flipy origin=({},{}) dx={} dy={} using 1:2:3 with rgbimage",
       gnuplot_string(data.path()), raster.width, raster.height, view.low[0] + 0.5 * pixel_width,
       view.low[1] + 0.5 * pixel_height, pixel_width, pixel_height);
-  // A curve of nothing that carries the palette, so that the colour bar is drawn.
-  script += frame.bar ? ", '-' using 1:2:3 with points pt 0 lc palette\n0 0 0\ne\n" : "\n";
+  // A point outside the view that carries the palette, so that the colour bar is drawn.
+  script += frame.bar ? fmt::format(", '-' using 1:2:3 with points pt 0 lc palette\n{} {} 0\ne\n",
+                                    2 * view.high[0] - view.low[0], 2 * view.high[1] - view.low[1])
+                      : "\n";
   script += "set output\n";
   run_gnuplot(script);
   const std::string png = picture.content();

@@ -150,7 +150,6 @@ TEST_CASE("the map of a plane square contact has its centroid, coordinates, area
   CHECK(json["grains"] == nlohmann::json({0, 1}));
   CHECK(json["force_on_first_N"] == nlohmann::json({-10.0, 0.0, 0.0}));
   CHECK(json["normal_force_N"] == 10);
-  CHECK(json["tangential_force_N"] == 0);
   CHECK(json["normal_from"] == "pair force");
   CHECK(json["area_mm2"] == 4);
   CHECK(json["bonded_area_mm2"] == 3.5);
