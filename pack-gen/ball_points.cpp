@@ -16,8 +16,12 @@ namespace {
 
 using Eigen::Vector3d;
 
-Vector3d vector(const Point& p) { return {p[0], p[1], p[2]}; }
-Point point(const Vector3d& v) { return {v[0], v[1], v[2]}; }
+Vector3d vector(const Point& p) {
+  return {p[0], p[1], p[2]};
+}
+Point point(const Vector3d& v) {
+  return {v[0], v[1], v[2]};
+}
 
 std::vector<Point> spiral(int count) {
   std::vector<Point> points;
@@ -86,7 +90,8 @@ void smooth(std::vector<Point>& points, std::size_t surface_nodes, const std::ve
     }
   }
   for (const Facet& f : sphere_facets(tet, surface_nodes)) {
-    const Vector3d a = vector(points[static_cast<std::size_t>(f[0])]), b = vector(points[static_cast<std::size_t>(f[1])]),
+    const Vector3d a = vector(points[static_cast<std::size_t>(f[0])]),
+                   b = vector(points[static_cast<std::size_t>(f[1])]),
                    c = vector(points[static_cast<std::size_t>(f[2])]);
     const double area = (b - a).cross(c - a).norm();
     for (const std::int32_t n : f) {

@@ -37,7 +37,9 @@ std::optional<double> as_number(const std::string& cell) {
 }
 
 /// "radius [mm]" -> "radius".
-std::string without_unit(const std::string& name) { return trimmed(std::string_view(name).substr(0, name.find('['))); }
+std::string without_unit(const std::string& name) {
+  return trimmed(std::string_view(name).substr(0, name.find('[')));
+}
 
 } // namespace
 
@@ -65,7 +67,8 @@ std::vector<std::vector<double>> read_csv(const std::string& path, const std::ve
     std::vector<double> row;
     for (std::size_t i = 0; i < columns.size(); ++i) {
       const auto value = as_number(texts[i]);
-      if (!value || !std::isfinite(*value)) fail(fmt::format("column {}: found '{}', expected a number", columns[i], one_line(texts[i])));
+      if (!value || !std::isfinite(*value))
+        fail(fmt::format("column {}: found '{}', expected a number", columns[i], one_line(texts[i])));
       row.push_back(*value);
     }
     rows.push_back(std::move(row));

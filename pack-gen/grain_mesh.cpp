@@ -79,6 +79,57 @@ std::vector<Tet> gmsh_tetrahedralize(const std::vector<Point>& points) {
   return tet;
 }
 
+TetMesh gmsh_half_ball(double radius, const std::function<double(const Point&)>& size) {
+  const std::lock_guard lock(Gmsh::session());
+  std::srand(1);
+  TetMesh mesh;
+  try {
+    gmsh::model::add("half ball");
+    gmsh::model::occ::addSphere(0, 0, 0, radius, 1, 0, std::numbers::pi / 2, 2 * std::numbers::pi);
+    gmsh::model::occ::synchronize();
+    for (const char* off : {"Mesh.MeshSizeExtendFromBoundary", "Mesh.MeshSizeFromPoints", "Mesh.MeshSizeFromCurvature"})
+      gmsh::option::setNumber(off, 0);
+    gmsh::option::setNumber("Mesh.Algorithm", 6);   // frontal Delaunay: the most uniform triangles
+    gmsh::option::setNumber("Mesh.Algorithm3D", 1); // Delaunay
+    gmsh::option::setNumber("Mesh.Optimize", 1);
+    gmsh::model::mesh::setSizeCallback([&size](int, int, double x, double y, double z) { return size({x, y, z}); });
+    gmsh::model::mesh::generate(3);
+    std::vector<std::size_t> tags, element, corner;
+    std::vector<double> coordinate, parametric;
+    gmsh::model::mesh::getNodes(tags, coordinate, parametric);
+    gmsh::model::mesh::getElementsByType(4, element, corner);
+    std::map<std::size_t, std::size_t> row;
+    for (std::size_t i = 0; i < tags.size(); ++i) row[tags[i]] = i;
+    std::map<std::size_t, std::int32_t> number; // of the nodes that tets have
+    Tet tet{};
+    for (std::size_t i = 0; i < corner.size(); ++i) {
+      const auto [entry, is_new] = number.try_emplace(corner[i], static_cast<std::int32_t>(number.size()));
+      if (is_new) {
+        const double* x = &coordinate[3 * row.at(corner[i])];
+        Point p{x[0], x[1], x[2]};
+        const double distance = std::sqrt(p[0] * p[0] + p[1] * p[1] + p[2] * p[2]);
+        if (std::abs(distance - radius) < 1e-7 * radius)
+          for (double& c : p) c *= radius / distance;
+        if (std::abs(p[2]) < 1e-9 * radius) p[2] = 0;
+        mesh.node.push_back(p);
+      }
+      tet[i % 4] = entry->second;
+      if (i % 4 == 3) mesh.tet.push_back(tet);
+    }
+    gmsh::model::mesh::removeSizeCallback();
+    gmsh::model::remove();
+  } catch (const std::exception& error) {
+    throw SimulationError(fmt::format("gmsh could not mesh the half-ball: {}", error.what()));
+  }
+  for (Tet& t : mesh.tet) {
+    const auto at = [&](std::size_t k) { return mesh.node[static_cast<std::size_t>(t[k])]; };
+    if (tet_volume(at(0), at(1), at(2), at(3)) < 0) std::swap(t[2], t[3]);
+  }
+  if (const std::string defect = ball_defect(mesh); !defect.empty())
+    throw SimulationError(fmt::format("gmsh gave no valid mesh of the half-ball: {}", defect));
+  return mesh;
+}
+
 UnitBall mesh_unit_ball(double size_ratio, std::uint64_t seed) {
   const double wanted = wanted_tets(size_ratio);
   // Edge of the regular tetrahedron of the mean volume; a first factor for the count that smoothing leads to.
@@ -101,8 +152,12 @@ UnitBall mesh_unit_ball(double size_ratio, std::uint64_t seed) {
       BallMesh trial;
       std::string defect;
       try {
-        trial = lay_out_ball({.edge = mean_edge * factor, .interior_edge = candidate.interior_edge, .skin = candidate.skin,
-                              .smoothing = smoothing, .seed = seed + 1000 * c + shift}, gmsh_tetrahedralize);
+        trial = lay_out_ball({.edge = mean_edge * factor,
+                              .interior_edge = candidate.interior_edge,
+                              .skin = candidate.skin,
+                              .smoothing = smoothing,
+                              .seed = seed + 1000 * c + shift},
+                             gmsh_tetrahedralize);
         defect = ball_defect(trial.mesh);
       } catch (const std::exception& error) {
         defect = error.what();
@@ -155,7 +210,9 @@ UnitBall mesh_unit_ball(double size_ratio, std::uint64_t seed) {
 namespace {
 
 /// Library key of a ratio radius/size: steps of 2 %.
-int library_key(double size_ratio) { return static_cast<int>(std::lround(std::log(size_ratio) / std::log(library_step))); }
+int library_key(double size_ratio) {
+  return static_cast<int>(std::lround(std::log(size_ratio) / std::log(library_step)));
+}
 
 /// Nodes of a library mesh for one sphere: turned, scaled to the sphere's exact volume, moved to its centre.
 void place_grain(const UnitBall& unit, const Point& center, double radius, std::uint64_t seed, double* node) {
@@ -186,8 +243,9 @@ PackingMesh mesh_packing(const SpherePacking& packing, const MeshRequest& reques
   for (std::size_t i = 0; i < n; ++i) {
     const double ratio = packing.radius[i] / request.nominal_size;
     if (ratio < smallest_size_ratio)
-      throw InputError(fmt::format("size {:g} mm is too large for sphere {} of radius {:g} mm; allowed: at most {:g} mm",
-                                   request.nominal_size, i, packing.radius[i], packing.radius[i] / smallest_size_ratio));
+      throw InputError(
+          fmt::format("size {:g} mm is too large for sphere {} of radius {:g} mm; allowed: at most {:g} mm",
+                      request.nominal_size, i, packing.radius[i], packing.radius[i] / smallest_size_ratio));
     key[i] = library_key(ratio);
     library.try_emplace(key[i]);
     tets_wanted += wanted_tets(ratio);
@@ -229,7 +287,8 @@ PackingMesh mesh_packing(const SpherePacking& packing, const MeshRequest& reques
   mesh.node.resize(3 * nodes);
   mesh.tet.resize(4 * tets);
   const auto place = [&](std::size_t i, int attempt, double* node) {
-    place_grain(library.at(key[i]), packing.center[i], packing.radius[i], orientation_seed(request.seed, i, attempt), node);
+    place_grain(library.at(key[i]), packing.center[i], packing.radius[i], orientation_seed(request.seed, i, attempt),
+                node);
   };
   for_each_parallel(n, request.threads, [&](std::size_t i) {
     place(i, 0, mesh.node.data() + 3 * static_cast<std::size_t>(mesh.grain_node_offset[i]));
@@ -240,7 +299,8 @@ PackingMesh mesh_packing(const SpherePacking& packing, const MeshRequest& reques
 
   // 4. Meshes of neighbours must stay apart.
   report(0.9, "turning grains apart");
-  if (const std::size_t turned = separate_grains(packing, mesh, request.nominal_size, request.threads, place); turned > 0)
+  if (const std::size_t turned = separate_grains(packing, mesh, request.nominal_size, request.threads, place);
+      turned > 0)
     mesh.notes.push_back(fmt::format("{} grains were turned to keep their facets apart", turned));
   return mesh;
 }

@@ -28,6 +28,10 @@ inline constexpr double smallest_size_ratio = 1.0;
 /// Delaunay tetrahedra by gmsh; see Tetrahedralize. Safe to call from several threads (they take turns).
 std::vector<Tet> gmsh_tetrahedralize(const std::vector<Point>& points);
 
+/// Tetrahedra of the half-ball z >= 0 of a radius (mm) about the origin, of a size (mm) given at every point. Nodes of the
+/// flat face have z = 0 exactly, those of the curved face lie on the sphere. Throws SimulationError where gmsh fails.
+TetMesh gmsh_half_ball(double radius, const std::function<double(const Point&)>& size);
+
 /// A library mesh.
 struct UnitBall {
   BallMesh ball;
@@ -50,9 +54,9 @@ struct PackingMesh {
 };
 
 struct MeshRequest {
-  double nominal_size = 0;  ///< mm
-  std::uint64_t seed = 1;   ///< of the grains' orientations
-  int threads = 1;          ///< the mesh does not depend on it
+  double nominal_size = 0; ///< mm
+  std::uint64_t seed = 1;  ///< of the grains' orientations
+  int threads = 1;         ///< the mesh does not depend on it
   std::function<void(double fraction, const std::string& what)> progress{};
 };
 

@@ -11,6 +11,7 @@
 #include "common/progress.hpp"
 #include "common/table_reader.hpp"
 #include "common/version.hpp"
+#include "pack-gen/hemispheres.hpp"
 #include "pack-gen/mesh_report.hpp"
 #include "pack-gen/packing_description.hpp"
 #include "pack-gen/sphere_file.hpp"
@@ -25,6 +26,7 @@ struct Arguments {
   std::optional<std::int64_t> seed;
   std::vector<double> box;
   double size = 0;
+  HemisphereRequest hemispheres;
   StepMaterial material;
   int threads = 1;
   bool quiet = false;
@@ -49,11 +51,12 @@ void spheres(const Arguments& arguments) {
   const PackingDescription description = read_packing_description(document);
   const DrawnSizes sizes = draw_sizes(description);
   Progress progress("pack-gen", arguments.quiet);
-  const SpherePacking packing = pack_spheres({.box = description.box,
-                                              .radius = sizes.radius,
-                                              .smallest_gap = description.smallest_gap,
-                                              .seed = description.seed,
-                                              .progress = [&](const std::string& state) { progress.update(0, state); }});
+  const SpherePacking packing =
+      pack_spheres({.box = description.box,
+                    .radius = sizes.radius,
+                    .smallest_gap = description.smallest_gap,
+                    .seed = description.seed,
+                    .progress = [&](const std::string& state) { progress.update(0, state); }});
   PackingOrigin origin{static_cast<std::int64_t>(description.seed), description.text, {}, {}};
   tabulate_target(*description.distribution, sizes.scale, origin);
   write_packing_file(arguments.output, packing, origin);
@@ -66,11 +69,11 @@ void mesh(const Arguments& arguments) {
   const SphereFile file = read_spheres(arguments.input);
   refuse_overlap(file.packing, arguments.input);
   Progress progress("pack-gen", arguments.quiet);
-  const PackingMesh mesh =
-      mesh_packing(file.packing, {.nominal_size = arguments.size,
-                                  .seed = static_cast<std::uint64_t>(arguments.seed.value_or(1)),
-                                  .threads = arguments.threads,
-                                  .progress = [&](double fraction, const std::string& what) { progress.update(fraction, what); }});
+  const PackingMesh mesh = mesh_packing(
+      file.packing, {.nominal_size = arguments.size,
+                     .seed = static_cast<std::uint64_t>(arguments.seed.value_or(1)),
+                     .threads = arguments.threads,
+                     .progress = [&](double fraction, const std::string& what) { progress.update(fraction, what); }});
   const MeshReport report = report_mesh(file.packing, mesh, arguments.size, arguments.material, arguments.threads);
   if (!(report.facet_gap.gap > 0))
     throw SimulationError(fmt::format("{}: no positive facet gap could be proven (grains {} and {})", arguments.input,
@@ -80,6 +83,25 @@ void mesh(const Arguments& arguments) {
   progress.finish(fmt::format("{} tets, {}", report.tets, arguments.output));
   for (const std::string& note : mesh.notes) fmt::print(stderr, "note: {}\n", note);
   if (!arguments.quiet) fmt::print("{}", report_text(report));
+}
+
+void hemispheres(const Arguments& arguments) {
+  HemisphereRequest request = arguments.hemispheres;
+  if (request.bulk_size == 0) request.bulk_size = std::min(3 * request.contact_size, request.size);
+  const Hemispheres pair = mesh_hemispheres(request);
+  const MeshReport report = report_mesh(pair.packing, pair.mesh, request.size, arguments.material, arguments.threads);
+  write_packing_file(
+      arguments.output, pair.packing,
+      {{},
+       fmt::format("hemispheres of radius {:g} mm, {:g} mm at the contact", request.radius, request.contact_size),
+       {},
+       {}},
+      MeshForFile{&pair.mesh, request.size, request.gap, report.smallest_quality});
+  if (!arguments.quiet)
+    fmt::print("{} nodes, {} tets, {} of them in the lower hemisphere; smallest quality {:.3f}; critical step {:.4g} "
+               "s, median {:.4g} s; {}\n",
+               report.nodes, report.tets, pair.mesh.grain_tet_offset[1], report.smallest_quality, report.smallest_step,
+               report.median_step, arguments.output);
 }
 
 void import(const Arguments& arguments) {
@@ -96,24 +118,33 @@ void import(const Arguments& arguments) {
 void quality(const Arguments& arguments) {
   const SphereFile file = read_spheres(arguments.input);
   const MeshFromFile mesh = read_mesh(arguments.input);
-  fmt::print("{}", report_text(report_mesh(file.packing, mesh.mesh, mesh.nominal_size, arguments.material, arguments.threads)));
+  fmt::print("{}", report_text(
+                       report_mesh(file.packing, mesh.mesh, mesh.nominal_size, arguments.material, arguments.threads)));
 }
 
 void add_material(CLI::App& command, StepMaterial& material) {
-  command.add_option("--youngs-modulus", material.youngs_modulus, "MPa, for the critical step")->check(CLI::PositiveNumber)->capture_default_str();
-  command.add_option("--poissons-ratio", material.poissons_ratio, "For the critical step")->check(CLI::Range(-0.99, 0.499))->capture_default_str();
-  command.add_option("--density", material.density, "tonne/mm^3, for the critical step")->check(CLI::PositiveNumber)->capture_default_str();
+  command.add_option("--youngs-modulus", material.youngs_modulus, "MPa, for the critical step")
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str();
+  command.add_option("--poissons-ratio", material.poissons_ratio, "For the critical step")
+      ->check(CLI::Range(-0.99, 0.499))
+      ->capture_default_str();
+  command.add_option("--density", material.density, "tonne/mm^3, for the critical step")
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str();
 }
 
 int body(int argc, char** argv) {
-  CLI::App app("pack-gen: packs spheres of a size distribution in a box, and meshes them with tetrahedra.\n"
-               "Examples:\n"
-               "  pack-gen spheres powder.toml -o spheres.h5 --seed 2\n"
-               "  pack-gen import spheres.csv --box 1,1,1 -o spheres.h5\n"
-               "  pack-gen mesh spheres.h5 --size 0.03 -o packing.h5\n"
-               "  pack-gen quality packing.h5\n"
-               "  pack-gen export spheres.h5 -o spheres.csv\n"
-               "Lengths in mm. Exit codes: 0 done, 2 bad usage or input, 3 no packing or mesh could be made, 4 storage failed.");
+  CLI::App app(
+      "pack-gen: packs spheres of a size distribution in a box, and meshes them with tetrahedra.\n"
+      "Examples:\n"
+      "  pack-gen spheres powder.toml -o spheres.h5 --seed 2\n"
+      "  pack-gen import spheres.csv --box 1,1,1 -o spheres.h5\n"
+      "  pack-gen mesh spheres.h5 --size 0.03 -o packing.h5\n"
+      "  pack-gen quality packing.h5\n"
+      "  pack-gen hemispheres --radius 0.1 --size 0.012 --contact-size 0.0005 --contact-radius 0.01 -o pair.h5\n"
+      "  pack-gen export spheres.h5 -o spheres.csv\n"
+      "Lengths in mm. Exit codes: 0 done, 2 bad usage or input, 3 no packing or mesh could be made, 4 storage failed.");
   app.set_version_flag("--version", std::string(version()));
   app.require_subcommand(1);
 
@@ -127,29 +158,72 @@ int body(int argc, char** argv) {
     return command;
   };
   const auto add_threads = [&](CLI::App& command) {
-    command.add_option("--threads", arguments.threads, "Threads (default: all cores); the result does not depend on it")->check(CLI::Range(1, 1024));
+    command
+        .add_option("--threads", arguments.threads, "Threads (default: all cores); the result does not depend on it")
+        ->check(CLI::Range(1, 1024));
   };
 
-  CLI::App* spheres_command = add("spheres", "Pack spheres as a description says.\nExample: pack-gen spheres powder.toml -o spheres.h5",
-                                  "Description of the packing (TOML)", true);
-  spheres_command->add_option("--seed", arguments.seed, "Seed, in place of the description's")->check(CLI::NonNegativeNumber);
-  spheres_command->add_option("--set", arguments.assignments, "Override a value: KEY=VALUE, e.g. count=400")->take_all();
+  CLI::App* spheres_command =
+      add("spheres", "Pack spheres as a description says.\nExample: pack-gen spheres powder.toml -o spheres.h5",
+          "Description of the packing (TOML)", true);
+  spheres_command->add_option("--seed", arguments.seed, "Seed, in place of the description's")
+      ->check(CLI::NonNegativeNumber);
+  spheres_command->add_option("--set", arguments.assignments, "Override a value: KEY=VALUE, e.g. count=400")
+      ->take_all();
 
-  CLI::App* mesh_command = add("mesh", "Mesh every sphere.\nExample: pack-gen mesh spheres.h5 --size 0.03 -o packing.h5", "Spheres (HDF5)", true);
-  mesh_command->add_option("--size", arguments.size, "Nominal element size, mm")->required()->check(CLI::PositiveNumber);
-  mesh_command->add_option("--seed", arguments.seed, "Seed of the meshes' orientations (default: 1)")->check(CLI::NonNegativeNumber);
+  CLI::App* mesh_command =
+      add("mesh", "Mesh every sphere.\nExample: pack-gen mesh spheres.h5 --size 0.03 -o packing.h5", "Spheres (HDF5)",
+          true);
+  mesh_command->add_option("--size", arguments.size, "Nominal element size, mm")
+      ->required()
+      ->check(CLI::PositiveNumber);
+  mesh_command->add_option("--seed", arguments.seed, "Seed of the meshes' orientations (default: 1)")
+      ->check(CLI::NonNegativeNumber);
   add_threads(*mesh_command);
   add_material(*mesh_command, arguments.material);
 
-  CLI::App* import_command = add("import", "Spheres from a table x,y,z,radius (mm), e.g. of a DEM code.\n"
-                                 "Example: pack-gen import spheres.csv --box 1,1,1 -o spheres.h5", "Spheres (CSV)", true);
-  import_command->add_option("--box", arguments.box, "Edge lengths X,Y,Z of the box from the origin, mm (default: the tightest box)")
-      ->delimiter(',')->expected(3)->check(CLI::PositiveNumber);
-  CLI::App* export_command = add("export", "Spheres to a table x,y,z,radius (mm).\nExample: pack-gen export spheres.h5 -o spheres.csv",
-                                 "Packing (HDF5), meshed or not", true);
-  CLI::App* quality_command = add("quality", "Measure a mesh.\nExample: pack-gen quality packing.h5", "Meshed packing (HDF5)", false);
+  CLI::App* import_command = add("import",
+                                 "Spheres from a table x,y,z,radius (mm), e.g. of a DEM code.\n"
+                                 "Example: pack-gen import spheres.csv --box 1,1,1 -o spheres.h5",
+                                 "Spheres (CSV)", true);
+  import_command
+      ->add_option("--box", arguments.box,
+                   "Edge lengths X,Y,Z of the box from the origin, mm (default: the tightest box)")
+      ->delimiter(',')
+      ->expected(3)
+      ->check(CLI::PositiveNumber);
+  CLI::App* export_command =
+      add("export", "Spheres to a table x,y,z,radius (mm).\nExample: pack-gen export spheres.h5 -o spheres.csv",
+          "Packing (HDF5), meshed or not", true);
+  CLI::App* quality_command =
+      add("quality", "Measure a mesh.\nExample: pack-gen quality packing.h5", "Meshed packing (HDF5)", false);
   add_threads(*quality_command);
   add_material(*quality_command, arguments.material);
+
+  CLI::App* hemispheres_command = app.add_subcommand(
+      "hemispheres",
+      "Mesh two hemispheres tip to tip, finely where they will touch.\n"
+      "Example: pack-gen hemispheres --radius 0.1 --size 0.012 --contact-size 0.0005 --contact-radius 0.01 -o pair.h5");
+  const auto length = [&](const char* name, double& value, const char* help, bool required) {
+    CLI::Option* option = hemispheres_command->add_option(name, value, help)->check(CLI::PositiveNumber);
+    if (required) option->required();
+  };
+  HemisphereRequest& pair = arguments.hemispheres;
+  pair.gap = 1e-6;
+  length("--radius", pair.radius, "Radius, mm", true);
+  length("--size", pair.size, "Element size far from the contact, mm", true);
+  length("--contact-size", pair.contact_size, "Element size on the curved face near the tip, mm", true);
+  length("--contact-radius", pair.contact_radius, "How far from the tip that size reaches, mm", true);
+  length("--bulk-size", pair.bulk_size,
+         "Largest element size within 1.5 contact radii under the tip, mm (default: 3 contact sizes)", false);
+  length("--growth", pair.growth, "Growth of the size with distance (default: 0.3)", false);
+  length("--gap", pair.gap, "Distance of the tips, mm (default: 1e-6)", false);
+  hemispheres_command->add_option("--rotate", pair.rotation, "Turn of the upper hemisphere about the axis, degrees")
+      ->check(CLI::Range(-360.0, 360.0))
+      ->capture_default_str();
+  hemispheres_command->add_option("-o,--output", arguments.output, "File to write")->required();
+  hemispheres_command->add_flag("--quiet", arguments.quiet, "No report");
+  add_material(*hemispheres_command, arguments.material);
 
   try {
     app.parse(argc, argv);
@@ -159,6 +233,7 @@ int body(int argc, char** argv) {
   if (!quality_command->parsed()) check_output(arguments);
   if (spheres_command->parsed()) spheres(arguments);
   if (mesh_command->parsed()) mesh(arguments);
+  if (hemispheres_command->parsed()) hemispheres(arguments);
   if (import_command->parsed()) import(arguments);
   if (export_command->parsed()) export_spheres(arguments.output, read_spheres(arguments.input).packing);
   if (quality_command->parsed()) quality(arguments);
@@ -167,4 +242,6 @@ int body(int argc, char** argv) {
 
 } // namespace
 
-int main(int argc, char** argv) { return mpfem::run_program("pack-gen", body, argc, argv); }
+int main(int argc, char** argv) {
+  return mpfem::run_program("pack-gen", body, argc, argv);
+}

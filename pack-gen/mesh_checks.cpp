@@ -14,9 +14,13 @@ namespace mpfem {
 
 namespace {
 
-Vector3<double> edge(const Point& from, const Point& to) { return {to[0] - from[0], to[1] - from[1], to[2] - from[2]}; }
+Vector3<double> edge(const Point& from, const Point& to) {
+  return {to[0] - from[0], to[1] - from[1], to[2] - from[2]};
+}
 
-double norm(const Vector3<double>& v) { return std::sqrt(dot(v, v)); }
+double norm(const Vector3<double>& v) {
+  return std::sqrt(dot(v, v));
+}
 
 } // namespace
 

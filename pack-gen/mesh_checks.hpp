@@ -10,10 +10,10 @@ namespace mpfem {
 
 /// Elastic constants and density that turn a mesh into time steps.
 struct StepMaterial {
-  double youngs_modulus = 5000;   ///< MPa
-  double poissons_ratio = 0.3;    ///< 1
-  double density = 1.55e-9;       ///< tonne/mm^3
-  double wave_speed() const;      ///< dilatational, mm/s
+  double youngs_modulus = 5000; ///< MPa
+  double poissons_ratio = 0.3;  ///< 1
+  double density = 1.55e-9;     ///< tonne/mm^3
+  double wave_speed() const;    ///< dilatational, mm/s
 };
 
 /// Signed volume (mm^3).

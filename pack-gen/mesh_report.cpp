@@ -25,7 +25,9 @@ NodeMap grain_nodes(const PackingMesh& mesh, std::size_t grain) {
   return {mesh.node.data() + 3 * begin, 3, static_cast<Eigen::Index>(end - begin)};
 }
 
-Eigen::Vector3d vector(const Point& p) { return {p[0], p[1], p[2]}; }
+Eigen::Vector3d vector(const Point& p) {
+  return {p[0], p[1], p[2]};
+}
 
 } // namespace
 
@@ -42,8 +44,8 @@ SurfaceGap smallest_facet_gap(const SpherePacking& packing, const PackingMesh& m
     const Eigen::Vector3d low = node.rowwise().minCoeff(), high = node.rowwise().maxCoeff();
     const std::lock_guard lock(guard);
     for (int k = 0; k < 3; ++k)
-      for (const auto& [gap, wall] : {std::pair{low[k], 2 * k},
-                                      std::pair{packing.box[static_cast<std::size_t>(k)] - high[k], 2 * k + 1}})
+      for (const auto& [gap, wall] :
+           {std::pair{low[k], 2 * k}, std::pair{packing.box[static_cast<std::size_t>(k)] - high[k], 2 * k + 1}})
         if (gap < smallest.gap || (gap == smallest.gap && static_cast<int>(i) < smallest.first))
           smallest = {gap, static_cast<int>(i), -1 - wall};
   });
@@ -68,9 +70,11 @@ SurfaceGap smallest_facet_gap(const SpherePacking& packing, const PackingMesh& m
     const std::size_t count = std::min(block, pairs.size() - begin);
     std::vector<double> gap(count);
     for_each_parallel(count, threads, [&](std::size_t m) {
-      const auto a = static_cast<std::size_t>(pairs[begin + m].first), b = static_cast<std::size_t>(pairs[begin + m].second);
+      const auto a = static_cast<std::size_t>(pairs[begin + m].first),
+                 b = static_cast<std::size_t>(pairs[begin + m].second);
       gap[m] = convex_distance(grain_nodes(mesh, a), grain_nodes(mesh, b),
-                               vector(packing.center[b]) - vector(packing.center[a])).lower;
+                               vector(packing.center[b]) - vector(packing.center[a]))
+                   .lower;
     });
     for (std::size_t m = 0; m < count; ++m)
       if (gap[m] < smallest.gap) smallest = {gap[m], pairs[begin + m].first, pairs[begin + m].second};
@@ -103,8 +107,8 @@ MeshReport report_mesh(const SpherePacking& packing, const PackingMesh& mesh, do
     const NodeMap node = grain_nodes(mesh, i);
     for (Eigen::Index k = 0; k < node.cols(); ++k) local.node.push_back({node(0, k), node(1, k), node(2, k)});
     for (std::size_t e = tet_begin; e < tet_end; ++e)
-      local.tet.push_back({mesh.tet[4 * e] - node_begin, mesh.tet[4 * e + 1] - node_begin, mesh.tet[4 * e + 2] - node_begin,
-                           mesh.tet[4 * e + 3] - node_begin});
+      local.tet.push_back({mesh.tet[4 * e] - node_begin, mesh.tet[4 * e + 1] - node_begin,
+                           mesh.tet[4 * e + 2] - node_begin, mesh.tet[4 * e + 3] - node_begin});
     if (const std::string defect = ball_defect(local); !defect.empty())
       throw SimulationError(fmt::format("mesh of grain {} has {}", i, defect));
 
@@ -120,14 +124,14 @@ MeshReport report_mesh(const SpherePacking& packing, const PackingMesh& mesh, do
       grain.step = std::min(grain.step, critical);
       step[tet_begin + e] = static_cast<float>(critical);
       quality[tet_begin + e] = static_cast<float>(tet_quality(at(0), at(1), at(2), at(3)));
-      grain.surface_only += std::all_of(t.begin(), t.end(), [&](std::int32_t k) {
-        return on_surface[static_cast<std::size_t>(k)] != 0;
-      });
+      grain.surface_only +=
+          std::all_of(t.begin(), t.end(), [&](std::int32_t k) { return on_surface[static_cast<std::size_t>(k)] != 0; });
     }
     const double radius = packing.radius[i];
     const double exact = 4.0 / 3.0 * std::numbers::pi * radius * radius * radius;
     grain.volume_error = std::abs(grain.volume / exact - 1);
-    grain.excess = std::sqrt((node.colwise() - vector(packing.center[i])).colwise().squaredNorm().maxCoeff()) / radius - 1;
+    grain.excess =
+        std::sqrt((node.colwise() - vector(packing.center[i])).colwise().squaredNorm().maxCoeff()) / radius - 1;
   });
 
   double volume = 0, exact = 0;
@@ -169,8 +173,8 @@ std::string report_text(const MeshReport& report) {
   line("nominal size h", fmt::format("{:g} mm", report.nominal_size));
   line("volume error, largest of a grain", fmt::format("{:.2e}", report.largest_volume_error));
   line("volume error, all", fmt::format("{:.2e}", report.total_volume_error));
-  line("quality, smallest and median", fmt::format("{:.3f}  {:.3f}   (3 inradius/circumradius)", report.smallest_quality,
-                                                   report.median_quality));
+  line("quality, smallest and median",
+       fmt::format("{:.3f}  {:.3f}   (3 inradius/circumradius)", report.smallest_quality, report.median_quality));
   line("tets with 4 surface nodes", fmt::format("{}", report.surface_only_tets));
   line("nodes outside the sphere by", fmt::format("{:.2f} % of the radius at most", 100 * report.largest_excess));
   line("facet gap, smallest", fmt::format("{:.4g} mm   (grain {} and {})", gap.gap, gap.first,
@@ -179,8 +183,9 @@ std::string report_text(const MeshReport& report) {
   line("critical step, smallest", fmt::format("{:.3e} s = {:.3f} h/c   (grain {})", report.smallest_step,
                                               report.smallest_step / unit, report.smallest_step_grain));
   line("critical step, median", fmt::format("{:.3e} s = {:.3f} h/c", report.median_step, report.median_step / unit));
-  line("  for", fmt::format("E = {:g} MPa, nu = {:g}, density {:g} t/mm^3, c = {:.4g} mm/s", report.material.youngs_modulus,
-                            report.material.poissons_ratio, report.material.density, report.material.wave_speed()));
+  line("  for",
+       fmt::format("E = {:g} MPa, nu = {:g}, density {:g} t/mm^3, c = {:.4g} mm/s", report.material.youngs_modulus,
+                   report.material.poissons_ratio, report.material.density, report.material.wave_speed()));
   return text;
 }
 

@@ -15,18 +15,18 @@ SurfaceGap smallest_facet_gap(const SpherePacking& packing, const PackingMesh& m
 
 struct MeshReport {
   std::size_t grains = 0, nodes = 0, tets = 0;
-  double largest_volume_error = 0;  ///< relative, over grains
-  double total_volume_error = 0;    ///< relative
-  double smallest_quality = 0;      ///< 3 inradius/circumradius
+  double largest_volume_error = 0; ///< relative, over grains
+  double total_volume_error = 0;   ///< relative
+  double smallest_quality = 0;     ///< 3 inradius/circumradius
   double median_quality = 0;
-  double smallest_step = 0;         ///< s
-  double median_step = 0;           ///< s, median over tets
+  double smallest_step = 0; ///< s
+  double median_step = 0;   ///< s, median over tets
   std::size_t smallest_step_grain = 0;
-  double largest_excess = 0;        ///< largest node distance from a grain's centre over its radius, minus 1
-  std::size_t surface_only_tets = 0;///< tets with all four nodes on the surface
+  double largest_excess = 0;         ///< largest node distance from a grain's centre over its radius, minus 1
+  std::size_t surface_only_tets = 0; ///< tets with all four nodes on the surface
   SurfaceGap facet_gap;
   StepMaterial material;
-  double nominal_size = 0;          ///< mm
+  double nominal_size = 0; ///< mm
 };
 
 /// Measures a mesh. Throws SimulationError when a tet has no positive volume or a grain's surface is not a closed sphere.

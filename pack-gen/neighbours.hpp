@@ -19,8 +19,8 @@ struct CellGrid {
       cells[k] = static_cast<int>(std::clamp(std::floor(box[k] / cell_size), 1.0, most));
       inverse_size[k] = cells[k] / box[k];
     }
-    const auto total = static_cast<std::size_t>(cells[0]) * static_cast<std::size_t>(cells[1]) *
-                       static_cast<std::size_t>(cells[2]);
+    const auto total =
+        static_cast<std::size_t>(cells[0]) * static_cast<std::size_t>(cells[1]) * static_cast<std::size_t>(cells[2]);
     offset.assign(total + 1, 0);
     std::vector<std::size_t> cell_of(center.size());
     for (std::size_t i = 0; i < center.size(); ++i) {
@@ -39,10 +39,12 @@ struct CellGrid {
   }
   std::size_t index(int x, int y, int z) const {
     return (static_cast<std::size_t>(z) * static_cast<std::size_t>(cells[1]) + static_cast<std::size_t>(y)) *
-               static_cast<std::size_t>(cells[0]) + static_cast<std::size_t>(x);
+               static_cast<std::size_t>(cells[0]) +
+           static_cast<std::size_t>(x);
   }
   /// Calls visit(j) for each point in the cell of `p` and the 26 around it.
-  template <class Visit> void around(const Point& p, Visit visit) const {
+  template <class Visit>
+  void around(const Point& p, Visit visit) const {
     const int cx = coordinate(p, 0), cy = coordinate(p, 1), cz = coordinate(p, 2);
     for (int z = std::max(cz - 1, 0); z <= std::min(cz + 1, cells[2] - 1); ++z)
       for (int y = std::max(cy - 1, 0); y <= std::min(cy + 1, cells[1] - 1); ++y)

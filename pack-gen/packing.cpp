@@ -33,7 +33,8 @@ public:
 
   /// Minimises until no overlap exceeds `allowed` (true) or forces balance or `steps` are used (false). `report` is
   /// called with the largest overlap now and then.
-  template <class Report> bool minimise(double allowed, int steps, Report report) {
+  template <class Report>
+  bool minimise(double allowed, int steps, Report report) {
     for (Point& v : velocity_) v = {};
     // FIRE with the parameters of the reference; the step's upper bound keeps a pair from jumping over each other.
     double dt = 0.1, mixing = 0.1;
@@ -159,10 +160,8 @@ private:
 /// Carlo, Grigera & Parisi, Phys. Rev. E 63, 045102, 2001). Lengths as in OverlapMinimiser.
 class HardSphereCompaction {
 public:
-  HardSphereCompaction(std::vector<Point> position, std::vector<double> radius, const Point& box,
-                       Random& random)
-      : site_(std::move(position)), radius_(std::move(radius)), sphere_at_(site_.size()), box_(box),
-        random_(random) {
+  HardSphereCompaction(std::vector<Point> position, std::vector<double> radius, const Point& box, Random& random)
+      : site_(std::move(position)), radius_(std::move(radius)), sphere_at_(site_.size()), box_(box), random_(random) {
     for (std::size_t i = 0; i < sphere_at_.size(); ++i) sphere_at_[i] = i;
     largest_ = *std::max_element(radius_.begin(), radius_.end());
     rebuild();
@@ -173,7 +172,8 @@ public:
   double growth() const { return growth_; }
 
   /// Moves until the factor reaches 1 (true), or the spheres stop growing or `sweeps` are used (false).
-  template <class Report> bool compact(int sweeps, Report report) {
+  template <class Report>
+  bool compact(int sweeps, Report report) {
     constexpr int block = 250;
     double growth_before = growth_;
     for (int sweep = 0; sweep < sweeps; ++sweep) {
@@ -359,8 +359,10 @@ SpherePacking pack_spheres(const PackingRequest& request) {
   const double largest = *std::max_element(request.radius.begin(), request.radius.end());
   for (std::size_t k = 0; k < 3; ++k)
     if (2 * (largest + request.smallest_gap) > request.box[k])
-      throw InputError(fmt::format("the largest sphere (diameter {:g} mm) with a gap of {:g} mm to both walls does not fit "
-                                   "into a box edge of {:g} mm", 2 * largest, request.smallest_gap, request.box[k]));
+      throw InputError(
+          fmt::format("the largest sphere (diameter {:g} mm) with a gap of {:g} mm to both walls does not fit "
+                      "into a box edge of {:g} mm",
+                      2 * largest, request.smallest_gap, request.box[k]));
 
   // 1. Inflate by half the gap and a margin: overlaps up to the margin then still keep the gap. The walls move inwards by
   //    half the gap, which together with the inflation leaves the whole gap to them.
@@ -403,9 +405,10 @@ SpherePacking pack_spheres(const PackingRequest& request) {
   // 5. Accept only what the independent check confirms.
   if (done && smallest_gap(packing).gap >= request.smallest_gap) return packing;
   const double factor = largest_radius_factor(packing, request.smallest_gap);
-  throw InputError(fmt::format("{} spheres with a smallest gap of {:g} mm jam before the relative density {:.4f}; reached: "
-                               "{:.3f}; lower the density, the gap, or add spheres", n, request.smallest_gap,
-                               relative_density(packing), relative_density(packing) * factor * factor * factor));
+  throw InputError(fmt::format(
+      "{} spheres with a smallest gap of {:g} mm jam before the relative density {:.4f}; reached: "
+      "{:.3f}; lower the density, the gap, or add spheres",
+      n, request.smallest_gap, relative_density(packing), relative_density(packing) * factor * factor * factor));
 }
 
 } // namespace mpfem

@@ -58,7 +58,8 @@ std::unique_ptr<SizeDistribution> read_distribution(TableReader table, const std
     }
   } catch (const InputError& error) {
     const std::string message = error.what();
-    throw InputError(message.starts_with(description_file) ? message : fmt::format("{}: {}", description_file, message));
+    throw InputError(message.starts_with(description_file) ? message
+                                                           : fmt::format("{}: {}", description_file, message));
   }
   table.finish();
   return distribution;
@@ -88,7 +89,8 @@ DrawnSizes draw_sizes(const PackingDescription& description) {
   if (std::abs(scale - 1) > description.size_scale_tolerance)
     throw InputError(fmt::format(
         "{} spheres of this size distribution at a relative density of {:g} in this box need sizes scaled by {:.4f}; "
-        "allowed by size_scale_tolerance: {:g} … {:g}; or take {:.0f} spheres, or a box larger by {:.4f} along each edge",
+        "allowed by size_scale_tolerance: {:g} … {:g}; or take {:.0f} spheres, or a box larger by {:.4f} along each "
+        "edge",
         description.count, description.relative_density, scale, 1 - description.size_scale_tolerance,
         1 + description.size_scale_tolerance, description.count * scale * scale * scale, 1 / scale));
   DrawnSizes sizes{{}, scale};

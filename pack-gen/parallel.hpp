@@ -10,7 +10,8 @@
 namespace mpfem {
 
 /// Calls body(i) for i in 0 … count - 1, each once, in any order. The first exception is thrown again here.
-template <class Body> void for_each_parallel(std::size_t count, int threads, Body body) {
+template <class Body>
+void for_each_parallel(std::size_t count, int threads, Body body) {
   std::atomic<std::size_t> next{0};
   std::exception_ptr failure;
   std::mutex guard;

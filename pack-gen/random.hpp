@@ -16,9 +16,7 @@ public:
   /// Uniform in [0, 1).
   double uniform() { return static_cast<double>(generator_() >> 11) * 0x1p-53; }
   /// Uniform in 0 … count - 1.
-  std::size_t below(std::size_t count) {
-    return static_cast<std::size_t>(uniform() * static_cast<double>(count));
-  }
+  std::size_t below(std::size_t count) { return static_cast<std::size_t>(uniform() * static_cast<double>(count)); }
   /// Uniformly distributed rotation (random unit quaternion by rejection in the 4-ball).
   Eigen::Matrix3d rotation() {
     for (;;) {

@@ -17,7 +17,9 @@ namespace {
 
 using Eigen::Vector3d;
 
-Vector3d vector(const Point& p) { return {p[0], p[1], p[2]}; }
+Vector3d vector(const Point& p) {
+  return {p[0], p[1], p[2]};
+}
 
 /// Gap of a grain and what limits it: another grain, or -1 - wall as in SurfaceGap.
 struct Clearance {
@@ -34,7 +36,8 @@ public:
     for_each_parallel(n, threads, [&](std::size_t i) {
       const auto begin = static_cast<std::size_t>(mesh.grain_node_offset[i]);
       const auto end = static_cast<std::size_t>(mesh.grain_node_offset[i + 1]);
-      node_[i] = Eigen::Map<const Eigen::Matrix3Xd>(mesh.node.data() + 3 * begin, 3, static_cast<Eigen::Index>(end - begin));
+      node_[i] =
+          Eigen::Map<const Eigen::Matrix3Xd>(mesh.node.data() + 3 * begin, 3, static_cast<Eigen::Index>(end - begin));
       reach[i] = std::sqrt((node_[i].colwise() - vector(packing.center[i])).colwise().squaredNorm().maxCoeff());
     });
     // Grains whose bounding spheres do not meet are apart in every orientation.
@@ -105,7 +108,8 @@ std::size_t separate_grains(const SpherePacking& packing, PackingMesh& mesh, dou
     if (round == most_rounds) {
       const Clearance& worst = found[first];
       throw InputError(fmt::format(
-          "size {:g} mm: the meshes of {} grains still touch after {} rounds of turning, grain {} and {} first: the gap "
+          "size {:g} mm: the meshes of {} grains still touch after {} rounds of turning, grain {} and {} first: the "
+          "gap "
           "between the spheres is too small for so coarse a mesh; allowed: a finer size or a larger smallest_gap",
           nominal_size, std::count(touches.begin(), touches.end(), 1), most_rounds, first,
           worst.other < 0 ? "a wall" : fmt::format("grain {}", worst.other)));
@@ -132,7 +136,8 @@ std::size_t separate_grains(const SpherePacking& packing, PackingMesh& mesh, dou
   for_each_parallel(n, threads, [&](std::size_t i) {
     if (!turned[i]) return;
     const Eigen::Matrix3Xd& nodes = grains.nodes(i);
-    std::copy(nodes.data(), nodes.data() + nodes.size(), mesh.node.data() + 3 * static_cast<std::size_t>(mesh.grain_node_offset[i]));
+    std::copy(nodes.data(), nodes.data() + nodes.size(),
+              mesh.node.data() + 3 * static_cast<std::size_t>(mesh.grain_node_offset[i]));
   });
   return static_cast<std::size_t>(std::count(turned.begin(), turned.end(), 1));
 }

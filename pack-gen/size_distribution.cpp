@@ -61,7 +61,9 @@ private:
   SizeWeight weight_;
 };
 
-double standard_normal_cumulative(double z) { return 0.5 * std::erfc(-z / std::numbers::sqrt2); }
+double standard_normal_cumulative(double z) {
+  return 0.5 * std::erfc(-z / std::numbers::sqrt2);
+}
 
 class LogNormalDistribution final : public SizeDistribution {
 public:
@@ -70,8 +72,8 @@ public:
     below_ = standard_normal_cumulative(normal(smallest));
     inside_ = standard_normal_cumulative(normal(largest)) - below_;
     if (!(inside_ > 1e-9))
-      throw InputError(fmt::format("log-normal size distribution: nothing of it lies between {:g} and {:g} mm", smallest,
-                                   largest));
+      throw InputError(
+          fmt::format("log-normal size distribution: nothing of it lies between {:g} and {:g} mm", smallest, largest));
   }
 
   double quantile(double cumulative) const override {
@@ -127,16 +129,19 @@ std::unique_ptr<SizeDistribution> table_distribution(std::vector<double> diamete
                                                      SizeWeight weight) {
   if (diameter.size() != cumulative.size() || diameter.size() < 2)
     throw InputError(fmt::format("size table: found {} sizes and {} cumulative fractions; allowed: equally many, at "
-                                 "least two", diameter.size(), cumulative.size()));
+                                 "least two",
+                                 diameter.size(), cumulative.size()));
   for (std::size_t i = 0; i < diameter.size(); ++i) {
     if (!(diameter[i] > 0) || !std::isfinite(diameter[i]))
       throw InputError(fmt::format("size table: size {} is {:g}; allowed: > 0", i + 1, diameter[i]));
     if (i > 0 && !(diameter[i] > diameter[i - 1]))
       throw InputError(fmt::format("size table: size {} ({:g}) is not above the one before ({:g}); allowed: ascending "
-                                   "sizes", i + 1, diameter[i], diameter[i - 1]));
+                                   "sizes",
+                                   i + 1, diameter[i], diameter[i - 1]));
     if (i > 0 && !(cumulative[i] >= cumulative[i - 1]))
       throw InputError(fmt::format("size table: cumulative fraction {} ({:g}) is below the one before ({:g}); allowed: "
-                                   "not decreasing", i + 1, cumulative[i], cumulative[i - 1]));
+                                   "not decreasing",
+                                   i + 1, cumulative[i], cumulative[i - 1]));
   }
   if (std::abs(cumulative.front()) > 1e-12 || std::abs(cumulative.back() - 1) > 1e-12)
     throw InputError(fmt::format("size table: cumulative fractions run from {:g} to {:g}; allowed: from 0 to 1",
@@ -154,7 +159,8 @@ std::unique_ptr<SizeDistribution> log_normal_distribution(double median, double 
 std::unique_ptr<SizeDistribution> list_distribution(std::vector<double> diameter) {
   if (diameter.empty()) throw InputError("size list: it is empty; allowed: one size or more");
   for (const double value : diameter)
-    if (!(value > 0) || !std::isfinite(value)) throw InputError(fmt::format("size list: found {:g}; allowed: > 0", value));
+    if (!(value > 0) || !std::isfinite(value))
+      throw InputError(fmt::format("size list: found {:g}; allowed: > 0", value));
   return std::make_unique<ListDistribution>(std::move(diameter));
 }
 
@@ -174,8 +180,8 @@ double kolmogorov_distance(std::vector<double> diameter, const SizeDistribution&
   double distance = 0;
   for (std::size_t i = 0; i < diameter.size(); ++i) {
     const double target = distribution.cumulative_number(diameter[i]);
-    distance = std::max({distance, std::abs(target - static_cast<double>(i) / n),
-                         std::abs(target - static_cast<double>(i + 1) / n)});
+    distance = std::max(
+        {distance, std::abs(target - static_cast<double>(i) / n), std::abs(target - static_cast<double>(i + 1) / n)});
   }
   return distance;
 }

@@ -30,7 +30,8 @@ std::string body(const SpherePacking& packing, int index) {
 
 /// Refuses offsets and corners that do not divide nodes and tets among the grains.
 void refuse_wrong_numbering(const PackingMesh& mesh, const std::string& path) {
-  const auto nodes = static_cast<std::int32_t>(mesh.node.size() / 3), tets = static_cast<std::int32_t>(mesh.tet.size() / 4);
+  const auto nodes = static_cast<std::int32_t>(mesh.node.size() / 3),
+             tets = static_cast<std::int32_t>(mesh.tet.size() / 4);
   const auto partitions = [](const std::vector<std::int32_t>& offset, std::int32_t end) {
     return !offset.empty() && offset.front() == 0 && offset.back() == end &&
            std::adjacent_find(offset.begin(), offset.end(), std::greater_equal<>()) == offset.end();
@@ -38,12 +39,14 @@ void refuse_wrong_numbering(const PackingMesh& mesh, const std::string& path) {
   const std::size_t grains = mesh.grain_node_offset.size() - 1;
   if (!partitions(mesh.grain_node_offset, nodes) || !partitions(mesh.grain_tet_offset, tets) ||
       mesh.grain_tet_offset.size() != grains + 1)
-    throw InputError(fmt::format("{}: the grains' offsets do not divide {} nodes and {} tetrahedra", path, nodes, tets));
+    throw InputError(
+        fmt::format("{}: the grains' offsets do not divide {} nodes and {} tetrahedra", path, nodes, tets));
   for (std::size_t g = 0; g < grains; ++g)
-    for (auto k = 4 * static_cast<std::size_t>(mesh.grain_tet_offset[g]); k < 4 * static_cast<std::size_t>(mesh.grain_tet_offset[g + 1]); ++k)
+    for (auto k = 4 * static_cast<std::size_t>(mesh.grain_tet_offset[g]);
+         k < 4 * static_cast<std::size_t>(mesh.grain_tet_offset[g + 1]); ++k)
       if (mesh.tet[k] < mesh.grain_node_offset[g] || mesh.tet[k] >= mesh.grain_node_offset[g + 1])
-        throw InputError(fmt::format("{}: tetrahedron {} of grain {} has node {}; allowed: {} … {}", path, k / 4, g, mesh.tet[k],
-                                     mesh.grain_node_offset[g], mesh.grain_node_offset[g + 1] - 1));
+        throw InputError(fmt::format("{}: tetrahedron {} of grain {} has node {}; allowed: {} … {}", path, k / 4, g,
+                                     mesh.tet[k], mesh.grain_node_offset[g], mesh.grain_node_offset[g + 1] - 1));
 }
 
 } // namespace
@@ -61,8 +64,8 @@ void tabulate_target(const SizeDistribution& distribution, double scale, Packing
 void refuse_overlap(const SpherePacking& packing, const std::string& name) {
   const SurfaceGap gap = smallest_gap(packing);
   if (gap.gap < 0)
-    throw InputError(fmt::format("{}: {} and {} overlap by {:.4g} mm; allowed: no overlap", name, body(packing, gap.first),
-                                 body(packing, gap.second), -gap.gap));
+    throw InputError(fmt::format("{}: {} and {} overlap by {:.4g} mm; allowed: no overlap", name,
+                                 body(packing, gap.first), body(packing, gap.second), -gap.gap));
 }
 
 SphereFile read_spheres(const std::string& path) {
@@ -79,8 +82,10 @@ SphereFile read_spheres(const std::string& path) {
       throw InputError(fmt::format("{}: the box has an edge of {:g} mm; allowed: > 0", path, length));
   for (std::size_t i = 0; i < result.packing.radius.size(); ++i) {
     result.packing.center.push_back({center[3 * i], center[3 * i + 1], center[3 * i + 2]});
-    if (!(result.packing.radius[i] > 0) || !std::isfinite(center[3 * i] + center[3 * i + 1] + center[3 * i + 2] + result.packing.radius[i]))
-      throw InputError(fmt::format("{}: sphere {} has the radius {:g} mm; allowed: finite centre, radius > 0", path, i, result.packing.radius[i]));
+    if (!(result.packing.radius[i] > 0) ||
+        !std::isfinite(center[3 * i] + center[3 * i + 1] + center[3 * i + 2] + result.packing.radius[i]))
+      throw InputError(fmt::format("{}: sphere {} has the radius {:g} mm; allowed: finite centre, radius > 0", path, i,
+                                   result.packing.radius[i]));
   }
   if (reader.has(file::packing_seed)) result.origin.seed = reader.read_scalar(file::packing_seed);
   if (reader.has(file::packing_description)) result.origin.description = reader.read_scalar(file::packing_description);
@@ -95,7 +100,8 @@ SpherePacking import_spheres(const std::string& path, const std::optional<Point>
   SpherePacking packing;
   for (const auto& row : read_csv(path, {"x", "y", "z", "radius"})) {
     if (!(row[3] > 0))
-      throw InputError(fmt::format("{}: sphere {} has the radius {:g}; allowed: > 0", path, packing.radius.size(), row[3]));
+      throw InputError(
+          fmt::format("{}: sphere {} has the radius {:g}; allowed: > 0", path, packing.radius.size(), row[3]));
     packing.center.push_back({row[0], row[1], row[2]});
     packing.radius.push_back(row[3]);
   }
@@ -121,7 +127,8 @@ void export_spheres(const std::string& path, const SpherePacking& packing) {
   std::ofstream out(partial);
   out << "x [mm],y [mm],z [mm],radius [mm]\n";
   for (std::size_t i = 0; i < packing.radius.size(); ++i)
-    out << fmt::format("{},{},{},{}\n", packing.center[i][0], packing.center[i][1], packing.center[i][2], packing.radius[i]);
+    out << fmt::format("{},{},{},{}\n", packing.center[i][0], packing.center[i][1], packing.center[i][2],
+                       packing.radius[i]);
   out.close();
   if (out) std::filesystem::rename(partial, path, failure);
   if (!out || failure) {
@@ -139,13 +146,15 @@ void write_packing_file(const std::string& path, const SpherePacking& packing, c
   writer.write(file::box_lengths, Doubles(packing.box), 3);
   writer.write(file::spheres_center, Doubles(center), spheres);
   writer.write(file::spheres_radius, Doubles(packing.radius), spheres);
-  if (const double gap = smallest_gap(packing).gap; std::isfinite(gap)) writer.write_scalar(file::packing_smallest_gap, gap);
+  if (const double gap = smallest_gap(packing).gap; std::isfinite(gap))
+    writer.write_scalar(file::packing_smallest_gap, gap);
   writer.write_scalar(file::packing_relative_density, relative_density(packing));
   if (origin.seed) writer.write_scalar(file::packing_seed, *origin.seed);
   writer.write_scalar(file::packing_description, origin.description);
   if (!origin.target_diameter.empty()) {
     writer.write(file::packing_target_diameter, Doubles(origin.target_diameter), origin.target_diameter.size());
-    writer.write(file::packing_target_cumulative_number, Doubles(origin.target_cumulative_number), origin.target_diameter.size());
+    writer.write(file::packing_target_cumulative_number, Doubles(origin.target_cumulative_number),
+                 origin.target_diameter.size());
   }
   if (mesh) {
     const PackingMesh& m = *mesh->mesh;

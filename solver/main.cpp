@@ -9,6 +9,7 @@
 #include "common/errors.hpp"
 #include "common/table_reader.hpp"
 #include "common/version.hpp"
+#include "solver/run/bond_programme.hpp"
 #include "solver/run/run_scenario.hpp"
 
 namespace {
@@ -47,6 +48,33 @@ void add_common(CLI::App& command, Arguments& arguments) {
   command.add_flag("--quiet", arguments.run.quiet, "No progress");
 }
 
+CLI::App* add_bond(CLI::App& app, BondProgrammeOptions& options) {
+  CLI::App* bond = app.add_subcommand(
+      "bond",
+      "Drive one bonded contact point through a programme of separations.\n"
+      "Example: mpfem bond law.toml programme.csv -o result.csv --set bond.softening=energy\n"
+      "  law.toml         stiffness = 3.68e6   # MPa/mm, normal and tangential penalty\n"
+      "                   [bond]               # the table of a scenario\n"
+      "                   tensile_strength = 25.0\n"
+      "                   shear_strength = 18.0\n"
+      "                   fracture_energy = 0.5\n"
+      "  programme.csv    opening,shear1,shear2,increments\n"
+      "                   2e-5,0,0,1000        # separations in mm to walk to, one after the other, from 0,0,0\n"
+      "                   -1e-6,0,0,           # closed: the undamaged penalty; increments as --increments\n"
+      "(Comments stand on lines of their own in the CSV file.) Tractions in the result are positive in tension and\n"
+      "along the shear separation; negative normal traction is compression.");
+  bond->add_option("law", options.law, "Law (TOML): stiffness and [bond]")->required();
+  bond->add_option("programme", options.programme, "Way points (CSV): opening,shear1,shear2[,increments], mm")
+      ->required();
+  bond->add_option("-o,--output", options.output, "Table to write (CSV)")->required();
+  bond->add_option("--set", options.assignments, "Override a value of the law: KEY=VALUE")->take_all();
+  bond->add_option("--increments", options.increments, "Increments of way points whose row gives none")
+      ->check(CLI::Range(1, 10'000'000))
+      ->capture_default_str();
+  bond->add_flag("--quiet", options.quiet, "No summary");
+  return bond;
+}
+
 int body(int argc, char** argv) {
   CLI::App app("mpfem: compacts a meshed packing of deformable grains.\n"
                "Examples:\n"
@@ -54,6 +82,7 @@ int body(int argc, char** argv) {
                "  mpfem run compaction.toml -o run.h5\n"
                "  mpfem run compaction.toml -o run.h5 --set stages.0.wall_speed=2000 --threads 2\n"
                "  mpfem run compaction.toml -o run.h5 --resume\n"
+               "  mpfem bond law.toml programme.csv -o result.csv\n"
                "Exit codes: 0 done, 2 bad usage or input, 3 simulation failed (state saved), 4 storage failed, "
                "5 interrupted (resumable).");
   app.set_version_flag("--version", std::string(version()));
@@ -75,12 +104,19 @@ int body(int argc, char** argv) {
       app.add_subcommand("check", "Validate a scenario and print its plan.\nExample: mpfem check compaction.toml");
   add_common(*check, arguments);
 
+  BondProgrammeOptions bond_options;
+  const CLI::App* bond = add_bond(app, bond_options);
+
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0 ? 0 : static_cast<int>(ExitCode::bad_input);
   }
 
+  if (bond->parsed()) {
+    run_bond_programme(bond_options);
+    return 0;
+  }
   const Scenario scenario = load_scenario(arguments);
   if (run->parsed()) {
     if (!from.empty()) arguments.run.from = from;

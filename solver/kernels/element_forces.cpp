@@ -167,8 +167,7 @@ StableStep stable_step(Model& model, int grain, std::span<const double> nodal_st
     const auto geometry = current_geometry(block, position);
     const S ratio = geometry.det / (S(6.0) * S::load(block.reference_volume));
     S element = largest_frequency_squared(material.moduli, S(material.density) / ratio, geometry);
-    const S length = S(2.0 * material.wave_speed) / sqrt(element);
-    length.store(block.length); // viscosity keeps the length of the true mass: scaled nodes are damped less
+    S length = S(2.0 * material.wave_speed) / sqrt(element);
     if (!model.mass_factor.empty()) {
       // By the same inequality: an element's share of its nodes' mass grew at least as the least scaled of them.
       S factor(std::numeric_limits<double>::infinity());
@@ -176,7 +175,10 @@ StableStep stable_step(Model& model, int grain, std::span<const double> nodal_st
         for (const auto& node : block.node)
           factor.v[i] = std::min(factor.v[i], model.mass_factor[static_cast<std::size_t>(first_node + node[i])]);
       element = element / factor;
+      // Viscosity is the true mass's, so that scaled nodes are damped less; but less where the mass is less.
+      length = length * sqrt(min(factor, S(1.0)));
     }
+    length.store(block.length);
     S contact(0.0);
     if (!nodal_stiffness_rate.empty()) {
       for (int i = 0; i < W; ++i)

@@ -315,7 +315,8 @@ Model build_model(const MeshedPacking& packing, const Scenario& scenario, const 
   }
   refuse_shared_places(model, name);
   if (scenario.numerics.mass_scaling_step > 0)
-    scale_masses(model, scenario.numerics.mass_scaling_step / scenario.numerics.time_step_factor);
+    scale_masses(model, scenario.numerics.mass_scaling_step / scenario.numerics.time_step_factor,
+                 scenario.numerics.mass_scaling_lighten);
   return model;
 }
 

@@ -14,11 +14,12 @@ Vector3<double> position(const Model& model, std::int32_t node) {
 
 } // namespace
 
-void scale_masses(Model& model, double step) {
+void scale_masses(Model& model, double step, bool lighten) {
   const auto nodes = static_cast<std::size_t>(model.nodes());
   const double damped = 2.0 * damped_step_factor(model.viscosity.linear);
   const double largest_rate = (damped / step) * (damped / step);
-  model.mass_factor.assign(nodes, 1.0);
+  model.mass_factor.assign(nodes, lighten ? 0.0 : 1.0);
+  model.largest_added_mass = -1;
   double added = 0, total = 0;
   for (int grain = 0; grain < model.grains; ++grain) {
     const auto g = static_cast<std::size_t>(grain);

@@ -104,8 +104,9 @@ MeshedPacking read_packing(const std::string& path);
 Material make_material(const MaterialParameters& parameters, double mass_scaling);
 
 /// Makes nodes heavier until no tet, with contact as it is as a rule, asks for a smaller step than `step` (s) in the
-/// reference state; sets mass_factor, added_mass and largest_added_mass.
-void scale_masses(Model& model, double step);
+/// reference state; with `lighten`, also lighter where the tets leave room: then every node is as heavy as the step
+/// needs, and no more. Sets mass_factor, added_mass and largest_added_mass.
+void scale_masses(Model& model, double step, bool lighten);
 
 /// Builds the model: surfaces found, nodes and tets renumbered for locality, masses lumped. `name` stands for the file
 /// in messages. Throws InputError: inverted or degenerate tetrahedron, nodes out of range, open surface, node outside

@@ -61,7 +61,7 @@ std::string parts_folder(const std::string& run_file) {
 }
 
 std::string added_mass_text(const Model& model) {
-  return fmt::format("mass scaled for the step: {:.3g} % added to the packing, at most {:.3g} % to a grain",
+  return fmt::format("mass scaled for the step: {:+.3g} % of the packing's, at most {:+.3g} % of a grain's",
                      100 * model.added_mass, 100 * model.largest_added_mass);
 }
 
@@ -76,7 +76,7 @@ public:
     begin();
     if (!options_.quiet && !already_complete_) {
       for (const std::string& warning : warnings) fmt::print(stderr, "mpfem: warning: {}\n", warning);
-      if (simulation_.model().added_mass > 0) fmt::print(stderr, "mpfem: {}\n", added_mass_text(simulation_.model()));
+      if (simulation_.model().added_mass != 0) fmt::print(stderr, "mpfem: {}\n", added_mass_text(simulation_.model()));
     }
     const RunState& state = simulation_.state();
     check_programme(scenario_, state.stage, state.stage_low, state.stage_high, simulation_.model(), state.stable_step);
@@ -403,7 +403,7 @@ void check_scenario(const Scenario& scenario, int threads) {
   fmt::print("stable step    {:.4g} s, set by {}\n", simulation.state().stable_step,
              simulation.state().controlled_by_contact ? "contact" : "elements");
 
-  if (model.added_mass > 0) fmt::print("masses         {}\n", added_mass_text(model));
+  if (model.added_mass != 0) fmt::print("masses         {}\n", added_mass_text(model));
   const auto warnings = check_bonds(model, scenario);
   if (scenario.bond) {
     const BondResolution r = bond_resolution(model, scenario);

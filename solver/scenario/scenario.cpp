@@ -147,6 +147,9 @@ NumericsParameters read_numerics(TableReader table) {
   numerics.mass_scaling =
       table.number_or("mass_scaling", numerics.mass_scaling, {.low = 0, .high = 1e12, .low_open = true});
   if (table.has("mass_scaling_step")) numerics.mass_scaling_step = table.number("mass_scaling_step", positive);
+  numerics.mass_scaling_lighten = table.boolean_or("mass_scaling_lighten", numerics.mass_scaling_lighten);
+  if (numerics.mass_scaling_lighten && numerics.mass_scaling_step == 0)
+    table.fail("mass_scaling_lighten", "has no meaning without 'mass_scaling_step'");
   table.finish();
   return numerics;
 }

@@ -66,6 +66,7 @@ struct NumericsParameters {
   double bulk_viscosity_quadratic = 1.2;
   double mass_scaling = 1;      ///< uniform factor on the density
   double mass_scaling_step = 0; ///< s: nodes are made heavier where the step at the start would be smaller; 0: none
+  bool mass_scaling_lighten = false; ///< and lighter where it would be larger: locally refined meshes, slow processes
 };
 
 struct OutputParameters {

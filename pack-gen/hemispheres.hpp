@@ -1,0 +1,34 @@
+#pragma once
+// Two hemispheres tip to tip, finely meshed where they will touch: for comparing contact with closed forms.
+//
+// The lower one has its flat face on z = 0, the upper one on z = 2 R + gap; their tips face each other across the gap in
+// the middle of the box. Nodes of the curved faces lie on the sphere: hemispheres are not scaled to the exact volume, as
+// packings are, since the curvature at the tip is what counts. Facets of a convex body lie inside it, so that the two
+// cannot overlap. The upper mesh is the lower one mirrored and turned about the axis: no node meets a node.
+
+#include <string>
+
+#include "pack-gen/grain_mesh.hpp"
+
+namespace mpfem {
+
+struct HemisphereRequest {
+  double radius = 0;         ///< R, mm
+  double size = 0;           ///< element size far from the contact, mm
+  double contact_size = 0;   ///< on the curved face up to contact_radius from the tip, mm
+  double contact_radius = 0; ///< along the face, mm
+  double bulk_size = 0;      ///< in the half-ball of 1.5 contact_radius under the tip, mm
+  double growth = 0.3;       ///< of the size per distance from both
+  double gap = 0;            ///< mm, > 0
+  double rotation = 37;      ///< of the upper hemisphere about the axis, degrees
+};
+
+struct Hemispheres {
+  SpherePacking packing; ///< the full spheres, of which half lies in the box
+  PackingMesh mesh;
+};
+
+/// Throws InputError for sizes that make no sense together or too many tets, SimulationError where gmsh fails.
+Hemispheres mesh_hemispheres(const HemisphereRequest& request);
+
+} // namespace mpfem
