@@ -228,8 +228,8 @@ TEST_CASE("a bonded pair that turns by a quarter shows no spurious traction and 
 
 TEST_CASE("bonds follow the material when one ball is sheared by a radius against the other") {
   for (const double fracture_energy : {0.01, 0.5}) {
-    const Scenario scenario = bonded_scenario(table_1(fracture_energy),
-                                              {grip("press", -0.01, 4000), grip("shear", 0, 8000, {radius, 0, 0})});
+    const Scenario scenario =
+        bonded_scenario(table_1(fracture_energy), {grip("press", -0.01, 4000), grip("shear", 0, 8000, {radius, 0, 0})});
     const MeshedPacking packing = two_balls(6);
     ThreadTeam team(1);
     Simulation simulation(build_model(packing, scenario, "test"), scenario, team);

@@ -43,10 +43,31 @@ damping_rate = 1e6
 damping_fade_stress = 5
 )";
 
+/// The same with bonds, unloaded and torn apart by grips.
+const std::string bonded_text = scenario_text + R"(
+[[stages]]
+name = "unloading"
+type = "isotropic_unloading"
+mean_stress = 0
+wall_speed = 10000
+[[stages]]
+name = "tearing"
+type = "grip"
+grip_depth = 0.03
+displacement = 0.03
+sliding = [0.02, 0, 0]
+speed = 10000
+[bond]
+tensile_strength = 25
+shear_strength = 18
+fracture_energy = 0.05
+rebond = "on_contact"
+)";
+
 /// Packing and scenario of eight grains in a folder.
-void prepare(const Folder& folder, int cells = 4) {
+void prepare(const Folder& folder, int cells = 4, const std::string& text = scenario_text) {
   write_packing(folder / "packing.h5", eight_grains(cells), std::vector<double>(8, 0.1));
-  write_text(folder / "scenario.toml", scenario_text);
+  write_text(folder / "scenario.toml", text);
 }
 
 std::string replaced(std::string text, const std::string& from, const std::string& to) {
@@ -77,15 +98,20 @@ std::vector<double> results(const std::string& path) {
     take(run::snapshots_von_mises, name);
     take(run::snapshots_contact_pressure, name);
     take(run::snapshots_pair_force, name);
+    if (!file.has(run::snapshots_bond_damage, name)) continue;
+    take(run::snapshots_bond_damage, name);
+    take(run::snapshots_bond_separation, name);
+    take(run::snapshots_pair_damage_dissipation, name);
   }
   return all;
 }
 
 } // namespace
 
-TEST_CASE("a run is bitwise the same on one, two and four threads") {
+TEST_CASE("a run is bitwise the same on one, two and four threads, with and without bonds") {
+  const auto* const text = GENERATE(&scenario_text, &bonded_text);
   const Folder folder;
-  prepare(folder);
+  prepare(folder, 4, *text);
   std::vector<std::vector<double>> all;
   for (const int threads : {1, 2, 4}) {
     const std::string run = folder / fmt::format("run{}.h5", threads);
@@ -101,8 +127,9 @@ TEST_CASE("a run is bitwise the same on one, two and four threads") {
 }
 
 TEST_CASE("a run that is stopped and resumed again and again ends bitwise as if it had not been") {
+  const auto* const text = GENERATE(&scenario_text, &bonded_text);
   const Folder folder;
-  prepare(folder, 6);
+  prepare(folder, 6, *text);
   const std::string common = fmt::format("run {} --threads 2 --quiet -o ", folder / "scenario.toml");
   const Outcome whole = mpfem_command(common + (folder / "whole.h5"));
   REQUIRE(whole.exit_code == 0);
