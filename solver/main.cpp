@@ -61,8 +61,8 @@ CLI::App* add_bond(CLI::App& app, BondProgrammeOptions& options) {
       "  programme.csv    opening,shear1,shear2,increments\n"
       "                   2e-5,0,0,1000        # separations in mm to walk to, one after the other, from 0,0,0\n"
       "                   -1e-6,0,0,           # closed: the undamaged penalty; increments as --increments\n"
-      "(Comments stand on lines of their own in the CSV file.) Tractions in the result are positive in tension and\n"
-      "along the shear separation; negative normal traction is compression.");
+      "Tractions in the result are positive in tension and along the shear separation; negative normal traction is\n"
+      "compression.");
   bond->add_option("law", options.law, "Law (TOML): stiffness and [bond]")->required();
   bond->add_option("programme", options.programme, "Way points (CSV): opening,shear1,shear2[,increments], mm")
       ->required();

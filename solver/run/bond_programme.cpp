@@ -1,0 +1,271 @@
+#include "solver/run/bond_programme.hpp"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <optional>
+
+#include <fmt/format.h>
+
+#include "common/errors.hpp"
+#include "common/one_line.hpp"
+#include "common/table_reader.hpp"
+#include "solver/scenario/scenario.hpp"
+
+namespace mpfem {
+
+namespace {
+
+constexpr std::string_view heading = "opening,shear1,shear2[,increments]";
+constexpr const char* column_names[] = {"opening", "shear1", "shear2", "increments"};
+constexpr double largest_separation = 1e6; // mm; its square is still far from the end of the numbers
+constexpr long long most_increments = 10'000'000;
+
+std::string_view trimmed(std::string_view text) {
+  const auto first = text.find_first_not_of(" \t\r");
+  return first == std::string_view::npos ? std::string_view()
+                                         : text.substr(first, text.find_last_not_of(" \t\r") - first + 1);
+}
+
+std::vector<std::string_view> cells(std::string_view line) {
+  std::vector<std::string_view> result;
+  for (std::size_t begin = 0;;) {
+    const std::size_t comma = line.find(',', begin);
+    result.push_back(trimmed(line.substr(begin, comma - begin)));
+    if (comma == std::string_view::npos) return result;
+    begin = comma + 1;
+  }
+}
+
+template <typename Number>
+std::optional<Number> as_number(std::string_view cell) {
+  Number value{};
+  const auto [end, error] = std::from_chars(cell.data(), cell.data() + cell.size(), value);
+  return error == std::errc() && end == cell.data() + cell.size() ? std::optional(value) : std::nullopt;
+}
+
+/// Where in the programme a mistake is.
+struct Place {
+  const std::string& path;
+  int line;
+  [[noreturn]] void fail(const std::string& what) const {
+    throw InputError(fmt::format("{}:{}: {}", one_line(path), line, what));
+  }
+};
+
+double separation_of(std::string_view cell, const char* column, const Place& place) {
+  const auto value = as_number<double>(cell);
+  if (!value || !(std::abs(*value) <= largest_separation))
+    place.fail(fmt::format("column {}: found '{}', allowed a number of mm from {:g} to {:g}", column, one_line(cell),
+                           -largest_separation, largest_separation));
+  return *value;
+}
+
+int increments_of(std::string_view cell, const Place& place) {
+  const auto value = as_number<long long>(cell);
+  if (!value || *value < 1 || *value > most_increments)
+    place.fail(fmt::format("column increments: found '{}', allowed a whole number from 1 to {}", one_line(cell),
+                           most_increments));
+  return static_cast<int>(*value);
+}
+
+void check_heading(const std::vector<std::string_view>& names, const Place& place) {
+  if (names.size() < 3 || names.size() > 4)
+    place.fail(fmt::format("found a heading of {} columns, expected {}", names.size(), heading));
+  for (std::size_t i = 0; i < names.size(); ++i)
+    if (names[i] != column_names[i])
+      place.fail(
+          fmt::format("column {}: found the heading '{}', expected {}", column_names[i], one_line(names[i]), heading));
+}
+
+/// A point of the straight line between two separations; exactly its ends at its ends.
+Separation between(const Separation& from, const Separation& to, int part, int parts) {
+  if (part == parts) return to;
+  const double t = static_cast<double>(part) / parts;
+  return {from.opening + t * (to.opening - from.opening), from.shear1 + t * (to.shear1 - from.shear1),
+          from.shear2 + t * (to.shear2 - from.shear2)};
+}
+
+/// The work that the tractions' polygon encloses with the separations, N/mm.
+double trapezoid(const Separation& a, const BondedPoint::Response& at_a, const Separation& b,
+                 const BondedPoint::Response& at_b) {
+  return 0.5 *
+         ((at_a.normal + at_b.normal) * (b.opening - a.opening) + (at_a.shear1 + at_b.shear1) * (b.shear1 - a.shear1) +
+          (at_a.shear2 + at_b.shear2) * (b.shear2 - a.shear2));
+}
+
+void refuse_overwriting(const std::string& output, const std::string& input) {
+  std::error_code ignored; // one of them is not there: not the same
+  if (std::filesystem::equivalent(output, input, ignored))
+    throw InputError(fmt::format("{}: is an input, allowed another --output", one_line(output)));
+}
+
+/// A text file that appears under its name when it is complete.
+class TextFile {
+public:
+  explicit TextFile(const std::string& path) : path_(path), partial_(path + ".partial"), file_(partial_) {
+    if (!file_) fail();
+  }
+  ~TextFile() {
+    std::error_code ignored;
+    if (!complete_) std::filesystem::remove(partial_, ignored);
+  }
+  TextFile(const TextFile&) = delete;
+  TextFile& operator=(const TextFile&) = delete;
+
+  void write(const fmt::memory_buffer& text) { file_.write(text.data(), static_cast<std::streamsize>(text.size())); }
+  void complete() {
+    file_.close();
+    std::error_code error;
+    if (file_) std::filesystem::rename(partial_, path_, error);
+    if (!file_ || error) fail();
+    complete_ = true;
+  }
+
+private:
+  [[noreturn]] void fail() const {
+    std::error_code ignored;
+    std::filesystem::remove(partial_, ignored);
+    throw StorageError(
+        fmt::format("{}: cannot be written (missing folder, no permission, or disk full)", one_line(path_)));
+  }
+  std::string path_, partial_;
+  std::ofstream file_;
+  bool complete_ = false;
+};
+
+} // namespace
+
+BondedPoint::Response BondedPoint::move_to(const Separation& separation) {
+  const BondLaw& law = law_.bond;
+  const bool closed = separation.opening < 0;
+  if (closed && gone_) {
+    spent_ += law.fracture_energy;
+    state_ = {};
+    attached_ = separation;
+    gone_ = false;
+  }
+  const double shear1 = separation.shear1 - attached_.shear1, shear2 = separation.shear2 - attached_.shear2;
+  const BondTraction traction = bond_traction(law, state_, separation.opening, shear1, shear2);
+  const bool broken = is_broken(law, state_);
+  gone_ = law_.rebond_on_contact && broken && !closed;
+
+  Response response;
+  const double penetration = closed ? separation.opening : 0.0;
+  response.normal = traction.normal + law.stiffness * penetration;
+  response.shear1 = traction.shear[0];
+  response.shear2 = traction.shear[1];
+  const double open = closed ? 0.0 : separation.opening;
+  response.effective = law.normal_only ? open : std::sqrt(open * open + shear1 * shear1 + shear2 * shear2);
+  response.damage = 1 - remaining_stiffness(law, state_);
+  response.stored = traction.stored + 0.5 * law.stiffness * penetration * penetration;
+  response.dissipated = spent_ + damage_dissipation(law, state_);
+  response.state = broken ? "broken" : state_.initiation > 0 ? "damaged" : "intact";
+  return response;
+}
+
+BondedPointLaw read_bonded_point_law(const TomlDocument& document) {
+  TableReader root(document);
+  const double stiffness = root.number("stiffness", Range::positive());
+  TableReader table = root.table("bond");
+  const BondParameters bond = read_bond(table);
+  root.finish();
+  const double strength =
+      bond.normal_only ? bond.tensile_strength : std::max(bond.tensile_strength, bond.shear_strength);
+  // As for a run: a little more than the area before damage, or there is nothing left to soften.
+  const double smallest = 1.01 * 0.5 * strength * strength / stiffness;
+  if (!(bond.fracture_energy > smallest))
+    table.fail("fracture_energy", fmt::format("found {:g} N/mm, allowed > {:.3g} N/mm (1.01 strength^2/(2 stiffness))",
+                                              bond.fracture_energy, smallest));
+  return {
+      {stiffness, bond.tensile_strength, bond.shear_strength, bond.fracture_energy, bond.softening, bond.normal_only},
+      bond.rebond_on_contact};
+}
+
+std::vector<WayPoint> read_bond_programme(const std::string& path, int increments) {
+  std::ifstream file(path);
+  if (!file || std::filesystem::is_directory(path))
+    throw InputError(fmt::format("{}: cannot be opened", one_line(path)));
+  std::vector<WayPoint> way_points;
+  std::size_t columns = 0;
+  long long total = 0;
+  std::string line;
+  for (int number = 1; std::getline(file, line); ++number) {
+    const std::string_view text = trimmed(std::string_view(line).substr(0, line.find('#')));
+    if (text.empty()) continue;
+    const Place place{path, number};
+    const auto found = cells(text);
+    if (columns == 0) {
+      check_heading(found, place);
+      columns = found.size();
+      continue;
+    }
+    if (found.size() != columns)
+      place.fail(fmt::format("found {} columns, expected {} as in the heading", found.size(), columns));
+    WayPoint way_point;
+    way_point.separation = {separation_of(found[0], column_names[0], place),
+                            separation_of(found[1], column_names[1], place),
+                            separation_of(found[2], column_names[2], place)};
+    way_point.increments = columns == 4 && !found[3].empty() ? increments_of(found[3], place) : increments;
+    total += way_point.increments;
+    if (total > most_increments)
+      place.fail(fmt::format("column increments: found {} up to here, allowed {} in all", total, most_increments));
+    way_points.push_back(way_point);
+  }
+  if (columns == 0) throw InputError(fmt::format("{}:1: found no heading, expected {}", one_line(path), heading));
+  if (way_points.empty()) throw InputError(fmt::format("{}: found no way point below the heading", one_line(path)));
+  return way_points;
+}
+
+void run_bond_programme(const BondProgrammeOptions& options) {
+  TomlDocument document = TomlDocument::from_file(options.law);
+  for (const std::string& assignment : options.assignments) document.set(assignment);
+  const BondedPointLaw law = read_bonded_point_law(document);
+  const std::vector<WayPoint> programme = read_bond_programme(options.programme, options.increments);
+  refuse_overwriting(options.output, options.law);
+  refuse_overwriting(options.output, options.programme);
+
+  TextFile file(options.output);
+  fmt::memory_buffer text;
+  fmt::format_to(std::back_inserter(text),
+                 "way_point,opening_mm,shear1_mm,shear2_mm,normal_traction_MPa,shear1_traction_MPa,shear2_traction_MPa,"
+                 "effective_separation_mm,damage,stored_N_per_mm,dissipated_N_per_mm,work_N_per_mm,"
+                 "trapezoidal_work_N_per_mm,state\n");
+  BondedPoint point(law);
+  Separation here;
+  BondedPoint::Response response = point.move_to(here);
+  double work = 0, peak_normal = 0, peak_shear = 0;
+  const auto write_row = [&](std::size_t way_point) {
+    fmt::format_to(std::back_inserter(text), "{},{},{},{},{},{},{},{},{},{},{},{},{},{}\n", way_point, here.opening,
+                   here.shear1, here.shear2, response.normal, response.shear1, response.shear2, response.effective,
+                   response.damage, response.stored, response.dissipated, response.stored + response.dissipated, work,
+                   response.state);
+    file.write(text);
+    text.clear();
+  };
+  write_row(0);
+  for (std::size_t i = 0; i < programme.size(); ++i) {
+    const Separation from = here;
+    for (int k = 1; k <= programme[i].increments; ++k) {
+      const Separation next = between(from, programme[i].separation, k, programme[i].increments);
+      const BondedPoint::Response there = point.move_to(next);
+      work += trapezoid(here, response, next, there);
+      here = next;
+      response = there;
+      peak_normal = std::max(peak_normal, response.normal);
+      peak_shear = std::max(peak_shear, std::hypot(response.shear1, response.shear2));
+      write_row(i + 1);
+    }
+  }
+  file.complete();
+  if (!options.quiet)
+    fmt::print("{}: {} at the end, damage {:.6g}; largest traction {:.6g} MPa in tension, {:.6g} MPa in shear; "
+               "dissipated {:.6g} N/mm, stored {:.6g} N/mm\n",
+               one_line(options.output), response.state, response.damage, peak_normal, peak_shear, response.dissipated,
+               response.stored);
+}
+
+} // namespace mpfem
