@@ -17,7 +17,7 @@ set ylabel 'normal traction / MPa'
 set style arrow 1 nohead dashtype 2 linewidth 1.2 linecolor rgb '#666666'
 set arrow 1 from 1,25 to 1e6,25 arrowstyle 1
 set label 1 '25 MPa' at 8e5,29 right textcolor rgb '#444444'
-set multiplot layout 1,2 margins 0.07,0.98,0.13,0.93 spacing 0.09,0
+set multiplot layout 1,2 margins 0.085,0.98,0.13,0.93 spacing 0.09,0
 do for [law in 'exponential energy'] {
   set title sprintf('law "%s"', law)
   set key left top title 'G^c / (N/mm)' left
