@@ -181,9 +181,10 @@ ContactSums forces_of_points(Model& model, Contact& contact, int grain) {
     std::int32_t active = 0, pulling = 0;
     BondLaw law;
     if constexpr (bonding) law = pair_bond_law(model, *contact.bonding, grain, other_grain);
+    const double pair_bond_stiffness = law.stiffness;
     const auto pull = [&](PointBond& bond, std::int32_t node_index, const Vector3<double>& node, double gap) {
       const Facet facet = facet_geometry(model, bond.facet);
-      const double k = stiffness * model.reference_area[at(node_index)];
+      const double k = stiffness * model.local_stiffness(at(node_index)) * model.reference_area[at(node_index)];
       ContactForce& record = contact.bond_force[at(begin + pulling++)];
       record = bond_record(law.normal_only ? pull_of_normal_bond(law, bond, node, facet.x)
                                            : pull_of_bond(law, bond, node, facet.x, gap),
@@ -192,6 +193,7 @@ ContactSums forces_of_points(Model& model, Contact& contact, int grain) {
     };
     for (std::int32_t point = begin; point < end; ++point) {
       const std::int32_t node_index = candidates.point_node[at(point)];
+      if constexpr (bonding) law.stiffness = pair_bond_stiffness * model.local_stiffness(at(node_index));
       if (travel < contact.point_wake[at(point)]) {
         // The mode in which damage begins depends on the gap; later on a bond needs none, and its point may sleep.
         if constexpr (!bonding) continue;
@@ -245,7 +247,7 @@ ContactSums forces_of_points(Model& model, Contact& contact, int grain) {
                         "mm: raise contact.stiffness_factor or lower the speed",
                         grain, distance, other, 0.9 * contact.margin));
       // 3. Inside: pushed back to the closest point. What an unbroken bond holds of the point, it holds itself.
-      const double k = stiffness * model.reference_area[at(node_index)];
+      const double k = stiffness * model.local_stiffness(at(node_index)) * model.reference_area[at(node_index)];
       double pushed = k;
       if constexpr (bonding) {
         PointBond& bond = contact.bond[at(point)];
@@ -337,8 +339,8 @@ void raise_to_expected_rate(const Model& model, int grain, std::span<double> rat
   const std::int32_t first = model.node_offset[g];
   for (std::int32_t node = first; node < first + model.surface_node_count[g]; ++node) {
     // As a node with stiffness K/2 A and, by symmetry, a facet's share of the same size; against a wall K A alone.
-    const double expected =
-        2.0 * model.penalty_stiffness[g] * model.reference_area[at(node)] * model.inverse_mass[at(node)];
+    const double expected = 2.0 * model.penalty_stiffness[g] * model.local_stiffness(at(node)) *
+                            model.reference_area[at(node)] * model.inverse_mass[at(node)];
     rate[at(node)] = std::max(rate[at(node)], expected);
   }
 }
@@ -347,12 +349,14 @@ BondSums bond_sums(const Model& model, const Contact& contact, std::int32_t pair
   BondSums sums;
   if (contact.bond.empty()) return sums;
   const ContactCandidates& candidates = contact.candidates;
-  const BondLaw law =
+  BondLaw law =
       pair_bond_law(model, *contact.bonding, candidates.pair_first[at(pair)], candidates.pair_second[at(pair)]);
+  const double pair_stiffness = law.stiffness;
   for (std::int32_t p = candidates.pair_point_offset[at(pair)]; p < candidates.pair_point_offset[at(pair) + 1]; ++p) {
     const PointBond& bond = contact.bond[at(p)];
     if (!bond.exists() && bond.spent == 0) continue;
     const double area = model.reference_area[at(candidates.point_node[at(p)])];
+    law.stiffness = pair_stiffness * model.local_stiffness(at(candidates.point_node[at(p)]));
     // Each of the two passes carries half of the traction, so half of the energy.
     const double share = 0.5 * area;
     sums.formed_area += area;

@@ -85,7 +85,8 @@ void contact_stiffness_rate(const Model& model, const Contact& contact, int grai
 /// Raises `rate` to what a node in contact has as a rule, so that the step does not jump when one comes into contact.
 void raise_to_expected_rate(const Model& model, int grain, std::span<double> rate);
 
-/// Law of the bonds of points whose nodes are on `first` and whose facets are on `second`.
+/// Law of the bonds of points whose nodes are on `first` and whose facets are on `second`; its stiffness is to be
+/// multiplied by the node's local_stiffness.
 BondLaw pair_bond_law(const Model& model, const BondParameters& parameters, std::int32_t first, std::int32_t second);
 
 /// Sums over bonds at the present time level.

@@ -21,7 +21,7 @@ WallSums wall_forces(Model& model, const Walls& walls, const Bounds& bounds, int
     for (std::size_t node = first; node < first + count; ++node) {
       const double gap = inward * (model.position[4 * node + axis] - plane);
       if (!(gap < 0)) continue;
-      const double force = -gap * stiffness * model.reference_area[node];
+      const double force = -gap * stiffness * model.local_stiffness(node) * model.reference_area[node];
       model.force[4 * node + axis] += inward * force;
       sums.force[side] += force;
       sums.energy += -0.5 * force * gap;
@@ -44,7 +44,8 @@ void wall_stiffness_rate(const Model& model, const Walls& walls, const Bounds& b
     if (high ? bounds.high[axis] <= plane : bounds.low[axis] >= plane) continue;
     for (std::size_t node = first; node < first + count; ++node)
       if (const double x = model.position[4 * node + axis]; high ? x > plane : x < plane)
-        rate[node] += model.penalty_stiffness[g] * model.reference_area[node] * model.inverse_mass[node];
+        rate[node] += model.penalty_stiffness[g] * model.local_stiffness(node) * model.reference_area[node] *
+                      model.inverse_mass[node];
   }
 }
 

@@ -17,7 +17,10 @@ BondResolution bond_resolution(const Model& model, const Scenario& scenario) {
   // Two grains' penalties act as their harmonic mean, at least the softest's.
   const double stiffness = *std::min_element(model.penalty_stiffness.begin(), model.penalty_stiffness.end());
   BondResolution result;
-  result.element_size = *std::max_element(model.element_size.begin(), model.element_size.end());
+  // Where grains are locally refined, bonds are taken to be where the elements are smallest.
+  const double finest =
+      model.refinement.empty() ? 1.0 : *std::max_element(model.refinement.begin(), model.refinement.end());
+  result.element_size = *std::max_element(model.element_size.begin(), model.element_size.end()) / finest;
   result.cohesive_zone = 0.34 * 2 * reduced * bond.fracture_energy / (bond.tensile_strength * bond.tensile_strength);
   result.smallest_fracture_energy = 0.5 * strength * strength / stiffness;
   result.steep_fracture_energy = strength * strength * result.element_size / youngs + result.smallest_fracture_energy;

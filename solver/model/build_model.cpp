@@ -171,6 +171,33 @@ void refuse_shared_places(const Model& model, const std::string& name) {
                       name, places[i - 1].grain, places[i].grain, places[i].x[0], places[i].x[1], places[i].x[2]));
 }
 
+/// Sets model.refinement where the facets of some grain differ much in size.
+void find_refinement(Model& model) {
+  constexpr double graded = 3; // largest over smallest h of one grain's nodes; unrefined balls have up to about 2
+  std::vector<double> size(static_cast<std::size_t>(model.nodes()), 0.0), edges(size.size(), 0.0);
+  for (std::size_t f = 0; f < model.facet.size(); f += 3)
+    for (std::size_t i = 0; i < 3; ++i) {
+      const auto a = at(model.facet[f + i]), b = at(model.facet[f + (i + 1) % 3]);
+      const double *x = &model.position[4 * a], *y = &model.position[4 * b];
+      const double length = std::hypot(x[0] - y[0], x[1] - y[1], x[2] - y[2]);
+      for (const std::size_t node : {a, b}) size[node] += length, edges[node] += 1;
+    }
+  bool refined = false;
+  for (std::size_t g = 0; g < static_cast<std::size_t>(model.grains); ++g) {
+    double smallest = std::numeric_limits<double>::infinity(), largest = 0;
+    for (auto n = at(model.node_offset[g]); n < at(model.node_offset[g] + model.surface_node_count[g]); ++n) {
+      size[n] /= edges[n];
+      smallest = std::min(smallest, size[n]), largest = std::max(largest, size[n]);
+    }
+    refined = refined || largest > graded * smallest;
+  }
+  if (!refined) return;
+  model.refinement.assign(size.size(), 1.0);
+  for (std::size_t g = 0; g < static_cast<std::size_t>(model.grains); ++g)
+    for (auto n = at(model.node_offset[g]); n < at(model.node_offset[g] + model.surface_node_count[g]); ++n)
+      model.refinement[n] = model.element_size[g] / size[n];
+}
+
 } // namespace
 
 double Model::total_reference_volume() const {
@@ -314,6 +341,7 @@ Model build_model(const MeshedPacking& packing, const Scenario& scenario, const 
     }
   }
   refuse_shared_places(model, name);
+  find_refinement(model);
   if (scenario.numerics.mass_scaling_step > 0)
     scale_masses(model, scenario.numerics.mass_scaling_step / scenario.numerics.time_step_factor,
                  scenario.numerics.mass_scaling_lighten);

@@ -27,7 +27,8 @@ void scale_masses(Model& model, double step, bool lighten) {
     // What contact adds to the frequency squared as a rule, as in raise_to_expected_rate.
     const auto contact_rate = [&](std::int32_t node) {
       const auto n = static_cast<std::size_t>(node);
-      return node < surface_end ? 2.0 * model.penalty_stiffness[g] * model.reference_area[n] * model.inverse_mass[n]
+      return node < surface_end ? 2.0 * model.penalty_stiffness[g] * model.local_stiffness(n) *
+                                      model.reference_area[n] * model.inverse_mass[n]
                                 : 0.0;
     };
     for (std::int32_t b = model.block_offset[g]; b < model.block_offset[g + 1]; ++b) {

@@ -67,6 +67,8 @@ struct Model {
   double largest_added_mass = 0;         ///< the same of the grain that it concerns most
   std::vector<double> element_size;      ///< [grains], h: mean edge length of the surface facets, mm
   std::vector<double> penalty_stiffness; ///< [grains], K = factor E / h, MPa/mm
+  std::vector<double> refinement; ///< [nodes]: h of the grain over that of the surface node's facets; empty where
+                                  ///< no grain is locally refined
 
   std::array<double, 3> box_low{}; ///< mm, at the start
   std::array<double, 3> box_high{};
@@ -81,6 +83,8 @@ struct Model {
                      TetBlock::lanes * (block_index - block_offset[std::size_t(grain)]);
     return left < TetBlock::lanes ? left : TetBlock::lanes;
   }
+  /// How much stiffer than its grain's mean the penalty of a surface node is: K = factor E / h with the h around the node.
+  double local_stiffness(std::size_t node) const { return refinement.empty() ? 1.0 : refinement[node]; }
   double total_reference_volume() const;
   SurfaceView surface() const;
   /// Bytes of all arrays.

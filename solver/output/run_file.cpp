@@ -54,8 +54,8 @@ std::vector<float> contact_pressure(const Simulation& simulation) {
       if (simulation.has_walls())
         for (std::size_t axis = 0; axis < 3; ++axis) {
           const double x = model.position[4 * node + axis];
-          value += model.penalty_stiffness[g] * model.reference_area[node] / std::max(area, 1e-300) *
-                   (std::max(state.low[axis] - x, 0.0) + std::max(x - state.high[axis], 0.0));
+          value += model.penalty_stiffness[g] * model.local_stiffness(node) * model.reference_area[node] /
+                   std::max(area, 1e-300) * (std::max(state.low[axis] - x, 0.0) + std::max(x - state.high[axis], 0.0));
         }
       pressure[static_cast<std::size_t>(model.file_node[node])] = static_cast<float>(value);
     }
