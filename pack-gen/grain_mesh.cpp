@@ -85,7 +85,10 @@ TetMesh gmsh_half_ball(double radius, const std::function<double(const Point&)>&
   TetMesh mesh;
   try {
     gmsh::model::add("half ball");
-    gmsh::model::occ::addSphere(0, 0, 0, radius, 1, 0, std::numbers::pi / 2, 2 * std::numbers::pi);
+    // The poles of the sphere's parametrisation, where triangles are poor, lie on the rim: the tip is an ordinary place.
+    constexpr double right_angle = std::numbers::pi / 2;
+    gmsh::model::occ::addSphere(0, 0, 0, radius, 1, -right_angle, right_angle, 2 * right_angle);
+    gmsh::model::occ::rotate({{3, 1}}, 0, 0, 0, 1, 0, 0, right_angle);
     gmsh::model::occ::synchronize();
     for (const char* off : {"Mesh.MeshSizeExtendFromBoundary", "Mesh.MeshSizeFromPoints", "Mesh.MeshSizeFromCurvature"})
       gmsh::option::setNumber(off, 0);
@@ -120,6 +123,10 @@ TetMesh gmsh_half_ball(double radius, const std::function<double(const Point&)>&
     gmsh::model::remove();
   } catch (const std::exception& error) {
     throw SimulationError(fmt::format("gmsh could not mesh the half-ball: {}", error.what()));
+  } catch (...) { // gmsh throws numbers or strings too
+    std::string reason;
+    gmsh::logger::getLastError(reason);
+    throw SimulationError(fmt::format("gmsh could not mesh the half-ball: {}", reason.empty() ? "no reason given" : reason));
   }
   for (Tet& t : mesh.tet) {
     const auto at = [&](std::size_t k) { return mesh.node[static_cast<std::size_t>(t[k])]; };

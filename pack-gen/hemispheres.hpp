@@ -4,7 +4,8 @@
 // The lower one has its flat face on z = 0, the upper one on z = 2 R + gap; their tips face each other across the gap in
 // the middle of the box. Nodes of the curved faces lie on the sphere: hemispheres are not scaled to the exact volume, as
 // packings are, since the curvature at the tip is what counts. Facets of a convex body lie inside it, so that the two
-// cannot overlap. The upper mesh is the lower one mirrored and turned about the axis: no node meets a node.
+// cannot overlap. Nodes are moved to raise the smallest critical step. The upper mesh is the lower one mirrored and
+// turned about the axis: no node meets a node.
 
 #include <string>
 
@@ -21,14 +22,23 @@ struct HemisphereRequest {
   double growth = 0.3;       ///< of the size per distance from both
   double gap = 0;            ///< mm, > 0
   double rotation = 37;      ///< of the upper hemisphere about the axis, degrees
+  double box_width = 0;      ///< in x and y, mm; 0: 2.4 R
 };
 
 struct Hemispheres {
   SpherePacking packing; ///< the full spheres, of which half lies in the box
   PackingMesh mesh;
+  double tip_gap = 0; ///< mm, proven distance of the two meshes: the request's gap, and how far facets lie inside the tips
 };
 
 /// Throws InputError for sizes that make no sense together or too many tets, SimulationError where gmsh fails.
 Hemispheres mesh_hemispheres(const HemisphereRequest& request);
+
+/// Where the tets of both hemispheres went.
+struct Refinement {
+  double smallest_edge = 0;  ///< mm
+  std::size_t tets_near = 0; ///< tets in whose middle an edge below twice the contact size was asked for
+};
+Refinement refinement(const HemisphereRequest& request, const Hemispheres& pair);
 
 } // namespace mpfem

@@ -88,20 +88,27 @@ void mesh(const Arguments& arguments) {
 void hemispheres(const Arguments& arguments) {
   HemisphereRequest request = arguments.hemispheres;
   if (request.bulk_size == 0) request.bulk_size = std::min(3 * request.contact_size, request.size);
+  Progress progress("pack-gen", arguments.quiet);
+  progress.update(0, "meshing a hemisphere");
   const Hemispheres pair = mesh_hemispheres(request);
+  progress.update(0.8, "measuring");
   const MeshReport report = report_mesh(pair.packing, pair.mesh, request.size, arguments.material, arguments.threads);
+  const Refinement detail = refinement(request, pair);
   write_packing_file(
       arguments.output, pair.packing,
       {{},
        fmt::format("hemispheres of radius {:g} mm, {:g} mm at the contact", request.radius, request.contact_size),
        {},
        {}},
-      MeshForFile{&pair.mesh, request.size, request.gap, report.smallest_quality});
+      MeshForFile{&pair.mesh, request.size, report.facet_gap.gap, report.smallest_quality, true});
+  progress.finish(fmt::format("{} tets, {}", report.tets, arguments.output));
   if (!arguments.quiet)
-    fmt::print("{} nodes, {} tets, {} of them in the lower hemisphere; smallest quality {:.3f}; critical step {:.4g} "
-               "s, median {:.4g} s; {}\n",
-               report.nodes, report.tets, pair.mesh.grain_tet_offset[1], report.smallest_quality, report.smallest_step,
-               report.median_step, arguments.output);
+    fmt::print("{} nodes, {} tets, {} of them in the lower hemisphere, {} near the contact in both; smallest edge {:.4g} "
+               "mm; gap {:.4g} mm; smallest quality {:.3f}; critical step {:.4g} s = {:.3f} contact size/c, median "
+               "{:.4g} s\n",
+               report.nodes, report.tets, pair.mesh.grain_tet_offset[1], detail.tets_near, detail.smallest_edge,
+               pair.tip_gap, report.smallest_quality, report.smallest_step,
+               report.smallest_step * arguments.material.wave_speed() / request.contact_size, report.median_step);
 }
 
 void import(const Arguments& arguments) {
@@ -218,6 +225,7 @@ int body(int argc, char** argv) {
          "Largest element size within 1.5 contact radii under the tip, mm (default: 3 contact sizes)", false);
   length("--growth", pair.growth, "Growth of the size with distance (default: 0.3)", false);
   length("--gap", pair.gap, "Distance of the tips, mm (default: 1e-6)", false);
+  length("--box-width", pair.box_width, "Width of the box in x and y, mm (default: 2.4 radii)", false);
   hemispheres_command->add_option("--rotate", pair.rotation, "Turn of the upper hemisphere about the axis, degrees")
       ->check(CLI::Range(-360.0, 360.0))
       ->capture_default_str();

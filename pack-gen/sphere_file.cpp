@@ -146,9 +146,10 @@ void write_packing_file(const std::string& path, const SpherePacking& packing, c
   writer.write(file::box_lengths, Doubles(packing.box), 3);
   writer.write(file::spheres_center, Doubles(center), spheres);
   writer.write(file::spheres_radius, Doubles(packing.radius), spheres);
-  if (const double gap = smallest_gap(packing).gap; std::isfinite(gap))
-    writer.write_scalar(file::packing_smallest_gap, gap);
-  writer.write_scalar(file::packing_relative_density, relative_density(packing));
+  const bool halves = mesh && mesh->hemispheres;
+  const double gap = halves ? smallest_sphere_gap(packing).gap : smallest_gap(packing).gap;
+  if (std::isfinite(gap)) writer.write_scalar(file::packing_smallest_gap, gap);
+  writer.write_scalar(file::packing_relative_density, (halves ? 0.5 : 1.0) * relative_density(packing));
   if (origin.seed) writer.write_scalar(file::packing_seed, *origin.seed);
   writer.write_scalar(file::packing_description, origin.description);
   if (!origin.target_diameter.empty()) {

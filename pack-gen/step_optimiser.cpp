@@ -32,8 +32,8 @@ double frequency_squared(const Vector3d& a, const Vector3d& b, const Vector3d& c
 
 class Optimiser {
 public:
-  Optimiser(BallMesh& ball, double edge) : ball_(ball), edge_(edge), position_(ball.mesh.node.size()) {
-    const auto& mesh = ball.mesh;
+  Optimiser(TetMesh& mesh, const std::vector<NodeFreedom>& freedom, double edge)
+      : mesh_(mesh), freedom_(freedom), edge_(edge), position_(mesh.node.size()) {
     for (std::size_t i = 0; i < position_.size(); ++i)
       position_[i] = {mesh.node[i][0], mesh.node[i][1], mesh.node[i][2]};
     offset_.assign(position_.size() + 1, 0);
@@ -48,25 +48,25 @@ public:
   }
 
   void sweep(double band, Random& random) {
-    std::vector<double> squared(ball_.mesh.tet.size());
+    std::vector<double> squared(mesh_.tet.size());
     double worst = 0;
     for (std::size_t e = 0; e < squared.size(); ++e) worst = std::max(worst, squared[e] = tet_frequency(e));
     std::vector<char> visit(position_.size(), 0);
     for (std::size_t e = 0; e < squared.size(); ++e)
       if (squared[e] * band * band >= worst)
-        for (const std::int32_t n : ball_.mesh.tet[e]) visit[static_cast<std::size_t>(n)] = 1;
+        for (const std::int32_t n : mesh_.tet[e]) visit[static_cast<std::size_t>(n)] = 1;
     for (std::size_t i = 0; i < position_.size(); ++i)
-      if (visit[i]) improve(i, random);
+      if (visit[i] && freedom_[i] != NodeFreedom::fixed) improve(i, random);
   }
 
   void store() const {
     for (std::size_t i = 0; i < position_.size(); ++i)
-      ball_.mesh.node[i] = {position_[i][0], position_[i][1], position_[i][2]};
+      mesh_.node[i] = {position_[i][0], position_[i][1], position_[i][2]};
   }
 
 private:
   double tet_frequency(std::size_t e) const {
-    const Tet& t = ball_.mesh.tet[e];
+    const Tet& t = mesh_.tet[e];
     const auto at = [&](std::size_t k) -> const Vector3d& { return position_[static_cast<std::size_t>(t[k])]; };
     return frequency_squared(at(0), at(1), at(2), at(3));
   }
@@ -81,7 +81,7 @@ private:
   }
 
   void improve(std::size_t node, Random& random) {
-    const bool surface = node < ball_.surface_nodes;
+    const bool surface = freedom_[node] == NodeFreedom::on_unit_sphere;
     const Eigen::Matrix3d frame = random.rotation();
     Vector3d best = position_[node];
     double best_cost = cost(node);
@@ -103,7 +103,8 @@ private:
     reach_[node] = std::clamp(reach_[node] * (moved ? 1.3 : 0.5), 1e-3 * edge_, 0.3 * edge_);
   }
 
-  BallMesh& ball_;
+  TetMesh& mesh_;
+  const std::vector<NodeFreedom>& freedom_;
   double edge_;
   std::vector<Vector3d> position_;
   std::vector<std::size_t> offset_, around_;
@@ -113,7 +114,14 @@ private:
 } // namespace
 
 void raise_smallest_step(BallMesh& ball, double edge, int sweeps, double band, std::uint64_t seed) {
-  Optimiser optimiser(ball, edge);
+  std::vector<NodeFreedom> freedom(ball.mesh.node.size(), NodeFreedom::everywhere);
+  std::fill_n(freedom.begin(), ball.surface_nodes, NodeFreedom::on_unit_sphere);
+  raise_smallest_step(ball.mesh, freedom, edge, sweeps, band, seed);
+}
+
+void raise_smallest_step(TetMesh& mesh, const std::vector<NodeFreedom>& freedom, double edge, int sweeps, double band,
+                         std::uint64_t seed) {
+  Optimiser optimiser(mesh, freedom, edge);
   Random random(seed);
   for (int s = 0; s < sweeps; ++s) optimiser.sweep(band, random);
   optimiser.store();

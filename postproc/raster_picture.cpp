@@ -23,7 +23,7 @@ void write_raster_picture(const std::string& path, const Raster& raster, const F
   // so that a finer one looks the same in print.
   const double scale = std::max(0.6, frame.pixels / 900.0);
   const auto scaled = [scale](int pixels) { return static_cast<int>(std::lround(scale * pixels)); };
-  const int left = scaled(120), right = scaled(frame.bar ? 190 : 40), bottom = scaled(90), top = scaled(55);
+  const int left = scaled(150), right = scaled(frame.bar ? 190 : 40), bottom = scaled(90), top = scaled(55);
   const double width = left + raster.width + right, height = bottom + raster.height + top;
   std::string script = fmt::format("set terminal pngcairo size {},{} font 'Sans,{:.1f}' enhanced\nset output {}\n",
                                    width, height, 15 * scale, gnuplot_string(picture.path()));
