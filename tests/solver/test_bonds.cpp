@@ -4,127 +4,11 @@
 
 #include "common/errors.hpp"
 #include "solver/model/bond_resolution.hpp"
-#include "solver/run/simulation.hpp"
-#include "tests/support/meshes.hpp"
+#include "tests/support/bonded_pair.hpp"
 #include "tests/support/tolerances.hpp"
 
 using namespace mpfem;
 using namespace mpfem::test;
-
-namespace {
-
-constexpr double radius = 0.1; // mm
-
-BondParameters table_1(double fracture_energy) {
-  return {25, 18, fracture_energy, SofteningLaw::exponential, false, false};
-}
-
-/// Two grains along z between the faces of a box of height `height`.
-MeshedPacking stack(GrainMesh lower, GrainMesh upper, double height) {
-  move(lower, {0.3, 0.3, radius});
-  move(upper, {0.3, 0.3, height - radius});
-  return pack({lower, upper}, {0.6, 0.6, height});
-}
-
-/// A cube of edge 2 R below a block half as wide again: no node lies on the other's edges. 25 + 9 nodes meet (n = 4).
-MeshedPacking two_cubes(int n) {
-  GrainMesh lower = cube_mesh(n), upper = cube_mesh(n);
-  scale(lower, radius);
-  for (auto& x : upper.node) x = {1.5 * radius * x[0], 1.5 * radius * x[1], radius * x[2]};
-  return stack(lower, upper, 4 * radius + 1e-4);
-}
-constexpr int cube_bonds = 34;
-
-MeshedPacking two_balls(int n) {
-  GrainMesh lower = ball_mesh(n, radius), upper = lower;
-  rotate(lower, {0.6, 0, 0.8}, 0.7);
-  rotate(upper, {0, 0.6, 0.8}, 1.9);
-  return stack(lower, upper, 4 * radius + 1e-4);
-}
-
-Stage grip(const std::string& name, double displacement, double speed, std::array<double, 3> sliding = {}) {
-  Stage stage;
-  stage.name = name;
-  // Balls are gripped by a cap, cubes by their faces.
-  stage.grip = GripMotion{2, 0.03, true, displacement, sliding, speed, 0.2};
-  return stage;
-}
-
-/// Grains of Table 1: elastic ones would come to strains at which a hypoelastic energy depends on the path (1.5 % of the
-/// work when balls are pressed and slid, bonded or not; 0.02 % with yielding).
-Scenario bonded_scenario(const BondParameters& bond, std::vector<Stage> stages) {
-  Scenario scenario = holding_scenario(1e-6);
-  scenario.bond = bond;
-  scenario.stages = std::move(stages);
-  scenario.material.hardening = {HardeningLaw::power, 25, 125, 0.3, {}, {}};
-  return scenario;
-}
-
-/// What a run of all stages showed.
-struct Record {
-  std::vector<HistoryRow> last; ///< of each stage
-  double worst_residual = 0;    ///< largest |residual| over external work, of rows with some work
-  double largest_tension = 0;   ///< N, on a grip
-};
-
-Record run_stages(Simulation& simulation, const Scenario& scenario, int observe_every = 20) {
-  Record record;
-  double largest_work = 0, largest_residual = 0;
-  for (std::size_t s = 0; s < scenario.stages.size(); ++s) {
-    for (int i = 0;; ++i) {
-      simulation.evaluate_forces();
-      const bool end = simulation.stage_complete();
-      if (end || i % observe_every == 0) {
-        const HistoryRow row = simulation.observe();
-        largest_work = std::max(largest_work, std::abs(row.external_work));
-        largest_residual = std::max(largest_residual, std::abs(row.energy_residual));
-        record.largest_tension =
-            std::max(record.largest_tension, -row.wall_stress[5] * row.box_lengths[0] * row.box_lengths[1]);
-        if (end) record.last.push_back(row);
-      }
-      if (end) break;
-      simulation.advance();
-    }
-    if (s + 1 == scenario.stages.size()) break;
-    ++simulation.state().stage;
-    simulation.begin_stage();
-    simulation.advance();
-  }
-  record.worst_residual = largest_residual / largest_work;
-  return record;
-}
-
-Record run_stages(const MeshedPacking& packing, const Scenario& scenario) {
-  ThreadTeam team(1);
-  Simulation simulation(build_model(packing, scenario, "test"), scenario, team);
-  return run_stages(simulation, scenario);
-}
-
-std::array<double, 3> angular_momentum(const Model& m) {
-  std::array<double, 3> sum{};
-  for (std::size_t n = 0; n < static_cast<std::size_t>(m.nodes()); ++n)
-    for (std::size_t a = 0; a < 3; ++a) {
-      const std::size_t b = (a + 1) % 3, c = (a + 2) % 3;
-      sum[a] += (m.position[4 * n + b] * m.velocity[4 * n + c] - m.position[4 * n + c] * m.velocity[4 * n + b]) /
-                m.inverse_mass[n];
-    }
-  return sum;
-}
-
-/// Gives all grains one rigid rotation about the middle of the box, in place of the velocities that they have.
-void spin(Simulation& simulation, const std::array<double, 3>& rate) {
-  Model& m = simulation.model();
-  for (std::size_t n = 0; n < static_cast<std::size_t>(m.nodes()); ++n) {
-    std::array<double, 3> r{};
-    for (std::size_t a = 0; a < 3; ++a) r[a] = m.position[4 * n + a] - 0.5 * (m.box_low[a] + m.box_high[a]);
-    for (std::size_t a = 0; a < 3; ++a) {
-      const std::size_t b = (a + 1) % 3, c = (a + 2) % 3;
-      m.velocity[4 * n + a] = rate[b] * r[c] - rate[c] * r[b];
-    }
-  }
-}
-
-} // namespace
 
 TEST_CASE("two cubes pressed together and pulled apart dissipate the fracture energy of their bonded area") {
   for (const SofteningLaw softening : {SofteningLaw::exponential, SofteningLaw::energy}) {
@@ -160,7 +44,7 @@ TEST_CASE("the force of a pair that opens uniformly is that of the law") {
   const double area = 0.5 * record.last[0].bonded_area;
   const BondLaw law{1e6, 25, 18, 0.1, SofteningLaw::exponential, false};
   BondState state;
-  const double opening = record.last[1].box_lengths[2] - 4 * radius;
+  const double opening = record.last[1].box_lengths[2] - 4 * pair_radius;
   const double expected = bond_traction(law, state, opening, 0, 0).normal * area;
   // The cubes themselves stretch by 1e-5 of the opening's stress; edge nodes of the faces differ in area.
   CHECK(-record.last[1].wall_stress[5] * 0.36 == Approx(expected).epsilon(0.01));
@@ -223,41 +107,7 @@ TEST_CASE("a bonded pair that turns by a quarter shows no spurious traction and 
   for (std::size_t a = 0; a < 3; ++a) CHECK(std::abs(after[a] - before[a]) / std::abs(before[0]) < 1e-9);
   CHECK(worst < 1e-3);
   // It did turn: the lower grain lies beside the upper one.
-  CHECK(std::abs(simulation.model().position[2] - 2 * radius) < 1.3 * radius);
-}
-
-TEST_CASE("bonds follow the material when one ball is sheared by a radius against the other") {
-  for (const double fracture_energy : {0.01, 0.5}) {
-    const Scenario scenario =
-        bonded_scenario(table_1(fracture_energy), {grip("press", -0.01, 4000), grip("shear", 0, 8000, {radius, 0, 0})});
-    const MeshedPacking packing = two_balls(6);
-    ThreadTeam team(1);
-    Simulation simulation(build_model(packing, scenario, "test"), scenario, team);
-    const Record record = run_stages(simulation, scenario);
-    CHECK(record.last[0].bonds > 5);
-    CHECK(record.last[1].mean_damage > 0.5);
-    CHECK(record.worst_residual < 0.01);
-    // Central forces between material points: what one grain is pulled by, the other one is.
-    for (const PointBond& bond : simulation.contact().bond) {
-      CHECK(bond.state.largest >= bond.separation - 1e-15);
-      CHECK(std::isfinite(bond.separation));
-    }
-  }
-}
-
-TEST_CASE("a bonded pair keeps its ledger when pulled fast, and when pressed and slid at once") {
-  const std::vector<std::vector<Stage>> programmes = {
-      {grip("press", -0.005, 2000), grip("pull fast", 0.05, 10000)},
-      {grip("press and slide", -0.01, 4000, {0.04, 0.02, 0})},
-  };
-  for (const auto& stages : programmes)
-    for (const SofteningLaw softening : {SofteningLaw::exponential, SofteningLaw::energy}) {
-      BondParameters bond = table_1(0.1);
-      bond.softening = softening;
-      const Record record = run_stages(two_balls(6), bonded_scenario(bond, stages));
-      CHECK(record.worst_residual < 0.01);
-      CHECK(record.last.back().damage_dissipation > 0);
-    }
+  CHECK(std::abs(simulation.model().position[2] - 2 * pair_radius) < 1.3 * pair_radius);
 }
 
 TEST_CASE("a bond much stiffer than the elements, and one that softens steeply, keep the ledger") {
@@ -324,7 +174,7 @@ TEST_CASE("a scenario without bonds carries no bond state") {
 TEST_CASE("nodes at the edge between three bonded grains hold to both neighbours") {
   // Two cubes side by side and a block above their seam, thrown together.
   std::vector<GrainMesh> grains = {cube_mesh(4), cube_mesh(4), cube_mesh(5)};
-  for (GrainMesh& grain : grains) scale(grain, radius);
+  for (GrainMesh& grain : grains) scale(grain, pair_radius);
   for (auto& x : grains[2].node) x[0] *= 1.5, x[1] *= 1.5;
   move(grains[0], {0.2995, 0.4, 0.2});
   move(grains[1], {0.5005, 0.403, 0.2});
