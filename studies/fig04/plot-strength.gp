@@ -6,7 +6,7 @@ set xrange [0.08:4]
 set yrange [0:1.4]
 set xlabel "strength as Maugis' λ = 2 σ_0 (R/(2π w K^2))^{1/3}"
 set ylabel 'pull-off force over that of JKR'
-set key bottom right
+set key below maxcols 2 width -4
 # Maugis, J. Colloid Interface Sci. 150, 1992: pull-off over (pi w R/2), here divided by 1.5.
 $maugis << EOD
 0.067,1.3147
@@ -17,7 +17,7 @@ $maugis << EOD
 3,1.0113
 5,1.0040
 EOD
-cap(l) = l / 2 * 1.25**2 * 1.5**(2.0 / 3) / 1.5
+cap(l) = l / 2 * pi * 1.25**2 * 1.5**(2.0 / 3) / 1.5
 plot 1 with lines linetype 5 dashtype 2 title 'JKR: no limit of the strength', \
      $maugis using 1:2 with lines linetype 3 title 'Maugis–Dugdale: attraction outside the contact, too', \
      cap(x) with lines linetype 4 title 'σ_0 on all of the bonded area', \

@@ -2,14 +2,15 @@
 load 'studies/common/style.gp'
 folder = ARG2
 set output ARG3
-set multiplot layout 1,3 margins 0.1,0.985,0.13,0.92 spacing 0.075
+set multiplot layout 1,3 margins 0.12,0.985,0.13,0.92 spacing 0.075
 set xlabel 'approach h/R × 10^3'
-set ylabel 'force F/(ER^2) × 10^4' offset 1
+set ylabel 'force F/(ER^2) × 10^4' 
 set key top left
 set xzeroaxis linetype -1 linewidth 0.5
 do for [w in '0.01 0.1 0.5'] {
   set title sprintf('G^c = %s N/mm', w)
-  set xtics (w eq '0.01' ? 1 : w eq '0.1' ? 5 : 20)
+  step = w eq "0.01" ? 1 : w eq "0.1" ? 5 : 20
+  set xtics step
   case = folder . '/w' . w
   # Beyond the end of the theory's branch two free bodies ring.
   end = real(system("tail -n 1 '" . case . ".reference.csv' | cut -d, -f4"))
