@@ -1,5 +1,5 @@
 # awk -f errors.awk -v hardening=power|total_strain finite-elements.csv similarity.csv curve.csv
-# How far a computed curve is from the converged finite-element rows (loading), and its pull-off from the similarity law.
+# How far a computed curve is from the converged finite-element rows (loading, from a quarter of the largest approach on), and its pull-off from the similarity law.
 BEGIN { FS = "," }
 FNR == 1 { ++file; next }
 file == 1 { ++n; h[n] = $1; f[n] = hardening == "power" ? $2 : $3; next }
@@ -12,7 +12,7 @@ function between(x, xs, ys, count,   i) {
 }
 END {
   for (i = 1; i <= n; ++i)
-    if (h[i] >= 0.0099 && h[i] <= largest * 1.001) {
+    if (h[i] >= 0.24 * largest && h[i] <= largest * 1.001) {
       d = between(h[i], row_h, row_f, rows) / f[i] - 1
       sum += d
       if (d < 0) d = -d
