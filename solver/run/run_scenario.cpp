@@ -129,6 +129,7 @@ private:
       RunRecord earlier;
       read_checkpoint(*options_.from, simulation_, earlier, scenario_.text, true);
       simulation_.begin_branch();
+      branch_step_ = simulation_.state().step;
     }
     begins_anew_ = true;
   }
@@ -313,7 +314,7 @@ private:
     add_times(record);
     fmt::print(stderr, "{:<24} {:>10} {:>8} {:>12}\n", "part", "wall s", "share", "ns/tet-step");
     const double tet_steps =
-        static_cast<double>(simulation_.state().step) * static_cast<double>(simulation_.model().tets());
+        static_cast<double>(simulation_.state().step - branch_step_) * static_cast<double>(simulation_.model().tets());
     double accounted = 0;
     const auto line = [&](const char* name, double seconds) {
       fmt::print(stderr, "{:<24} {:>10.2f} {:>7.1f}% {:>12.2f}\n", name, seconds, 100 * seconds / record.wall_time,
@@ -335,6 +336,7 @@ private:
   RunRecord record_;
   Profile::Clock::time_point start_, last_checkpoint_;
   std::int64_t steps_at_start_ = 0;
+  std::int64_t branch_step_ = 0; ///< steps that the checkpoint of --from had done
   int reported_lines_ = 0;
   bool already_complete_ = false, begins_anew_ = false;
 };
