@@ -126,7 +126,8 @@ TetMesh gmsh_half_ball(double radius, const std::function<double(const Point&)>&
   } catch (...) { // gmsh throws numbers or strings too
     std::string reason;
     gmsh::logger::getLastError(reason);
-    throw SimulationError(fmt::format("gmsh could not mesh the half-ball: {}", reason.empty() ? "no reason given" : reason));
+    throw SimulationError(
+        fmt::format("gmsh could not mesh the half-ball: {}", reason.empty() ? "no reason given" : reason));
   }
   for (Tet& t : mesh.tet) {
     const auto at = [&](std::size_t k) { return mesh.node[static_cast<std::size_t>(t[k])]; };

@@ -28,7 +28,8 @@ struct HemisphereRequest {
 struct Hemispheres {
   SpherePacking packing; ///< the full spheres, of which half lies in the box
   PackingMesh mesh;
-  double tip_gap = 0; ///< mm, proven distance of the two meshes: the request's gap, and how far facets lie inside the tips
+  double tip_gap =
+      0; ///< mm, proven distance of the two meshes: the request's gap, and how far facets lie inside the tips
 };
 
 /// Throws InputError for sizes that make no sense together or too many tets, SimulationError where gmsh fails.

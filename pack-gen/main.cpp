@@ -103,12 +103,13 @@ void hemispheres(const Arguments& arguments) {
       MeshForFile{&pair.mesh, request.size, report.facet_gap.gap, report.smallest_quality, true});
   progress.finish(fmt::format("{} tets, {}", report.tets, arguments.output));
   if (!arguments.quiet)
-    fmt::print("{} nodes, {} tets, {} of them in the lower hemisphere, {} near the contact in both; smallest edge {:.4g} "
-               "mm; gap {:.4g} mm; smallest quality {:.3f}; critical step {:.4g} s = {:.3f} contact size/c, median "
-               "{:.4g} s\n",
-               report.nodes, report.tets, pair.mesh.grain_tet_offset[1], detail.tets_near, detail.smallest_edge,
-               pair.tip_gap, report.smallest_quality, report.smallest_step,
-               report.smallest_step * arguments.material.wave_speed() / request.contact_size, report.median_step);
+    fmt::print(
+        "{} nodes, {} tets, {} of them in the lower hemisphere, {} near the contact in both; smallest edge {:.4g} "
+        "mm; gap {:.4g} mm; smallest quality {:.3f}; critical step {:.4g} s = {:.3f} contact size/c, median "
+        "{:.4g} s\n",
+        report.nodes, report.tets, pair.mesh.grain_tet_offset[1], detail.tets_near, detail.smallest_edge, pair.tip_gap,
+        report.smallest_quality, report.smallest_step,
+        report.smallest_step * arguments.material.wave_speed() / request.contact_size, report.median_step);
 }
 
 void import(const Arguments& arguments) {

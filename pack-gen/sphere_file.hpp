@@ -41,7 +41,8 @@ void export_spheres(const std::string& path, const SpherePacking& packing);
 struct MeshForFile {
   const PackingMesh* mesh = nullptr;
   double nominal_size = 0, smallest_facet_gap = 0, smallest_quality = 0;
-  bool hemispheres = false; ///< grains are halves of the spheres: half their density, and no gap to the walls that cut them
+  bool hemispheres =
+      false; ///< grains are halves of the spheres: half their density, and no gap to the walls that cut them
 };
 
 /// Writes spheres, and the mesh where there is one. Throws StorageError.

@@ -38,7 +38,8 @@ double disc(double r, double b) {
 struct Rings {
   std::vector<double> middle, area;
   Eigen::MatrixXd influence; ///< mm/MPa
-  explicit Rings(double outer, int count) : middle(static_cast<std::size_t>(count)), area(middle), influence(count, count) {
+  explicit Rings(double outer, int count)
+      : middle(static_cast<std::size_t>(count)), area(middle), influence(count, count) {
     const double width = outer / count;
     for (int j = 0; j < count; ++j) {
       const double inner = j * width, end = inner + width;
@@ -136,12 +137,16 @@ int main() {
       gap = trial;
       const double f = force(rings, law, true, gap);
       if (f < lowest) lowest = f, at = approach;
-      fmt::print("{},{},{},{:.6e},{:.6e}\n", energy, lambda, softening == SofteningLaw::exponential ? "exponential" : "energy",
-                 approach / radius, f / (youngs_modulus * radius * radius));
+      fmt::print("{},{},{},{:.6e},{:.6e}\n", energy, lambda,
+                 softening == SofteningLaw::exponential ? "exponential" : "energy", approach / radius,
+                 f / (youngs_modulus * radius * radius));
       approach -= step;
     }
-    fmt::print(stderr, "G^c {:5} N/mm, lambda {:5}, {} rings, {}: strength {:.1f} MPa, pull-off {:.4f} of JKR at h/R = {:.5f}\n", energy,
-               lambda, count, softening == SofteningLaw::exponential ? "exponential" : "energy", strength, -lowest / jkr, at / radius);
+    fmt::print(
+        stderr,
+        "G^c {:5} N/mm, lambda {:5}, {} rings, {}: strength {:.1f} MPa, pull-off {:.4f} of JKR at h/R = {:.5f}\n",
+        energy, lambda, count, softening == SofteningLaw::exponential ? "exponential" : "energy", strength,
+        -lowest / jkr, at / radius);
   };
   for (const int count : {200, 400}) run(0.1, 2, SofteningLaw::exponential, count);
   for (const double energy : energies) run(energy, 2, SofteningLaw::exponential, 300);

@@ -14,7 +14,9 @@ using namespace mpfem::test;
 
 namespace {
 
-Outcome pack_gen(const std::string& arguments) { return run_command(fmt::format("'{}' {}", MPFEM_PACK_GEN, arguments)); }
+Outcome pack_gen(const std::string& arguments) {
+  return run_command(fmt::format("'{}' {}", MPFEM_PACK_GEN, arguments));
+}
 
 const std::string description = R"(count = 11
 relative_density = 0.3
@@ -44,7 +46,8 @@ TEST_CASE("spheres, mesh, quality and export follow each other, and the files ho
   const Outcome mesh = pack_gen(fmt::format("mesh {} --size 0.04 -o {} --threads 2", folder / "s.h5", folder / "p.h5"));
   INFO(mesh.messages);
   REQUIRE(mesh.exit_code == 0);
-  CHECK_THAT(mesh.output, Catch::Contains("critical step") && Catch::Contains("facet gap") && Catch::Contains("volume error"));
+  CHECK_THAT(mesh.output,
+             Catch::Contains("critical step") && Catch::Contains("facet gap") && Catch::Contains("volume error"));
   CHECK(schema::validate(folder / "s.h5").empty());
   CHECK(schema::validate(folder / "p.h5").empty());
   const SphereFile file = read_spheres(folder / "p.h5");
@@ -54,7 +57,8 @@ TEST_CASE("spheres, mesh, quality and export follow each other, and the files ho
   CHECK(pack_gen("quality " + (folder / "p.h5")).exit_code == 0);
 
   REQUIRE(pack_gen(fmt::format("export {} -o {}", folder / "p.h5", folder / "s.csv")).exit_code == 0);
-  REQUIRE(pack_gen(fmt::format("import {} --box 0.4,0.4,0.4 -o {}", folder / "s.csv", folder / "again.h5")).exit_code == 0);
+  REQUIRE(pack_gen(fmt::format("import {} --box 0.4,0.4,0.4 -o {}", folder / "s.csv", folder / "again.h5")).exit_code ==
+          0);
   const SphereFile again = read_spheres(folder / "again.h5");
   CHECK(again.packing.center == file.packing.center); // bit for bit
   CHECK(again.packing.radius == file.packing.radius);
@@ -63,7 +67,9 @@ TEST_CASE("spheres, mesh, quality and export follow each other, and the files ho
 TEST_CASE("the examples are packed as they say") {
   const Folder folder;
   for (const auto& [name, count, density] : {std::tuple{"mcc_ph102", 329, 0.552}, {"mcc_ph102_smoke", 25, 0.45}}) {
-    REQUIRE(pack_gen(fmt::format("spheres {}/{}.toml -o {} --quiet", MPFEM_EXAMPLES, name, folder / "s.h5")).exit_code == 0);
+    REQUIRE(
+        pack_gen(fmt::format("spheres {}/{}.toml -o {} --quiet", MPFEM_EXAMPLES, name, folder / "s.h5")).exit_code ==
+        0);
     const SphereFile file = read_spheres(folder / "s.h5");
     CHECK(file.packing.radius.size() == static_cast<std::size_t>(count));
     CHECK(relative_density(file.packing) == Approx(density).margin(1e-9));
@@ -87,17 +93,18 @@ TEST_CASE("pack-gen refuses what it cannot use with one line and exit code 2, an
   struct Case {
     std::string from, to, expected;
   };
-  for (const Case& c : std::vector<Case>{{"count = 11", "count = ", "pack.toml:1"},
-                                         {"count = 11", "count = 0", "count"},
-                                         {"count = 11", "count = 11\ncuont = 3", "cuont"},
-                                         {"relative_density = 0.3", "relative_density = 0.9", "0.9"},
-                                         {"relative_density = 0.3", "relative_density = 0.7", "size_scale_tolerance"},
-                                         {"smallest_gap = 0.002", "smallest_gap = 0.08", "jam"},
-                                         {"[0.4, 0.4, 0.4]", "[0.4, 0.4]", "box"},
-                                         {"\"table\"", "\"weibull\"", "log_normal"},
-                                         {"cumulative = [0, 1]", "cumulative = [0, 0.5]", "cumulative"},
-                                         {"cumulative = [0, 1]", "file = \"none.csv\"", "values"},
-                                         {"values = [0.1, 0.2]\ncumulative = [0, 1]", "file = \"none.csv\"", "none.csv"}}) {
+  for (const Case& c :
+       std::vector<Case>{{"count = 11", "count = ", "pack.toml:1"},
+                         {"count = 11", "count = 0", "count"},
+                         {"count = 11", "count = 11\ncuont = 3", "cuont"},
+                         {"relative_density = 0.3", "relative_density = 0.9", "0.9"},
+                         {"relative_density = 0.3", "relative_density = 0.7", "size_scale_tolerance"},
+                         {"smallest_gap = 0.002", "smallest_gap = 0.08", "jam"},
+                         {"[0.4, 0.4, 0.4]", "[0.4, 0.4]", "box"},
+                         {"\"table\"", "\"weibull\"", "log_normal"},
+                         {"cumulative = [0, 1]", "cumulative = [0, 0.5]", "cumulative"},
+                         {"cumulative = [0, 1]", "file = \"none.csv\"", "values"},
+                         {"values = [0.1, 0.2]\ncumulative = [0, 1]", "file = \"none.csv\"", "none.csv"}}) {
     write_text(folder / "pack.toml", replaced(description, c.from, c.to));
     const Outcome outcome = pack_gen(fmt::format("spheres {} -o {}", folder / "pack.toml", folder / "s.h5"));
     INFO(c.to << ": " << outcome.messages);
@@ -106,13 +113,13 @@ TEST_CASE("pack-gen refuses what it cannot use with one line and exit code 2, an
     CHECK_THAT(outcome.messages, Catch::Contains(c.expected));
     CHECK_FALSE(std::filesystem::exists(folder / "s.h5"));
   }
-  for (const auto& [csv, expected] : std::vector<std::pair<std::string, std::string>>{
-           {"x,y,z,radius\n0,0,0,1\n0,0,1.5,1\n", "overlap"},
-           {"x,y,z,radius\n0,0,0,-1\n", "radius"},
-           {"x,y,z,radius\n0,0,zero,1\n", "s.csv:2"},
-           {"x,y,z,radius\n0,0,0\n", "s.csv:2"},
-           {"x,y,radius,z\n0,0,0,1\n", "s.csv:1"},
-           {"", "no rows"}}) {
+  for (const auto& [csv, expected] :
+       std::vector<std::pair<std::string, std::string>>{{"x,y,z,radius\n0,0,0,1\n0,0,1.5,1\n", "overlap"},
+                                                        {"x,y,z,radius\n0,0,0,-1\n", "radius"},
+                                                        {"x,y,z,radius\n0,0,zero,1\n", "s.csv:2"},
+                                                        {"x,y,z,radius\n0,0,0\n", "s.csv:2"},
+                                                        {"x,y,radius,z\n0,0,0,1\n", "s.csv:1"},
+                                                        {"", "no rows"}}) {
     write_text(folder / "s.csv", csv);
     const Outcome outcome = pack_gen(fmt::format("import {} -o {}", folder / "s.csv", folder / "s.h5"));
     INFO(csv << ": " << outcome.messages);
@@ -124,8 +131,9 @@ TEST_CASE("pack-gen refuses what it cannot use with one line and exit code 2, an
   write_text(folder / "s.csv", "0.5,0.5,0.5,0.2\n");
   REQUIRE(pack_gen(fmt::format("import {} --box 1,1,1 -o {}", folder / "s.csv", folder / "s.h5")).exit_code == 0);
   for (const std::string& arguments :
-       {"mesh " + (folder / "s.h5") + " --size 0.5 -o " + (folder / "p.h5"), "mesh " + (folder / "absent.h5") + " --size 0.1 -o " + (folder / "p.h5"),
-        "quality " + (folder / "s.h5"), "mesh " + (folder / "s.csv") + " --size 0.1 -o " + (folder / "p.h5")}) {
+       {"mesh " + (folder / "s.h5") + " --size 0.5 -o " + (folder / "p.h5"),
+        "mesh " + (folder / "absent.h5") + " --size 0.1 -o " + (folder / "p.h5"), "quality " + (folder / "s.h5"),
+        "mesh " + (folder / "s.csv") + " --size 0.1 -o " + (folder / "p.h5")}) {
     const Outcome outcome = pack_gen(arguments);
     INFO(arguments << ": " << outcome.messages);
     CHECK(outcome.exit_code == 2);
@@ -150,11 +158,13 @@ TEST_CASE("pack-gen refuses what it cannot use with one line and exit code 2, an
 
 TEST_CASE("a file with overlapping spheres is not meshed: the spheres and the overlap are named") {
   const Folder folder;
-  write_packing_file(folder / "s.h5", {.box = {1, 1, 1}, .center = {{0.3, 0.5, 0.5}, {0.7, 0.5, 0.5}}, .radius = {0.25, 0.2}}, {});
+  write_packing_file(folder / "s.h5",
+                     {.box = {1, 1, 1}, .center = {{0.3, 0.5, 0.5}, {0.7, 0.5, 0.5}}, .radius = {0.25, 0.2}}, {});
   const Outcome outcome = pack_gen(fmt::format("mesh {} --size 0.1 -o {}", folder / "s.h5", folder / "p.h5"));
   CHECK(outcome.exit_code == 2);
   CHECK(outcome.one_error_line("pack-gen"));
-  CHECK_THAT(outcome.messages, Catch::Contains("sphere 0") && Catch::Contains("sphere 1") && Catch::Contains("overlap by 0.05 mm"));
+  CHECK_THAT(outcome.messages,
+             Catch::Contains("sphere 0") && Catch::Contains("sphere 1") && Catch::Contains("overlap by 0.05 mm"));
   CHECK_FALSE(std::filesystem::exists(folder / "p.h5"));
 }
 

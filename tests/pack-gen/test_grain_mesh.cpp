@@ -18,19 +18,23 @@ using namespace mpfem;
 namespace {
 
 SpherePacking three_spheres() {
-  return {.box = {0.5, 0.5, 0.5}, .center = {{0.13, 0.13, 0.13}, {0.36, 0.13, 0.14}, {0.2, 0.33, 0.3}}, .radius = {0.12, 0.105, 0.08}};
+  return {.box = {0.5, 0.5, 0.5},
+          .center = {{0.13, 0.13, 0.13}, {0.36, 0.13, 0.14}, {0.2, 0.33, 0.3}},
+          .radius = {0.12, 0.105, 0.08}};
 }
 
 std::vector<Point> nodes_of(const PackingMesh& mesh, std::size_t grain) {
   std::vector<Point> nodes;
-  for (auto n = static_cast<std::size_t>(mesh.grain_node_offset[grain]); n < static_cast<std::size_t>(mesh.grain_node_offset[grain + 1]); ++n)
+  for (auto n = static_cast<std::size_t>(mesh.grain_node_offset[grain]);
+       n < static_cast<std::size_t>(mesh.grain_node_offset[grain + 1]); ++n)
     nodes.push_back({mesh.node[3 * n], mesh.node[3 * n + 1], mesh.node[3 * n + 2]});
   return nodes;
 }
 
 std::vector<Tet> tets_of(const PackingMesh& mesh, std::size_t grain) {
   std::vector<Tet> tets;
-  for (auto t = static_cast<std::size_t>(mesh.grain_tet_offset[grain]); t < static_cast<std::size_t>(mesh.grain_tet_offset[grain + 1]); ++t) {
+  for (auto t = static_cast<std::size_t>(mesh.grain_tet_offset[grain]);
+       t < static_cast<std::size_t>(mesh.grain_tet_offset[grain + 1]); ++t) {
     Tet tet{};
     for (std::size_t c = 0; c < 4; ++c) tet[c] = mesh.tet[4 * t + c] - mesh.grain_node_offset[grain];
     tets.push_back(tet);
@@ -55,7 +59,8 @@ TEST_CASE("every grain's mesh has its sphere's volume, positive tets and a close
     CHECK(is_closed_sphere(boundary_facets(grain.tet)));
     CHECK(ball_defect(grain).empty());
     // As many tets as the nominal size says: 11.05 in a cube of its edge, a coarse ball's grain of counting aside.
-    CHECK(static_cast<double>(grain.tet.size()) == Approx(exact * tets_per_cubed_size / std::pow(0.03, 3)).epsilon(0.12));
+    CHECK(static_cast<double>(grain.tet.size()) ==
+          Approx(exact * tets_per_cubed_size / std::pow(0.03, 3)).epsilon(0.12));
   }
 }
 
@@ -74,7 +79,9 @@ TEST_CASE("the proven facet gap is below every distance of sampled surface point
         for (int b = 0; a + b <= 4; ++b) {
           Point p{};
           for (std::size_t k = 0; k < 3; ++k)
-            p[k] = (a * nodes[static_cast<std::size_t>(f[0])][k] + b * nodes[static_cast<std::size_t>(f[1])][k] + (4 - a - b) * nodes[static_cast<std::size_t>(f[2])][k]) / 4;
+            p[k] = (a * nodes[static_cast<std::size_t>(f[0])][k] + b * nodes[static_cast<std::size_t>(f[1])][k] +
+                    (4 - a - b) * nodes[static_cast<std::size_t>(f[2])][k]) /
+                   4;
           surface[g].push_back(p);
           for (std::size_t k = 0; k < 3; ++k) sampled = std::min({sampled, p[k], packing.box[k] - p[k]});
         }
@@ -82,7 +89,8 @@ TEST_CASE("the proven facet gap is below every distance of sampled surface point
   for (std::size_t g = 0; g < 3; ++g)
     for (std::size_t h = 0; h < g; ++h)
       for (const Point& p : surface[g])
-        for (const Point& q : surface[h]) sampled = std::min(sampled, std::hypot(p[0] - q[0], p[1] - q[1], p[2] - q[2]));
+        for (const Point& q : surface[h])
+          sampled = std::min(sampled, std::hypot(p[0] - q[0], p[1] - q[1], p[2] - q[2]));
   CHECK(proven <= sampled + 1e-12);
   CHECK(proven > sampled - 0.002); // the grid's own error: (edge/4)^2 over the sphere's radius and the like
 }
@@ -92,8 +100,11 @@ TEST_CASE("the distance of convex hulls is proven from below and reached from ab
   std::normal_distribution<double> normal;
   for (int i = 0; i < 50; ++i) {
     Eigen::Matrix3Xd a(3, 30), b(3, 20);
-    for (int c = 0; c < 30; ++c) a.col(c) = Eigen::Vector3d(normal(random), normal(random), normal(random)).normalized();
-    for (int c = 0; c < 20; ++c) b.col(c) = Eigen::Vector3d(normal(random), normal(random), normal(random)).normalized() + Eigen::Vector3d(2.5, 0.3, 0);
+    for (int c = 0; c < 30; ++c)
+      a.col(c) = Eigen::Vector3d(normal(random), normal(random), normal(random)).normalized();
+    for (int c = 0; c < 20; ++c)
+      b.col(c) =
+          Eigen::Vector3d(normal(random), normal(random), normal(random)).normalized() + Eigen::Vector3d(2.5, 0.3, 0);
     const ConvexDistance d = convex_distance(a, b, Eigen::Vector3d(1, 0, 0));
     CHECK(d.lower > 0);
     CHECK(d.upper == Approx(d.lower).epsilon(1e-6));
@@ -124,7 +135,8 @@ TEST_CASE("quality and critical step of the regular tetrahedron are known") {
 }
 
 TEST_CASE("a size too large for the smallest sphere is refused and says what is allowed") {
-  CHECK_THROWS_WITH(mesh_packing(three_spheres(), {.nominal_size = 0.2}), Catch::Contains("0.12") && Catch::Contains("allowed"));
+  CHECK_THROWS_WITH(mesh_packing(three_spheres(), {.nominal_size = 0.2}),
+                    Catch::Contains("0.12") && Catch::Contains("allowed"));
   CHECK_THROWS_AS(mesh_packing(three_spheres(), {.nominal_size = 1e-6}), InputError);
 }
 
@@ -132,7 +144,9 @@ namespace {
 
 /// A sphere and its twelve neighbours of a face-centred cubic packing, `gap` apart.
 SpherePacking cluster(double radius, double gap) {
-  SpherePacking packing{.box = {8 * radius, 8 * radius, 8 * radius}, .center = {{4 * radius, 4 * radius, 4 * radius}}, .radius = {radius}};
+  SpherePacking packing{.box = {8 * radius, 8 * radius, 8 * radius},
+                        .center = {{4 * radius, 4 * radius, 4 * radius}},
+                        .radius = {radius}};
   const double step = (2 * radius + gap) / std::sqrt(2.0);
   for (const double a : {-step, step})
     for (const double b : {-step, step})

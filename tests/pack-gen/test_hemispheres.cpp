@@ -177,8 +177,7 @@ TEST_CASE("pack-gen hemispheres writes a file that holds to the schema, with the
   const Folder folder;
   const std::string options =
       "hemispheres --radius 0.1 --size 0.02 --contact-size 0.004 --contact-radius 0.02 --gap 2e-6 --box-width 0.3";
-  const Outcome outcome =
-      run_command(fmt::format("'{}' {} -o {}", MPFEM_PACK_GEN, options, folder / "pair.h5"));
+  const Outcome outcome = run_command(fmt::format("'{}' {} -o {}", MPFEM_PACK_GEN, options, folder / "pair.h5"));
   INFO(outcome.messages);
   REQUIRE(outcome.exit_code == 0);
   CHECK_THAT(outcome.output, Catch::Contains("critical step") && Catch::Contains("smallest edge"));
@@ -196,7 +195,8 @@ TEST_CASE("pack-gen hemispheres writes a file that holds to the schema, with the
   CHECK(quiet.exit_code == 0);
   CHECK(quiet.output.empty());
   CHECK(quiet.messages.empty());
-  CHECK(run_command(fmt::format("'{}' hemispheres --help", MPFEM_PACK_GEN)).output.find("Example") != std::string::npos);
+  CHECK(run_command(fmt::format("'{}' hemispheres --help", MPFEM_PACK_GEN)).output.find("Example") !=
+        std::string::npos);
 }
 
 TEST_CASE("pack-gen hemispheres refuses sizes that make no sense with one line and exit code 2, and writes nothing") {
@@ -219,8 +219,8 @@ TEST_CASE("pack-gen hemispheres refuses sizes that make no sense with one line a
     CHECK_THAT(outcome.messages, Catch::Contains(expected));
     CHECK_FALSE(std::filesystem::exists(folder / "pair.h5"));
   }
-  for (const char* options :
-       {"--radius -1 --size 0.01 --contact-size 0.001 --contact-radius 0.02",
-        "--radius 0.1 --size 0.01 --contact-size 0 --contact-radius 0.02", "--radius 0.1"})
-    CHECK(run_command(fmt::format("'{}' hemispheres {} -o {}", MPFEM_PACK_GEN, options, folder / "p.h5")).exit_code == 2);
+  for (const char* options : {"--radius -1 --size 0.01 --contact-size 0.001 --contact-radius 0.02",
+                              "--radius 0.1 --size 0.01 --contact-size 0 --contact-radius 0.02", "--radius 0.1"})
+    CHECK(run_command(fmt::format("'{}' hemispheres {} -o {}", MPFEM_PACK_GEN, options, folder / "p.h5")).exit_code ==
+          2);
 }

@@ -20,7 +20,8 @@ double brute_force_gap(const SpherePacking& p) {
     for (std::size_t k = 0; k < 3; ++k)
       smallest = std::min({smallest, p.center[i][k] - p.radius[i], p.box[k] - p.center[i][k] - p.radius[i]});
     for (std::size_t j = 0; j < i; ++j) {
-      const double d = std::hypot(p.center[i][0] - p.center[j][0], p.center[i][1] - p.center[j][1], p.center[i][2] - p.center[j][2]);
+      const double d =
+          std::hypot(p.center[i][0] - p.center[j][0], p.center[i][1] - p.center[j][1], p.center[i][2] - p.center[j][2]);
       smallest = std::min(smallest, d - p.radius[i] - p.radius[j]);
     }
   }
@@ -53,7 +54,8 @@ TEST_CASE("a packing denser than random sequential addition keeps every gap and 
 }
 
 TEST_CASE("the same seed gives the same packing, another seed another one") {
-  const SpherePacking a = pack_spheres(request(80, 0.45, 7)), b = pack_spheres(request(80, 0.45, 7)), c = pack_spheres(request(80, 0.45, 8));
+  const SpherePacking a = pack_spheres(request(80, 0.45, 7)), b = pack_spheres(request(80, 0.45, 7)),
+                      c = pack_spheres(request(80, 0.45, 8));
   CHECK(a.center == b.center);
   CHECK(a.center != c.center);
 }

@@ -18,7 +18,8 @@ TEST_CASE("a table by number is piecewise linear, and its inverse is its inverse
   CHECK(table->cumulative_number(0.3) == Approx(0.75));
   CHECK(table->cumulative_number(0.05) == 0);
   CHECK(table->cumulative_number(0.5) == 1);
-  for (const double f : {0.0, 0.1, 0.5, 0.77, 1.0}) CHECK(table->cumulative_number(table->quantile(f)) == Approx(f).margin(1e-14));
+  for (const double f : {0.0, 0.1, 0.5, 0.77, 1.0})
+    CHECK(table->cumulative_number(table->quantile(f)) == Approx(f).margin(1e-14));
 }
 
 TEST_CASE("a table by volume gives a sample whose volumes follow the table") {
@@ -27,7 +28,8 @@ TEST_CASE("a table by volume gives a sample whose volumes follow the table") {
   const int count = 200000; // sampling error about 1/count of the number, amplified by (0.3/0.1)^3
   const auto sample = table->sample(count);
   const double total = total_sphere_volume(sample);
-  for (const auto& [d, expected] : std::vector<std::pair<double, double>>{{0.125, 0.15}, {0.15, 0.3}, {0.2, 0.3 + 0.7 / 3}, {0.25, 0.3 + 1.4 / 3}}) {
+  for (const auto& [d, expected] : std::vector<std::pair<double, double>>{
+           {0.125, 0.15}, {0.15, 0.3}, {0.2, 0.3 + 0.7 / 3}, {0.25, 0.3 + 1.4 / 3}}) {
     const double limit = d;
     double below = 0;
     for (const double x : sample)
@@ -60,7 +62,7 @@ TEST_CASE("sizes scaled for a density have it") {
 }
 
 TEST_CASE("distributions that make no sense are refused") {
-  CHECK_THROWS_AS(table_distribution({0.1, 0.2}, {0, 0.9}, SizeWeight::number), InputError);       // does not end at 1
+  CHECK_THROWS_AS(table_distribution({0.1, 0.2}, {0, 0.9}, SizeWeight::number), InputError); // does not end at 1
   CHECK_THROWS_AS(table_distribution({0.1, 0.2, 0.3}, {0, 0.6, 0.5}, SizeWeight::number), InputError);
   CHECK_THROWS_AS(table_distribution({0.2, 0.1}, {0, 1}, SizeWeight::number), InputError);
   CHECK_THROWS_AS(table_distribution({0, 0.1}, {0, 1}, SizeWeight::volume), InputError);
