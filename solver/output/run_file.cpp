@@ -44,7 +44,6 @@ std::vector<float> contact_pressure(const Simulation& simulation) {
           add(model.facet[3 * static_cast<std::size_t>(point.facet) + c], -point.weight[c], point);
       }
   std::vector<float> pressure(force.size(), 0.0F);
-
   for (int grain = 0; grain < model.grains; ++grain) {
     const auto g = static_cast<std::size_t>(grain);
     for (std::int32_t n = model.node_offset[g]; n < model.node_offset[g] + model.surface_node_count[g]; ++n) {

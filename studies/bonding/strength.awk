@@ -1,9 +1,6 @@
-# awk -f strength.awk -v label=LAW,G,K history.csv: peak tension of the last stage, where, and what the bonds had spent.
+# awk -f ../common/verdict.awk -f strength.awk -v label=LAW,G,K history.csv: peak tension of the last stage, where, and what the bonds had spent.
 BEGIN { FS = "," }
-NR == 1 {
-  for (i = 1; i <= NF; ++i) { name = $i; gsub(/"|[ \t\r]|[[(].*$/, "", name); column[name] = i }
-  next
-}
+NR == 1 { read_header(); next }
 $column["stage"] == 3 {
   if (!start) { start = $column["box_lengths_2"]; mean_damage = $column["mean_damage"] }
   tension = -0.5 * ($column["wall_stress_4"] + $column["wall_stress_5"])

@@ -19,7 +19,7 @@ for law in exponential energy; do
         mv "$folder/new-$name.h5" "$run"
       }
       "$bin/postproc" curve "$run" --quiet -o "$folder/$name.csv"
-      awk -f $here/strength.awk -v "label=$law,$energy,$factor" "$folder/$name.csv"
+      awk -f studies/common/verdict.awk -f $here/strength.awk -v "label=$law,$energy,$factor" "$folder/$name.csv"
     done
   done
 done

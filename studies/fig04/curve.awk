@@ -1,17 +1,10 @@
-# awk -f curve.awk -v radius=0.1 -v gap=1e-6 -v youngs_modulus=5000 history.csv
+# awk -f ../common/verdict.awk -f curve.awk -v radius=0.1 -v gap=1e-6 -v youngs_modulus=5000 history.csv
 # Force of a driven pair of hemispheres against the approach of their flat faces, from a run's history. The force is the
 # mean of both grips', in which the inertia of the hemispheres cancels.
 
 BEGIN { FS = ","; print "branch,approach [R],force [E R^2]" }
 
-NR == 1 {
-  for (i = 1; i <= NF; ++i) {
-    name = $i
-    gsub(/"|[ \t\r]|[[(].*$/, "", name)
-    column[name] = i
-  }
-  next
-}
+NR == 1 { read_header(); next }
 
 {
   area = $column["box_lengths_0"] * $column["box_lengths_1"]
