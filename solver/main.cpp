@@ -1,6 +1,7 @@
 // mpfem: explicit finite-strain elasto-plastic finite elements of every grain of a packing.
 
 #include <filesystem>
+#include <map>
 #include <thread>
 
 #include <CLI/CLI.hpp>
@@ -9,6 +10,7 @@
 #include "common/errors.hpp"
 #include "common/table_reader.hpp"
 #include "common/version.hpp"
+#include "solver/bench/bench.hpp"
 #include "solver/run/bond_programme.hpp"
 #include "solver/run/run_scenario.hpp"
 
@@ -75,6 +77,35 @@ CLI::App* add_bond(CLI::App& app, BondProgrammeOptions& options) {
   return bond;
 }
 
+CLI::App* add_bench(CLI::App& app, Arguments& arguments, BenchOptions& options, std::string& from) {
+  CLI::App* bench = app.add_subcommand(
+      "bench", "Measure what a step costs here, part by part, beside what the machine can do.\n"
+               "Examples:\n"
+               "  mpfem bench                                    # 329 dense, bonded grains of 600 tets each\n"
+               "  mpfem bench --tets 1600000 --threads 1 --json\n"
+               "  mpfem bench compaction.toml --from run.compaction.checkpoint.h5");
+  bench->add_option("scenario", arguments.scenario, "Scenario to measure instead of the built-in packing (TOML)");
+  bench->add_option("--from", from, "Checkpoint whose state is measured")->check(CLI::ExistingFile);
+  bench->add_option("--set", arguments.assignments, "Override a value of the scenario: KEY=VALUE")->take_all();
+  bench->add_option("--threads", arguments.run.threads, "Threads (default: all cores)")->check(CLI::Range(1, 1024));
+  bench->add_option("--tets", options.tets, "Tetrahedra of the built-in packing, about")
+      ->check(CLI::Range(std::int64_t{8}, std::int64_t{400'000'000}))
+      ->capture_default_str();
+  bench->add_option("--grains", options.grains, "Grains of the built-in packing, about")
+      ->check(CLI::Range(1, 10'000'000))
+      ->capture_default_str();
+  bench->add_option("--element", options.element, "Element of the built-in packing: tet4, tet4-anp")
+      ->transform(CLI::CheckedTransformer(
+          std::map<std::string, ElementType>{{"tet4", ElementType::tet4}, {"tet4-anp", ElementType::tet4_anp}}));
+  bench->add_flag("!--no-bonds", options.bonds, "Built-in packing without bonds");
+  bench->add_option("--steps", options.steps, "Steps to measure")
+      ->check(CLI::Range(5, 1'000'000))
+      ->capture_default_str();
+  bench->add_flag("--json", options.json, "Print one JSON object");
+  bench->add_flag("--quiet", options.quiet, "No progress");
+  return bench;
+}
+
 int body(int argc, char** argv) {
   CLI::App app("mpfem: compacts a meshed packing of deformable grains.\n"
                "Examples:\n"
@@ -83,6 +114,7 @@ int body(int argc, char** argv) {
                "  mpfem run compaction.toml -o run.h5 --set stages.0.wall_speed=2000 --threads 2\n"
                "  mpfem run compaction.toml -o run.h5 --resume\n"
                "  mpfem bond law.toml programme.csv -o result.csv\n"
+               "  mpfem bench\n"
                "Exit codes: 0 done, 2 bad usage or input, 3 simulation failed (state saved), 4 storage failed, "
                "5 interrupted (resumable).");
   app.set_version_flag("--version", std::string(version()));
@@ -107,6 +139,10 @@ int body(int argc, char** argv) {
   BondProgrammeOptions bond_options;
   const CLI::App* bond = add_bond(app, bond_options);
 
+  BenchOptions bench_options;
+  std::string bench_from;
+  const CLI::App* bench = add_bench(app, arguments, bench_options, bench_from);
+
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
@@ -115,6 +151,15 @@ int body(int argc, char** argv) {
 
   if (bond->parsed()) {
     run_bond_programme(bond_options);
+    return 0;
+  }
+  if (bench->parsed()) {
+    if (!arguments.scenario.empty()) bench_options.scenario = load_scenario(arguments);
+    if (!bench_from.empty()) bench_options.from = bench_from;
+    if (arguments.scenario.empty() && (!bench_from.empty() || !arguments.assignments.empty()))
+      throw InputError("mpfem bench: found --from or --set without a scenario, allowed with one only");
+    bench_options.threads = arguments.run.threads;
+    run_bench(bench_options);
     return 0;
   }
   const Scenario scenario = load_scenario(arguments);

@@ -5,8 +5,8 @@
 #include <limits>
 
 #include "solver/kernels/rows.hpp"
-#include "solver/physics/kinematics.hpp"
-#include "solver/physics/plasticity.hpp"
+#include "solver/physics/tet4.hpp"
+#include "solver/physics/tet4_anp.hpp"
 
 namespace mpfem {
 
@@ -20,19 +20,27 @@ Deviator<S> load_deviator(const TetBlock& block) {
           S::load(block.deviator[3]), S::load(block.deviator[4])};
 }
 
+TetState<S> load_state(const TetBlock& block) {
+  return {load_deviator(block), {S::load(block.flow_stress), S::load(block.plastic_strain)}};
+}
+
 void store_deviator(TetBlock& block, const Deviator<S>& s) {
   s.xx.store(block.deviator[0]), s.yy.store(block.deviator[1]), s.xy.store(block.deviator[2]);
   s.yz.store(block.deviator[3]), s.zx.store(block.deviator[4]);
 }
 
 TetGeometry<S> current_geometry(const TetBlock& block, const double* position) {
-  const auto x0 = load_rows<W>(position, block.node[0]);
-  return tet_geometry(load_rows<W>(position, block.node[1]) - x0, load_rows<W>(position, block.node[2]) - x0,
-                      load_rows<W>(position, block.node[3]) - x0);
+  Vector3<S> edge[3];
+  load_edges<W, 3>(position, block.node, edge);
+  return tet_geometry(edge[0], edge[1], edge[2]);
+}
+
+S volume_ratio(const TetBlock& block, const TetGeometry<S>& geometry) {
+  return S(1.0 / 6.0) * geometry.det * S::load(block.inverse_volume);
 }
 
 S current_volume_ratio(const TetBlock& block, const double* position) {
-  return current_geometry(block, position).det / (S(6.0) * S::load(block.reference_volume));
+  return volume_ratio(block, current_geometry(block, position));
 }
 
 S lane_weights(int lanes) {
@@ -41,8 +49,49 @@ S lane_weights(int lanes) {
   return weight;
 }
 
-template <class Law>
-ElementSums element_pass(Model& model, int grain, double time_step, const Law& law) {
+/// Mean stress of a tet from its own volume.
+struct OwnPressure {
+  ElasticModuli moduli;
+  S operator()(const TetBlock&, const S& volume_ratio) const { return mean_stress(moduli, volume_ratio); }
+};
+
+/// Volumes around the nodes of a grain, a quarter of every tet's, into `volume` [nodes of the grain].
+[[gnu::flatten]] void nodal_volumes(const Model& model, int grain, double* volume) {
+  const auto g = static_cast<std::size_t>(grain);
+  const double* position = model.position.data() + 4 * model.node_offset[g];
+  std::fill(volume, volume + (model.node_offset[g + 1] - model.node_offset[g]), 0.0);
+  for (std::int32_t b = model.block_offset[g]; b < model.block_offset[g + 1]; ++b) {
+    const TetBlock& block = model.block[static_cast<std::size_t>(b)];
+    const S quarter = S(1.0 / 24.0) * current_geometry(block, position).det;
+    const int lanes = model.tets_in_block(grain, b);
+    for (int lane = 0; lane < lanes; ++lane)
+      for (const auto& node : block.node) volume[node[lane]] += quarter.v[lane];
+  }
+}
+
+/// Mean stress of a tet as the mean of its nodes'.
+struct AveragedPressure {
+  const double* nodal; ///< MPa, of the grain's nodes
+  S operator()(const TetBlock& block, const S&) const {
+    return mean_of_nodes(load_numbers<W>(nodal, block.node[0]), load_numbers<W>(nodal, block.node[1]),
+                         load_numbers<W>(nodal, block.node[2]), load_numbers<W>(nodal, block.node[3]));
+  }
+};
+
+/// Mean stresses of the nodes of a grain, into `mean` [nodes of the grain].
+AveragedPressure average_pressure(const Model& model, int grain, double* mean) {
+  nodal_volumes(model, grain, mean);
+  const auto first = static_cast<std::size_t>(model.node_offset[static_cast<std::size_t>(grain)]);
+  const auto count = static_cast<std::size_t>(model.node_offset[static_cast<std::size_t>(grain) + 1]) - first;
+  for (std::size_t n = 0; n < count; ++n)
+    mean[n] = nodal_mean_stress(model.material.moduli, mean[n], model.inverse_nodal_volume[first + n]);
+  return {mean};
+}
+
+// flatten: everything below is inlined here. Called as functions, packs go through memory: 1.2 times the time.
+template <class Law, class Pressure>
+[[gnu::flatten]] ElementSums element_pass(Model& model, int grain, double time_step, const Law& law,
+                                          const Pressure& pressure) {
   const auto g = static_cast<std::size_t>(grain);
   const std::int32_t first_node = model.node_offset[g];
   const double* position = model.position.data() + 4 * first_node;
@@ -51,61 +100,33 @@ ElementSums element_pass(Model& model, int grain, double time_step, const Law& l
   std::fill(force, force + 4 * (model.node_offset[g + 1] - first_node), 0.0);
 
   const Material& material = model.material;
-  const ElasticModuli moduli = material.moduli;
-  const BulkViscosity viscosity = model.viscosity;
-  const double wave_speed = material.wave_speed, density = material.density;
-  const S step(time_step), rate_factor(1.0 / time_step), sixth(1.0 / 6.0), half(0.5);
+  const TetConstants constants{material.moduli, model.viscosity, material.wave_speed, material.density, time_step};
   S plastic_work(0.0), viscous_work(0.0), largest_strain(0.0), smallest_ratio(1.0), check(0.0);
 
   const std::int32_t end = model.block_offset[g + 1];
   for (std::int32_t b = model.block_offset[g]; b < end; ++b) {
     TetBlock& block = model.block[static_cast<std::size_t>(b)];
-    const int lanes = model.tets_in_block(grain, b);
-
-    // 1. Edges at the end of the step and displacement increments relative to node 0.
-    const auto x0 = load_rows<W>(position, block.node[0]), v0 = load_rows<W>(velocity, block.node[0]);
-    Vector3<S> edge[3], du[3], middle_edge[3];
-    for (int i = 0; i < 3; ++i) {
-      edge[i] = load_rows<W>(position, block.node[i + 1]) - x0;
-      du[i] = step * (load_rows<W>(velocity, block.node[i + 1]) - v0);
-      middle_edge[i] = edge[i] - half * du[i];
-    }
-
-    // 2. Strain increment and rotation at the half step; deviator.
-    const auto increment = displacement_increment(tet_geometry(middle_edge[0], middle_edge[1], middle_edge[2]), du);
-    const S reference_volume = S::load(block.reference_volume);
-    const HardeningState<S> old{S::load(block.flow_stress), S::load(block.plastic_strain)};
-    const auto returned = update_deviator(law, moduli, load_deviator(block), old, increment);
-    store_deviator(block, returned.deviator);
+    Vector3<S> edge[3], edge_velocity[3];
+    load_edges<W, 3>(position, block.node, edge);
+    load_edges<W, 3>(velocity, block.node, edge_velocity);
+    auto update = update_tet(law, constants, edge, edge_velocity, load_state(block), S::load(block.inverse_volume),
+                             S::load(block.length), [&](const S& ratio) { return pressure(block, ratio); });
+    store_deviator(block, update.state.deviator);
     if constexpr (Law::yields) {
-      returned.hardening.flow_stress.store(block.flow_stress);
-      returned.hardening.plastic_strain.store(block.plastic_strain);
+      update.state.hardening.flow_stress.store(block.flow_stress);
+      update.state.hardening.plastic_strain.store(block.plastic_strain);
     }
-
-    // 3. Pressure from the volume at the end, bulk viscosity from the rate.
-    const auto geometry = tet_geometry(edge[0], edge[1], edge[2]);
-    const S volume = sixth * geometry.det;
-    const S ratio = volume / reference_volume;
-    const S volumetric_strain = increment.strain.xx + increment.strain.yy + increment.strain.zz;
-    const S viscous = viscous_pressure(viscosity, wave_speed, S(density) / ratio, S::load(block.length),
-                                       volumetric_strain * rate_factor);
-    const S mean = mean_stress(moduli, ratio) - viscous;
-
-    // 4. Forces f_i = -V sigma grad N_i = -sigma a_i / 6.
-    Vector3<S> f[4];
-    for (int i = 0; i < 3; ++i) f[i + 1] = -(sixth * traction(returned.deviator, mean, geometry.area[i]));
-    f[0] = -(f[1] + f[2] + f[3]);
-    for (int i = 0; i < 4; ++i) add_rows<W>(force, block.node[i], lanes, f[i]);
-
-    // 5. Sums.
-    const S weighted_volume = lanes == W ? volume : volume * lane_weights(lanes);
-    plastic_work += weighted_volume * returned.plastic_work;
-    viscous_work -= weighted_volume * viscous * volumetric_strain;
-    const auto& e = increment.strain;
-    largest_strain = max(largest_strain,
-                         e.xx * e.xx + e.yy * e.yy + e.zz * e.zz + S(2.0) * (e.xy * e.xy + e.yz * e.yz + e.zx * e.zx));
-    smallest_ratio = min(smallest_ratio, ratio);
-    check += mean; // becomes NaN or infinite where anything above is
+    if (const int lanes = model.tets_in_block(grain, b); lanes < W) { // nothing from unused lanes
+      const S weight = lane_weights(lanes);
+      for (auto& f : update.force) f = weight * f;
+      update.volume *= weight;
+    }
+    add_balanced<W>(force, block.node, update.force);
+    plastic_work += update.volume * update.plastic_work;
+    viscous_work += update.volume * update.viscous_work;
+    largest_strain = max(largest_strain, update.strain_increment_square);
+    smallest_ratio = min(smallest_ratio, update.volume_ratio);
+    check += update.mean; // becomes NaN or infinite where anything above is
   }
   const bool admissible = smallest(smallest_ratio) > 0 && std::isfinite(sum(check)) && std::isfinite(sum(plastic_work));
   return {sum(plastic_work), sum(viscous_work), std::sqrt(largest(largest_strain)), admissible};
@@ -114,7 +135,14 @@ ElementSums element_pass(Model& model, int grain, double time_step, const Law& l
 } // namespace
 
 ElementSums element_forces(Model& model, int grain, double time_step) {
-  return std::visit([&](const auto& law) { return element_pass(model, grain, time_step, law); }, model.material.flow);
+  return std::visit(
+      [&](const auto& law) {
+        if (model.element == ElementType::tet4)
+          return element_pass(model, grain, time_step, law, OwnPressure{model.material.moduli});
+        double* nodal = model.nodal_mean.data() + model.node_offset[static_cast<std::size_t>(grain)];
+        return element_pass(model, grain, time_step, law, average_pressure(model, grain, nodal));
+      },
+      model.material.flow);
 }
 
 double elastic_energy(const Model& model, int grain) {
@@ -124,11 +152,19 @@ double elastic_energy(const Model& model, int grain) {
   for (std::int32_t b = model.block_offset[g]; b < model.block_offset[g + 1]; ++b) {
     const TetBlock& block = model.block[static_cast<std::size_t>(b)];
     const S ratio = current_volume_ratio(block, position);
-    energy += lane_weights(model.tets_in_block(grain, b)) * S::load(block.reference_volume) *
-              (volumetric_energy(model.material.moduli, ratio) +
-               ratio * distortion_energy(model.material.moduli, load_deviator(block)));
+    S density = ratio * distortion_energy(model.material.moduli, load_deviator(block));
+    if (model.element == ElementType::tet4) density += volumetric_energy(model.material.moduli, ratio);
+    energy += lane_weights(model.tets_in_block(grain, b)) / S::load(block.inverse_volume) * density;
   }
-  return sum(energy);
+  double total = sum(energy);
+  if (model.element == ElementType::tet4_anp) {
+    const auto first = static_cast<std::size_t>(model.node_offset[g]);
+    std::vector<double> volume(static_cast<std::size_t>(model.node_offset[g + 1]) - first);
+    nodal_volumes(model, grain, volume.data());
+    for (std::size_t n = 0; n < volume.size(); ++n)
+      total += nodal_volumetric_energy(model.material.moduli, volume[n], model.inverse_nodal_volume[first + n]);
+  }
+  return total;
 }
 
 double current_volume(const Model& model, int grain) {
@@ -165,7 +201,7 @@ StableStep stable_step(Model& model, int grain, std::span<const double> nodal_st
   for (std::int32_t b = model.block_offset[g]; b < model.block_offset[g + 1]; ++b) {
     TetBlock& block = model.block[static_cast<std::size_t>(b)];
     const auto geometry = current_geometry(block, position);
-    const S ratio = geometry.det / (S(6.0) * S::load(block.reference_volume));
+    const S ratio = volume_ratio(block, geometry);
     S element = largest_frequency_squared(material.moduli, S(material.density) / ratio, geometry);
     S length = S(2.0 * material.wave_speed) / sqrt(element);
     if (!model.mass_factor.empty()) {
@@ -200,10 +236,18 @@ TetFields tet_fields(const Model& model) {
   for (int grain = 0; grain < model.grains; ++grain) {
     const auto g = static_cast<std::size_t>(grain);
     const double* position = model.position.data() + 4 * model.node_offset[g];
+    std::vector<double> nodal;
+    AveragedPressure averaged{nullptr};
+    if (model.element == ElementType::tet4_anp) {
+      nodal.resize(static_cast<std::size_t>(model.node_offset[g + 1] - model.node_offset[g]));
+      averaged = average_pressure(model, grain, nodal.data());
+    }
     for (std::int32_t b = model.block_offset[g]; b < model.block_offset[g + 1]; ++b) {
       const TetBlock& block = model.block[static_cast<std::size_t>(b)];
       const S q = von_mises(load_deviator(block));
-      const S mean = mean_stress(model.material.moduli, current_volume_ratio(block, position));
+      const S mean = averaged.nodal != nullptr
+                         ? averaged(block, S(1.0))
+                         : mean_stress(model.material.moduli, current_volume_ratio(block, position));
       for (int lane = 0; lane < model.tets_in_block(grain, b); ++lane) {
         const auto tet = static_cast<std::size_t>(model.tet_offset[g] + (b - model.block_offset[g]) * W + lane);
         const auto file = static_cast<std::size_t>(model.file_tet[tet]);

@@ -28,8 +28,36 @@ inline void add_row(double* rows, std::int32_t index, Row value) {
   *reinterpret_cast<Row*>(rows + 4 * index) += value;
 }
 
-inline void load4(const double* rows, const std::int32_t* index, Row& x, Row& y, Row& z) {
-  transpose(row(rows, index[0]), row(rows, index[1]), row(rows, index[2]), row(rows, index[3]), x, y, z);
+/// Rows of four cells' nodes 1 … N relative to node 0. `index[i]` points at the four cells' node i.
+template <int N>
+void edges4(const double* rows, const std::int32_t* const (&index)[N + 1], Row (&edge)[N][3]) {
+  Row base[4];
+  for (int lane = 0; lane < 4; ++lane) base[lane] = row(rows, index[0][lane]);
+  for (int i = 0; i < N; ++i) {
+    const std::int32_t* node = index[i + 1];
+    transpose(row(rows, node[0]) - base[0], row(rows, node[1]) - base[1], row(rows, node[2]) - base[2],
+              row(rows, node[3]) - base[3], edge[i][0], edge[i][1], edge[i][2]);
+  }
+}
+
+/// Adds to four tets' nodes 1, 2, 3 the vectors f and to node 0 minus their sum.
+inline void add_balanced4(double* rows, const std::int32_t* const (&index)[4], const Row (&f)[3][3]) {
+  Row total[4] = {};
+  for (int i = 0; i < 3; ++i) {
+    const Row zero = {0, 0, 0, 0};
+    const Row xy_low = __builtin_shufflevector(f[i][0], f[i][1], 0, 4, 2, 6),
+              xy_high = __builtin_shufflevector(f[i][0], f[i][1], 1, 5, 3, 7);
+    const Row z_low = __builtin_shufflevector(f[i][2], zero, 0, 4, 2, 6),
+              z_high = __builtin_shufflevector(f[i][2], zero, 1, 5, 3, 7);
+    const Row lane[4] = {
+        __builtin_shufflevector(xy_low, z_low, 0, 1, 4, 5), __builtin_shufflevector(xy_high, z_high, 0, 1, 4, 5),
+        __builtin_shufflevector(xy_low, z_low, 2, 3, 6, 7), __builtin_shufflevector(xy_high, z_high, 2, 3, 6, 7)};
+    for (int k = 0; k < 4; ++k) {
+      add_row(rows, index[i + 1][k], lane[k]);
+      total[k] += lane[k];
+    }
+  }
+  for (int k = 0; k < 4; ++k) add_row(rows, index[0][k], -total[k]);
 }
 
 inline void add4(double* rows, const std::int32_t* index, int lanes, Row x, Row y, Row z) {
@@ -44,26 +72,73 @@ inline void add4(double* rows, const std::int32_t* index, int lanes, Row x, Row 
 
 } // namespace detail
 
-/// x, y, z of the W nodes `index`.
+/// One number of each of W nodes.
 template <int W>
-Vector3<Pack<W>> load_rows(const double* rows, const std::int32_t* index) {
-  Vector3<Pack<W>> result;
-  if constexpr (W == 4) {
-    detail::load4(rows, index, result.x.v, result.y.v, result.z.v);
-  } else if constexpr (W == 8) {
-    Row x0, y0, z0, x1, y1, z1;
-    detail::load4(rows, index, x0, y0, z0);
-    detail::load4(rows, index + 4, x1, y1, z1);
-    result.x.v = __builtin_shufflevector(x0, x1, 0, 1, 2, 3, 4, 5, 6, 7);
-    result.y.v = __builtin_shufflevector(y0, y1, 0, 1, 2, 3, 4, 5, 6, 7);
-    result.z.v = __builtin_shufflevector(z0, z1, 0, 1, 2, 3, 4, 5, 6, 7);
+Pack<W> load_numbers(const double* numbers, const std::int32_t (&index)[W]) {
+  Pack<W> result(0.0);
+  for (int k = 0; k < W; ++k) result.v[k] = numbers[index[k]];
+  return result;
+}
+
+/// Edges of W cells (tets: N = 3, facets: N = 2): nodes 1 … N relative to node 0. `index[i]` holds the W cells' node i.
+template <int W, int N>
+void load_edges(const double* rows, const std::int32_t (&index)[N + 1][W], Vector3<Pack<W>> (&edge)[N]) {
+  if constexpr (W % 4 == 0) {
+    Row e[W / 4][N][3];
+    for (int part = 0; part < W / 4; ++part) {
+      const std::int32_t* node[N + 1];
+      for (int i = 0; i <= N; ++i) node[i] = index[i] + 4 * part;
+      detail::edges4<N>(rows, node, e[part]);
+    }
+    for (int i = 0; i < N; ++i) {
+      if constexpr (W == 4) {
+        edge[i] = {{e[0][i][0]}, {e[0][i][1]}, {e[0][i][2]}};
+      } else {
+        edge[i].x.v = __builtin_shufflevector(e[0][i][0], e[1][i][0], 0, 1, 2, 3, 4, 5, 6, 7);
+        edge[i].y.v = __builtin_shufflevector(e[0][i][1], e[1][i][1], 0, 1, 2, 3, 4, 5, 6, 7);
+        edge[i].z.v = __builtin_shufflevector(e[0][i][2], e[1][i][2], 0, 1, 2, 3, 4, 5, 6, 7);
+      }
+    }
   } else {
-    for (int i = 0; i < W; ++i) {
-      const double* node = rows + 4 * index[i];
-      result.x.v[i] = node[0], result.y.v[i] = node[1], result.z.v[i] = node[2];
+    for (int k = 0; k < W; ++k) {
+      const double* base = rows + 4 * index[0][k];
+      for (int i = 0; i < N; ++i) {
+        const double* node = rows + 4 * index[i + 1][k];
+        edge[i].x.v[k] = node[0] - base[0], edge[i].y.v[k] = node[1] - base[1], edge[i].z.v[k] = node[2] - base[2];
+      }
     }
   }
-  return result;
+}
+
+/// Adds to the W tets' nodes 1, 2, 3 the vectors f, one tet after another, and to node 0 minus their sum.
+template <int W>
+void add_balanced(double* rows, const std::int32_t (&index)[4][W], const Vector3<Pack<W>> (&f)[3]) {
+  if constexpr (W == 4) {
+    detail::add_balanced4(
+        rows, {index[0], index[1], index[2], index[3]},
+        {{f[0].x.v, f[0].y.v, f[0].z.v}, {f[1].x.v, f[1].y.v, f[1].z.v}, {f[2].x.v, f[2].y.v, f[2].z.v}});
+  } else if constexpr (W == 8) {
+    Row low[3][3], high[3][3];
+    for (int i = 0; i < 3; ++i) {
+      const auto& x = f[i].x.v;
+      const auto& y = f[i].y.v;
+      const auto& z = f[i].z.v;
+      low[i][0] = __builtin_shufflevector(x, x, 0, 1, 2, 3), high[i][0] = __builtin_shufflevector(x, x, 4, 5, 6, 7);
+      low[i][1] = __builtin_shufflevector(y, y, 0, 1, 2, 3), high[i][1] = __builtin_shufflevector(y, y, 4, 5, 6, 7);
+      low[i][2] = __builtin_shufflevector(z, z, 0, 1, 2, 3), high[i][2] = __builtin_shufflevector(z, z, 4, 5, 6, 7);
+    }
+    detail::add_balanced4(rows, {index[0], index[1], index[2], index[3]}, low);
+    detail::add_balanced4(rows, {index[0] + 4, index[1] + 4, index[2] + 4, index[3] + 4}, high);
+  } else {
+    for (int k = 0; k < W; ++k) {
+      double* base = rows + 4 * index[0][k];
+      for (int i = 0; i < 3; ++i) {
+        double* node = rows + 4 * index[i + 1][k];
+        node[0] += f[i].x.v[k], node[1] += f[i].y.v[k], node[2] += f[i].z.v[k];
+        base[0] -= f[i].x.v[k], base[1] -= f[i].y.v[k], base[2] -= f[i].z.v[k];
+      }
+    }
+  }
 }
 
 /// Adds the first `lanes` of the W vectors to the rows `index`, one after another.

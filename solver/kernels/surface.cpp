@@ -24,8 +24,9 @@ Bounds update_surface(Model& model, int grain) {
     for (int i = 0; i < W; ++i)
       for (int c = 0; c < 3; ++c)
         corner[c][i] = model.facet[static_cast<std::size_t>(3 * std::min(f + i, facet_end - 1) + c)];
-    const auto x0 = load_rows<W>(position, corner[0]);
-    const auto area = cross(load_rows<W>(position, corner[1]) - x0, load_rows<W>(position, corner[2]) - x0);
+    Vector3<Pack<W>> edge[2];
+    load_edges<W, 2>(position, corner, edge);
+    const auto area = cross(edge[0], edge[1]);
     const auto third = Pack<W>(1.0 / 6.0) * area;
     for (const auto& nodes : corner) add_rows<W>(normal, nodes, lanes, third);
   }

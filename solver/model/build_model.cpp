@@ -211,7 +211,8 @@ SurfaceView Model::surface() const {
 std::size_t Model::memory() const {
   const auto bytes = [](const auto& v) { return v.size() * sizeof(v[0]); };
   return bytes(position) + bytes(velocity) + bytes(force) + bytes(normal) + bytes(inverse_mass) +
-         bytes(reference_area) + bytes(block) + bytes(facet) + bytes(file_node) + bytes(file_tet);
+         bytes(reference_area) + bytes(block) + bytes(inverse_nodal_volume) + bytes(nodal_mean) + bytes(facet) +
+         bytes(file_node) + bytes(file_tet);
 }
 
 Material make_material(const MaterialParameters& parameters, double mass_scaling) {
@@ -319,7 +320,7 @@ Model build_model(const MeshedPacking& packing, const Scenario& scenario, const 
         for (int c = 0; c < 4; ++c)
           block.node[c][lane] = new_index[at(packing.tet[4 * at(t) + static_cast<std::size_t>(c)])] - n0;
         const double tet_v = tet_volume(packing, t);
-        block.reference_volume[lane] = tet_v;
+        block.inverse_volume[lane] = 1.0 / tet_v;
         block.flow_stress[lane] = initial_flow_stress;
         if (i + lane < t1 - t0) {
           model.file_tet[at(t0 + i + lane)] = t;
@@ -339,6 +340,13 @@ Model build_model(const MeshedPacking& packing, const Scenario& scenario, const 
         throw InputError(fmt::format("{}: node {} belongs to no tetrahedron", name, model.file_node[at(n)]));
       m = 1.0 / m;
     }
+  }
+  model.element = scenario.numerics.element;
+  if (model.element == ElementType::tet4_anp) {
+    // Masses are still as lumped: density times the volume around a node.
+    for (const double inverse_mass : model.inverse_mass)
+      model.inverse_nodal_volume.push_back(inverse_mass * model.material.density);
+    model.nodal_mean.assign(nodes, 0.0);
   }
   refuse_shared_places(model, name);
   find_refinement(model);

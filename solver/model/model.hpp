@@ -20,10 +20,10 @@ namespace mpfem {
 /// 88 bytes a tet. The last block of a grain repeats its last tet in unused lanes.
 struct alignas(64) TetBlock {
   static constexpr int lanes = native_lanes;
-  std::int32_t node[4][lanes];    ///< relative to the grain's first node
-  double reference_volume[lanes]; ///< mm^3
-  double deviator[5][lanes];      ///< Cauchy deviator xx, yy, xy, yz, zx, MPa
-  double flow_stress[lanes];      ///< MPa
+  std::int32_t node[4][lanes];  ///< relative to the grain's first node
+  double inverse_volume[lanes]; ///< 1/mm^3, of the reference volume
+  double deviator[5][lanes];    ///< Cauchy deviator xx, yy, xy, yz, zx, MPa
+  double flow_stress[lanes];    ///< MPa
   double plastic_strain[lanes];
   double length[lanes]; ///< c_d times the undamped critical step 2/omega_e, mm; set at each step estimate
 };
@@ -41,6 +41,7 @@ struct Material {
 struct Model {
   int grains = 0;
   Material material;
+  ElementType element = ElementType::tet4;
   BulkViscosity viscosity{};
 
   std::vector<std::int32_t> node_offset;        ///< [grains + 1]
@@ -59,6 +60,8 @@ struct Model {
   std::vector<double> reference_area; ///< [nodes]: tributary area of surface nodes at the start, mm^2
   AlignedVector<double> inverse_mass; ///< [nodes], 1/tonne
   std::vector<TetBlock> block;
+  std::vector<double> inverse_nodal_volume; ///< [nodes], 1/mm^3, of the reference state; tet4_anp only
+  std::vector<double> nodal_mean;           ///< [nodes], MPa: scratch of the element pass; tet4_anp only
 
   std::vector<double> reference_volume;  ///< [grains], mm^3
   std::vector<double> mass;              ///< [grains], tonne (scaled)

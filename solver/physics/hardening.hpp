@@ -40,17 +40,22 @@ struct PowerLaw {
     const S hardening = old.flow_stress - S(yield_stress); // y = k eps_p^m
     const S slope_strain = S(exponent) * hardening;        // H' eps_p
     const S elastic = S(three_shear) * old.plastic_strain; // 3G eps_p
-    const S first = excess / (elastic + slope_strain);     // relative increment r = d eps_p / eps_p, explicit
-    // 1. Small relative increments, nearly always: (1 + r)^m by its binomial series, Newton on
-    //    3G eps_p r + y ((1 + r)^m - 1) = excess. Comparison is false for 0/0, so fresh points take the other way.
+    const S inverse = S(1.0) / (elastic + slope_strain);
+    const S first = excess * inverse; // relative increment r = d eps_p / eps_p, explicit
+    // 1. Small relative increments, nearly always: with (1 + r)^m by its binomial series the equation is
+    //    r + b2 r^2 + b3 r^3 + … = first. Its inverted series gives r to the fourth power, one Newton step the rest to
+    //    rounding. Comparison is false for 0/0, so fresh points take the other way.
     if (!any(!(first < S(0.02)))) {
-      S r = first;
-      for (int iteration = 0; iteration < 2; ++iteration) {
-        const S power = power_series(r);
-        const S residual = elastic * r + hardening * power - excess;
-        r = r - residual / (elastic + slope_strain * (S(1.0) + power) / (S(1.0) + r));
-      }
-      return {old.flow_stress + hardening * power_series(r), old.plastic_strain * (S(1.0) + r)};
+      const S a = slope_strain * inverse;
+      const S b2 = c2() * a, b3 = c3() * b2, b4 = c4() * b3, square = b2 * b2;
+      S r = first *
+            (S(1.0) - first * (b2 - first * (S(2.0) * square - b3 - first * (b2 * (S(5.0) * (square - b3)) + b4))));
+      const S tail = c4() * r * (S(1.0) + c5() * r * (S(1.0) + c6() * r * (S(1.0) + c7() * r)));
+      const S residual = r * (S(1.0) + b2 * r * (S(1.0) + c3() * r * (S(1.0) + tail))) - first;
+      const S slope = r * (S(2.0) * b2 + S(3.0) * b3 * r); // below 0.015: 1/(1 + slope) by its series
+      r = r - residual * (S(1.0) - slope * (S(1.0) - slope * (S(1.0) - slope)));
+      const S increment = old.plastic_strain * r;
+      return {trial - S(three_shear) * increment, old.plastic_strain + increment};
     }
     // 2. Any increment, from eps_p = 0 too: Newton on the hardening stress, whose equation
     //    3G ((y/k)^(1/m) - eps_p,n) + y - (q_trial - sigma_y) = 0 is convex with slope >= 1; started above the root.
@@ -73,18 +78,13 @@ struct PowerLaw {
   }
 
 private:
-  /// (1 + r)^m - 1 for 0 <= r < 0.02 to rounding: seven terms, the next is below 0.02^8.
-  template <class S>
-  S power_series(const S& r) const {
-    const double m = exponent;
-    const double c2 = (m - 1) / 2, c3 = (m - 2) / 3, c4 = (m - 3) / 4, c5 = (m - 4) / 5, c6 = (m - 5) / 6,
-                 c7 = (m - 6) / 7;
-    const S one(1.0);
-    return S(m) * r *
-           (one +
-            S(c2) * r *
-                (one + S(c3) * r * (one + S(c4) * r * (one + S(c5) * r * (one + S(c6) * r * (one + S(c7) * r))))));
-  }
+  // (1 + r)^m - 1 = m r (1 + c2 r (1 + c3 r (1 + …))); after c7 the next term is below 0.02^8.
+  double c2() const { return (exponent - 1) * (1.0 / 2); }
+  double c3() const { return (exponent - 2) * (1.0 / 3); }
+  double c4() const { return (exponent - 3) * (1.0 / 4); }
+  double c5() const { return (exponent - 4) * (1.0 / 5); }
+  double c6() const { return (exponent - 5) * (1.0 / 6); }
+  double c7() const { return (exponent - 6) * (1.0 / 7); }
 };
 
 /// sigma = n eps^p on the total strain eps = eps_p + sigma/E, elastic until E eps = n eps^p (paper Eq. 8); 0 < p < 1.

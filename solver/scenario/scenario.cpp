@@ -132,9 +132,9 @@ ContactParameters read_contact(TableReader table) {
 }
 
 ElementType read_element(TableReader table) {
-  table.choice_or("type", "tet4", {"tet4"});
+  const std::string type = table.choice_or("type", "tet4", {"tet4", "tet4-anp"});
   table.finish();
-  return ElementType::tet4;
+  return type == "tet4" ? ElementType::tet4 : ElementType::tet4_anp;
 }
 
 NumericsParameters read_numerics(TableReader table) {
@@ -289,6 +289,10 @@ std::string packing_path(TableReader& root, const std::string& scenario_file) {
 }
 
 } // namespace
+
+const char* element_name(ElementType element) {
+  return element == ElementType::tet4 ? "tet4" : "tet4-anp";
+}
 
 BondParameters read_bond(TableReader table) {
   BondParameters bond;

@@ -57,7 +57,13 @@ struct BondParameters {
   bool operator==(const BondParameters&) const = default;
 };
 
-enum class ElementType { tet4 };
+/// Linear tetrahedra with one Gauss point.
+enum class ElementType {
+  tet4,     ///< pressure of every tet from its own volume: locks in plastic flow
+  tet4_anp, ///< average nodal pressure: pressure from the volumes around the nodes (Bonet and Burton 1998)
+};
+/// Name of an element in scenarios and on the command line.
+const char* element_name(ElementType element);
 
 struct NumericsParameters {
   ElementType element = ElementType::tet4;

@@ -1,0 +1,28 @@
+#pragma once
+// `mpfem bench`: what a step costs here, part by part, beside what the machine can do.
+
+#include <cstdint>
+#include <optional>
+#include <string>
+
+#include "solver/scenario/scenario.hpp"
+
+namespace mpfem {
+
+struct BenchOptions {
+  int threads = 1;
+  std::int64_t tets = 200'000;
+  int grains = 329;
+  ElementType element = ElementType::tet4;
+  bool bonds = true;
+  int steps = 150;                  ///< measured after the packing has begun to flow
+  std::optional<Scenario> scenario; ///< instead of the built-in packing
+  std::optional<std::string> from;  ///< checkpoint whose state is measured (with a scenario)
+  bool json = false;
+  bool quiet = false;
+};
+
+/// Measures and prints a table, or with `json` one object. Throws InputError.
+void run_bench(const BenchOptions& options);
+
+} // namespace mpfem
