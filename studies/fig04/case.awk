@@ -20,6 +20,7 @@ $1 == case {
                              radius, 0.12 * radius, size, 1.4 * a, 2 * size
   if (part == "run") {
     if ($2 == "law") printf "--set bond.softening=energy "
+    if ($9 != "tet4-anp") printf "--set element.type=%s ", $9
     strength = $4 / 2 * (pi * energy * (4 * reduced / 3)^2 / mean_radius)^(1 / 3)
     step = 4e-7 * size
     speed = speed_factor * 300 * a / 0.00685

@@ -18,6 +18,7 @@ $1 == case {
     speed = 300 * (mesh == "smoke" ? 2 : 1) * $6
     if ($2 == "power")
       printf "--set material.hardening.law=power --set material.hardening.yield_stress=25 --set material.hardening.coefficient=125 --set material.hardening.exponent=0.3 "
+    if ($9 != "tet4-anp") printf "--set element.type=%s ", $9
     if ($8 != 10) printf "--set contact.stiffness_factor=%g ", $8
     printf "--set bond.tensile_strength=%g --set bond.shear_strength=%g --set numerics.mass_scaling_step=%.4g " \
            "--set stages.0.displacement=%.8g --set stages.0.speed=%.4g --set stages.1.displacement=%.8g --set stages.1.speed=%.4g --set stages.2.displacement=%.8g --set stages.2.speed=%.4g\n", \
