@@ -77,14 +77,22 @@ TEST_CASE("elastic hemispheres load as Hertz and pull off as Johnson, Kendall an
   CHECK(record.worst_residual < 0.02);
 }
 
-TEST_CASE("elasto-plastic hemispheres load as converged finite elements do") {
-  Pair pair = hemispheres(0.0028, 0.022, 0.004, 1e-4, 600);
-  pair.scenario.material.hardening = {HardeningLaw::power, 25, 125, 0.3, {}, {}};
-  pair.scenario.stages.pop_back();
-  ThreadTeam team(1);
-  Simulation simulation(build_model(pair.packing, pair.scenario, "test"), pair.scenario, team);
-  const Record record = run_stages(simulation, pair.scenario);
-  // F/(E R^2) = 2.7810e-3 at h/R = 0.04 (studies/fig05/finite-elements.csv); too stiff again, by some 8 % here.
-  CHECK(grip_force(record.last[0]) / (2.7810e-3 * 5000 * sphere * sphere) == Approx(1.07).margin(0.06));
-  CHECK(record.worst_residual < 0.01);
+TEST_CASE(
+    "elasto-plastic hemispheres load as converged finite elements do, with averaged pressure within half the error") {
+  double error[2] = {};
+  for (const ElementType element : {ElementType::tet4, ElementType::tet4_anp}) {
+    Pair pair = hemispheres(0.0028, 0.022, 0.004, 1e-4, 600);
+    pair.scenario.material.hardening = {HardeningLaw::power, 25, 125, 0.3, {}, {}};
+    pair.scenario.numerics.element = element;
+    pair.scenario.stages.pop_back();
+    ThreadTeam team(1);
+    Simulation simulation(build_model(pair.packing, pair.scenario, "test"), pair.scenario, team);
+    const Record record = run_stages(simulation, pair.scenario);
+    // F/(E R^2) = 2.7810e-3 at h/R = 0.04 (studies/fig05/finite-elements.csv); plain tets are too stiff by some 8 % here.
+    error[element == ElementType::tet4 ? 0 : 1] = grip_force(record.last[0]) / (2.7810e-3 * 5000 * sphere * sphere) - 1;
+    CHECK(record.worst_residual < 0.01);
+  }
+  CAPTURE(error[0], error[1]);
+  CHECK(error[0] == Approx(0.07).margin(0.06));
+  CHECK(std::abs(error[1]) < 0.6 * error[0]);
 }

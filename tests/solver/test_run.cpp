@@ -57,6 +57,8 @@ grip_depth = 0.03
 displacement = 0.015
 sliding = [0.01, 0, 0]
 speed = 20000
+[element]
+type = "tet4-anp"
 [bond]
 tensile_strength = 25
 shear_strength = 18
@@ -406,8 +408,25 @@ TEST_CASE("a damaged checkpoint is refused and nothing is lost") {
 }
 
 TEST_CASE("help and version are there for every command") {
-  for (const std::string arguments : {"--help", "run --help", "check --help", "--version"})
+  for (const std::string arguments :
+       {"--help", "run --help", "check --help", "bench --help", "bond --help", "--version"})
     CHECK(mpfem_command(arguments).exit_code == 0);
   CHECK(mpfem_command("").exit_code == 2);
   CHECK(mpfem_command("fly").exit_code == 2);
+}
+
+TEST_CASE("bench prints one object with what a step costs") {
+  const auto bench = mpfem_command("bench --tets 3000 --grains 6 --steps 6 --threads 2 --element tet4-anp --json");
+  REQUIRE(bench.exit_code == 0);
+  for (const std::string key :
+       {"threads", "tets", "element_pass_ns_per_tet_step", "contact_ns_per_tet_step", "search_ns_per_tet_step",
+        "whole_step_ns_per_tet_step", "triad_GB_per_s", "fma_GFlop_per_s"}) {
+    CAPTURE(key, bench.output);
+    const auto at = bench.output.find("\"" + key + "\": ");
+    REQUIRE(at != std::string::npos);
+    CHECK(std::stod(bench.output.substr(at + key.size() + 4)) > 0);
+  }
+  CHECK(bench.output.front() == '{');
+  CHECK(mpfem_command("bench --element brick").exit_code == 2);
+  CHECK(mpfem_command("bench --from /nowhere").exit_code == 2);
 }
