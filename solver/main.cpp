@@ -79,11 +79,12 @@ CLI::App* add_bond(CLI::App& app, BondProgrammeOptions& options) {
 
 CLI::App* add_bench(CLI::App& app, Arguments& arguments, BenchOptions& options, std::string& from) {
   CLI::App* bench = app.add_subcommand(
-      "bench", "Measure what a step costs here, part by part, beside what the machine can do.\n"
-               "Examples:\n"
-               "  mpfem bench                                    # 329 dense, bonded grains of 600 tets each\n"
-               "  mpfem bench --tets 1600000 --threads 1 --json\n"
-               "  mpfem bench compaction.toml --from run.compaction.checkpoint.h5");
+      "bench",
+      "Measure what a step costs here, part by part, beside what the machine can do.\n"
+      "Examples:\n"
+      "  mpfem bench                                    # 329 dense, bonded grains of 600 tets each\n"
+      "  mpfem bench --tets 1600000 --threads 1 --json\n"
+      "  mpfem bench compaction.toml --from run.compaction.checkpoint.h5 --set stages.0.relative_density=0.95");
   bench->add_option("scenario", arguments.scenario, "Scenario to measure instead of the built-in packing (TOML)");
   bench->add_option("--from", from, "Checkpoint whose state is measured")->check(CLI::ExistingFile);
   bench->add_option("--set", arguments.assignments, "Override a value of the scenario: KEY=VALUE")->take_all();

@@ -1,6 +1,7 @@
 #include "solver/bench/bench.hpp"
 
 #include <sys/resource.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <cmath>
@@ -16,6 +17,7 @@
 #include "common/version.hpp"
 #include "solver/bench/dense_packing.hpp"
 #include "solver/bench/machine.hpp"
+#include "solver/model/bond_resolution.hpp"
 #include "solver/output/checkpoint.hpp"
 #include "solver/physics/counted.hpp"
 #include "solver/physics/tet4.hpp"
@@ -198,6 +200,7 @@ void run_bench(const BenchOptions& options) {
     model = build_model(dense.packing, scenario, scenario.packing_file);
     scenario.stages[0].isotropic_compaction = {std::min(0.999, 1.15 * dense.relative_density), 1.0, 0.01};
   }
+  if (options.scenario) check_bonds(model, scenario);
   Simulation simulation(std::move(model), scenario, team);
   const bool built_in = !options.scenario;
   if (built_in) {
@@ -209,6 +212,8 @@ void run_bench(const BenchOptions& options) {
     read_checkpoint(*options.from, simulation, earlier, scenario.text, true);
     simulation.begin_branch();
   }
+  const RunState& state = simulation.state();
+  check_programme(scenario, state.stage, state.stage_low, state.stage_high, simulation.model(), state.stable_step);
   say(fmt::format("{} tets in {} grains; warming up", simulation.model().tets(), simulation.model().grains));
   const int warm_up = built_in ? warm_up_steps : 20;
   for (int i = 0; i < warm_up && !simulation.stage_complete(); ++i) {
@@ -226,7 +231,7 @@ void run_bench(const BenchOptions& options) {
   const auto per_tet = [&](double seconds) { return 1e9 * seconds / tets; };
   const HistoryRow row = simulation.observe();
   const double row_time = median_time(3, [&] { simulation.observe(); });
-  const auto scratch = std::filesystem::temp_directory_path() / "mpfem-bench.checkpoint.h5";
+  const auto scratch = std::filesystem::temp_directory_path() / fmt::format("mpfem-bench-{}.checkpoint.h5", getpid());
   const double checkpoint_time =
       median_time(1, [&] { write_checkpoint(scratch.string(), simulation, RunRecord{}, scenario.text); });
   std::error_code ignored;
@@ -265,6 +270,7 @@ void run_bench(const BenchOptions& options) {
                          {"relative_density", number(row.relative_density)},
                          {"bonds", number(row.bonds)},
                          {"contact_points", number(points)},
+                         {"candidate_points", std::to_string(contact.candidates.point_node.size())},
                          {"steps", std::to_string(options.steps)},
                          {"element_pass_ns_per_tet_step", number(elements.nanoseconds)},
                          {"element_pass_hardening_fraction", number(elements.hardening)},
@@ -293,9 +299,10 @@ void run_bench(const BenchOptions& options) {
   }
   fmt::print("machine        {} threads, packs of {} doubles: triad {:.1f} GB/s, fused multiply-add {:.1f} GFlop/s\n",
              options.threads, native_lanes, triad, fma);
-  fmt::print("scene          {} {} tets in {} grains, D_r {:.3f}, {:.0f} contact points, {:.0f} bonds\n",
-             simulation.model().tets(), element_name(scenario.numerics.element), simulation.model().grains,
-             row.relative_density, points, row.bonds);
+  fmt::print(
+      "scene          {} {} tets in {} grains, D_r {:.3f}, {:.0f} contact points of {} candidates, {:.0f} bonds\n",
+      simulation.model().tets(), element_name(scenario.numerics.element), simulation.model().grains,
+      row.relative_density, points, contact.candidates.point_node.size(), row.bonds);
   fmt::print("memory         {:.0f} B a tet, {:.2f} GB at most, all in\n\n", memory / tets, 1e-9 * memory);
   fmt::print("element pass alone, {:.0f} % of the tets hardening: {:.2f} ns per tet-step\n", 100 * elements.hardening,
              elements.nanoseconds);

@@ -36,6 +36,7 @@ inline void move_bond(const BondLaw& law, PointBond& bond, double open, double e
   bond.opening = open;
   bond.separation = effective;
   if (advance_damage(law, bond.state, open, effective)) bond.remaining = remaining_stiffness(law, bond.state);
+  if (bond.remaining == 0) bond.opening = bond.separation = 0; // broken: followed no longer
 }
 
 /// Force of a bond on its node per unit of point stiffness, and where the reaction acts.

@@ -22,11 +22,12 @@ namespace mpfem {
 
 /// Force of one contact point, of the penalty or of its bond.
 struct ContactForce {
-  double force[3];  ///< N, on the node
-  double weight[3]; ///< shape functions of the facet's nodes where the reaction acts
-  double stiffness; ///< N/mm
-  std::int32_t node;
-  std::int32_t facet;
+  double force[3];         ///< N, on the node
+  double weight1, weight2; ///< shape functions of the facet's second and third node where the reaction acts
+  double stiffness;        ///< N/mm
+  std::int32_t node;       ///< 64 bytes with the facet's nodes: one cache line, and no look-up where they react
+  std::int32_t facet_node[3];
+  double weight(int corner) const { return corner == 0 ? 1.0 - weight1 - weight2 : corner == 1 ? weight1 : weight2; }
 };
 
 /// Sums of a grain's own nodes over one contact pass.

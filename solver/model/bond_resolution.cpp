@@ -1,6 +1,7 @@
 #include "solver/model/bond_resolution.hpp"
 
 #include <algorithm>
+#include <limits>
 
 #include <fmt/format.h>
 
@@ -15,7 +16,12 @@ BondResolution bond_resolution(const Model& model, const Scenario& scenario) {
   const double strength =
       bond.normal_only ? bond.tensile_strength : std::max(bond.tensile_strength, bond.shear_strength);
   // Two grains' penalties act as their harmonic mean, at least the softest's.
-  const double stiffness = *std::min_element(model.penalty_stiffness.begin(), model.penalty_stiffness.end());
+  double stiffness = std::numeric_limits<double>::infinity();
+  for (std::size_t g = 0; g < model.penalty_stiffness.size(); ++g) {
+    const auto first = static_cast<std::size_t>(model.node_offset[g]);
+    for (std::size_t n = first; n < first + static_cast<std::size_t>(model.surface_node_count[g]); ++n)
+      stiffness = std::min(stiffness, model.penalty_stiffness[g] * model.local_stiffness(n));
+  }
   BondResolution result;
   // Where grains are locally refined, bonds are taken to be where the elements are smallest.
   const double finest =

@@ -342,6 +342,7 @@ Model build_model(const MeshedPacking& packing, const Scenario& scenario, const 
     }
   }
   model.element = scenario.numerics.element;
+  model.uniform_penalty = scenario.contact.stiffness.has_value();
   if (model.element == ElementType::tet4_anp) {
     // Masses are still as lumped: density times the volume around a node.
     for (const double inverse_mass : model.inverse_mass)

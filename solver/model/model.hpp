@@ -70,6 +70,7 @@ struct Model {
   double largest_added_mass = 0;         ///< the same of the grain that it concerns most
   std::vector<double> element_size;      ///< [grains], h: mean edge length of the surface facets, mm
   std::vector<double> penalty_stiffness; ///< [grains], K = factor E / h, MPa/mm
+  bool uniform_penalty = false;          ///< K was given, and is the same wherever the mesh is refined
   std::vector<double> refinement; ///< [nodes]: h of the grain over that of the surface node's facets; empty where
                                   ///< no grain is locally refined
 
@@ -87,7 +88,10 @@ struct Model {
     return left < TetBlock::lanes ? left : TetBlock::lanes;
   }
   /// How much stiffer than its grain's mean the penalty of a surface node is: K = factor E / h with the h around the node.
-  double local_stiffness(std::size_t node) const { return refinement.empty() ? 1.0 : refinement[node]; }
+  /// 1 where the scenario gives K itself.
+  double local_stiffness(std::size_t node) const {
+    return refinement.empty() || uniform_penalty ? 1.0 : refinement[node];
+  }
   double total_reference_volume() const;
   SurfaceView surface() const;
   /// Bytes of all arrays.

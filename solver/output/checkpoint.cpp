@@ -238,11 +238,25 @@ void read_checkpoint(const std::string& path, Simulation& simulation, RunRecord&
     if (bonded && before.bond != now.bond)
       throw InputError(fmt::format(
           "{}: the checkpoint has bonds of another law than the scenario's, allowed the same [bond]", path));
+    if (bonded && before.contact.penalty_differs(now.contact)) // a damaged bond's separations belong to its stiffness
+      throw InputError(fmt::format(
+          "{}: the checkpoint has bonds of another penalty than the scenario's, allowed the same contact.stiffness "
+          "and contact.stiffness_factor",
+          path));
   }
+  std::size_t numbers = 0;
+  for_each_number(simulation.state(), record, [&](double&) { ++numbers; });
+  if (c.integers.size() != integers(simulation.state()).size() || c.numbers.size() != numbers)
+    throw InputError(fmt::format("{}: the checkpoint was written by another version of mpfem", path));
   set_integers(simulation.state(), c.integers);
-  if (any_scenario) simulation.state().stage = 0;
   std::size_t next = 0;
   for_each_number(simulation.state(), record, [&](double& value) { value = c.numbers.at(next++); });
+  if (any_scenario) { // its state is the beginning of the first stage
+    RunState& state = simulation.state();
+    state.stage = 0;
+    state.stage_low = state.low, state.stage_high = state.high;
+    state.stage_mean_stress = state.mean_stress;
+  }
   try {
     record.history = unflatten(c.history);
   } catch (const std::length_error&) {

@@ -40,8 +40,7 @@ std::vector<float> contact_pressure(const Simulation& simulation) {
                               contact.pulling_bonds(static_cast<std::int32_t>(pair))})
       for (const ContactForce& point : points) {
         add(point.node, 1.0, point);
-        for (std::size_t c = 0; c < 3; ++c)
-          add(model.facet[3 * static_cast<std::size_t>(point.facet) + c], -point.weight[c], point);
+        for (int c = 0; c < 3; ++c) add(point.facet_node[c], -point.weight(c), point);
       }
   std::vector<float> pressure(force.size(), 0.0F);
   for (int grain = 0; grain < model.grains; ++grain) {

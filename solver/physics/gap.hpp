@@ -47,11 +47,13 @@ inline ClosestPoint closest_point_on_triangle(const Vector3<double>& p, const Ve
   return result(vb / sum, vc / sum, true);
 }
 
-/// Outward direction at a closest point, not normalised: the facet's own normal in its interior, the interpolated nodal
-/// normal on edges and corners. A node is inside the grain where (node - closest point) . direction < 0.
-inline Vector3<double> outward_direction(const ClosestPoint& closest, const Vector3<double> (&x)[3],
-                                         const Vector3<double> (&nodal_normal)[3]) {
-  if (closest.inside) return cross(x[1] - x[0], x[2] - x[0]);
+// Outward direction at a closest point, not normalised: the facet's own normal in its interior, the interpolated nodal
+// normal on edges and corners. A node is inside the grain where (node - closest point) . direction < 0.
+
+inline Vector3<double> facet_direction(const Vector3<double> (&x)[3]) {
+  return cross(x[1] - x[0], x[2] - x[0]);
+}
+inline Vector3<double> edge_direction(const ClosestPoint& closest, const Vector3<double> (&nodal_normal)[3]) {
   return nodal_normal[0] + closest.weight1 * (nodal_normal[1] - nodal_normal[0]) +
          closest.weight2 * (nodal_normal[2] - nodal_normal[0]);
 }

@@ -85,10 +85,12 @@ double StageMotion::fraction_done(double time, double mean_stress) const {
 
 double StageMotion::unloading_speed(double time, double mean_stress) const {
   const IsotropicUnloading& unloading = *stage_.isotropic_unloading;
+  const double way = mean_stress_ - unloading.mean_stress;
+  if (!(way > 0)) return 0; // nothing to unload
   const double ramp = unloading.ramp_fraction * expected_duration_;
   const double s = ramp > 0 ? std::min(time / ramp, 1.0) : 1.0;
   // The walls leave the last fifth of the stress ever more slowly, so that the packing is nearly at rest at the end.
-  const double left = (mean_stress - unloading.mean_stress) / (mean_stress_ - unloading.mean_stress);
+  const double left = (mean_stress - unloading.mean_stress) / way;
   return unloading.wall_speed * (3 - 2 * s) * s * s * std::clamp(5 * left, 0.25, 1.0);
 }
 

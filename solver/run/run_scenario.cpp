@@ -422,12 +422,18 @@ void check_scenario(const Scenario& scenario, int threads) {
   double steps = 0;
   for (const Stage& stage : scenario.stages) {
     const StageMotion motion(stage, low, high, model.total_reference_volume(), 0.0);
+    const double stage_steps = motion.expected_duration() / simulation.state().stable_step;
+    steps += stage_steps;
+    fmt::print("stage          {}: {:.4g} s, {:.0f} steps at the present step\n", stage.name,
+               motion.expected_duration(), stage_steps);
+    if (stage.isotropic_unloading) {
+      if (&stage != &scenario.stages.back())
+        fmt::print("               its end is not known beforehand: the stages after it are not estimated\n");
+      break;
+    }
     Walls walls{.low = low, .high = high};
     motion.move(walls, motion.expected_duration(), 0.0, 0.0);
     low = walls.low, high = walls.high;
-    steps += motion.expected_duration() / simulation.state().stable_step;
-    fmt::print("stage          {}: {:.4g} s, {:.0f} steps at the present step\n", stage.name,
-               motion.expected_duration(), motion.expected_duration() / simulation.state().stable_step);
   }
   int measured = 0;
   const auto start = Profile::Clock::now();

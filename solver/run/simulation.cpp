@@ -102,9 +102,12 @@ void Simulation::refuse_overlap(int grain) {
   }
   for (std::int32_t pair = c.outgoing_offset[g]; pair < c.outgoing_offset[g + 1]; ++pair) {
     double deepest = 0;
-    for (const ContactForce& point : contact_.active_points(pair))
-      deepest = std::max(deepest, std::hypot(point.force[0], point.force[1], point.force[2]) /
-                                      (point.stiffness * model_.element_size[g]));
+    // What an unbroken bond holds of a point it holds itself: then the push is nothing and its pull tells the depth.
+    for (const auto points : {contact_.active_points(pair), contact_.pulling_bonds(pair)})
+      for (const ContactForce& point : points)
+        if (point.stiffness > 0)
+          deepest = std::max(deepest, std::hypot(point.force[0], point.force[1], point.force[2]) /
+                                          (point.stiffness * model_.element_size[g]));
     if (deepest > overlap_tolerance)
       refuse(fmt::format("grains {} and {} overlap at the start by {:.3g} of the element size", grain,
                          c.pair_second[static_cast<std::size_t>(pair)], deepest));
@@ -133,8 +136,13 @@ void Simulation::begin_stage() {
   state_.stage_low = walls_.low;
   state_.stage_high = walls_.high;
   state_.stage_mean_stress = state_.mean_stress;
+  const bool walls_were_present = walls_.present;
   make_motion();
+  // Walls that are taken away take what is stored in their penalty with them.
+  if (walls_were_present && !walls_.present)
+    for (const WallSums& sums : wall_sums_) state_.external_work -= sums.energy;
   grips_ = {};
+  damping_rate_ = damping_rate();
   if (const auto& grip = stage().grip) {
     grips_ = grip_nodes(model_, walls_, static_cast<std::size_t>(grip->axis), grip->depth, grip->lateral_fixed);
     std::array<bool, 2> holds{};
@@ -185,7 +193,7 @@ Simulation::Plan Simulation::plan_step() const {
   motion_->move(plan.walls, state_.stage_time + plan.step, plan.step, state_.mean_stress);
   plan.advance.step = plan.step;
   plan.advance.step_mean = 0.5 * (state_.last_step + plan.step);
-  plan.advance.damping_rate = damping_rate();
+  plan.advance.damping_rate = damping_rate_;
   for (std::size_t axis = 0; axis < 3; ++axis) {
     const double length = walls_.high[axis] - walls_.low[axis];
     plan.advance.centre[axis] = 0.5 * (walls_.high[axis] + walls_.low[axis]);
@@ -217,6 +225,7 @@ void Simulation::estimate_stable_step() {
 }
 
 void Simulation::evaluate_forces() {
+  damping_rate_ = damping_rate(); // one for the grips' forces and the advance that they are for
   if (search_is_due(contact_)) {
     const auto start = Profile::Clock::now();
     renew_candidates(model_, margin_, team_, contact_);

@@ -139,7 +139,8 @@ private:
   Profile profile_;
   std::optional<StageMotion> motion_;
   Grips grips_;
-  double margin_ = 0; ///< mm, of the contact search
+  double margin_ = 0;       ///< mm, of the contact search
+  double damping_rate_ = 0; ///< 1/s, of the next advance
   bool rebase_ledger_ = false;
 
   // per grain, summed in grain order

@@ -44,6 +44,9 @@ struct ContactParameters {
   double stiffness_factor = 10;    ///< penalty K = factor * E / h, h the mean facet edge of the grain
   std::optional<double> stiffness; ///< K itself, MPa/mm, where it is given instead (locally refined meshes)
   double search_margin = 0.3;      ///< candidates are kept for gaps up to this multiple of h
+  bool penalty_differs(const ContactParameters& other) const {
+    return stiffness_factor != other.stiffness_factor || stiffness != other.stiffness;
+  }
 };
 
 /// Cohesive bonds that form where grains touch (paper Eqs. 2-7, Table 1).

@@ -176,6 +176,7 @@ TEST_CASE("a run that is stopped and resumed again and again ends bitwise as if 
 
 TEST_CASE("a run with bonds, unloading and grips that is stopped and resumed ends bitwise as if it had not been") {
   check_resuming(bonded_text, 4);
+  check_resuming(replaced(bonded_text, "rebond = \"on_contact\"", "rebond = \"never\""), 4);
 }
 
 TEST_CASE("a killed run goes on from its checkpoint, and ends bitwise as if it had not been killed") {
@@ -277,6 +278,9 @@ TEST_CASE("every bad input is refused with one clear line and exit code 2") {
       {"packing.h5", "nothing.h5", {"nothing.h5", "not an HDF5 file"}},
       {"packing.h5", "inverted.h5", {"inverted.h5", "row 70", "inverted"}},
       {"packing.h5", "overlapping.h5", {"overlapping.h5", "grains 2 and 3"}},
+      {"packing.h5\"",
+       "overlapping.h5\"\nbond = {tensile_strength = 25, shear_strength = 18, fracture_energy = 0.5}",
+       {"overlapping.h5", "grains 2 and 3"}},
       {"packing.h5", "twice.h5", {"twice.h5", "grain 7"}},
       {"packing.h5", "copies.h5", {"copies.h5", "grains 0 and 1", "same place"}},
       {"packing.h5", "flat.h5", {"flat.h5", "/box/lengths"}},
@@ -321,6 +325,42 @@ TEST_CASE("every bad input is refused with one clear line and exit code 2") {
     CHECK(outcome.exit_code == 2);
     CHECK(std::count(outcome.messages.begin(), outcome.messages.end(), '\n') == 1);
   }
+}
+
+TEST_CASE("a packing that was unloaded is compacted again to less than before, from its checkpoint") {
+  const Folder folder;
+  prepare(folder, 3, bonded_text);
+  REQUIRE(mpfem_command(fmt::format("check {}", folder / "scenario.toml")).exit_code == 0); // stages after an unloading
+  REQUIRE(mpfem_command(fmt::format("run {} -o {} --quiet", folder / "scenario.toml", folder / "first.h5")).exit_code ==
+          0);
+  const std::string bond = bonded_text.substr(bonded_text.find("[element]"));
+  const schema::FileReader first(folder / "first.h5", schema::FileKind::run);
+  const auto stage = first.read(schema::run::history_stage);
+  const auto density = first.read(schema::run::history_relative_density);
+  double unloaded = 0;
+  for (std::size_t i = 0; i < stage.size(); ++i)
+    if (stage[i] == 1) unloaded = density[i];
+  REQUIRE(unloaded < 0.619);
+  const double target = 0.5 * (unloaded + 0.62);
+  write_text(folder / "again.toml",
+             replaced(scenario_text + bond, "relative_density = 0.62", fmt::format("relative_density = {}", target)));
+  const std::string from = folder / "first.unloading.checkpoint.h5";
+  REQUIRE(mpfem_command(fmt::format("run {} -o {} --from {} --quiet", folder / "again.toml", folder / "again.h5", from))
+              .exit_code == 0);
+  const schema::FileReader again(folder / "again.h5", schema::FileKind::run);
+  CHECK(again.read(schema::run::history_relative_density).back() == Approx(target).epsilon(1e-9));
+  // Damaged bonds belong to the stiffness with which they were damaged.
+  const Outcome other = mpfem_command(fmt::format("run {} -o {} --from {} --quiet --set contact.stiffness_factor=30",
+                                                  folder / "again.toml", folder / "other.h5", from));
+  CHECK(other.exit_code == 2);
+  CHECK_THAT(other.messages, Catch::Contains("penalty"));
+  // Unloading that has nothing to do ends where it began.
+  write_text(folder / "idle.toml", replaced(scenario_text, "type = \"isotropic_compaction\"\nrelative_density = 0.62",
+                                            "type = \"isotropic_unloading\"\nmean_stress = 0"));
+  REQUIRE(mpfem_command(fmt::format("run {} -o {} --quiet", folder / "idle.toml", folder / "idle.h5")).exit_code == 0);
+  const schema::FileReader idle(folder / "idle.h5", schema::FileKind::run);
+  CHECK(idle.read(schema::run::history_relative_density).back() ==
+        Approx(idle.read(schema::run::history_relative_density).front()).epsilon(1e-12));
 }
 
 TEST_CASE("a branch may change how it is computed, but not the matter") {
