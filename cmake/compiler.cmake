@@ -3,6 +3,8 @@ add_library(mpfem_options INTERFACE)
 add_library(mpfem::options ALIAS mpfem_options)
 
 target_compile_options(mpfem_options INTERFACE
+  # Packs wider than the target's registers are passed between inlined functions only: no ABI to keep.
+  -Wno-psabi
   -Wall -Wextra -Wpedantic -Wconversion -Wshadow -Wnon-virtual-dtor -Wold-style-cast)
 if(MPFEM_WARNINGS_AS_ERRORS)
   target_compile_options(mpfem_options INTERFACE -Werror)

@@ -100,12 +100,13 @@ void load_edges(const double* rows, const std::int32_t (&index)[N + 1][W], Vecto
       }
     }
   } else {
-    for (int k = 0; k < W; ++k) {
-      const double* base = rows + 4 * index[0][k];
-      for (int i = 0; i < N; ++i) {
-        const double* node = rows + 4 * index[i + 1][k];
-        edge[i].x.v[k] = node[0] - base[0], edge[i].y.v[k] = node[1] - base[1], edge[i].z.v[k] = node[2] - base[2];
+    for (int i = 0; i < N; ++i) {
+      typename Pack<W>::Native x{}, y{}, z{};
+      for (int k = 0; k < W; ++k) {
+        const double *base = rows + 4 * index[0][k], *node = rows + 4 * index[i + 1][k];
+        x[k] = node[0] - base[0], y[k] = node[1] - base[1], z[k] = node[2] - base[2];
       }
+      edge[i] = {Pack<W>(x), Pack<W>(y), Pack<W>(z)};
     }
   }
 }

@@ -1,0 +1,71 @@
+#!/usr/bin/env bash
+# The tables of docs/performance.md: tests/benchmarks/performance.sh [--large] [MPFEM [OTHER_MPFEM...]] > tables.md
+#
+# MPFEM is the executable to measure (build/bin/mpfem), the others are builds of the same source for other instruction
+# sets. Every case is measured three times, in turn with the others of its table, and the medians are printed: a shared
+# machine is noisy. --large adds packings of 1.6 and 12 million tets (12 GB of memory, a quarter of an hour).
+set -euo pipefail
+
+large=
+if [[ ${1-} == --large ]]; then large=yes && shift; fi
+mpfem=${1:-build/bin/mpfem}
+shift || true
+cores=$(nproc)
+readonly repetitions=3
+
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+
+# value FILE KEY
+value() { awk -v key="\"$2\":" '$1 == key { sub(/,$/, "", $2); print $2 }' "$1"; }
+
+# table TITLE; then cases on standard input: NAME | EXECUTABLE | OPTIONS
+table() {
+  local title=$1 name executable options i=0
+  local names=()
+  printf '\n### %s\n\n' "$title"
+  printf '| case | tets | elements alone | whole step | of it contact | search | memory, B a tet |\n|---|---|---|---|---|---|---|\n'
+  local cases
+  cases=$(cat)
+  for ((repetition = 1; repetition <= repetitions; ++repetition)); do
+    i=0
+    while IFS='|' read -r name executable options; do
+      # shellcheck disable=SC2086 # options are several words
+      "$executable" bench --json $options >"$work/$i.$repetition.json"
+      names[i]=$name
+      i=$((i + 1))
+    done <<<"$cases"
+  done
+  for ((k = 0; k < i; ++k)); do
+    printf '| %s ' "${names[k]}"
+    for key in tets element_pass_ns_per_tet_step whole_step_ns_per_tet_step contact_ns_per_tet_step search_ns_per_tet_step memory_bytes_per_tet; do
+      for ((repetition = 1; repetition <= repetitions; ++repetition)); do value "$work/$k.$repetition.json" "$key"; done |
+        sort -g | sed -n "$(((repetitions + 1) / 2))p" | xargs printf '| %.4g '
+    done
+    printf '|\n'
+  done
+}
+
+printf 'ns per tet and step, medians of %s. ' "$repetitions"
+"$mpfem" bench --tets 2000 --grains 4 --steps 5 --threads "$cores" --quiet | head -n 1
+
+for ((t = 1; t <= cores; t *= 2)); do echo "$t threads|$mpfem|--threads $t"; done | table 'Threads'
+
+table 'What a feature costs' <<EOF
+tet4, bonds|$mpfem|
+tet4|$mpfem|--no-bonds
+tet4-anp, bonds|$mpfem|--element tet4-anp
+tet4-anp|$mpfem|--element tet4-anp --no-bonds
+EOF
+
+for grains in 20 80 329 1000; do echo "$grains grains|$mpfem|--grains $grains --tets $((600 * grains))"; done |
+  table 'Number of grains, 600 tets each'
+
+{
+  for tets in 200000 330000; do echo "about 329 grains|$mpfem|--tets $tets"; done
+  if [[ $large ]]; then for tets in 1600000 12000000; do echo "about 329 grains|$mpfem|--tets $tets"; done; fi
+} | table 'Mesh size'
+
+if (($# > 0)); then
+  { for executable in "$mpfem" "$@"; do echo "$executable|$executable|--threads 1"; done; } | table 'Instruction sets'
+fi
