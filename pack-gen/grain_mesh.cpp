@@ -138,7 +138,7 @@ TetMesh gmsh_half_ball(double radius, const std::function<double(const Point&)>&
   return mesh;
 }
 
-UnitBall mesh_unit_ball(double size_ratio, std::uint64_t seed) {
+UnitBall mesh_unit_ball(double size_ratio, std::uint64_t seed, bool optimise) {
   const double wanted = wanted_tets(size_ratio);
   // Edge of the regular tetrahedron of the mean volume; a first factor for the count that smoothing leads to.
   const double mean_edge = std::cbrt(6 * std::numbers::sqrt2 * unit_ball_volume / wanted);
@@ -146,7 +146,7 @@ UnitBall mesh_unit_ball(double size_ratio, std::uint64_t seed) {
   const int rounds = large ? 5 : 10, sweeps = large ? 80 : 60;
   // The worst tet is a matter of luck: tries go on until one has the smallest step (in units of size/wave speed) that most
   // sizes reach within three. Measured at radius/size 3.3 to 13; a try of a large ball gains less, and costs more.
-  const double enough = large ? 0.315 : wanted > 2500 ? 0.32 : 0.325;
+  const double enough = !optimise ? 0 : large ? 0.315 : wanted > 2500 ? 0.32 : 0.325;
   const std::size_t tries = large ? 4 : 8;
 
   UnitBall best;
@@ -154,7 +154,7 @@ UnitBall mesh_unit_ball(double size_ratio, std::uint64_t seed) {
   int failures = 0;
   double factor = 1 - 0.9 / std::cbrt(wanted);
   for (std::size_t c = 0; c < tries + static_cast<std::size_t>(std::min(failures, 10)); ++c) {
-    if (best.smallest_step * size_ratio >= enough) break;
+    if (best.smallest_step > 0 && best.smallest_step * size_ratio >= enough) break;
     const Candidate& candidate = candidates[c % std::size(candidates)];
     const auto lay_out = [&](int smoothing, std::uint64_t shift) -> BallMesh {
       BallMesh trial;
@@ -201,7 +201,7 @@ UnitBall mesh_unit_ball(double size_ratio, std::uint64_t seed) {
     }
     const double tolerance = wanted < 300 ? 0.15 : 0.03;
     if (!(closest < tolerance)) continue;
-    raise_smallest_step(ball, mean_edge, sweeps, 1.3, seed);
+    if (optimise) raise_smallest_step(ball, mean_edge, sweeps, 1.3, seed);
     const double step = smallest_unit_step(ball.mesh);
     if (step > best.smallest_step && ball_defect(ball.mesh).empty()) best = {std::move(ball), 0, step, {}};
   }
@@ -271,7 +271,8 @@ PackingMesh mesh_packing(const SpherePacking& packing, const MeshRequest& reques
   std::mutex guard;
   report(0, "meshing balls");
   for_each_parallel(keys.size(), request.threads, [&](std::size_t i) {
-    UnitBall unit = mesh_unit_ball(std::pow(library_step, keys[i]), static_cast<std::uint64_t>(keys[i] + 10000));
+    UnitBall unit =
+        mesh_unit_ball(std::pow(library_step, keys[i]), static_cast<std::uint64_t>(keys[i] + 10000), request.optimise);
     const std::lock_guard lock(guard);
     library.at(keys[i]) = std::move(unit);
     done += std::pow(library_step, 3 * keys[i]);

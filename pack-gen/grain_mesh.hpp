@@ -40,9 +40,10 @@ struct UnitBall {
   std::string note;         ///< what had to be changed to get it, empty for nothing
 };
 
-/// The ball of unit radius meshed for a ratio radius/size >= smallest_size_ratio. Throws SimulationError when no attempt
-/// gives a valid mesh.
-UnitBall mesh_unit_ball(double size_ratio, std::uint64_t seed);
+/// The ball of unit radius meshed for a ratio radius/size >= smallest_size_ratio. Without `optimise`, the first valid
+/// candidate as it was laid out (to see what choosing and moving nodes gains). Throws SimulationError when no attempt gives
+/// a valid mesh.
+UnitBall mesh_unit_ball(double size_ratio, std::uint64_t seed, bool optimise = true);
 
 /// All grains' meshes, grain by grain.
 struct PackingMesh {
@@ -57,6 +58,7 @@ struct MeshRequest {
   double nominal_size = 0; ///< mm
   std::uint64_t seed = 1;  ///< of the grains' orientations
   int threads = 1;         ///< the mesh does not depend on it
+  bool optimise = true;    ///< balls are chosen and their nodes moved for a larger critical step
   std::function<void(double fraction, const std::string& what)> progress{};
 };
 

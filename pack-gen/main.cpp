@@ -29,6 +29,7 @@ struct Arguments {
   HemisphereRequest hemispheres;
   StepMaterial material;
   int threads = 1;
+  bool optimise = true;
   bool quiet = false;
 };
 
@@ -73,6 +74,7 @@ void mesh(const Arguments& arguments) {
       file.packing, {.nominal_size = arguments.size,
                      .seed = static_cast<std::uint64_t>(arguments.seed.value_or(1)),
                      .threads = arguments.threads,
+                     .optimise = arguments.optimise,
                      .progress = [&](double fraction, const std::string& what) { progress.update(fraction, what); }});
   const MeshReport report = report_mesh(file.packing, mesh, arguments.size, arguments.material, arguments.threads);
   if (!(report.facet_gap.gap > 0))
@@ -187,6 +189,8 @@ int body(int argc, char** argv) {
       ->check(CLI::PositiveNumber);
   mesh_command->add_option("--seed", arguments.seed, "Seed of the meshes' orientations (default: 1)")
       ->check(CLI::NonNegativeNumber);
+  mesh_command->add_flag("!--no-optimise", arguments.optimise,
+                         "Meshes as they were first laid out, not chosen and moved for a larger time step");
   add_threads(*mesh_command);
   add_material(*mesh_command, arguments.material);
 

@@ -11,6 +11,7 @@
 #include "common/table_reader.hpp"
 #include "common/version.hpp"
 #include "solver/bench/bench.hpp"
+#include "solver/hand_over.hpp"
 #include "solver/run/bond_programme.hpp"
 #include "solver/run/run_scenario.hpp"
 
@@ -108,6 +109,9 @@ CLI::App* add_bench(CLI::App& app, Arguments& arguments, BenchOptions& options, 
 }
 
 int body(int argc, char** argv) {
+#ifdef MPFEM_HANDS_OVER
+  hand_over_to_best_build(argv);
+#endif
   CLI::App app("mpfem: compacts a meshed packing of deformable grains.\n"
                "Examples:\n"
                "  mpfem check compaction.toml\n"

@@ -194,13 +194,13 @@ void run_bench(const BenchOptions& options) {
   if (options.scenario) {
     scenario = *options.scenario;
     model = build_model(read_packing(scenario.packing_file), scenario, scenario.packing_file);
+    check_bonds(model, scenario);
   } else {
     scenario = built_in_scenario(options);
     const DensePacking dense = make_dense_packing(options.tets, options.grains, 1);
     model = build_model(dense.packing, scenario, scenario.packing_file);
     scenario.stages[0].isotropic_compaction = {std::min(0.999, 1.15 * dense.relative_density), 1.0, 0.01};
   }
-  if (options.scenario) check_bonds(model, scenario);
   Simulation simulation(std::move(model), scenario, team);
   const bool built_in = !options.scenario;
   if (built_in) {

@@ -41,8 +41,8 @@ inline void move_bond(const BondLaw& law, PointBond& bond, double open, double e
 
 /// Force of a bond on its node per unit of point stiffness, and where the reaction acts.
 struct BondPull {
-  Vector3<double> pull; ///< mm: times point stiffness gives N
-  double weight[3];     ///< shape functions of the attachment facet's nodes
+  Vector3<double> pull;    ///< mm: times point stiffness gives N
+  double weight1, weight2; ///< shape functions of the attachment facet's second and third node
 };
 
 /// Pull of a bond that holds in all directions. `x` are the corners of its facet. `gap` is the distance (mm) of the node
@@ -55,7 +55,7 @@ inline BondPull pull_of_bond(const BondLaw& law, PointBond& bond, const Vector3<
     move_bond(law, bond, 0.0, std::sqrt(std::max(square - gap * gap, 0.0)));
   else
     move_bond(law, bond, std::min(gap, std::sqrt(square)), std::sqrt(square));
-  return {-bond.remaining * d, {1.0 - bond.weight1 - bond.weight2, bond.weight1, bond.weight2}};
+  return {-bond.remaining * d, bond.weight1, bond.weight2};
 }
 
 /// Pull of an open bond that does not resist sliding: along the normal of the facet where it was last closed, between
@@ -68,7 +68,7 @@ inline BondPull pull_of_normal_bond(const BondLaw& law, PointBond& bond, const V
   const double weight1 = dot(cross(r, e2), area) / square, weight2 = dot(cross(e1, r), area) / square;
   const double open = std::max(height, 0.0) * std::sqrt(square);
   move_bond(law, bond, open, open);
-  return {-(bond.remaining * std::max(height, 0.0)) * area, {1.0 - weight1 - weight2, weight1, weight2}};
+  return {-(bond.remaining * std::max(height, 0.0)) * area, weight1, weight2};
 }
 
 } // namespace mpfem

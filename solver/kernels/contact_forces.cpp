@@ -169,32 +169,80 @@ void act_on_node(Model& model, const ContactForce& record) {
 ContactForce bond_record(const BondPull& pull, double stiffness, std::int32_t node, const PointBond& bond,
                          const Facet& facet) {
   return {{stiffness * pull.pull.x, stiffness * pull.pull.y, stiffness * pull.pull.z},
-          pull.weight[1],
-          pull.weight[2],
+          pull.weight1,
+          pull.weight2,
           bond.remaining * stiffness,
           node,
           {facet.node[0], facet.node[1], facet.node[2]}};
 }
 
-/// What a grain's contact points need lies in the memory of its neighbours, which another thread wrote last: asked for a
-/// few points ahead, so that the points do not wait for it one by one (a tenth of the time of
-/// contact on two threads).
-class PrefetchAhead {
+/// The points of a grain that must be looked at in this step, and their data asked for in time. What a point needs lies
+/// scattered over the memory of two grains, and waiting for it one piece after the other was two thirds of the time of
+/// contact. So the awake points are listed first, and what their indices point at is asked for; when a point's turn is a
+/// few points away, that has come, and the nodes of its facet are asked for.
+class AwakePoints {
 public:
-  PrefetchAhead(const Model& model, const Contact& contact, std::int32_t end)
-      : model_(model), contact_(contact), end_(end) {}
-  void operator()(std::int32_t point) const {
-    if (const std::int32_t facet = facet_of(point + 8); facet >= 0) __builtin_prefetch(&model_.facet[3 * at(facet)]);
-    if (const std::int32_t facet = facet_of(point + 4); facet >= 0)
-      for (std::size_t c = 0; c < 3; ++c) __builtin_prefetch(&model_.position[4 * at(model_.facet[3 * at(facet) + c])]);
+  AwakePoints(const Model& model, const Contact& contact, std::size_t expected) : model_(model), contact_(contact) {
+    points_.reserve(expected);
+  }
+  std::size_t size() const { return points_.size(); }
+  std::int32_t operator[](std::size_t i) const { return points_[i]; }
+
+  void add(std::int32_t point) {
+    points_.push_back(point);
+    const std::size_t node = at(contact_.candidates.point_node[at(point)]);
+    __builtin_prefetch(&model_.position[4 * node]);
+    __builtin_prefetch(&model_.force[4 * node], 1);
+    __builtin_prefetch(&model_.reference_area[node]);
+    ask_for_facet(contact_.point_facet[at(point)]);
+    if (const std::int32_t facet = bond_facet(point); facet != contact_.point_facet[at(point)]) ask_for_facet(facet);
+  }
+  /// To be called when it is the turn of point i.
+  void look_ahead_from(std::size_t i) const {
+    constexpr std::size_t ahead = 4;
+    if (i + ahead >= points_.size()) return;
+    const std::int32_t point = points_[i + ahead], facet = contact_.point_facet[at(point)];
+    ask_for_nodes(facet);
+    if (const std::int32_t other = bond_facet(point); other != facet) ask_for_nodes(other);
   }
 
 private:
-  std::int32_t facet_of(std::int32_t point) const { return point < end_ ? contact_.point_facet[at(point)] : -1; }
+  std::int32_t bond_facet(std::int32_t point) const {
+    return contact_.bond.empty() ? -1 : contact_.bond[at(point)].facet;
+  }
+  void ask_for_facet(std::int32_t facet) const {
+    if (facet >= 0) __builtin_prefetch(&model_.facet[3 * at(facet)]);
+  }
+  void ask_for_nodes(std::int32_t facet) const {
+    if (facet < 0) return;
+    for (std::size_t c = 0; c < 3; ++c) {
+      const std::size_t node = at(model_.facet[3 * at(facet) + c]);
+      __builtin_prefetch(&model_.position[4 * node]);
+      __builtin_prefetch(&model_.normal[4 * node]);
+    }
+  }
   const Model& model_;
   const Contact& contact_;
-  std::int32_t end_;
+  std::vector<std::int32_t> points_;
 };
+
+/// Points of a grain's own nodes whose gap may have closed, or whose bond holds.
+template <bool bonding>
+AwakePoints awake_points(const Model& model, const Contact& contact, int grain) {
+  const ContactCandidates& candidates = contact.candidates;
+  const auto g = static_cast<std::size_t>(grain);
+  const std::int32_t first_pair = candidates.outgoing_offset[g], end_pair = candidates.outgoing_offset[g + 1];
+  AwakePoints awake(model, contact,
+                    static_cast<std::size_t>(candidates.pair_point_offset[at(end_pair)] -
+                                             candidates.pair_point_offset[at(first_pair)]));
+  for (std::int32_t pair = first_pair; pair < end_pair; ++pair) {
+    const double travel = contact.travel[g] + contact.travel[at(candidates.pair_second[at(pair)])];
+    for (std::int32_t point = candidates.pair_point_offset[at(pair)];
+         point < candidates.pair_point_offset[at(pair) + 1]; ++point)
+      if (travel >= contact.point_wake[at(point)] || (bonding && contact.bond[at(point)].intact())) awake.add(point);
+  }
+  return awake;
+}
 
 template <bool bonding>
 ContactSums forces_of_points(Model& model, Contact& contact, int grain) {
@@ -202,8 +250,8 @@ ContactSums forces_of_points(Model& model, Contact& contact, int grain) {
   ContactSums sums;
   const auto g = static_cast<std::size_t>(grain);
   const double h = model.element_size[g];
-  const PrefetchAhead prefetch_ahead(model, contact,
-                                     candidates.pair_point_offset[at(candidates.outgoing_offset[g + 1])]);
+  const AwakePoints awake = awake_points<bonding>(model, contact, grain);
+  std::size_t next = 0;
   for (std::int32_t pair = candidates.outgoing_offset[g]; pair < candidates.outgoing_offset[g + 1]; ++pair) {
     const std::int32_t other_grain = candidates.pair_second[at(pair)];
     const std::size_t other = at(other_grain);
@@ -224,16 +272,15 @@ ContactSums forces_of_points(Model& model, Contact& contact, int grain) {
                            k, node_index, bond, facet);
       act_on_node(model, record);
     };
-    for (std::int32_t point = begin; point < end; ++point) {
-      prefetch_ahead(point);
+    for (; next < awake.size() && awake[next] < end; ++next) {
+      awake.look_ahead_from(next);
+      const std::int32_t point = awake[next];
       const std::int32_t node_index = candidates.point_node[at(point)];
-      if constexpr (bonding) law.stiffness = pair_bond_stiffness * model.local_stiffness(at(node_index));
-      if (travel < contact.point_wake[at(point)]) {
-        // The mode in which damage begins depends on the gap; later on a bond needs none, and its point may sleep.
-        if constexpr (!bonding) continue;
+      if constexpr (bonding) {
+        law.stiffness = pair_bond_stiffness * model.local_stiffness(at(node_index));
+        // The mode in which damage begins depends on the gap; later on a bond needs none, and the gap may sleep.
         PointBond& bond = contact.bond[at(point)];
-        if (!bond.intact()) continue;
-        if (bond.state.initiation > 0) {
+        if (bond.state.initiation > 0 && travel < contact.point_wake[at(point)]) {
           pull(bond, node_index, row(model.position, node_index), contact.margin);
           continue;
         }
@@ -306,7 +353,6 @@ ContactSums forces_of_points(Model& model, Contact& contact, int grain) {
                 {geometry.node[0], geometry.node[1], geometry.node[2]}};
       act_on_node(model, record);
       sums.energy += 0.5 * k * distance * distance;
-      sums.area += model.normal[4 * at(node_index) + 3];
       sums.penetration = std::max(sums.penetration, distance / h);
     }
     contact.active[at(pair)] = active;
@@ -344,13 +390,22 @@ void contact_reactions(Model& model, const Contact& contact, int grain) {
   };
   const std::int32_t end = candidates.incoming_offset[g + 1];
   for (std::int32_t i = candidates.incoming_offset[g]; i < end; ++i) {
-    if (i + 2 < end) // as PrefetchAhead: the first points of the pair after the next; the others follow in order
+    if (i + 2 < end) // the first points of the pair after the next; the others follow in order
       for (const auto points : {contact.active_points(candidates.incoming_pair[at(i + 2)]),
                                 contact.pulling_bonds(candidates.incoming_pair[at(i + 2)])})
         for (std::size_t p = 0; p < std::min<std::size_t>(points.size(), 4); ++p) __builtin_prefetch(&points[p]);
     react(contact.active_points(candidates.incoming_pair[at(i)]));
     react(contact.pulling_bonds(candidates.incoming_pair[at(i)]));
   }
+}
+
+double contact_area(const Model& model, const Contact& contact, int grain) {
+  double area = 0;
+  const ContactCandidates& candidates = contact.candidates;
+  const auto g = static_cast<std::size_t>(grain);
+  for (std::int32_t pair = candidates.outgoing_offset[g]; pair < candidates.outgoing_offset[g + 1]; ++pair)
+    for (const ContactForce& point : contact.active_points(pair)) area += model.normal[4 * at(point.node) + 3];
+  return area;
 }
 
 void contact_stiffness_rate(const Model& model, const Contact& contact, int grain, std::span<double> rate) {

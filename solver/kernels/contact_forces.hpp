@@ -33,7 +33,6 @@ struct ContactForce {
 /// Sums of a grain's own nodes over one contact pass.
 struct ContactSums {
   double energy = 0;      ///< mJ stored in the penalty
-  double area = 0;        ///< mm^2 of the grain's surface in contact
   double penetration = 0; ///< largest penetration over h
   int active_points = 0;
 };
@@ -77,6 +76,9 @@ ContactSums contact_forces(Model& model, Contact& contact, int grain);
 
 /// Adds to model.force the reactions on the grain's facets.
 void contact_reactions(Model& model, const Contact& contact, int grain);
+
+/// mm^2 of a grain's surface in contact with other grains.
+double contact_area(const Model& model, const Contact& contact, int grain);
 
 /// kappa/m (1/s^2) of a grain's surface nodes into `rate` [nodes]: a bound of what contact adds to the frequency
 /// squared. For a point with force k gap and gap = n.(u_s - sum w_i u_i), Cauchy's inequality gives

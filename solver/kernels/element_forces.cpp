@@ -192,7 +192,8 @@ BadTet find_bad_tet(const Model& model, int grain) {
   return {};
 }
 
-StableStep stable_step(Model& model, int grain, std::span<const double> nodal_stiffness_rate, double strain_rate) {
+[[gnu::flatten]] StableStep stable_step(Model& model, int grain, std::span<const double> nodal_stiffness_rate,
+                                        double strain_rate) {
   const auto g = static_cast<std::size_t>(grain);
   const std::int32_t first_node = model.node_offset[g];
   const double* position = model.position.data() + 4 * first_node;

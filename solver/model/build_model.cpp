@@ -249,6 +249,11 @@ Model build_model(const MeshedPacking& packing, const Scenario& scenario, const 
   model.normal.assign(4 * nodes, 0.0);
   model.inverse_mass.assign(nodes, 0.0);
   model.reference_area.assign(nodes, 0.0);
+  // Grown step by step, the blocks would be in memory twice.
+  std::size_t blocks = 0;
+  for (std::size_t g = 0; g < static_cast<std::size_t>(model.grains); ++g)
+    blocks += at(model.tet_offset[g + 1] - model.tet_offset[g] + TetBlock::lanes - 1) / TetBlock::lanes;
+  model.block.reserve(blocks);
 
   const double initial_flow_stress =
       std::visit([](const auto& law) { return law.initial_flow_stress(); }, model.material.flow);

@@ -44,11 +44,6 @@ void for_each_number(State& s, Record& r, F&& f) {
   for (auto& value : r.profile_seconds) f(value);
 }
 
-/// The tets' state without lanes, in block order.
-struct TetState {
-  std::vector<double> deviator, flow_stress, plastic_strain, length;
-};
-
 /// Calls f(block, lane, tet) for every tet of the model.
 template <class ModelType, class F>
 void for_each_tet(ModelType& model, F&& f) {
@@ -61,48 +56,85 @@ void for_each_tet(ModelType& model, F&& f) {
   }
 }
 
-TetState tet_state(const Model& model) {
-  const auto tets = static_cast<std::size_t>(model.tets());
-  TetState s{std::vector<double>(5 * tets), std::vector<double>(tets), std::vector<double>(tets),
-             std::vector<double>(tets)};
-  for_each_tet(model, [&](const TetBlock& block, int lane, std::size_t tet) {
-    for (std::size_t c = 0; c < 5; ++c) s.deviator[5 * tet + c] = block.deviator[c][lane];
-    s.flow_stress[tet] = block.flow_stress[lane];
-    s.plastic_strain[tet] = block.plastic_strain[lane];
-    s.length[tet] = block.length[lane];
+/// Calls f(dataset) for every array that the checksum covers, in its order, which is also that of writing.
+template <class F>
+void for_each_array(F&& f) {
+  f(check::run_integers), f(check::run_numbers), f(check::run_history);
+  f(check::node_position), f(check::node_velocity), f(check::node_force);
+  f(check::tet_deviator), f(check::tet_flow_stress), f(check::tet_plastic_strain), f(check::tet_length);
+  f(check::grain_travel), f(check::grain_travel_at_search), f(check::contact_point_wake), f(check::contact_point_sure);
+  f(check::bond_values), f(check::grip_reference);
+  f(check::contact_pair_first), f(check::contact_pair_second), f(check::contact_pair_point_offset);
+  f(check::contact_point_node), f(check::contact_point_facet_offset), f(check::contact_candidate_facet);
+  f(check::contact_point_facet), f(check::bond_facet), f(check::grip_node), f(check::grip_side);
+}
+
+/// Hash of the arrays in a file. One array is in memory at a time: a checkpoint may be as large as the model.
+std::uint64_t checksum(const schema::FileReader& file) {
+  std::uint64_t hash = hash_seed;
+  for_each_array([&](const auto& dataset) {
+    using Values = decltype(file.read(dataset));
+    const Values values = file.has(dataset) ? file.read(dataset) : Values();
+    hash = hash_values(std::span<const typename Values::value_type>(values), hash);
   });
-  return s;
+  return hash;
 }
 
-template <class Vector>
-std::uint64_t add(const Vector& values, std::uint64_t hash) {
-  return hash_values(std::span<const typename Vector::value_type>(values.data(), values.size()), hash);
-}
-
-struct Contents {
-  std::vector<std::int64_t> integers;
-  std::vector<double> numbers, history;
-  std::vector<double> position, velocity, force;
-  TetState tet;
-  std::vector<double> travel, travel_at_search;
-  std::vector<std::int32_t> pair_first, pair_second, pair_point_offset, point_node, point_facet_offset, candidate_facet,
-      point_facet;
-  std::vector<double> point_wake, point_sure;
-  std::vector<std::int32_t> bond_facet, grip_node, grip_side;
-  std::vector<double> bond_values, grip_reference;
-
-  std::uint64_t checksum() const {
-    std::uint64_t hash = add(integers, hash_seed);
-    for (const auto* v :
-         {&numbers, &history, &position, &velocity, &force, &tet.deviator, &tet.flow_stress, &tet.plastic_strain,
-          &tet.length, &travel, &travel_at_search, &point_wake, &point_sure, &bond_values, &grip_reference})
-      hash = add(*v, hash);
-    for (const auto* v : {&pair_first, &pair_second, &pair_point_offset, &point_node, &point_facet_offset,
-                          &candidate_facet, &point_facet, &bond_facet, &grip_node, &grip_side})
-      hash = add(*v, hash);
-    return hash;
+/// Writes arrays in the order of for_each_array and makes their checksum on the way.
+class ArrayWriter {
+public:
+  explicit ArrayWriter(schema::FileWriter& file) : file_(file) {}
+  template <class T, int Rank, class Vector>
+  void write(const schema::Dataset<T, Rank>& dataset, const Vector& values, std::size_t rows) {
+    const std::span<const T> span(values.data(), values.size());
+    hash_ = hash_values(span, hash_);
+    file_.write(dataset, span, rows);
   }
+  template <class T, class Vector>
+  void write(const schema::Dataset<T, 1>& dataset, const Vector& values) {
+    write(dataset, values, values.size());
+  }
+  /// Arrays that are not in this file.
+  void leave_out(int arrays) {
+    for (int i = 0; i < arrays; ++i) hash_ = hash_values(std::span<const double>(), hash_);
+  }
+  std::uint64_t checksum() const { return hash_; }
+
+private:
+  schema::FileWriter& file_;
+  std::uint64_t hash_ = hash_seed;
 };
+
+/// One number of every tet, in block order; `values(block)` gives its lanes.
+template <class Values>
+std::vector<double> of_tets(const Model& model, Values&& values) {
+  std::vector<double> result(static_cast<std::size_t>(model.tets()));
+  for_each_tet(model, [&](const TetBlock& block, int lane, std::size_t tet) { result[tet] = values(block)[lane]; });
+  return result;
+}
+
+std::vector<double> deviators(const Model& model) {
+  std::vector<double> result(5 * static_cast<std::size_t>(model.tets()));
+  for_each_tet(model, [&](const TetBlock& block, int lane, std::size_t tet) {
+    for (std::size_t c = 0; c < 5; ++c) result[5 * tet + c] = block.deviator[c][lane];
+  });
+  return result;
+}
+
+/// Unused lanes of a grain's last block repeat its last tet.
+void fill_unused_lanes(Model& model) {
+  for (int grain = 0; grain < model.grains; ++grain) {
+    const std::int32_t last = model.block_offset[static_cast<std::size_t>(grain) + 1] - 1;
+    TetBlock& block = model.block[static_cast<std::size_t>(last)];
+    const int used = model.tets_in_block(grain, last);
+    for (int lane = used; lane < TetBlock::lanes; ++lane) {
+      for (auto& component : block.deviator) component[lane] = component[used - 1];
+      block.flow_stress[lane] = block.flow_stress[used - 1];
+      block.plastic_strain[lane] = block.plastic_strain[used - 1];
+      block.length[lane] = block.length[used - 1];
+    }
+  }
+}
 
 } // namespace
 
@@ -111,109 +143,83 @@ void write_checkpoint(const std::string& path, const Simulation& simulation, con
   const Model& model = simulation.model();
   const Contact& contact = simulation.contact();
   const ContactCandidates& candidates = contact.candidates;
-  Contents c;
-  c.integers = integers(simulation.state());
-  for_each_number(simulation.state(), record, [&](double value) { c.numbers.push_back(value); });
-  c.history = flatten(record.history);
-  c.position.assign(model.position.begin(), model.position.end());
-  c.velocity.assign(model.velocity.begin(), model.velocity.end());
-  c.force.assign(model.force.begin(), model.force.end());
-  c.tet = tet_state(model);
-  c.travel = contact.travel, c.travel_at_search = contact.travel_at_search;
-  c.pair_first = candidates.pair_first, c.pair_second = candidates.pair_second;
-  c.pair_point_offset = candidates.pair_point_offset, c.point_node = candidates.point_node;
-  c.point_facet_offset = candidates.point_facet_offset, c.candidate_facet = candidates.point_facet;
-  c.point_facet = contact.point_facet, c.point_wake = contact.point_wake, c.point_sure = contact.point_sure;
-  for (const PointBond& bond : contact.bond) {
-    c.bond_facet.push_back(bond.facet);
-    c.bond_values.insert(c.bond_values.end(), {bond.weight1, bond.weight2, bond.state.initiation, bond.state.largest,
-                                               bond.remaining, bond.spent});
-  }
-  for (const GrippedNode& gripped : simulation.grips().node) {
-    c.grip_node.push_back(gripped.node);
-    c.grip_side.push_back(gripped.side);
-    c.grip_reference.insert(c.grip_reference.end(), gripped.reference.begin(), gripped.reference.end());
-  }
-
   schema::FileWriter file(path, schema::FileKind::checkpoint, fmt::format("mpfem {}", version()));
-  const auto write = [&file](const auto& dataset, const auto& values, std::size_t rows) {
-    using T = typename std::decay_t<decltype(values)>::value_type;
-    file.write(dataset, std::span<const T>(values), rows);
-  };
-  file.write_scalar(check::checksum, hash_text(c.checksum()));
   file.write_scalar(check::scenario, scenario_text);
   file.write_scalar(check::packing_hash, hash_text(model.mesh_hash));
   file.write_scalar(check::lanes, std::int32_t{TetBlock::lanes});
-  write(check::run_integers, c.integers, c.integers.size());
-  write(check::run_numbers, c.numbers, c.numbers.size());
-  write(check::run_history, c.history, c.history.size());
-  write(check::run_snapshots, record.snapshot_files, record.snapshot_files.size());
+  file.write(check::run_snapshots, std::span<const std::string>(record.snapshot_files), record.snapshot_files.size());
+
+  std::vector<double> numbers;
+  for_each_number(simulation.state(), record, [&](double value) { numbers.push_back(value); });
   const auto nodes = static_cast<std::size_t>(model.nodes()), tets = static_cast<std::size_t>(model.tets());
-  write(check::node_position, c.position, nodes);
-  write(check::node_velocity, c.velocity, nodes);
-  write(check::node_force, c.force, nodes);
-  write(check::tet_deviator, c.tet.deviator, tets);
-  write(check::tet_flow_stress, c.tet.flow_stress, tets);
-  write(check::tet_plastic_strain, c.tet.plastic_strain, tets);
-  write(check::tet_length, c.tet.length, tets);
-  write(check::grain_travel, c.travel, c.travel.size());
-  write(check::grain_travel_at_search, c.travel_at_search, c.travel_at_search.size());
-  write(check::contact_pair_first, c.pair_first, c.pair_first.size());
-  write(check::contact_pair_second, c.pair_second, c.pair_second.size());
-  write(check::contact_pair_point_offset, c.pair_point_offset, c.pair_point_offset.size());
-  write(check::contact_point_node, c.point_node, c.point_node.size());
-  write(check::contact_point_facet_offset, c.point_facet_offset, c.point_facet_offset.size());
-  write(check::contact_candidate_facet, c.candidate_facet, c.candidate_facet.size());
-  write(check::contact_point_facet, c.point_facet, c.point_facet.size());
-  write(check::contact_point_wake, c.point_wake, c.point_wake.size());
-  write(check::contact_point_sure, c.point_sure, c.point_sure.size());
+  ArrayWriter arrays(file);
+  arrays.write(check::run_integers, integers(simulation.state()));
+  arrays.write(check::run_numbers, numbers);
+  arrays.write(check::run_history, flatten(record.history));
+  arrays.write(check::node_position, model.position, nodes);
+  arrays.write(check::node_velocity, model.velocity, nodes);
+  arrays.write(check::node_force, model.force, nodes);
+  arrays.write(check::tet_deviator, deviators(model), tets);
+  arrays.write(check::tet_flow_stress, of_tets(model, [](const TetBlock& b) { return b.flow_stress; }));
+  arrays.write(check::tet_plastic_strain, of_tets(model, [](const TetBlock& b) { return b.plastic_strain; }));
+  arrays.write(check::tet_length, of_tets(model, [](const TetBlock& b) { return b.length; }));
+  arrays.write(check::grain_travel, contact.travel);
+  arrays.write(check::grain_travel_at_search, contact.travel_at_search);
+  arrays.write(check::contact_point_wake, contact.point_wake);
+  arrays.write(check::contact_point_sure, contact.point_sure);
+  std::vector<std::int32_t> bond_facet;
   if (contact.bonding) {
-    write(check::bond_facet, c.bond_facet, c.bond_facet.size());
-    write(check::bond_values, c.bond_values, c.bond_facet.size());
+    std::vector<double> values;
+    for (const PointBond& bond : contact.bond) {
+      bond_facet.push_back(bond.facet);
+      values.insert(values.end(), {bond.weight1, bond.weight2, bond.state.initiation, bond.state.largest,
+                                   bond.remaining, bond.spent});
+    }
+    arrays.write(check::bond_values, values, bond_facet.size());
+  } else {
+    arrays.leave_out(1);
   }
+  std::vector<std::int32_t> grip_node, grip_side;
   if (simulation.grips().present()) {
-    write(check::grip_node, c.grip_node, c.grip_node.size());
-    write(check::grip_side, c.grip_side, c.grip_side.size());
-    write(check::grip_reference, c.grip_reference, c.grip_node.size());
+    std::vector<double> reference;
+    for (const GrippedNode& gripped : simulation.grips().node) {
+      grip_node.push_back(gripped.node);
+      grip_side.push_back(gripped.side);
+      reference.insert(reference.end(), gripped.reference.begin(), gripped.reference.end());
+    }
+    arrays.write(check::grip_reference, reference, grip_node.size());
+  } else {
+    arrays.leave_out(1);
   }
+  arrays.write(check::contact_pair_first, candidates.pair_first);
+  arrays.write(check::contact_pair_second, candidates.pair_second);
+  arrays.write(check::contact_pair_point_offset, candidates.pair_point_offset);
+  arrays.write(check::contact_point_node, candidates.point_node);
+  arrays.write(check::contact_point_facet_offset, candidates.point_facet_offset);
+  arrays.write(check::contact_candidate_facet, candidates.point_facet);
+  arrays.write(check::contact_point_facet, contact.point_facet);
+  if (contact.bonding)
+    arrays.write(check::bond_facet, bond_facet);
+  else
+    arrays.leave_out(1);
+  if (simulation.grips().present()) {
+    arrays.write(check::grip_node, grip_node);
+    arrays.write(check::grip_side, grip_side);
+  } else {
+    arrays.leave_out(2);
+  }
+  file.write_scalar(check::checksum, hash_text(arrays.checksum()));
   file.commit();
 }
 
 void read_checkpoint(const std::string& path, Simulation& simulation, RunRecord& record,
                      const std::string& scenario_text, bool any_scenario) {
   const schema::FileReader file(path, schema::FileKind::checkpoint);
-  Contents c;
-  c.integers = file.read(check::run_integers);
-  c.numbers = file.read(check::run_numbers);
-  c.history = file.read(check::run_history);
-  c.position = file.read(check::node_position);
-  c.velocity = file.read(check::node_velocity);
-  c.force = file.read(check::node_force);
-  c.tet = {file.read(check::tet_deviator), file.read(check::tet_flow_stress), file.read(check::tet_plastic_strain),
-           file.read(check::tet_length)};
-  c.travel = file.read(check::grain_travel);
-  c.travel_at_search = file.read(check::grain_travel_at_search);
-  c.pair_first = file.read(check::contact_pair_first);
-  c.pair_second = file.read(check::contact_pair_second);
-  c.pair_point_offset = file.read(check::contact_pair_point_offset);
-  c.point_node = file.read(check::contact_point_node);
-  c.point_facet_offset = file.read(check::contact_point_facet_offset);
-  c.candidate_facet = file.read(check::contact_candidate_facet);
-  c.point_facet = file.read(check::contact_point_facet);
-  c.point_wake = file.read(check::contact_point_wake);
-  c.point_sure = file.read(check::contact_point_sure);
+  const auto damaged = [&path] {
+    return InputError(fmt::format("{}: the checkpoint is damaged: its numbers do not match its checksum", path));
+  };
+  if (file.read_scalar(check::checksum) != hash_text(checksum(file))) throw damaged();
   const bool bonded = file.has(check::bond_facet);
-  if (bonded) {
-    c.bond_facet = file.read(check::bond_facet);
-    c.bond_values = file.read(check::bond_values);
-  }
-  if (file.has(check::grip_node)) {
-    c.grip_node = file.read(check::grip_node);
-    c.grip_side = file.read(check::grip_side);
-    c.grip_reference = file.read(check::grip_reference);
-  }
-  if (file.read_scalar(check::checksum) != hash_text(c.checksum()))
-    throw InputError(fmt::format("{}: the checkpoint is damaged: its numbers do not match its checksum", path));
 
   Model& model = simulation.model();
   if (file.read_scalar(check::packing_hash) != hash_text(model.mesh_hash))
@@ -244,13 +250,15 @@ void read_checkpoint(const std::string& path, Simulation& simulation, RunRecord&
           "and contact.stiffness_factor",
           path));
   }
-  std::size_t numbers = 0;
-  for_each_number(simulation.state(), record, [&](double&) { ++numbers; });
-  if (c.integers.size() != integers(simulation.state()).size() || c.numbers.size() != numbers)
+  std::size_t expected = 0;
+  for_each_number(simulation.state(), record, [&](double&) { ++expected; });
+  const auto counters = file.read(check::run_integers);
+  const auto numbers = file.read(check::run_numbers);
+  if (counters.size() != integers(simulation.state()).size() || numbers.size() != expected)
     throw InputError(fmt::format("{}: the checkpoint was written by another version of mpfem", path));
-  set_integers(simulation.state(), c.integers);
+  set_integers(simulation.state(), counters);
   std::size_t next = 0;
-  for_each_number(simulation.state(), record, [&](double& value) { value = c.numbers.at(next++); });
+  for_each_number(simulation.state(), record, [&](double& value) { value = numbers.at(next++); });
   if (any_scenario) { // its state is the beginning of the first stage
     RunState& state = simulation.state();
     state.stage = 0;
@@ -258,67 +266,87 @@ void read_checkpoint(const std::string& path, Simulation& simulation, RunRecord&
     state.stage_mean_stress = state.mean_stress;
   }
   try {
-    record.history = unflatten(c.history);
+    record.history = unflatten(file.read(check::run_history));
   } catch (const std::length_error&) {
     throw InputError(fmt::format("{}: the checkpoint was written by a build with other history columns", path));
   }
   record.snapshot_files = file.read(check::run_snapshots);
-  model.position.assign(c.position.begin(), c.position.end());
-  model.velocity.assign(c.velocity.begin(), c.velocity.end());
-  model.force.assign(c.force.begin(), c.force.end());
-  for_each_tet(model, [&](TetBlock& block, int lane, std::size_t tet) {
-    for (std::size_t k = 0; k < 5; ++k) block.deviator[k][lane] = c.tet.deviator[5 * tet + k];
-    block.flow_stress[lane] = c.tet.flow_stress[tet];
-    block.plastic_strain[lane] = c.tet.plastic_strain[tet];
-    block.length[lane] = c.tet.length[tet];
-  });
-  // Unused lanes of a grain's last block repeat its last tet.
-  for (int grain = 0; grain < model.grains; ++grain) {
-    const std::int32_t last = model.block_offset[static_cast<std::size_t>(grain) + 1] - 1;
-    TetBlock& block = model.block[static_cast<std::size_t>(last)];
-    const int used = model.tets_in_block(grain, last);
-    for (int lane = used; lane < TetBlock::lanes; ++lane) {
-      for (auto& component : block.deviator) component[lane] = component[used - 1];
-      block.flow_stress[lane] = block.flow_stress[used - 1];
-      block.plastic_strain[lane] = block.plastic_strain[used - 1];
-      block.length[lane] = block.length[used - 1];
-    }
-  }
+
+  // One array at a time is in memory beside the model.
+  const auto take = [&](const auto& dataset, std::size_t count) {
+    auto values = file.read(dataset);
+    if (values.size() != count) throw damaged();
+    return values;
+  };
+  const auto nodes = static_cast<std::size_t>(model.nodes()), tets = static_cast<std::size_t>(model.tets());
+  const auto take_nodes = [&](const auto& dataset, AlignedVector<double>& into) {
+    const auto values = take(dataset, 4 * nodes);
+    std::copy(values.begin(), values.end(), into.begin());
+  };
+  take_nodes(check::node_position, model.position);
+  take_nodes(check::node_velocity, model.velocity);
+  take_nodes(check::node_force, model.force);
+  const auto take_tets = [&](const auto& dataset, std::size_t components, const auto& place) {
+    const auto values = take(dataset, components * tets);
+    for_each_tet(model, [&](TetBlock& block, int lane, std::size_t tet) {
+      for (std::size_t k = 0; k < components; ++k) place(block, k)[lane] = values[components * tet + k];
+    });
+  };
+  take_tets(check::tet_deviator, 5, [](TetBlock& b, std::size_t k) { return b.deviator[k]; });
+  take_tets(check::tet_flow_stress, 1, [](TetBlock& b, std::size_t) { return b.flow_stress; });
+  take_tets(check::tet_plastic_strain, 1, [](TetBlock& b, std::size_t) { return b.plastic_strain; });
+  take_tets(check::tet_length, 1, [](TetBlock& b, std::size_t) { return b.length; });
+  fill_unused_lanes(model);
 
   Contact& contact = simulation.contact();
   ContactCandidates& k = contact.candidates;
-  k.pair_first = c.pair_first, k.pair_second = c.pair_second, k.pair_point_offset = c.pair_point_offset;
-  k.point_node = c.point_node, k.point_facet_offset = c.point_facet_offset, k.point_facet = c.candidate_facet;
+  k.pair_first = file.read(check::contact_pair_first);
+  const std::size_t pairs = k.pair_first.size();
+  k.pair_second = take(check::contact_pair_second, pairs);
+  k.pair_point_offset = take(check::contact_pair_point_offset, pairs + 1);
+  k.point_node = file.read(check::contact_point_node);
+  const std::size_t points = k.point_node.size();
+  k.point_facet_offset = take(check::contact_point_facet_offset, points + 1);
+  k.point_facet = file.read(check::contact_candidate_facet);
   index_pairs(k, model.grains);
-  contact.travel = c.travel, contact.travel_at_search = c.travel_at_search;
-  contact.point_facet = c.point_facet, contact.point_wake = c.point_wake, contact.point_sure = c.point_sure;
-  contact.force.resize(k.point_node.size());
-  contact.active.assign(k.pair_first.size(), 0);
+  const auto grains = static_cast<std::size_t>(model.grains);
+  contact.travel = take(check::grain_travel, grains);
+  contact.travel_at_search = take(check::grain_travel_at_search, grains);
+  contact.point_facet = take(check::contact_point_facet, points);
+  contact.point_wake = take(check::contact_point_wake, points);
+  contact.point_sure = take(check::contact_point_sure, points);
+  contact.force.resize(points);
+  contact.active.assign(pairs, 0);
   if (contact.bonding) {
     // A checkpoint without bonds goes on with them: they form where grains touch.
-    contact.bond.assign(k.point_node.size(), {});
-    contact.bond_force.resize(k.point_node.size());
-    contact.pulling.assign(k.pair_first.size(), 0);
-    for (std::size_t i = 0; i < c.bond_facet.size(); ++i) {
-      const double* v = &c.bond_values[6 * i];
-      contact.bond[i] = {.facet = c.bond_facet[i],
-                         .weight1 = v[0],
-                         .weight2 = v[1],
-                         .state = {v[2], v[3]},
-                         .remaining = v[4],
-                         .spent = v[5],
-                         .opening = 0,
-                         .separation = 0};
+    contact.bond.assign(points, {});
+    contact.bond_force.resize(points);
+    contact.pulling.assign(pairs, 0);
+    if (bonded) {
+      const auto facet = take(check::bond_facet, points);
+      const auto values = take(check::bond_values, 6 * points);
+      for (std::size_t i = 0; i < points; ++i) {
+        const double* v = &values[6 * i];
+        contact.bond[i] = {.facet = facet[i],
+                           .weight1 = v[0],
+                           .weight2 = v[1],
+                           .state = {v[2], v[3]},
+                           .remaining = v[4],
+                           .spent = v[5],
+                           .opening = 0,
+                           .separation = 0};
+      }
     }
   }
   Grips grips;
-  if (const auto& grip = simulation.stage().grip; grip && !c.grip_node.empty()) {
+  if (const auto& grip = simulation.stage().grip; grip && file.has(check::grip_node)) {
+    const auto node = file.read(check::grip_node);
+    const auto side = take(check::grip_side, node.size());
+    const auto reference = take(check::grip_reference, 3 * node.size());
     grips = {
         .axis = static_cast<std::size_t>(grip->axis), .lateral_fixed = grip->lateral_fixed, .node = {}, .offset = {}};
-    for (std::size_t i = 0; i < c.grip_node.size(); ++i)
-      grips.node.push_back({c.grip_node[i],
-                            c.grip_side[i],
-                            {c.grip_reference[3 * i], c.grip_reference[3 * i + 1], c.grip_reference[3 * i + 2]}});
+    for (std::size_t i = 0; i < node.size(); ++i)
+      grips.node.push_back({node[i], side[i], {reference[3 * i], reference[3 * i + 1], reference[3 * i + 2]}});
     grips.make_offsets(model.node_offset);
   }
   simulation.restored(std::move(grips));

@@ -1,15 +1,15 @@
 #!/usr/bin/env bash
-# The tables of docs/performance.md: tests/benchmarks/performance.sh [--large] [MPFEM [OTHER_MPFEM...]] > tables.md
+# The tables of docs/performance.md: tests/benchmarks/performance.sh [--large] [MPFEM [PORTABLE_MPFEM]] > tables.md
 #
-# MPFEM is the executable to measure (build/bin/mpfem), the others are builds of the same source for other instruction
-# sets. Every case is measured three times, in turn with the others of its table, and the medians are printed: a shared
+# MPFEM is the executable to measure (build/bin/mpfem), PORTABLE_MPFEM that of ./bootstrap --portable build, which is
+# measured with each instruction set that this machine knows. Every case is measured three times, in turn with the others of its table, and the medians are printed: a shared
 # machine is noisy. --large adds packings of 1.6 and 12 million tets (12 GB of memory, a quarter of an hour).
 set -euo pipefail
 
 large=
 if [[ ${1-} == --large ]]; then large=yes && shift; fi
 mpfem=${1:-build/bin/mpfem}
-shift || true
+portable=${2-}
 cores=$(nproc)
 readonly repetitions=3
 
@@ -66,6 +66,16 @@ for grains in 20 80 329 1000; do echo "$grains grains|$mpfem|--grains $grains --
   if [[ $large ]]; then for tets in 1600000 12000000; do echo "about 329 grains|$mpfem|--tets $tets"; done; fi
 } | table 'Mesh size'
 
-if (($# > 0)); then
-  { for executable in "$mpfem" "$@"; do echo "$executable|$executable|--threads 1"; done; } | table 'Instruction sets'
+if [[ $portable ]]; then
+  {
+    echo "built for this machine|$mpfem|--threads 1"
+    for level in v4 v3 v2; do
+      # One that this machine does not know would measure the next plainer one a second time.
+      [[ $level == v4 ]] && ! grep -qw avx512dq /proc/cpuinfo && continue
+      [[ $level == v3 ]] && ! grep -qw avx2 /proc/cpuinfo && continue
+      printf '#!/bin/sh\nMPFEM_INSTRUCTION_SET=%s exec "%s" "$@"\n' "$level" "$portable" >"$work/$level"
+      chmod +x "$work/$level"
+      echo "x86-64-$level|$work/$level|--threads 1"
+    done
+  } | table 'Instruction sets'
 fi

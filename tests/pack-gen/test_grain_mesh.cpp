@@ -134,6 +134,16 @@ TEST_CASE("quality and critical step of the regular tetrahedron are known") {
   CHECK(critical_step(a2, b2, c2, d2, material) == Approx(2 * critical_step(a, b, c, d, material)).epsilon(1e-9));
 }
 
+TEST_CASE("choosing balls and moving their nodes raises the critical step, at the same number of tets") {
+  for (const double size_ratio : {2.5, 4.0}) {
+    const UnitBall plain = mesh_unit_ball(size_ratio, 3, false), optimised = mesh_unit_ball(size_ratio, 3);
+    CAPTURE(size_ratio, plain.smallest_step, optimised.smallest_step);
+    CHECK(optimised.smallest_step > 1.3 * plain.smallest_step);
+    const auto tets = [](const UnitBall& unit) { return static_cast<double>(unit.ball.mesh.tet.size()); };
+    CHECK(tets(optimised) == Approx(tets(plain)).epsilon(size_ratio < 3 ? 0.3 : 0.06)); // both within their tolerance
+  }
+}
+
 TEST_CASE("a size too large for the smallest sphere is refused and says what is allowed") {
   CHECK_THROWS_WITH(mesh_packing(three_spheres(), {.nominal_size = 0.2}),
                     Catch::Contains("0.12") && Catch::Contains("allowed"));
