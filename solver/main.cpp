@@ -4,6 +4,8 @@
 #include <map>
 #include <thread>
 
+#include <malloc.h>
+
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
@@ -181,5 +183,10 @@ int body(int argc, char** argv) {
 } // namespace
 
 int main(int argc, char** argv) {
+#ifdef __GLIBC__
+  // Arrays go back to the system when they are freed. By default the C library keeps those of up to 32 MB once one such
+  // has been freed: a tenth of the memory of a coarse packing.
+  mallopt(M_MMAP_THRESHOLD, 1 << 18);
+#endif
   return mpfem::run_program("mpfem", body, argc, argv);
 }

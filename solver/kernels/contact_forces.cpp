@@ -130,6 +130,7 @@ void renew_candidates(const Model& model, double margin, ThreadTeam& team, Conta
     std::vector<PointBond> bond;
     keep_bonded_points(contact.candidates, contact.bond, model.grains, candidates, bond);
     contact.bond = std::move(bond);
+    contact.bond_force = {};
     contact.bond_force.resize(contact.bond.size());
     contact.pulling.assign(candidates.pair_first.size(), 0);
   }
@@ -139,6 +140,7 @@ void renew_candidates(const Model& model, double margin, ThreadTeam& team, Conta
   contact.point_facet.assign(points, -1);
   contact.point_wake.assign(points, -1.0);
   contact.point_sure.assign(points, -1.0);
+  contact.force = {}; // before its successor: never both in memory
   contact.force.resize(points);
   contact.active.assign(contact.candidates.pair_first.size(), 0);
   if (contact.travel.empty()) contact.travel.assign(static_cast<std::size_t>(model.grains), 0.0);
