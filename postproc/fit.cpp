@@ -296,12 +296,16 @@ Fit fit(const std::string& model, const FitPoints& points, bool x_is_relative_de
   if (surface && points.z.size() != n)
     throw InputError(fmt::format("model '{}': found no --z, allowed: the column that holds G^c", model));
   if (!surface && !points.z.empty()) throw InputError(fmt::format("--z has no meaning with model '{}'", model));
-  const std::size_t values_of_x = surface ? 3 : model == "bilinear" ? 5 : model == "rumpf" ? 1 : entry->coefficients;
-  if (distinct(points.x) < values_of_x || (surface && distinct(points.z) < 2))
-    throw InputError(fmt::format("{}: model '{}': found {} different x{}, allowed: {} or more{}", path, model,
-                                 distinct(points.x),
-                                 surface ? fmt::format(" and {} different z", distinct(points.z)) : "", values_of_x,
-                                 surface ? " and 2 or more" : ""));
+  const std::size_t values_of_x = model == "bilinear" ? 5 : model == "rumpf" ? 1 : entry->coefficients;
+  if (!surface && distinct(points.x) < values_of_x)
+    throw InputError(fmt::format("{}: model '{}': found {} different x, allowed: {} or more", path, model,
+                                 distinct(points.x), values_of_x));
+  if (surface &&
+      (std::min(distinct(points.x), distinct(points.z)) < 2 || std::max(distinct(points.x), distinct(points.z)) < 3))
+    throw InputError(
+        fmt::format("{}: model '{}': found {} different x and {} different z, allowed: 2 or more of each and 3 "
+                    "of one",
+                    path, model, distinct(points.x), distinct(points.z)));
 
   Fit result;
   result.model = model;

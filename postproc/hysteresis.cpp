@@ -199,6 +199,10 @@ HysteresisMeasurement measure_hysteresis(const schema::FileReader& file, std::op
       "loop area of the last of {} cycles, drift of D_r per cycle {:+.2e} at {:.3g} MPa and {:+.2e} at {:.3g} "
       "MPa, last cycle {:.3g} mJ plastic and {:.3g} mJ damage",
       h.cycles.size(), h.drift_at_low, h.low_stress, h.drift_at_high, h.high_stress, last.plastic, last.damage);
+  const auto deviatoric = range_of(history["deviatoric_stress"], m.window.first_row, m.window.last_row);
+  if (std::max(-deviatoric[0], deviatoric[1]) > 0.1 * m.window.stress[1])
+    m.notes.push_back(fmt::format("the cycles are not isotropic: q is between {:.3g} and {:.3g} MPa in them",
+                                  deviatoric[0], deviatoric[1]));
   if (h.cycles.size() == 1) m.notes.emplace_back("one whole cycle: no drift from cycle to cycle");
   result.measurement = std::move(m);
   return result;

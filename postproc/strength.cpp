@@ -66,6 +66,11 @@ Measurement strength(const StageCurve& c, const StrengthRule& rule) {
   if (!(smooth[peak] > 0) || peak == 0)
     throw InputError(
         fmt::format("{}: stage {}: {} never rises above its value at the stage's beginning", c.path, c.stage, name));
+  if (!(c.axial_strain[peak] > 0))
+    throw InputError(
+        fmt::format("{}: stage {}: its largest {} stands at an axial strain of {:.3g}; allowed: a stage of "
+                    "axial compression",
+                    c.path, c.stage, name, c.axial_strain[peak]));
   const double lowest_after = *std::min_element(smooth.begin() + static_cast<std::ptrdiff_t>(peak), smooth.end());
   const double fall = (smooth[peak] - lowest_after) / smooth[peak];
   const bool falls = fall >= rule.drop;

@@ -240,6 +240,16 @@ TEST_CASE("a stress that never falls is no peak, and the strength says so") {
   CHECK_THAT(m.notes.front(), Catch::Contains("no peak"));
 }
 
+TEST_CASE("pulling is no compression: it has no strength and no modulus here") {
+  const Folder folder;
+  auto rows = reloading(
+      100, 0.05, [](double e) { return -300 * e; }, no_damage, 0.01, 1);
+  for (Row& row : rows) row.axial_strain *= -1;
+  rows[60].axial_stress = 50; // a knock
+  CHECK_THROWS_WITH(strength(curve_of(folder, rows), {}), Catch::Contains("axial compression"));
+  CHECK_THROWS_WITH(modulus(curve_of(folder, rows), {}), Catch::Contains("no axial loading"));
+}
+
 TEST_CASE("triaxial strength is the peak of q, else q at 15 % axial strain") {
   const Folder folder;
   const auto confined = [](std::vector<Row> rows) {
@@ -330,6 +340,7 @@ TEST_CASE("load cycles have the area, drift and dissipation that were put into t
   const auto result = measure_hysteresis(schema::FileReader(folder / "run.h5"), {});
   const Measurement& m = result.measurement;
   CHECK(m.details["cycles"] == cycles);
+  CHECK(m.notes.empty());
   const double area = 2 * w * 2 / std::numbers::pi * (high - low) + drift * 0.5 * (high - low);
   // Noise of 0.05 MPa on 120 steps of strain of 4e-4, and turning points that it moves by a row.
   CHECK(within(m.value, area, 0.05));
