@@ -1,5 +1,6 @@
 #include "solver/output/checkpoint.hpp"
 
+#include <bit>
 #include <cstring>
 
 #include <fmt/format.h>
@@ -20,13 +21,14 @@ namespace check = schema::checkpoint;
 
 std::vector<std::int64_t> integers(const RunState& s) {
   return {
-      s.step,     s.stage,      s.rows_in_stage, s.snapshots_passed, s.steps_since_estimate, s.controlled_by_contact,
-      s.searches, s.stage_ended};
+      s.step,     s.stage,       s.rows_in_stage, s.snapshots_passed,  s.steps_since_estimate, s.controlled_by_contact,
+      s.searches, s.stage_ended, s.absent_axes,   s.checkpoints_passed};
 }
 
 void set_integers(RunState& s, const std::vector<std::int64_t>& v) {
   s.step = v[0], s.stage = v[1], s.rows_in_stage = v[2], s.snapshots_passed = v[3], s.steps_since_estimate = v[4],
-  s.controlled_by_contact = v[5], s.searches = v[6], s.stage_ended = v[7];
+  s.controlled_by_contact = v[5], s.searches = v[6], s.stage_ended = v[7], s.absent_axes = v[8],
+  s.checkpoints_passed = v[9];
 }
 
 /// Calls f(double&) for every number of state and record, always in the same order.
@@ -42,6 +44,10 @@ void for_each_number(State& s, Record& r, F&& f) {
   for (auto* values : {&s.last_wall_force, &s.last_wall_move})
     for (auto& value : *values) f(value);
   for (auto& value : r.profile_seconds) f(value);
+  // A loading's state is numbers and nothing else.
+  auto loading = std::bit_cast<std::array<double, sizeof(LoadingState) / sizeof(double)>>(s.loading);
+  for (double& value : loading) f(value);
+  if constexpr (!std::is_const_v<State>) s.loading = std::bit_cast<LoadingState>(loading);
 }
 
 /// The tets' state without lanes, in block order.
@@ -89,13 +95,13 @@ struct Contents {
       point_facet;
   std::vector<double> point_wake, point_sure;
   std::vector<std::int32_t> bond_facet, grip_node, grip_side;
-  std::vector<double> bond_values, grip_reference;
+  std::vector<double> bond_values, grip_reference, stage_values;
 
   std::uint64_t checksum() const {
     std::uint64_t hash = add(integers, hash_seed);
-    for (const auto* v :
-         {&numbers, &history, &position, &velocity, &force, &tet.deviator, &tet.flow_stress, &tet.plastic_strain,
-          &tet.length, &travel, &travel_at_search, &point_wake, &point_sure, &bond_values, &grip_reference})
+    for (const auto* v : {&numbers, &history, &position, &velocity, &force, &tet.deviator, &tet.flow_stress,
+                          &tet.plastic_strain, &tet.length, &travel, &travel_at_search, &point_wake, &point_sure,
+                          &bond_values, &grip_reference, &stage_values})
       hash = add(*v, hash);
     for (const auto* v : {&pair_first, &pair_second, &pair_point_offset, &point_node, &point_facet_offset,
                           &candidate_facet, &point_facet, &bond_facet, &grip_node, &grip_side})
@@ -135,6 +141,13 @@ void write_checkpoint(const std::string& path, const Simulation& simulation, con
     c.grip_reference.insert(c.grip_reference.end(), gripped.reference.begin(), gripped.reference.end());
   }
 
+  std::vector<std::string> stage_name, stage_end;
+  for (const StageResult& stage : record.stages) {
+    stage_name.push_back(stage.name);
+    stage_end.push_back(stage.ended_by);
+    c.stage_values.insert(c.stage_values.end(), {stage.overshoot, stage.hold_error, stage.hold_stress});
+  }
+
   schema::FileWriter file(path, schema::FileKind::checkpoint, fmt::format("mpfem {}", version()));
   const auto write = [&file](const auto& dataset, const auto& values, std::size_t rows) {
     using T = typename std::decay_t<decltype(values)>::value_type;
@@ -147,6 +160,9 @@ void write_checkpoint(const std::string& path, const Simulation& simulation, con
   write(check::run_integers, c.integers, c.integers.size());
   write(check::run_numbers, c.numbers, c.numbers.size());
   write(check::run_history, c.history, c.history.size());
+  write(check::run_stage_name, stage_name, stage_name.size());
+  write(check::run_stage_end, stage_end, stage_end.size());
+  write(check::run_stage_values, c.stage_values, stage_name.size());
   write(check::run_snapshots, record.snapshot_files, record.snapshot_files.size());
   const auto nodes = static_cast<std::size_t>(model.nodes()), tets = static_cast<std::size_t>(model.tets());
   write(check::node_position, c.position, nodes);
@@ -202,6 +218,7 @@ void read_checkpoint(const std::string& path, Simulation& simulation, RunRecord&
   c.point_facet = file.read(check::contact_point_facet);
   c.point_wake = file.read(check::contact_point_wake);
   c.point_sure = file.read(check::contact_point_sure);
+  if (file.has(check::run_stage_values)) c.stage_values = file.read(check::run_stage_values);
   const bool bonded = file.has(check::bond_facet);
   if (bonded) {
     c.bond_facet = file.read(check::bond_facet);
@@ -235,7 +252,11 @@ void read_checkpoint(const std::string& path, Simulation& simulation, RunRecord&
     if (before.material != now.material)
       throw InputError(
           fmt::format("{}: the checkpoint's material differs from the scenario's, allowed the same [material]", path));
-    if (bonded && before.bond != now.bond)
+    // Bonds that are whole hold nothing but their places, so that the law may still be chosen.
+    bool damaged = false;
+    for (std::size_t i = 0; i < c.bond_facet.size(); ++i)
+      damaged = damaged || (c.bond_facet[i] >= 0 && c.bond_values[6 * i + 4] < 1) || c.bond_values[6 * i + 5] > 0;
+    if (bonded && before.bond != now.bond && (damaged || !now.bond))
       throw InputError(fmt::format(
           "{}: the checkpoint has bonds of another law than the scenario's, allowed the same [bond]", path));
     if (bonded && before.contact.penalty_differs(now.contact)) // a damaged bond's separations belong to its stiffness
@@ -263,6 +284,12 @@ void read_checkpoint(const std::string& path, Simulation& simulation, RunRecord&
     throw InputError(fmt::format("{}: the checkpoint was written by a build with other history columns", path));
   }
   record.snapshot_files = file.read(check::run_snapshots);
+  if (file.has(check::run_stage_values)) {
+    const auto name = file.read(check::run_stage_name), end = file.read(check::run_stage_end);
+    for (std::size_t i = 0; i < name.size(); ++i)
+      record.stages.push_back(
+          {name[i], end[i], c.stage_values[3 * i], c.stage_values[3 * i + 1], c.stage_values[3 * i + 2]});
+  }
   model.position.assign(c.position.begin(), c.position.end());
   model.velocity.assign(c.velocity.begin(), c.velocity.end());
   model.force.assign(c.force.begin(), c.force.end());
