@@ -25,6 +25,8 @@ constexpr double expected_strain = 0.05, expected_isotropic_strain = 0.03;
 constexpr double largest_strain = 0.5, largest_density = 1.2, longest_time = 50;
 /// Part of the wall speed with which a target is met.
 constexpr double slowest = 0.05;
+/// The same where stress falls: a packing is soft then.
+constexpr double slowest_unloading = 0.25;
 /// Probes slow down where stresses are off the path by more than this part of the largest.
 constexpr double path_tolerance = 0.005;
 constexpr std::int64_t steps_between_dissipations = 20; // all bonds are visited
@@ -35,6 +37,11 @@ double smooth_step(double s) {
 }
 
 } // namespace
+
+double unloading_tolerance(double target, double way) {
+  constexpr double of_way = 1e-3, of_target = 0.01;
+  return target > 0 ? std::min(of_way * way, of_target * target) : of_way * way;
+}
 
 Sample sample_of(const Model& model, const MaterialParameters& material) {
   Sample sample;
@@ -212,9 +219,8 @@ void LoadingControl::drive_isotropic(LoadingState& s, const Seen& seen) const {
   if (loading_.path == LoadingPath::cycles) {
     const double range = loading_.highest_mean_stress - loading_.lowest_mean_stress;
     const auto up = [&] { return std::fmod(s.legs, 2.0) == 0; };
-    // Single grains that still touch a wall keep a little stress for long.
-    constexpr double tolerance = 1e-3;
-    if (up() ? p >= loading_.highest_mean_stress : p <= loading_.lowest_mean_stress + tolerance * range) {
+    const double lowest = loading_.lowest_mean_stress + unloading_tolerance(loading_.lowest_mean_stress, range);
+    if (up() ? p >= loading_.highest_mean_stress : p <= lowest) {
       s.legs += 1;
       s.leg_start = p;
     }
@@ -224,7 +230,9 @@ void LoadingControl::drive_isotropic(LoadingState& s, const Seen& seen) const {
     target = up() ? loading_.highest_mean_stress : loading_.lowest_mean_stress;
   }
   const double leg = target - s.leg_start;
-  const double wanted = leg != 0 ? std::copysign(loading_.wall_speed, leg) * approach((target - p) / leg) : 0.0;
+  double part = leg != 0 ? approach((target - p) / leg) : 0.0;
+  if (leg < 0) part = std::max(part, slowest_unloading);
+  const double wanted = std::copysign(loading_.wall_speed, leg) * part;
   const double speed = drive_towards(s, wanted, seen.step);
   for (std::size_t axis = 0; axis < 3; ++axis) s.speed[axis] = speed * seen.length[axis] / longest_;
 }
@@ -250,7 +258,7 @@ void LoadingControl::drive_axial(LoadingState& s, const Seen& seen) const {
 }
 
 void LoadingControl::hold(LoadingState& s, const Seen& seen, std::size_t axis, double wanted) const {
-  const double error = wanted - seen.stress[axis], limit = loading_.wall_speed;
+  const double error = wanted - seen.stress[axis], limit = loading_.servo_speed;
   const double delay = std::max(servo_delay * transit_, servo_delay_steps * seen.step);
   s.fast[axis] += (gain_ * error - s.fast[axis]) * seen.step / (delay + seen.step);
   // At its limit the wall cannot do more; what it has not done is not to be made up for later.

@@ -73,6 +73,10 @@ struct LoadingObservation {
   double dissipation = 0;        ///< mJ, plastic and damage; used only where `needs_dissipation`
 };
 
+/// MPa above its target at which an unloading by `way` (MPa) has arrived: single grains that still touch a wall keep a
+/// little stress for long.
+double unloading_tolerance(double target, double way);
+
 /// Axes whose walls are away while a stage lasts, as bits 1 (x), 2 (y), 4 (z).
 int absent_axes(const Scenario& scenario, const Stage& stage);
 

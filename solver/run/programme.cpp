@@ -125,10 +125,8 @@ std::array<double, 3> StageMotion::sliding(double time) const {
 
 bool StageMotion::reached(const Walls& walls, double mean_stress) const {
   if (!stage_.isotropic_unloading) return false;
-  // Single grains that still touch a wall keep a little stress for long.
-  constexpr double tolerance = 1e-3;
   const double target = stage_.isotropic_unloading->mean_stress;
-  if (mean_stress <= target + tolerance * (mean_stress_ - target)) return true;
+  if (mean_stress <= target + unloading_tolerance(target, mean_stress_ - target)) return true;
   constexpr double largest_growth = 0.3;
   if (walls.high[0] - walls.low[0] > (1 + largest_growth) * (high_[0] - low_[0]))
     throw SimulationError(fmt::format("stage '{}': the mean stress is still {:.3g} MPa, target {:g} MPa, after the box "

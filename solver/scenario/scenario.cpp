@@ -219,13 +219,13 @@ const std::vector<std::pair<std::string, std::vector<std::string>>> stage_keys =
     {std::string(stage_unconfined),
      {"wall_speed", "ramp_fraction", "axial_strain", "axial_stress", "stress_drop", "dissipation_ratio", "duration"}},
     {std::string(stage_triaxial),
-     {"wall_speed", "ramp_fraction", "hold", "lateral_stress", "axial_strain", "axial_stress", "deviatoric_stress",
-      "stress_drop", "dissipation_ratio", "duration"}},
+     {"wall_speed", "servo_speed", "ramp_fraction", "hold", "lateral_stress", "axial_strain", "axial_stress",
+      "deviatoric_stress", "stress_drop", "dissipation_ratio", "duration"}},
     {std::string(stage_die),
      {"wall_speed", "ramp_fraction", "axial_strain", "relative_density", "axial_stress", "dissipation_ratio",
       "duration"}},
     {std::string(stage_probe),
-     {"wall_speed", "ramp_fraction", "direction", "axial_strain", "mean_stress", "deviatoric_stress",
+     {"wall_speed", "servo_speed", "ramp_fraction", "direction", "axial_strain", "mean_stress", "deviatoric_stress",
       "dissipation_ratio", "duration"}},
     {std::string(stage_cycles), {"wall_speed", "ramp_fraction", "lowest_mean_stress", "highest_mean_stress", "cycles"}},
 };
@@ -272,6 +272,9 @@ WallLoading read_loading(TableReader& table, std::string_view type) {
         table.number("lowest_mean_stress", {.low = 0, .high = loading.highest_mean_stress, .high_open = true});
     loading.cycles = table.integer("cycles", Range::between(1, 1e4));
   } else {
+    // A packing that dilates moves its lateral walls faster than its axial ones.
+    constexpr double servo_speed = 3;
+    loading.servo_speed = table.number_or("servo_speed", servo_speed * loading.wall_speed, positive);
     loading.path = type == stage_unconfined ? LoadingPath::unconfined
                    : type == stage_triaxial ? LoadingPath::triaxial
                    : type == stage_die      ? LoadingPath::die

@@ -143,7 +143,8 @@ struct LoadingEnds {
 /// Driven and servo-held walls.
 struct WallLoading {
   LoadingPath path = LoadingPath::isotropic;
-  double wall_speed = 0;      ///< largest speed of every wall, mm/s
+  double wall_speed = 0;      ///< largest speed of every driven wall, and of a probe, mm/s
+  double servo_speed = 0;     ///< largest speed of every held wall, mm/s
   double ramp_fraction = 0.1; ///< of the time of the whole way (of 5 % of strain where that is not known) to full speed
   bool hold_force = true;     ///< triaxial: the lateral walls' force is held; false: their stress
   std::optional<double> lateral_stress; ///< triaxial, MPa: to be held; none: what acts when the stage begins
