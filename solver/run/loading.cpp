@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include <fmt/format.h>
 
@@ -25,10 +26,12 @@ constexpr double expected_strain = 0.05, expected_isotropic_strain = 0.03;
 constexpr double largest_strain = 0.5, largest_density = 1.2, longest_time = 50;
 /// Part of the wall speed with which a target is met.
 constexpr double slowest = 0.05;
-/// The same where stress falls: a packing is soft then.
-constexpr double slowest_unloading = 0.25;
 /// Probes slow down where stresses are off the path by more than this part of the largest.
 constexpr double path_tolerance = 0.005;
+/// The slowest that they become, over the rate at which they begin.
+constexpr double slowest_path = 0.2;
+/// Strain and density are met when they are so near: walls arrive but for rounding.
+constexpr double arrived = 1e-9;
 constexpr std::int64_t steps_between_dissipations = 20; // all bonds are visited
 
 double smooth_step(double s) {
@@ -37,6 +40,11 @@ double smooth_step(double s) {
 }
 
 } // namespace
+
+double slowest_unloading(double target, double start) {
+  constexpr double stiff = 0.1, soft_part = 0.25; // of the stress at the start, of the wall speed
+  return target > stiff * start ? slowest : soft_part;
+}
 
 double unloading_tolerance(double target, double way) {
   constexpr double of_way = 1e-3, of_target = 0.01;
@@ -224,14 +232,17 @@ void LoadingControl::drive_isotropic(LoadingState& s, const Seen& seen) const {
       s.legs += 1;
       s.leg_start = p;
     }
-    // A start outside the range is no overshoot.
-    if (s.legs >= 1) s.overshoot = std::max(s.overshoot, p - std::max(loading_.highest_mean_stress, s.start_stress[0]));
-    if (s.legs >= 2) s.overshoot = std::max(s.overshoot, loading_.lowest_mean_stress - p);
+    // Where the stage before ended beyond the range is no overshoot of this one.
+    constexpr double well_within = 0.5;
+    if (p < loading_.highest_mean_stress - well_within * range && p > loading_.lowest_mean_stress) s.inside = 1;
+    if (s.inside != 0)
+      s.overshoot = std::max(
+          {s.overshoot, p - loading_.highest_mean_stress, s.legs >= 2 ? loading_.lowest_mean_stress - p : 0.0});
     target = up() ? loading_.highest_mean_stress : loading_.lowest_mean_stress;
   }
   const double leg = target - s.leg_start;
   double part = leg != 0 ? approach((target - p) / leg) : 0.0;
-  if (leg < 0) part = std::max(part, slowest_unloading);
+  if (leg < 0) part = std::max(part, slowest_unloading(target, s.leg_start));
   const double wanted = std::copysign(loading_.wall_speed, leg) * part;
   const double speed = drive_towards(s, wanted, seen.step);
   for (std::size_t axis = 0; axis < 3; ++axis) s.speed[axis] = speed * seen.length[axis] / longest_;
@@ -241,9 +252,10 @@ void LoadingControl::drive_axial(LoadingState& s, const Seen& seen) const {
   const LoadingEnds& ends = loading_.ends;
   double part = 1;
   // A way that is known ends at rest, by constant deceleration.
+  double left = std::numeric_limits<double>::infinity(); // mm, of each wall's way
   const auto stop_at = [&](double length) {
-    const double left = std::max(0.5 * s.sign * (seen.length[2] - length), 0.0),
-                 stopping = 0.5 * loading_.wall_speed * ramp_;
+    const double stopping = 0.5 * loading_.wall_speed * ramp_;
+    left = std::min(left, std::max(0.5 * s.sign * (seen.length[2] - length), 0.0));
     if (stopping > 0) part = std::min(part, std::clamp(std::sqrt(left / stopping), slowest, 1.0));
   };
   if (ends.axial_strain) stop_at(length_[2] * std::exp(-*ends.axial_strain));
@@ -254,7 +266,9 @@ void LoadingControl::drive_axial(LoadingState& s, const Seen& seen) const {
   slow_near(ends.axial_stress, s.start_stress[2], seen.stress[2]);
   const double q = s.start_stress[2] - 0.5 * (s.start_stress[0] + s.start_stress[1]);
   slow_near(ends.deviatoric_stress, q, seen.deviatoric_stress);
-  s.speed[2] = drive_towards(s, s.sign * loading_.wall_speed * part, seen.step);
+  // The last step goes to the target and not past it.
+  const double most = seen.step > 0 ? left / seen.step : left;
+  s.speed[2] = std::clamp(drive_towards(s, s.sign * loading_.wall_speed * part, seen.step), -most, most);
 }
 
 void LoadingControl::hold(LoadingState& s, const Seen& seen, std::size_t axis, double wanted) const {
@@ -274,8 +288,8 @@ void LoadingControl::hold(LoadingState& s, const Seen& seen, std::size_t axis, d
 void LoadingControl::hold_lateral(LoadingState& s, const Seen& seen) const {
   for (std::size_t axis = 0; axis < 2; ++axis) {
     // A given stress is brought on as the driven walls are brought to speed.
-    const double arrived = ramp_ > 0 ? smooth_step(seen.time / ramp_) : 1.0;
-    const auto wanted = [&](double start, double end) { return start + (end - start) * arrived; };
+    const double reached = ramp_ > 0 ? smooth_step(seen.time / ramp_) : 1.0;
+    const auto wanted = [&](double start, double end) { return start + (end - start) * reached; };
     const double start_area = length_[1 - axis] * length_[2];
     const double given = loading_.lateral_stress.value_or(s.start_stress[axis]);
     hold(s, seen, axis,
@@ -295,6 +309,8 @@ void LoadingControl::follow_path(LoadingState& s, const Seen& seen) const {
   // As fast as the walls may go, and as the stresses follow.
   const double load = std::max(fastest / loading_.wall_speed, off / (path_tolerance * s.hold_stress));
   if (ramp_ > 0) s.path_rate *= std::exp(std::clamp(1 - load, -5.0, 1.0) * seen.step / ramp_);
+  // Vibration must not bring it to a halt.
+  s.path_rate = std::max(s.path_rate, slowest_path * path_rate_);
 }
 
 void LoadingControl::watch_peak(LoadingState& s, const Seen& seen) const {
@@ -316,9 +332,9 @@ LoadingEnd LoadingControl::ended(const LoadingState& s, const Seen& seen) const 
   const bool probe = loading_.path == LoadingPath::probe;
   const double side = probe ? (dq < 0 ? -1.0 : 1.0) : s.sign;
   if (ends.axial_strain && (probe ? std::abs(seen.strain[2]) >= std::abs(*ends.axial_strain)
-                                  : s.sign * (seen.strain[2] - *ends.axial_strain) >= 0))
+                                  : s.sign * (seen.strain[2] - *ends.axial_strain) >= -arrived))
     return LoadingEnd::axial_strain;
-  if (ends.relative_density && s.sign * (seen.relative_density - *ends.relative_density) >= 0)
+  if (ends.relative_density && s.sign * (seen.relative_density - *ends.relative_density) >= -arrived)
     return LoadingEnd::relative_density;
   if (ends.axial_stress && s.sign * (seen.stress[2] - *ends.axial_stress) >= 0) return LoadingEnd::axial_stress;
   if (ends.mean_stress && dp * (seen.mean_stress - *ends.mean_stress) >= 0 && dp != 0) return LoadingEnd::mean_stress;

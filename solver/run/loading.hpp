@@ -36,6 +36,7 @@ struct LoadingState {
   double legs = 0;                      ///< half cycles done
   double path = 0, path_rate = 0;       ///< probe: way along the path in MPa of its leading axis, and its rate, MPa/s
   double watched = 0, peak = 0;         ///< MPa, the stress whose fall may end the stage, averaged over a transit
+  double inside = 0;                    ///< 1: the mean stress has been in the lower half of a cycle's range
   double overshoot = 0;                 ///< MPa, largest amount by which the mean stress passed a turning point
   double hold_error = 0;                ///< MPa, largest magnitude of `error` so far
   double hold_stress = 0;               ///< MPa, largest wanted stress so far
@@ -72,6 +73,9 @@ struct LoadingObservation {
   std::array<double, 3> force{}; ///< N, mean of the two walls across each axis
   double dissipation = 0;        ///< mJ, plastic and damage; used only where `needs_dissipation`
 };
+
+/// Part of the wall speed that an unloading keeps to its end. A packing under little stress is soft, and takes long to lose it.
+double slowest_unloading(double target, double start);
 
 /// MPa above its target at which an unloading by `way` (MPa) has arrived: single grains that still touch a wall keep a
 /// little stress for long.

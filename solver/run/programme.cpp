@@ -95,7 +95,8 @@ double StageMotion::unloading_speed(double time, double mean_stress) const {
   const double s = ramp > 0 ? std::min(time / ramp, 1.0) : 1.0;
   // The walls leave the last fifth of the stress ever more slowly, so that the packing is nearly at rest at the end.
   const double left = (mean_stress - unloading.mean_stress) / way;
-  return unloading.wall_speed * (3 - 2 * s) * s * s * std::clamp(5 * left, 0.25, 1.0);
+  return unloading.wall_speed * (3 - 2 * s) * s * s *
+         std::clamp(5 * left, slowest_unloading(unloading.mean_stress, mean_stress_), 1.0);
 }
 
 void StageMotion::move(Walls& walls, double time, double step, double mean_stress) const {

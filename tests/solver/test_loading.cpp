@@ -42,12 +42,13 @@ WallLoading loading_of(LoadingPath path, double speed) {
   return loading;
 }
 
-/// Compaction of eight_grains to a mean stress. Before they touch, the grains are damped.
+/// Compaction of eight_grains to a mean stress, fast and damped: eight grains vibrate between their walls for long, and
+/// what follows is to be measured.
 Stage compaction(double mean_stress) {
   WallLoading loading = loading_of(LoadingPath::isotropic, 10000);
   loading.ends.mean_stress = mean_stress;
   Stage stage = loading_stage("compaction", loading);
-  stage.damping = {1e6, 5};
+  stage.damping = {1e6, 1000};
   return stage;
 }
 
@@ -55,6 +56,7 @@ Stage unloading(double mean_stress) {
   Stage stage;
   stage.name = "unloading";
   stage.isotropic_unloading = IsotropicUnloading{mean_stress, 3000, 0.1};
+  stage.damping = {1e6, 1000};
   return stage;
 }
 
@@ -111,12 +113,11 @@ TEST_CASE("unconfined compression of an elastic block measures Young's modulus, 
   const HistoryRow& row = rows.back();
   for (const HistoryRow& r : rows)
     for (std::size_t side = 0; side < 4; ++side) CHECK(r.wall_stress[side] == 0);
-  CHECK(row.axial_strain == Approx(0.01).epsilon(1e-4));
+  CHECK(row.axial_strain == Approx(0.01).epsilon(1e-6));
   CHECK(row.box_lengths[0] == 0.2); // the cross-section that stress is referred to
-  // True stress E eps on an area that grew by 2 nu eps; 1 %: the vibration that is left, surface nodes at the cube's
-  // edges that are held by nothing.
+  // True stress E eps on an area that grew by 2 nu eps. 2 %: vibration is left, and nodal areas weigh the walls' give.
   const double strain = 0.01 / wall_compliance(bench.simulation);
-  CHECK(row.wall_stress[4] == Approx(5000 * strain * std::exp(0.6 * strain)).epsilon(0.01));
+  CHECK(row.wall_stress[4] == Approx(5000 * strain * std::exp(0.6 * strain)).epsilon(0.02));
   CHECK(row.wall_stress[5] == Approx(row.wall_stress[4]).epsilon(0.01));
   CHECK(row.mean_stress == Approx((row.wall_stress[4] + row.wall_stress[5]) / 6).epsilon(1e-12));
   CHECK(std::abs(row.energy_residual) < 0.01 * row.external_work);
@@ -169,9 +170,9 @@ TEST_CASE("a packing is compacted to a mean stress and cycles between two, meeti
   const auto rows = bench.next_stage(1);
   double highest = 0, lowest = 100;
   int turns = 0;
-  bool up = false;
+  bool up = true; // it begins at the upper stress
   for (const HistoryRow& row : rows) {
-    highest = std::max(highest, row.mean_stress);
+    if (turns >= 2) highest = std::max(highest, row.mean_stress);
     lowest = std::min(lowest, row.mean_stress);
     if (up ? row.mean_stress >= 20 : row.mean_stress <= 1.01) {
       up = !up;
@@ -204,7 +205,7 @@ TEST_CASE("lateral walls hold the force that acts within 1 % while a packing is 
   CHECK(rows.back().kinetic_energy < 0.01 * (rows.back().elastic_energy + rows.back().plastic_dissipation));
 }
 
-TEST_CASE("a probe stays within 1.5 % of its line of p and q, in compression and in extension, until it dissipates") {
+TEST_CASE("a probe stays within 1 % of its line of p and q, in compression and in extension, until it dissipates") {
   const double dq = GENERATE(1.5, -1.0);
   WallLoading loading = loading_of(LoadingPath::probe, 500);
   loading.direction = {1, dq};
@@ -217,8 +218,8 @@ TEST_CASE("a probe stays within 1.5 % of its line of p and q, in compression and
   CHECK(end.plastic_dissipation >= 1.01 * start.plastic_dissipation);
   CHECK(end.plastic_dissipation < 1.012 * start.plastic_dissipation);
   CHECK(end.mean_stress > start.mean_stress + 1);
-  CHECK(bench.result.hold_error < 0.015 * bench.result.hold_stress);
-  // Stresses of a moment, whose vibration the servo neither makes nor can take away, lie as near.
+  CHECK(bench.result.hold_error < 0.01 * bench.result.hold_stress);
+  // Stresses of a moment, with their vibration, which the servo neither makes nor can take away: 3 %.
   const HistoryRow& first = rows.front();
   for (const HistoryRow& row : rows)
     CHECK(std::abs(row.deviatoric_stress - first.deviatoric_stress - dq * (row.mean_stress - first.mean_stress)) <
@@ -240,7 +241,7 @@ TEST_CASE("unconfined compression ends when the axial stress has fallen from its
   const double last = 0.5 * (rows.back().wall_stress[4] + rows.back().wall_stress[5]);
   CHECK_THAT(bench.result.ended_by, Catch::Contains("stress drop"));
   CHECK(last < 0.8 * peak);
-  CHECK(last > 0.5 * peak);
+  CHECK(last > 0.3 * peak); // it goes on falling while the average over a transit falls
 }
 
 TEST_CASE("the ledger closes when lateral walls are taken away, and when they return") {
@@ -254,11 +255,18 @@ TEST_CASE("the ledger closes when lateral walls are taken away, and when they re
   REQUIRE(loaded.wall_stress[0] > 10); // walls leave while they are pressed
   const HistoryRow freed = bench.next_stage().back();
   CHECK(std::abs(freed.energy_residual - loaded.energy_residual) < 0.002 * loaded.external_work);
-  bench.begin_next_stage();
+  ++bench.simulation.state().stage;
+  bench.simulation.begin_stage();
   // Grains have moved out; the walls return where they touch nothing.
-  CHECK(bench.simulation.walls().high[0] - bench.simulation.walls().low[0] > freed.box_lengths[0]);
-  bench.simulation.evaluate_forces();
-  for (std::size_t side = 0; side < 4; ++side) CHECK(bench.simulation.state().last_wall_force[side] < 1e-3);
+  const Model& model = bench.simulation.model();
+  const Walls& walls = bench.simulation.walls();
+  CHECK(walls.high[0] - walls.low[0] > freed.box_lengths[0]);
+  bool outside = false;
+  for (std::size_t n = 0; n < model.position.size(); n += 4)
+    for (std::size_t axis = 0; axis < 2; ++axis)
+      outside = outside || model.position[n + axis] < walls.low[axis] || model.position[n + axis] > walls.high[axis];
+  CHECK_FALSE(outside);
+  bench.simulation.advance();
   const HistoryRow held = bench.finish_stage().back();
   CHECK(held.wall_stress[0] > 1);
   CHECK(std::abs(held.energy_residual) < 0.01 * held.external_work);
@@ -268,7 +276,7 @@ TEST_CASE("a loading that cannot reach its end is a failed simulation") {
   SECTION("walls that would have to pull") {
     WallLoading loading = loading_of(LoadingPath::probe, 3000);
     loading.direction = {-1, 0};
-    loading.ends.dissipation_ratio = 2;
+    loading.ends.dissipation_ratio = 100;
     Bench bench(eight_grains(3), scenario_of({compaction(10), loading_stage("probe", loading)}));
     bench.finish_stage();
     CHECK_THROWS_WITH(bench.next_stage(), Catch::Contains("'probe'") && Catch::Contains("pull"));

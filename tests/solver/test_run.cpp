@@ -257,8 +257,8 @@ TEST_CASE("a run says what ended its stages, and how well stresses were held") {
 
 TEST_CASE("a compaction leaves checkpoints at densities, from which branches begin") {
   const Folder folder;
-  prepare(folder, 3,
-          replaced(scenario_text, "[output]", "[output]\ncheckpoint_relative_densities = [0.3, 0.5, 0.61, 0.7]"));
+  const std::string slow = replaced(scenario_text, "wall_speed = 20000", "wall_speed = 4000");
+  prepare(folder, 3, replaced(slow, "[output]", "[output]\ncheckpoint_relative_densities = [0.3, 0.5, 0.61, 0.7]"));
   REQUIRE(mpfem_command(fmt::format("run {} -o {} --quiet", folder / "scenario.toml", folder / "run.h5")).exit_code ==
           0);
   CHECK_FALSE(fs::exists(folder / "run.D0.300.checkpoint.h5")); // was never passed
@@ -266,8 +266,8 @@ TEST_CASE("a compaction leaves checkpoints at densities, from which branches beg
   CHECK_FALSE(fs::exists(folder / "run.D0.700.checkpoint.h5"));
   const std::string from = folder / "run.D0.610.checkpoint.h5";
   CHECK(schema::validate(from).empty());
-  // The rest of the way is the same, apart from the walls' start and end.
-  write_text(folder / "rest.toml", scenario_text);
+  // The rest of the way is the same, apart from the walls' start and end, and what that shakes up in eight grains.
+  write_text(folder / "rest.toml", slow);
   REQUIRE(mpfem_command(fmt::format("run {} -o {} --from {} --quiet", folder / "rest.toml", folder / "rest.h5", from))
               .exit_code == 0);
   const schema::FileReader whole(folder / "run.h5", schema::FileKind::run), rest(folder / "rest.h5");
@@ -276,7 +276,7 @@ TEST_CASE("a compaction leaves checkpoints at densities, from which branches beg
   CHECK(rest.read(schema::run::history_mean_stress).back() ==
         Approx(whole.read(schema::run::history_mean_stress).back()).epsilon(0.1));
   CHECK(rest.read(schema::run::history_plastic_dissipation).back() ==
-        Approx(whole.read(schema::run::history_plastic_dissipation).back()).epsilon(0.02));
+        Approx(whole.read(schema::run::history_plastic_dissipation).back()).epsilon(0.05));
 }
 
 TEST_CASE("a loading that cannot reach its end exits with 3 and keeps what was computed") {
