@@ -32,7 +32,7 @@ constexpr double path_tolerance = 0.005;
 constexpr double slowest_path = 0.2;
 /// Strain and density are met when they are so near: walls arrive but for rounding.
 constexpr double arrived = 1e-9;
-constexpr std::int64_t steps_between_dissipations = 20; // all bonds are visited
+constexpr std::int64_t steps_between_damages = 20; // all bonds are visited
 
 double smooth_step(double s) {
   s = std::clamp(s, 0.0, 1.0);
@@ -69,12 +69,12 @@ int absent_axes(const Scenario& scenario, const Stage& stage) {
 struct LoadingControl::Seen {
   double time, step;
   std::array<double, 3> length, area, force, stress, strain;
-  double mean_stress, deviatoric_stress, relative_density, dissipation;
+  double mean_stress, deviatoric_stress, relative_density, plastic_dissipation;
 };
 
 LoadingControl::Seen LoadingControl::see(const LoadingObservation& o) const {
   Seen s{};
-  s.time = o.time, s.step = o.step, s.dissipation = o.dissipation;
+  s.time = o.time, s.step = o.step, s.plastic_dissipation = o.plastic_dissipation;
   double volume = 1;
   for (std::size_t axis = 0; axis < 3; ++axis) {
     s.length[axis] = o.high[axis] - o.low[axis];
@@ -151,16 +151,17 @@ LoadingControl::LoadingControl(const Stage& stage, const std::array<double, 3>& 
   if (ends.duration) expected_duration_ = std::min(expected_duration_, *ends.duration);
 }
 
-bool LoadingControl::needs_dissipation(const LoadingState& state, std::int64_t step) const {
-  return loading_.ends.dissipation_ratio && (state.begun == 0 || step % steps_between_dissipations == 0);
+bool LoadingControl::needs_damage(const LoadingState& state, std::int64_t step) const {
+  return loading_.ends.dissipation_ratio && (state.begun == 0 || step % steps_between_damages == 0);
 }
 
-void LoadingControl::begin(LoadingState& s, const Seen& seen) const {
+void LoadingControl::begin(LoadingState& s, const Seen& seen, double damage) const {
   s = {};
   s.begun = 1;
   s.start_stress = seen.stress;
   s.start_force = seen.force;
-  s.start_dissipation = s.dissipation = seen.dissipation;
+  s.damage_dissipation = damage;
+  s.start_dissipation = s.dissipation = seen.plastic_dissipation + damage;
   s.leg_start = seen.mean_stress;
   s.path_rate = path_rate_;
   const LoadingEnds& ends = loading_.ends;
@@ -175,7 +176,7 @@ void LoadingControl::begin(LoadingState& s, const Seen& seen) const {
         fmt::format("stage '{}': mean_stress: {:g} MPa is to be reached by compaction, but {:.4g} MPa "
                     "act when the stage begins",
                     name_, *ends.mean_stress, seen.mean_stress));
-  if (ends.dissipation_ratio && !(seen.dissipation > 0))
+  if (ends.dissipation_ratio && !(s.start_dissipation > 0))
     throw SimulationError(
         fmt::format("stage '{}': dissipation_ratio: nothing was dissipated before the stage, so that there is nothing "
                     "to compare with",
@@ -184,8 +185,10 @@ void LoadingControl::begin(LoadingState& s, const Seen& seen) const {
 
 void LoadingControl::update(LoadingState& s, const LoadingObservation& observation) const {
   const Seen seen = see(observation);
-  if (s.begun == 0) begin(s, seen);
-  if (loading_.ends.dissipation_ratio && observation.dissipation > 0) s.dissipation = observation.dissipation;
+  if (s.begun == 0) begin(s, seen, observation.damage_dissipation.value_or(0));
+  // Damage is a small part and looked at now and then, plastic dissipation every time.
+  s.damage_dissipation = observation.damage_dissipation.value_or(s.damage_dissipation);
+  s.dissipation = seen.plastic_dissipation + s.damage_dissipation;
   switch (loading_.path) {
   case LoadingPath::isotropic:
   case LoadingPath::cycles:

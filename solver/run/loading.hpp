@@ -10,6 +10,7 @@
 // wall that swallows the waves that meet it), mass (I) and transit time (tau); see docs/numerics.md.
 
 #include <array>
+#include <optional>
 #include <string>
 
 #include "solver/kernels/integrate.hpp"
@@ -29,7 +30,8 @@ struct LoadingState {
   std::array<double, 3> start_stress{}; ///< MPa, of each axis
   std::array<double, 3> start_force{};  ///< N
   double start_dissipation = 0;         ///< mJ
-  double dissipation = 0;               ///< mJ, when it was last asked for
+  double dissipation = 0;               ///< mJ, plastic and damage; of the damage what was last asked for
+  double damage_dissipation = 0;        ///< mJ, when it was last asked for
   double sign = 1;                      ///< driven walls: 1 inwards, -1 outwards
   double drive = 0;                     ///< mm/s, speed of driven walls inwards
   double leg_start = 0;                 ///< MPa, mean stress where the present leg of a stress target began
@@ -66,12 +68,13 @@ Sample sample_of(const Model& model, const MaterialParameters& material);
 
 /// What is seen at a time level.
 struct LoadingObservation {
-  double time = 0;               ///< s since the stage began
-  double step = 0;               ///< s since the observation before
-  std::array<double, 3> low{};   ///< mm, box
-  std::array<double, 3> high{};  ///< mm
-  std::array<double, 3> force{}; ///< N, mean of the two walls across each axis
-  double dissipation = 0;        ///< mJ, plastic and damage; used only where `needs_dissipation`
+  double time = 0;                          ///< s since the stage began
+  double step = 0;                          ///< s since the observation before
+  std::array<double, 3> low{};              ///< mm, box
+  std::array<double, 3> high{};             ///< mm
+  std::array<double, 3> force{};            ///< N, mean of the two walls across each axis
+  double plastic_dissipation = 0;           ///< mJ
+  std::optional<double> damage_dissipation; ///< mJ; has to be there where `needs_damage`
 };
 
 /// Part of the wall speed that an unloading keeps to its end. A packing under little stress is soft, and takes long to lose it.
@@ -94,8 +97,9 @@ public:
   double expected_duration() const { return expected_duration_; }
   /// Box lengths at the expected end over those at the start.
   std::array<double, 3> expected_scale() const { return expected_scale_; }
-  /// Whether an observation at this step number has to come with the dissipation.
-  bool needs_dissipation(const LoadingState& state, std::int64_t step) const;
+  /// Whether an observation at this step number has to come with the dissipation by damage, for which all bonds are
+  /// visited.
+  bool needs_damage(const LoadingState& state, std::int64_t step) const;
   /// New wall speeds from what is seen. Throws SimulationError where the end cannot be reached.
   void update(LoadingState& state, const LoadingObservation& seen) const;
   /// Moves the walls for one step (s).
@@ -109,7 +113,7 @@ public:
 private:
   struct Seen; // stresses and strains of an observation
   Seen see(const LoadingObservation& observation) const;
-  void begin(LoadingState& state, const Seen& seen) const;
+  void begin(LoadingState& state, const Seen& seen, double damage) const;
   double approach(double left) const;
   double drive_towards(LoadingState& state, double wanted, double step) const;
   void drive_isotropic(LoadingState& state, const Seen& seen) const;

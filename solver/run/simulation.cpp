@@ -330,11 +330,11 @@ LoadingObservation Simulation::observe_loading() {
                           .low = walls_.low,
                           .high = walls_.high,
                           .force = {},
-                          .dissipation = 0};
+                          .plastic_dissipation = state_.plastic_dissipation,
+                          .damage_dissipation = {}};
   for (std::size_t axis = 0; axis < 3; ++axis)
     seen.force[axis] = 0.5 * (state_.last_wall_force[2 * axis] + state_.last_wall_force[2 * axis + 1]);
-  if (loading_->needs_dissipation(state_.loading, state_.step))
-    seen.dissipation = state_.plastic_dissipation + total_bonds().dissipated;
+  if (loading_->needs_damage(state_.loading, state_.step)) seen.damage_dissipation = total_bonds().dissipated;
   return seen;
 }
 
