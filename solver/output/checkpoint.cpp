@@ -288,7 +288,7 @@ void read_checkpoint(const std::string& path, Simulation& simulation, RunRecord&
     const auto name = file.read(check::run_stage_name), end = file.read(check::run_stage_end);
     for (std::size_t i = 0; i < name.size(); ++i)
       record.stages.push_back(
-          {name[i], end[i], c.stage_values[3 * i], c.stage_values[3 * i + 1], c.stage_values[3 * i + 2]});
+          {name[i], end[i], c.stage_values[3 * i], c.stage_values[3 * i + 1], c.stage_values[3 * i + 2], 0});
   }
   model.position.assign(c.position.begin(), c.position.end());
   model.velocity.assign(c.velocity.begin(), c.velocity.end());

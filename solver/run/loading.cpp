@@ -285,6 +285,8 @@ void LoadingControl::hold(LoadingState& s, const Seen& seen, std::size_t axis, d
   s.speed[axis] = std::clamp(s.fast[axis] + s.slow[axis], -limit, limit);
   s.error[axis] += (error - s.error[axis]) * seen.step / (transit_ + seen.step);
   s.hold_error = std::max(s.hold_error, std::abs(s.error[axis]));
+  s.hold_square += error * error * seen.step;
+  s.hold_time += seen.step;
   s.hold_stress = std::max(s.hold_stress, std::abs(wanted));
 }
 
@@ -421,7 +423,7 @@ std::string LoadingControl::end_text(const LoadingState& s) const {
   case LoadingEnd::duration:
     return fmt::format("duration {:g} s", *ends.duration);
   case LoadingEnd::cycles:
-    return fmt::format("{} cycles", loading_.cycles);
+    return fmt::format("{} cycle{}", loading_.cycles, loading_.cycles == 1 ? "" : "s");
   }
   return {};
 }

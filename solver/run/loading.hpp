@@ -21,27 +21,28 @@ namespace mpfem {
 
 /// State of a loading. Numbers only: a checkpoint stores them as they are.
 struct LoadingState {
-  double begun = 0;                     ///< 1: the values at the start are known
-  double ended_by = 0;                  ///< LoadingEnd
-  double fraction_done = 0;             ///< [0, 1]
-  std::array<double, 3> speed{};        ///< mm/s inwards, of both walls across each axis
-  std::array<double, 3> fast{}, slow{}; ///< mm/s, the two parts of a held axis's speed
-  std::array<double, 3> error{};        ///< MPa, wanted less measured stress of a held axis, averaged over a transit
-  std::array<double, 3> start_stress{}; ///< MPa, of each axis
-  std::array<double, 3> start_force{};  ///< N
-  double start_dissipation = 0;         ///< mJ
-  double dissipation = 0;               ///< mJ, plastic and damage; of the damage what was last asked for
-  double damage_dissipation = 0;        ///< mJ, when it was last asked for
-  double sign = 1;                      ///< driven walls: 1 inwards, -1 outwards
-  double drive = 0;                     ///< mm/s, speed of driven walls inwards
-  double leg_start = 0;                 ///< MPa, mean stress where the present leg of a stress target began
-  double legs = 0;                      ///< half cycles done
-  double path = 0, path_rate = 0;       ///< probe: way along the path in MPa of its leading axis, and its rate, MPa/s
-  double watched = 0, peak = 0;         ///< MPa, the stress whose fall may end the stage, averaged over a transit
-  double inside = 0;                    ///< 1: the mean stress has been in the lower half of a cycle's range
-  double overshoot = 0;                 ///< MPa, largest amount by which the mean stress passed a turning point
-  double hold_error = 0;                ///< MPa, largest magnitude of `error` so far
-  double hold_stress = 0;               ///< MPa, largest wanted stress so far
+  double begun = 0;                      ///< 1: the values at the start are known
+  double ended_by = 0;                   ///< LoadingEnd
+  double fraction_done = 0;              ///< [0, 1]
+  std::array<double, 3> speed{};         ///< mm/s inwards, of both walls across each axis
+  std::array<double, 3> fast{}, slow{};  ///< mm/s, the two parts of a held axis's speed
+  std::array<double, 3> error{};         ///< MPa, wanted less measured stress of a held axis, averaged over a transit
+  std::array<double, 3> start_stress{};  ///< MPa, of each axis
+  std::array<double, 3> start_force{};   ///< N
+  double start_dissipation = 0;          ///< mJ
+  double dissipation = 0;                ///< mJ, plastic and damage; of the damage what was last asked for
+  double damage_dissipation = 0;         ///< mJ, when it was last asked for
+  double sign = 1;                       ///< driven walls: 1 inwards, -1 outwards
+  double drive = 0;                      ///< mm/s, speed of driven walls inwards
+  double leg_start = 0;                  ///< MPa, mean stress where the present leg of a stress target began
+  double legs = 0;                       ///< half cycles done
+  double path = 0, path_rate = 0;        ///< probe: way along the path in MPa of its leading axis, and its rate, MPa/s
+  double watched = 0, peak = 0;          ///< MPa, the stress whose fall may end the stage, averaged over a transit
+  double inside = 0;                     ///< 1: the mean stress has been in the lower half of a cycle's range
+  double overshoot = 0;                  ///< MPa, largest amount by which the mean stress passed a turning point
+  double hold_error = 0;                 ///< MPa, largest magnitude of `error` so far
+  double hold_stress = 0;                ///< MPa, largest wanted stress so far
+  double hold_square = 0, hold_time = 0; ///< MPa^2 s, s: integral of the square of wanted less measured stress
 };
 
 /// Why a loading ended.

@@ -70,8 +70,8 @@ std::string stage_end_text(const StageResult& result) {
   std::string text = "ended by " + result.ended_by;
   if (result.overshoot > 0) text += fmt::format("; stress passed by {:.3g} MPa", result.overshoot);
   if (result.hold_stress > 0)
-    text += fmt::format("; stresses held within {:.3g} MPa ({:.2g} %)", result.hold_error,
-                        100 * result.hold_error / result.hold_stress);
+    text += fmt::format("; stresses held within {:.3g} MPa ({:.2g} %), {:.3g} MPa in the root mean square",
+                        result.hold_error, 100 * result.hold_error / result.hold_stress, result.hold_rms);
   return text;
 }
 

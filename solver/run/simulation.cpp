@@ -345,6 +345,8 @@ StageResult Simulation::stage_result() {
     result.overshoot = loading_->overshoot(state_.loading, observe_loading());
     result.hold_error = state_.loading.hold_error;
     result.hold_stress = state_.loading.hold_stress;
+    if (state_.loading.hold_time > 0)
+      result.hold_rms = std::sqrt(state_.loading.hold_square / state_.loading.hold_time);
   } else if (stage().isotropic_unloading) {
     result.overshoot = std::max(stage().isotropic_unloading->mean_stress - state_.mean_stress, 0.0);
   }

@@ -73,6 +73,7 @@ struct StageResult {
   double overshoot = 0;   ///< MPa by which a stress that ended or turned the stage was passed
   double hold_error = 0;  ///< MPa, largest deviation of a held stress, averaged over a transit of the box
   double hold_stress = 0; ///< MPa, the largest stress to be held
+  double hold_rms = 0;    ///< MPa, root mean square of the deviation at every step; not in checkpoints of later stages
 };
 
 /// One line of the history; the columns are those of /history in results-schema.

@@ -248,7 +248,7 @@ TEST_CASE("a run says what ended its stages, and how well stresses were held") {
   const auto name = file.read(schema::run::provenance_stage_name), end = file.read(schema::run::provenance_stage_end);
   REQUIRE(name == std::vector<std::string>{"compaction", "cycles", "triaxial", "probe", "unconfined", "die"});
   CHECK(end[0] == "mean stress 20 MPa");
-  CHECK(end[1] == "1 cycles");
+  CHECK(end[1] == "1 cycle");
   CHECK(end[5] == "duration 2e-06 s");
   CHECK(file.read(schema::run::provenance_stage_hold_error)[2] > 0);
   CHECK(file.read(schema::run::provenance_stage_hold_error)[5] == 0);
@@ -293,6 +293,22 @@ dissipation_ratio = 2
   CHECK(outcome.exit_code == 3);
   CHECK_THAT(outcome.messages, Catch::Contains("probe-2") && Catch::Contains("pull"));
   CHECK(schema::validate(folder / "run.h5").empty());
+}
+
+TEST_CASE("a branch may have bonds of another law as long as none is damaged") {
+  const Folder folder;
+  prepare(folder, 3, loading_text);
+  REQUIRE(mpfem_command(fmt::format("run {} -o {} --quiet", folder / "scenario.toml", folder / "run.h5")).exit_code ==
+          0);
+  const auto branch = [&](const std::string& checkpoint, const std::string& set) {
+    return mpfem_command(fmt::format("run {} -o {} --quiet --from {} {}", folder / "scenario.toml",
+                                     folder / "branch.h5", folder / checkpoint, set));
+  };
+  CHECK(branch("run.D0.500.checkpoint.h5", "--set bond.fracture_energy=0.1").exit_code == 0); // nothing touches yet
+  const Outcome damaged = branch("run.cycles.checkpoint.h5", "--set bond.fracture_energy=0.1");
+  CHECK(damaged.exit_code == 2);
+  CHECK_THAT(damaged.messages, Catch::Contains("bonds of another law"));
+  CHECK(branch("run.D0.500.checkpoint.h5", "--set material.youngs_modulus=4000").exit_code == 2);
 }
 
 TEST_CASE("keys of loadings are checked like all others") {
