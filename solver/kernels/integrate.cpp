@@ -14,6 +14,7 @@ WallSums wall_forces(Model& model, const Walls& walls, const Bounds& bounds, int
   const double stiffness = model.penalty_stiffness[g];
   for (std::size_t side = 0; side < 6; ++side) {
     const std::size_t axis = side / 2;
+    if (walls.withdrawn[axis]) continue;
     const bool high = side % 2 == 1;
     const double plane = high ? walls.high[axis] : walls.low[axis];
     if (high ? bounds.high[axis] <= plane : bounds.low[axis] >= plane) continue;
@@ -25,6 +26,7 @@ WallSums wall_forces(Model& model, const Walls& walls, const Bounds& bounds, int
       model.force[4 * node + axis] += inward * force;
       sums.force[side] += force;
       sums.energy += -0.5 * force * gap;
+      sums.axis_energy[axis] += -0.5 * force * gap;
       sums.penetration = std::max(sums.penetration, -gap / model.element_size[g]);
     }
   }
@@ -39,6 +41,7 @@ void wall_stiffness_rate(const Model& model, const Walls& walls, const Bounds& b
   const auto count = static_cast<std::size_t>(model.surface_node_count[g]);
   for (std::size_t side = 0; side < 6; ++side) {
     const std::size_t axis = side / 2;
+    if (walls.withdrawn[axis]) continue;
     const bool high = side % 2 == 1;
     const double plane = high ? walls.high[axis] : walls.low[axis];
     if (high ? bounds.high[axis] <= plane : bounds.low[axis] >= plane) continue;

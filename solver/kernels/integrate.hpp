@@ -12,16 +12,21 @@ namespace mpfem {
 
 /// The six walls of the box. Side 0 … 5: -x, +x, -y, +y, -z, +z.
 struct Walls {
+  /// Whether the two walls across an axis are there.
+  bool stand(std::size_t axis) const { return present && !withdrawn[axis]; }
+
   bool present = true;
-  std::array<double, 3> low{}; ///< mm
+  std::array<bool, 3> withdrawn{}; ///< axes whose two walls are away, while the others are there
+  std::array<double, 3> low{};     ///< mm
   std::array<double, 3> high{};
 };
 
 /// Work and force of walls on one grain.
 struct WallSums {
-  std::array<double, 6> force{}; ///< N, magnitude of the push of each wall
-  double energy = 0;             ///< mJ in the walls' penalty
-  double penetration = 0;        ///< largest over h
+  std::array<double, 6> force{};       ///< N, magnitude of the push of each wall
+  double energy = 0;                   ///< mJ in the walls' penalty
+  std::array<double, 3> axis_energy{}; ///< mJ, the same of each axis's two walls
+  double penetration = 0;              ///< largest over h
 };
 
 /// Adds to model.force the penalty forces K A (-gap) of the walls on the grain's surface nodes.

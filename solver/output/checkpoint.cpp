@@ -1,5 +1,6 @@
 #include "solver/output/checkpoint.hpp"
 
+#include <bit>
 #include <cstring>
 
 #include <fmt/format.h>
@@ -20,13 +21,14 @@ namespace check = schema::checkpoint;
 
 std::vector<std::int64_t> integers(const RunState& s) {
   return {
-      s.step,     s.stage,      s.rows_in_stage, s.snapshots_passed, s.steps_since_estimate, s.controlled_by_contact,
-      s.searches, s.stage_ended};
+      s.step,     s.stage,       s.rows_in_stage, s.snapshots_passed,  s.steps_since_estimate, s.controlled_by_contact,
+      s.searches, s.stage_ended, s.absent_axes,   s.checkpoints_passed};
 }
 
 void set_integers(RunState& s, const std::vector<std::int64_t>& v) {
   s.step = v[0], s.stage = v[1], s.rows_in_stage = v[2], s.snapshots_passed = v[3], s.steps_since_estimate = v[4],
-  s.controlled_by_contact = v[5], s.searches = v[6], s.stage_ended = v[7];
+  s.controlled_by_contact = v[5], s.searches = v[6], s.stage_ended = v[7], s.absent_axes = v[8],
+  s.checkpoints_passed = v[9];
 }
 
 /// Calls f(double&) for every number of state and record, always in the same order.
@@ -42,6 +44,10 @@ void for_each_number(State& s, Record& r, F&& f) {
   for (auto* values : {&s.last_wall_force, &s.last_wall_move})
     for (auto& value : *values) f(value);
   for (auto& value : r.profile_seconds) f(value);
+  // A loading's state is numbers and nothing else.
+  auto loading = std::bit_cast<std::array<double, sizeof(LoadingState) / sizeof(double)>>(s.loading);
+  for (double& value : loading) f(value);
+  if constexpr (!std::is_const_v<State>) s.loading = std::bit_cast<LoadingState>(loading);
 }
 
 /// Calls f(block, lane, tet) for every tet of the model.
@@ -59,7 +65,7 @@ void for_each_tet(ModelType& model, F&& f) {
 /// Calls f(dataset) for every array that the checksum covers, in its order, which is also that of writing.
 template <class F>
 void for_each_array(F&& f) {
-  f(check::run_integers), f(check::run_numbers), f(check::run_history);
+  f(check::run_integers), f(check::run_numbers), f(check::run_history), f(check::run_stage_values);
   f(check::node_position), f(check::node_velocity), f(check::node_force);
   f(check::tet_deviator), f(check::tet_flow_stress), f(check::tet_plastic_strain), f(check::tet_length);
   f(check::grain_travel), f(check::grain_travel_at_search), f(check::contact_point_wake), f(check::contact_point_sure);
@@ -121,6 +127,15 @@ std::vector<double> deviators(const Model& model) {
   return result;
 }
 
+/// True where a bond in the file is damaged, or has been broken and formed anew.
+bool has_damaged_bond(const schema::FileReader& file) {
+  const auto facet = file.read(check::bond_facet);
+  const auto values = file.read(check::bond_values);
+  for (std::size_t i = 0; i < facet.size() && 6 * i + 5 < values.size(); ++i)
+    if ((facet[i] >= 0 && values[6 * i + 4] < 1) || values[6 * i + 5] > 0) return true;
+  return false;
+}
+
 /// Unused lanes of a grain's last block repeat its last tet.
 void fill_unused_lanes(Model& model) {
   for (int grain = 0; grain < model.grains; ++grain) {
@@ -147,7 +162,19 @@ void write_checkpoint(const std::string& path, const Simulation& simulation, con
   file.write_scalar(check::scenario, scenario_text);
   file.write_scalar(check::packing_hash, hash_text(model.mesh_hash));
   file.write_scalar(check::lanes, std::int32_t{TetBlock::lanes});
-  file.write(check::run_snapshots, std::span<const std::string>(record.snapshot_files), record.snapshot_files.size());
+  const auto write_texts = [&file](const auto& dataset, const std::vector<std::string>& texts) {
+    file.write(dataset, std::span<const std::string>(texts), texts.size());
+  };
+  std::vector<std::string> stage_name, stage_end;
+  std::vector<double> stage_values;
+  for (const StageResult& stage : record.stages) {
+    stage_name.push_back(stage.name);
+    stage_end.push_back(stage.ended_by);
+    stage_values.insert(stage_values.end(), {stage.overshoot, stage.hold_error, stage.hold_stress});
+  }
+  write_texts(check::run_snapshots, record.snapshot_files);
+  write_texts(check::run_stage_name, stage_name);
+  write_texts(check::run_stage_end, stage_end);
 
   std::vector<double> numbers;
   for_each_number(simulation.state(), record, [&](double value) { numbers.push_back(value); });
@@ -156,6 +183,7 @@ void write_checkpoint(const std::string& path, const Simulation& simulation, con
   arrays.write(check::run_integers, integers(simulation.state()));
   arrays.write(check::run_numbers, numbers);
   arrays.write(check::run_history, flatten(record.history));
+  arrays.write(check::run_stage_values, stage_values, stage_name.size());
   arrays.write(check::node_position, model.position, nodes);
   arrays.write(check::node_velocity, model.velocity, nodes);
   arrays.write(check::node_force, model.force, nodes);
@@ -241,7 +269,8 @@ void read_checkpoint(const std::string& path, Simulation& simulation, RunRecord&
     if (before.material != now.material)
       throw InputError(
           fmt::format("{}: the checkpoint's material differs from the scenario's, allowed the same [material]", path));
-    if (bonded && before.bond != now.bond)
+    // Bonds that are whole hold nothing but their places, so that the law may still be chosen.
+    if (bonded && before.bond != now.bond && (!now.bond || has_damaged_bond(file)))
       throw InputError(fmt::format(
           "{}: the checkpoint has bonds of another law than the scenario's, allowed the same [bond]", path));
     if (bonded && before.contact.penalty_differs(now.contact)) // a damaged bond's separations belong to its stiffness
@@ -271,6 +300,13 @@ void read_checkpoint(const std::string& path, Simulation& simulation, RunRecord&
     throw InputError(fmt::format("{}: the checkpoint was written by a build with other history columns", path));
   }
   record.snapshot_files = file.read(check::run_snapshots);
+  if (file.has(check::run_stage_values)) {
+    const auto name = file.read(check::run_stage_name), end = file.read(check::run_stage_end);
+    const auto values = file.read(check::run_stage_values);
+    if (end.size() != name.size() || values.size() != 3 * name.size()) throw damaged();
+    for (std::size_t i = 0; i < name.size(); ++i)
+      record.stages.push_back({name[i], end[i], values[3 * i], values[3 * i + 1], values[3 * i + 2], 0});
+  }
 
   // One array at a time is in memory beside the model.
   const auto take = [&](const auto& dataset, std::size_t count) {

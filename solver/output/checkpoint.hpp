@@ -12,7 +12,8 @@ namespace mpfem {
 struct RunRecord {
   std::vector<HistoryRow> history;
   std::vector<std::string> snapshot_files;
-  double wall_time = 0; ///< s, of all parts of the run so far
+  std::vector<StageResult> stages; ///< those that are complete
+  double wall_time = 0;            ///< s, of all parts of the run so far
   std::array<double, profile_parts> profile_seconds{};
 };
 

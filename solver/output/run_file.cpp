@@ -49,8 +49,8 @@ std::vector<float> contact_pressure(const Simulation& simulation) {
       const auto node = static_cast<std::size_t>(n);
       const double area = model.normal[4 * node + 3];
       double value = area > 0 ? force[node] / area : 0.0;
-      if (simulation.has_walls())
-        for (std::size_t axis = 0; axis < 3; ++axis) {
+      for (std::size_t axis = 0; axis < 3; ++axis)
+        if (simulation.walls().stand(axis)) {
           const double x = model.position[4 * node + axis];
           value += model.penalty_stiffness[g] * model.local_stiffness(node) * model.reference_area[node] /
                    std::max(area, 1e-300) * (std::max(state.low[axis] - x, 0.0) + std::max(x - state.high[axis], 0.0));
@@ -229,6 +229,18 @@ void write_run_file(const std::string& path, const Model& model, const std::vect
   file.write(run::provenance_profile_seconds, std::span<const double>(provenance.profile_seconds),
              provenance.profile_seconds.size());
   file.write_scalar(run::provenance_status, provenance.status);
+  std::vector<std::string> name, end;
+  std::vector<double> overshoot, hold_error;
+  for (const StageResult& stage : provenance.stages) {
+    name.push_back(stage.name);
+    end.push_back(stage.ended_by);
+    overshoot.push_back(stage.overshoot);
+    hold_error.push_back(stage.hold_error);
+  }
+  file.write(run::provenance_stage_name, std::span<const std::string>(name), name.size());
+  file.write(run::provenance_stage_end, std::span<const std::string>(end), end.size());
+  file.write(run::provenance_stage_overshoot, std::span<const double>(overshoot), overshoot.size());
+  file.write(run::provenance_stage_hold_error, std::span<const double>(hold_error), hold_error.size());
   file.commit();
 }
 

@@ -22,6 +22,7 @@ struct Provenance {
   double wall_time = 0; ///< s
   std::vector<std::string> profile_name;
   std::vector<double> profile_seconds;
+  std::vector<StageResult> stages; ///< those that are complete
 };
 
 /// Writes RUN.h5 from history, snapshot files and provenance. Throws StorageError.

@@ -44,6 +44,10 @@ StageMotion::StageMotion(const Stage& stage, const std::array<double, 3>& low, c
                          double solid_volume, double mean_stress)
     : stage_(stage), low_(low), high_(high), mean_stress_(mean_stress) {
   for (std::size_t axis = 0; axis < 3; ++axis) longest_ = std::max(longest_, high[axis] - low[axis]);
+  if (stage.loading) {
+    duration_ = std::numeric_limits<double>::infinity();
+    return;
+  }
   if (stage.hold) {
     duration_ = stage.hold->duration;
   } else if (stage.grip) {
@@ -91,7 +95,8 @@ double StageMotion::unloading_speed(double time, double mean_stress) const {
   const double s = ramp > 0 ? std::min(time / ramp, 1.0) : 1.0;
   // The walls leave the last fifth of the stress ever more slowly, so that the packing is nearly at rest at the end.
   const double left = (mean_stress - unloading.mean_stress) / way;
-  return unloading.wall_speed * (3 - 2 * s) * s * s * std::clamp(5 * left, 0.25, 1.0);
+  return unloading.wall_speed * (3 - 2 * s) * s * s *
+         std::clamp(5 * left, slowest_unloading(unloading.mean_stress, mean_stress_), 1.0);
 }
 
 void StageMotion::move(Walls& walls, double time, double step, double mean_stress) const {
@@ -121,10 +126,8 @@ std::array<double, 3> StageMotion::sliding(double time) const {
 
 bool StageMotion::reached(const Walls& walls, double mean_stress) const {
   if (!stage_.isotropic_unloading) return false;
-  // Single grains that still touch a wall keep a little stress for long.
-  constexpr double tolerance = 1e-3;
   const double target = stage_.isotropic_unloading->mean_stress;
-  if (mean_stress <= target + tolerance * (mean_stress_ - target)) return true;
+  if (mean_stress <= target + unloading_tolerance(target, mean_stress_ - target)) return true;
   constexpr double largest_growth = 0.3;
   if (walls.high[0] - walls.low[0] > (1 + largest_growth) * (high_[0] - low_[0]))
     throw SimulationError(fmt::format("stage '{}': the mean stress is still {:.3g} MPa, target {:g} MPa, after the box "
@@ -133,26 +136,64 @@ bool StageMotion::reached(const Walls& walls, double mean_stress) const {
   return false;
 }
 
+std::string StageMotion::end_text() const {
+  if (stage_.hold) return fmt::format("duration {:g} s", stage_.hold->duration);
+  if (stage_.grip) return fmt::format("displacement {:g} mm", stage_.grip->displacement);
+  if (stage_.isotropic_unloading) return fmt::format("mean stress {:g} MPa", stage_.isotropic_unloading->mean_stress);
+  if (stage_.isotropic_compaction)
+    return fmt::format("relative density {:g}", stage_.isotropic_compaction->relative_density);
+  return {};
+}
+
+std::vector<StageForecast> forecast(const Scenario& scenario, std::int64_t first_stage, std::array<double, 3> low,
+                                    std::array<double, 3> high, const Model& model) {
+  std::vector<StageForecast> forecasts;
+  StageForecast f{.low = low, .high = high};
+  for (auto s = static_cast<std::size_t>(first_stage); s < scenario.stages.size(); ++s) {
+    const Stage& stage = scenario.stages[s];
+    if (stage.loading) {
+      const LoadingControl control(stage, f.low, f.high, sample_of(model, scenario.material));
+      f.duration = control.expected_duration();
+      f.sure = false;
+      const auto scale = control.expected_scale();
+      for (std::size_t axis = 0; axis < 3; ++axis) {
+        const double cut = 0.5 * (1 - scale[axis]) * (f.high[axis] - f.low[axis]);
+        f.low[axis] += cut, f.high[axis] -= cut;
+      }
+    } else if (stage.isotropic_compaction && !f.sure &&
+               stage.isotropic_compaction->relative_density * (1 - 1e-9) <=
+                   model.total_reference_volume() / volume(f.low, f.high)) {
+      f.duration = 0; // nobody knows yet whether that is possible
+    } else {
+      const StageMotion motion(stage, f.low, f.high, model.total_reference_volume(), 0.0);
+      f.duration = motion.expected_duration();
+      if (stage.isotropic_unloading) f.sure = false;
+      Walls walls{.low = f.low, .high = f.high};
+      motion.move(walls, motion.expected_duration(), 0.0, 0.0);
+      f.low = walls.low, f.high = walls.high;
+    }
+    forecasts.push_back(f);
+  }
+  return forecasts;
+}
+
 void check_programme(const Scenario& scenario, std::int64_t first_stage, std::array<double, 3> low,
                      std::array<double, 3> high, const Model& model, double stable_step) {
   constexpr double largest_travel = 0.05; // of h a step; a penetration of that size in one step is an impact
+  forecast(scenario, first_stage, low, high, model);
   const double smallest_size = *std::min_element(model.element_size.begin(), model.element_size.end());
   for (auto s = static_cast<std::size_t>(first_stage); s < scenario.stages.size(); ++s) {
     const Stage& stage = scenario.stages[s];
-    const StageMotion motion(stage, low, high, model.total_reference_volume(), 0.0);
-    Walls walls{.low = low, .high = high};
-    motion.move(walls, motion.expected_duration(), 0.0, 0.0);
-    low = walls.low, high = walls.high;
     const double speed = stage.isotropic_compaction  ? stage.isotropic_compaction->wall_speed
                          : stage.isotropic_unloading ? stage.isotropic_unloading->wall_speed
                          : stage.grip                ? stage.grip->speed
+                         : stage.loading             ? stage.loading->wall_speed
                                                      : 0.0;
     if (const double fastest = largest_travel * smallest_size / stable_step; speed > fastest)
       throw InputError(
           fmt::format("stage '{}': key '{}': found {:g} mm/s, allowed at most {:.4g} mm/s here ({} of an element in a "
                       "stable step of {:.3g} s)",
                       stage.name, stage.grip ? "speed" : "wall_speed", speed, fastest, largest_travel, stable_step));
-    if (stage.isotropic_unloading) return; // where that ends is not known beforehand
   }
 }
 

@@ -2,9 +2,12 @@
 // Where the walls are at each moment: the scenario's stages as functions of time.
 
 #include <array>
+#include <string>
+#include <vector>
 
 #include "solver/kernels/integrate.hpp"
 #include "solver/model/model.hpp"
+#include "solver/run/loading.hpp"
 #include "solver/scenario/scenario.hpp"
 
 namespace mpfem {
@@ -13,7 +16,8 @@ namespace mpfem {
 /// smooth end, each lasting `ramp` of the duration (speed follows 3 s^2 - 2 s^3), in [0, 1].
 double motion_fraction(double time, double ramp);
 
-/// One stage, made concrete by the box with which it starts.
+/// One stage, made concrete by the box with which it starts. A loading (Stage::loading) is not moved from here; of it,
+/// this class knows only that its end is open.
 class StageMotion {
 public:
   /// `solid_volume` in mm^3, `mean_stress` (MPa) when it starts. Throws InputError where the target cannot be reached by
@@ -32,6 +36,8 @@ public:
   std::array<double, 3> sliding(double time) const;
   /// Whether a stage that ends at a stress has reached it. Throws SimulationError where the walls have gone far without.
   bool reached(const Walls& walls, double mean_stress) const;
+  /// What ends the stage: "relative density 0.92".
+  std::string end_text() const;
 
 private:
   double unloading_speed(double time, double mean_stress) const;
@@ -44,6 +50,18 @@ private:
   double ramp_ = 0;
   double duration_ = 0, expected_duration_ = 0;
 };
+
+/// What is expected of a stage beforehand.
+struct StageForecast {
+  double duration = 0;          ///< s
+  bool sure = true;             ///< false: the stage or one before it ends at what is not known beforehand
+  std::array<double, 3> low{};  ///< mm, box at the end
+  std::array<double, 3> high{}; ///< mm
+};
+/// Forecasts of the stages from `first_stage` on, which begins with the given box. Targets that cannot be reached from
+/// where the stage before surely ends are refused. Throws InputError.
+std::vector<StageForecast> forecast(const Scenario& scenario, std::int64_t first_stage, std::array<double, 3> low,
+                                    std::array<double, 3> high, const Model& model);
 
 /// Checks the stages from `first_stage` on before anything moves: every target can be reached from where the stage before
 /// ends (as far as that is known beforehand), and no wall moves further in one stable step (s) than a small part of an element. Throws InputError.

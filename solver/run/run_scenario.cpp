@@ -65,6 +65,40 @@ std::string added_mass_text(const Model& model) {
                      100 * model.added_mass, 100 * model.largest_added_mass);
 }
 
+/// "ended by axial strain 0.15; stresses held within 0.05 MPa (0.6 %)"
+std::string stage_end_text(const StageResult& result) {
+  std::string text = "ended by " + result.ended_by;
+  if (result.overshoot > 0) text += fmt::format("; stress passed by {:.3g} MPa", result.overshoot);
+  if (result.hold_stress > 0)
+    text += fmt::format("; stresses held within {:.3g} MPa ({:.2g} %), {:.3g} MPa in the root mean square",
+                        result.hold_error, 100 * result.hold_error / result.hold_stress, result.hold_rms);
+  return text;
+}
+
+/// What a stage does, for the plan.
+std::string stage_text(const Stage& stage) {
+  if (stage.isotropic_compaction) return "all walls inwards, to a relative density";
+  if (stage.isotropic_unloading) return "all walls outwards, to a mean stress";
+  if (stage.grip) return "grips, to a displacement";
+  if (stage.hold) return "walls at rest, for a time";
+  switch (stage.loading->path) {
+  case LoadingPath::isotropic:
+    return "all walls inwards, to a mean stress";
+  case LoadingPath::cycles:
+    return fmt::format("all walls, {} cycles between two mean stresses", stage.loading->cycles);
+  case LoadingPath::unconfined:
+    return "z walls driven, x and y walls away";
+  case LoadingPath::triaxial:
+    return fmt::format("z walls driven, x and y walls held at constant {}",
+                       stage.loading->hold_force ? "force" : "stress");
+  case LoadingPath::die:
+    return "z walls driven, x and y walls at rest";
+  case LoadingPath::probe:
+    return "all walls held on a straight path of p and q";
+  }
+  return {};
+}
+
 /// The time loop and its records.
 class Runner {
 public:
@@ -80,6 +114,9 @@ public:
     }
     const RunState& state = simulation_.state();
     check_programme(scenario_, state.stage, state.stage_low, state.stage_high, simulation_.model(), state.stable_step);
+    expected_ = forecast(scenario_, state.stage, state.stage_low, state.stage_high, simulation_.model());
+    first_expected_ = state.stage;
+    if (begins_anew_) pass_densities();
   }
 
   void run() {
@@ -161,6 +198,7 @@ private:
       if (stage_end || row_due()) record_row();
       take_snapshots(stage_end);
       if (stage_end) {
+        report_stage_end();
         if (state.stage + 1 == static_cast<std::int64_t>(scenario_.stages.size())) return;
         ++state.stage;
         simulation_.begin_stage();
@@ -169,6 +207,12 @@ private:
       save_checkpoints();
       report_progress();
     }
+  }
+
+  void report_stage_end() {
+    const StageResult result = simulation_.stage_result();
+    record_.stages.push_back(result);
+    if (!options_.quiet) fmt::print(stderr, "mpfem: stage '{}' {}\n", result.name, stage_end_text(result));
   }
 
   double next_row_time() const {
@@ -211,8 +255,10 @@ private:
   void save_checkpoints() {
     const bool stage_end = simulation_.stage_complete();
     const bool interrupted = interrupt_requested != 0;
+    const std::vector<double> passed = pass_densities();
     const bool out_of_time = options_.time_limit > 0 && Profile::since(start_) > options_.time_limit;
-    if (!stage_end && !interrupted && !out_of_time &&
+    for (const double density : passed) save_checkpoint(density_checkpoint_path(options_.output, density));
+    if (!stage_end && !interrupted && !out_of_time && passed.empty() &&
         Profile::since(last_checkpoint_) < scenario_.output.checkpoint_interval)
       return;
     const auto start = Profile::Clock::now();
@@ -228,6 +274,17 @@ private:
                                     interrupted ? "interrupted" : "out of time", simulation_.state().step,
                                     simulation_.relative_density()));
     }
+  }
+
+  /// Densities of output.checkpoint_relative_densities that the packing has now passed for the first time.
+  std::vector<double> pass_densities() {
+    const auto& densities = scenario_.output.checkpoint_relative_densities;
+    auto& count = simulation_.state().checkpoints_passed;
+    std::vector<double> passed;
+    while (count < static_cast<std::int64_t>(densities.size()) &&
+           simulation_.relative_density() >= densities[static_cast<std::size_t>(count)] * (1 - 1e-9))
+      passed.push_back(densities[static_cast<std::size_t>(count++)]);
+    return passed;
   }
 
   void save_checkpoint(const std::string& path) {
@@ -246,7 +303,7 @@ private:
   void write_result(const std::string& status) {
     RunRecord record = record_;
     add_times(record);
-    Provenance provenance{scenario_.text, status, options_.threads, record.wall_time, {}, {}};
+    Provenance provenance{scenario_.text, status, options_.threads, record.wall_time, {}, {}, record_.stages};
     double accounted = 0;
     for (std::size_t i = 0; i < profile_parts; ++i) {
       provenance.profile_name.emplace_back(part_names[i]);
@@ -279,8 +336,15 @@ private:
 
   double fraction_done() const {
     const RunState& state = simulation_.state();
-    const double inside = simulation_.stage_fraction_done();
-    return (static_cast<double>(state.stage) + inside) / static_cast<double>(scenario_.stages.size());
+    double done = 0, all = 0; // of the stages from the one with which this process began, by expected time
+    for (std::size_t i = 0; i < expected_.size(); ++i) {
+      const std::int64_t stage = first_expected_ + static_cast<std::int64_t>(i);
+      all += expected_[i].duration;
+      done += expected_[i].duration * (stage < state.stage    ? 1.0
+                                       : stage == state.stage ? simulation_.stage_fraction_done()
+                                                              : 0.0);
+    }
+    return all > 0 ? done / all : 0.0;
   }
 
   void report_progress() {
@@ -336,6 +400,8 @@ private:
   RunRecord record_;
   Profile::Clock::time_point start_, last_checkpoint_;
   std::int64_t steps_at_start_ = 0;
+  std::vector<StageForecast> expected_; ///< of the stages from first_expected_ on
+  std::int64_t first_expected_ = 0;
   std::int64_t branch_step_ = 0; ///< steps that the checkpoint of --from had done
   int reported_lines_ = 0;
   bool already_complete_ = false, begins_anew_ = false;
@@ -366,6 +432,8 @@ void check_output(const Scenario& scenario, const RunOptions& options) {
     refuse(*options.from, "the checkpoint to start from");
     std::vector<std::string> written{checkpoint_path(output)};
     for (const Stage& stage : scenario.stages) written.push_back(stage_checkpoint_path(output, stage.name));
+    for (const double density : scenario.output.checkpoint_relative_densities)
+      written.push_back(density_checkpoint_path(output, density));
     for (const std::string& path : written)
       if (same_file(path, *options.from))
         throw InputError(
@@ -385,6 +453,10 @@ std::string checkpoint_path(const std::string& run_file) {
 
 std::string stage_checkpoint_path(const std::string& run_file, const std::string& stage) {
   return fmt::format("{}.{}.checkpoint.h5", stem(run_file), stage);
+}
+
+std::string density_checkpoint_path(const std::string& run_file, double relative_density) {
+  return fmt::format("{}.D{:.3f}.checkpoint.h5", stem(run_file), relative_density);
 }
 
 void run_scenario(const Scenario& scenario, const RunOptions& options) {
@@ -418,22 +490,13 @@ void check_scenario(const Scenario& scenario, int threads) {
   for (const std::string& warning : warnings) fmt::print("warning        {}\n", warning);
   check_programme(scenario, 0, model.box_low, model.box_high, model, simulation.state().stable_step);
   // The steps of all stages at the present stable step, and the time of a few steps measured here.
-  std::array<double, 3> low = model.box_low, high = model.box_high;
+  const auto forecasts = forecast(scenario, 0, model.box_low, model.box_high, model);
   double steps = 0;
-  for (const Stage& stage : scenario.stages) {
-    const StageMotion motion(stage, low, high, model.total_reference_volume(), 0.0);
-    const double stage_steps = motion.expected_duration() / simulation.state().stable_step;
+  for (std::size_t s = 0; s < forecasts.size(); ++s) {
+    const double stage_steps = forecasts[s].duration / simulation.state().stable_step;
     steps += stage_steps;
-    fmt::print("stage          {}: {:.4g} s, {:.0f} steps at the present step\n", stage.name,
-               motion.expected_duration(), stage_steps);
-    if (stage.isotropic_unloading) {
-      if (&stage != &scenario.stages.back())
-        fmt::print("               its end is not known beforehand: the stages after it are not estimated\n");
-      break;
-    }
-    Walls walls{.low = low, .high = high};
-    motion.move(walls, motion.expected_duration(), 0.0, 0.0);
-    low = walls.low, high = walls.high;
+    fmt::print("stage          {}: {}{:.4g} s, {:.0f} steps at the present step; {}\n", scenario.stages[s].name,
+               forecasts[s].sure ? "" : "about ", forecasts[s].duration, stage_steps, stage_text(scenario.stages[s]));
   }
   int measured = 0;
   const auto start = Profile::Clock::now();

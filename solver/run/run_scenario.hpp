@@ -25,8 +25,9 @@ void run_scenario(const Scenario& scenario, const RunOptions& options);
 /// Prints what a run would do: grains, tets, memory, stages, steps, estimated time from steps measured here.
 void check_scenario(const Scenario& scenario, int threads);
 
-/// Name of the rolling checkpoint of a run file, and of that at the end of a stage.
+/// Name of the rolling checkpoint of a run file, of that at the end of a stage, and of that at a relative density.
 std::string checkpoint_path(const std::string& run_file);
 std::string stage_checkpoint_path(const std::string& run_file, const std::string& stage);
+std::string density_checkpoint_path(const std::string& run_file, double relative_density);
 
 } // namespace mpfem

@@ -46,6 +46,7 @@ Simulation::Simulation(Model model, const Scenario& scenario, ThreadTeam& team)
   stable_steps_.resize(grains);
   stiffness_rate_.resize(static_cast<std::size_t>(model_.nodes()));
   walls_.present = scenario.walls;
+  state_.absent_axes = scenario.walls ? 0 : 7;
   contact_.bonding = scenario.bond;
   margin_ = scenario.contact.search_margin * *std::max_element(model_.element_size.begin(), model_.element_size.end());
   state_.low = state_.stage_low = walls_.low = model_.box_low;
@@ -128,21 +129,53 @@ void Simulation::restored(Grips grips) {
 void Simulation::make_motion() {
   motion_.emplace(stage(), state_.stage_low, state_.stage_high, model_.total_reference_volume(),
                   state_.stage_mean_stress);
-  walls_.present = scenario_.walls && !stage().grip;
+  loading_.reset();
+  if (stage().loading)
+    loading_.emplace(stage(), state_.stage_low, state_.stage_high, sample_of(model_, scenario_.material));
+  const int absent = absent_axes(scenario_, stage());
+  walls_.present = absent != 7;
+  for (std::size_t axis = 0; axis < 3; ++axis) walls_.withdrawn[axis] = (absent >> axis & 1) != 0;
+}
+
+/// Walls that are taken away take what is stored in their penalty with them; walls that return stand where they touch
+/// nothing, so that the ledger knows of them from the first touch on.
+void Simulation::change_walls() {
+  const int absent = absent_axes(scenario_, stage());
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const bool was_absent = (state_.absent_axes >> axis & 1) != 0, is_absent = (absent >> axis & 1) != 0;
+    if (is_absent && !was_absent)
+      for (const WallSums& sums : wall_sums_) state_.external_work -= sums.axis_energy[axis];
+    if (was_absent && !is_absent) return_walls(axis);
+  }
+  state_.absent_axes = absent;
+}
+
+void Simulation::return_walls(std::size_t axis) {
+  constexpr double largest_growth = 2;
+  const double length = walls_.high[axis] - walls_.low[axis];
+  for (const Bounds& bounds : bounds_) {
+    walls_.low[axis] = std::min(walls_.low[axis], bounds.low[axis]);
+    walls_.high[axis] = std::max(walls_.high[axis], bounds.high[axis]);
+  }
+  if (walls_.high[axis] - walls_.low[axis] > largest_growth * length)
+    throw SimulationError(fmt::format("stage '{}': the walls along {} cannot return: grains lie {:.4g} mm apart, the "
+                                      "walls stood {:.4g} mm apart",
+                                      stage().name, "xyz"[axis], walls_.high[axis] - walls_.low[axis], length));
+  state_.low[axis] = walls_.low[axis], state_.high[axis] = walls_.high[axis];
+  for (std::size_t side = 2 * axis; side < 2 * axis + 2; ++side)
+    state_.last_wall_force[side] = state_.last_wall_move[side] = 0;
 }
 
 void Simulation::begin_stage() {
+  change_walls();
   state_.stage_time = 0;
   state_.stage_ended = 0;
   state_.rows_in_stage = 0;
   state_.stage_low = walls_.low;
   state_.stage_high = walls_.high;
   state_.stage_mean_stress = state_.mean_stress;
-  const bool walls_were_present = walls_.present;
+  state_.loading = {};
   make_motion();
-  // Walls that are taken away take what is stored in their penalty with them.
-  if (walls_were_present && !walls_.present)
-    for (const WallSums& sums : wall_sums_) state_.external_work -= sums.energy;
   grips_ = {};
   damping_rate_ = damping_rate();
   if (const auto& grip = stage().grip) {
@@ -161,6 +194,7 @@ void Simulation::begin_branch() {
   walls_.high = state_.high;
   state_.stage = 0;
   state_.snapshots_passed = 0;
+  state_.checkpoints_passed = 0;
   renew_candidates(model_, margin_, team_, contact_);
   estimate_stable_step();
   begin_stage();
@@ -192,7 +226,10 @@ Simulation::Plan Simulation::plan_step() const {
             .walls = walls_,
             .sliding = motion_->sliding(state_.stage_time + next_step()),
             .advance = {}};
-  motion_->move(plan.walls, state_.stage_time + plan.step, plan.step, state_.mean_stress);
+  if (loading_)
+    loading_->move(plan.walls, state_.loading, plan.step);
+  else
+    motion_->move(plan.walls, state_.stage_time + plan.step, plan.step, state_.mean_stress);
   plan.advance.step = plan.step;
   plan.advance.step_mean = 0.5 * (state_.last_step + plan.step);
   plan.advance.damping_rate = damping_rate_;
@@ -286,6 +323,36 @@ void Simulation::evaluate_forces() {
   state_.last_wall_force = force;
   state_.last_wall_move = {};
   state_.mean_stress = stress;
+  if (loading_ && !stage_complete()) loading_->update(state_.loading, observe_loading());
+}
+
+LoadingObservation Simulation::observe_loading() {
+  LoadingObservation seen{.time = state_.stage_time,
+                          .step = state_.last_step,
+                          .low = walls_.low,
+                          .high = walls_.high,
+                          .force = {},
+                          .plastic_dissipation = state_.plastic_dissipation,
+                          .damage_dissipation = {}};
+  for (std::size_t axis = 0; axis < 3; ++axis)
+    seen.force[axis] = 0.5 * (state_.last_wall_force[2 * axis] + state_.last_wall_force[2 * axis + 1]);
+  if (loading_->needs_damage(state_.loading, state_.step)) seen.damage_dissipation = total_bonds().dissipated;
+  return seen;
+}
+
+StageResult Simulation::stage_result() {
+  StageResult result{.name = stage().name, .ended_by = motion_->end_text()};
+  if (loading_) {
+    result.ended_by = loading_->end_text(state_.loading);
+    result.overshoot = loading_->overshoot(state_.loading, observe_loading());
+    result.hold_error = state_.loading.hold_error;
+    result.hold_stress = state_.loading.hold_stress;
+    if (state_.loading.hold_time > 0)
+      result.hold_rms = std::sqrt(state_.loading.hold_square / state_.loading.hold_time);
+  } else if (stage().isotropic_unloading) {
+    result.overshoot = std::max(stage().isotropic_unloading->mean_stress - state_.mean_stress, 0.0);
+  }
+  return result;
 }
 
 void Simulation::advance() {
@@ -324,7 +391,7 @@ void Simulation::advance() {
   state_.high = walls_.high;
   state_.time += step;
   state_.stage_time = step >= motion_->duration() - state_.stage_time ? motion_->duration() : state_.stage_time + step;
-  if (motion_->reached(walls_, state_.mean_stress)) state_.stage_ended = 1;
+  if (loading_ ? state_.loading.ended_by != 0 : motion_->reached(walls_, state_.mean_stress)) state_.stage_ended = 1;
   state_.last_step = step;
   state_.strain_rate = strain / step;
   state_.strain_since_estimate += strain;

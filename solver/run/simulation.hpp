@@ -9,6 +9,7 @@
 #include <array>
 #include <cstdint>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "solver/kernels/contact_forces.hpp"
@@ -17,6 +18,7 @@
 #include "solver/kernels/surface.hpp"
 #include "solver/kernels/thread_team.hpp"
 #include "solver/model/model.hpp"
+#include "solver/run/loading.hpp"
 #include "solver/run/profile.hpp"
 #include "solver/run/programme.hpp"
 #include "solver/scenario/scenario.hpp"
@@ -33,7 +35,9 @@ struct RunState {
   std::int64_t steps_since_estimate = 0;  ///< since the stable step was estimated
   std::int64_t controlled_by_contact = 0; ///< 1: contact lowers the step by more than 5 %
   std::int64_t searches = 0;
-  std::int64_t stage_ended = 0; ///< 1: the stage has reached the stress at which it ends
+  std::int64_t stage_ended = 0;        ///< 1: the stage has reached what ends it
+  std::int64_t absent_axes = 0;        ///< axes whose walls are away, as bits 1 (x), 2 (y), 4 (z)
+  std::int64_t checkpoints_passed = 0; ///< of output.checkpoint_relative_densities
   // times
   double time = 0;        ///< s
   double stage_time = 0;  ///< s, since the stage began
@@ -59,6 +63,17 @@ struct RunState {
   std::array<double, 3> high{};
   std::array<double, 6> last_wall_force{}; ///< N, at the time level before
   std::array<double, 6> last_wall_move{};  ///< mm inward, in the last step
+  LoadingState loading;                    ///< of the stage, where its walls are driven or held by stresses
+};
+
+/// How a stage ended.
+struct StageResult {
+  std::string name;
+  std::string ended_by;   ///< "relative density 0.92"
+  double overshoot = 0;   ///< MPa by which a stress that ended or turned the stage was passed
+  double hold_error = 0;  ///< MPa, largest deviation of a held stress, averaged over a transit of the box
+  double hold_stress = 0; ///< MPa, the largest stress to be held
+  double hold_rms = 0;    ///< MPa, root mean square of the deviation at every step; not in checkpoints of later stages
 };
 
 /// One line of the history; the columns are those of /history in results-schema.
@@ -96,8 +111,10 @@ public:
   /// are found anew with this scenario's settings; what energies jump by, where those differ, is not in the residual.
   void begin_branch();
   /// s: how long the stage takes, or is expected to take.
-  double stage_duration() const { return motion_->expected_duration(); }
-  double stage_fraction_done() const { return motion_->fraction_done(state_.stage_time, state_.mean_stress); }
+  double stage_duration() const { return loading_ ? loading_->expected_duration() : motion_->expected_duration(); }
+  double stage_fraction_done() const {
+    return loading_ ? state_.loading.fraction_done : motion_->fraction_done(state_.stage_time, state_.mean_stress);
+  }
   /// True when the present time level is the stage's last.
   bool stage_complete() const { return state_.stage_ended != 0 || state_.stage_time >= motion_->duration(); }
 
@@ -109,7 +126,9 @@ public:
   /// All observed quantities; valid between evaluate_forces() and advance().
   HistoryRow observe();
   double relative_density() const;
-  bool has_walls() const { return walls_.present; }
+  const Walls& walls() const { return walls_; }
+  /// What is to be said of a stage that is complete, after evaluate_forces().
+  StageResult stage_result();
   const Grips& grips() const { return grips_; }
   const Stage& stage() const { return scenario_.stages[static_cast<std::size_t>(state_.stage)]; }
 
@@ -124,6 +143,9 @@ private:
   Plan plan_step() const;
   BondSums total_bonds();
   void make_motion();
+  void change_walls();
+  void return_walls(std::size_t axis);
+  LoadingObservation observe_loading();
   double next_step() const;
   void estimate_stable_step();
   double damping_rate() const;
@@ -138,6 +160,7 @@ private:
   RunState state_;
   Profile profile_;
   std::optional<StageMotion> motion_;
+  std::optional<LoadingControl> loading_;
   Grips grips_;
   double margin_ = 0;       ///< mm, of the contact search
   double damping_rate_ = 0; ///< 1/s, of the next advance

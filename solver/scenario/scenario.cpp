@@ -20,12 +20,19 @@ constexpr Range target_density{.low = 0, .high = 1.2, .low_open = true};
 constexpr Range positive{.low = 0, .low_open = true};
 constexpr Range non_negative{.low = 0};
 
+constexpr double smallest_density_step = 0.001; // of checkpoints, whose names have three decimals
+
 constexpr std::size_t largest_hardening_table = 64; // TableLaw::max_points
 
 constexpr std::string_view stage_isotropic_compaction = "isotropic_compaction";
 constexpr std::string_view stage_isotropic_unloading = "isotropic_unloading";
 constexpr std::string_view stage_grip = "grip";
 constexpr std::string_view stage_hold = "hold";
+constexpr std::string_view stage_unconfined = "unconfined_compression";
+constexpr std::string_view stage_triaxial = "triaxial_compression";
+constexpr std::string_view stage_die = "die_compression";
+constexpr std::string_view stage_probe = "probe";
+constexpr std::string_view stage_cycles = "stress_cycles";
 
 /// Refuses keys of `all` that are given but do not belong to the choice made ("law = 'elastic'").
 void refuse_foreign_keys(const TableReader& table, const std::vector<std::string>& all,
@@ -159,6 +166,14 @@ OutputParameters read_output(TableReader table) {
   output.history_rows = static_cast<int>(table.integer_or("history_rows", output.history_rows, Range::between(1, 1e6)));
   output.snapshot_relative_densities = table.numbers_or("snapshot_relative_densities", {}, target_density);
   std::sort(output.snapshot_relative_densities.begin(), output.snapshot_relative_densities.end());
+  output.checkpoint_relative_densities = table.numbers_or("checkpoint_relative_densities", {}, target_density);
+  auto& kept = output.checkpoint_relative_densities;
+  std::sort(kept.begin(), kept.end());
+  // The density stands in the file's name.
+  for (std::size_t i = 1; i < kept.size(); ++i)
+    if (kept[i] - kept[i - 1] < smallest_density_step)
+      table.fail("checkpoint_relative_densities", fmt::format("found {} and {}, expected steps of at least {}",
+                                                              kept[i - 1], kept[i], smallest_density_step));
   output.snapshot_at_stage_end = table.boolean_or("snapshot_at_stage_end", output.snapshot_at_stage_end);
   output.checkpoint_interval = table.number_or("checkpoint_interval", output.checkpoint_interval, positive);
   table.finish();
@@ -197,11 +212,82 @@ void check_stage_name(const TableReader& table, const std::string& name) {
 
 /// Keys of each type of stage, besides those that all have.
 const std::vector<std::pair<std::string, std::vector<std::string>>> stage_keys = {
-    {std::string(stage_isotropic_compaction), {"relative_density", "wall_speed", "ramp_fraction"}},
+    {std::string(stage_isotropic_compaction), {"relative_density", "mean_stress", "wall_speed", "ramp_fraction"}},
     {std::string(stage_isotropic_unloading), {"mean_stress", "wall_speed", "ramp_fraction"}},
     {std::string(stage_grip), {"axis", "grip_depth", "lateral", "displacement", "sliding", "speed", "ramp_fraction"}},
     {std::string(stage_hold), {"duration"}},
+    {std::string(stage_unconfined),
+     {"wall_speed", "ramp_fraction", "axial_strain", "axial_stress", "stress_drop", "dissipation_ratio", "duration"}},
+    {std::string(stage_triaxial),
+     {"wall_speed", "servo_speed", "ramp_fraction", "hold", "lateral_stress", "axial_strain", "axial_stress",
+      "deviatoric_stress", "stress_drop", "dissipation_ratio", "duration"}},
+    {std::string(stage_die),
+     {"wall_speed", "ramp_fraction", "axial_strain", "relative_density", "axial_stress", "dissipation_ratio",
+      "duration"}},
+    {std::string(stage_probe),
+     {"wall_speed", "servo_speed", "ramp_fraction", "direction", "axial_strain", "mean_stress", "deviatoric_stress",
+      "dissipation_ratio", "duration"}},
+    {std::string(stage_cycles), {"wall_speed", "ramp_fraction", "lowest_mean_stress", "highest_mean_stress", "cycles"}},
 };
+
+/// The keys that end a loading, of those that the stage's type allows.
+LoadingEnds read_ends(TableReader& table, std::string_view type) {
+  constexpr Range strain{.low = -0.5, .high = 0.5}; // beyond, walls that were never to come so far are a slip
+  LoadingEnds ends;
+  ends.axial_strain = table.optional_number("axial_strain", strain);
+  if (ends.axial_strain == 0.0) table.fail("axial_strain", "found 0, allowed > 0 (compression) or < 0 (extension)");
+  ends.relative_density = table.optional_number("relative_density", target_density);
+  ends.axial_stress = table.optional_number("axial_stress", non_negative);
+  ends.mean_stress = table.optional_number("mean_stress", non_negative);
+  ends.deviatoric_stress = table.optional_number("deviatoric_stress");
+  ends.stress_drop = table.optional_number("stress_drop", {.low = 0, .high = 1, .low_open = true, .high_open = true});
+  ends.dissipation_ratio = table.optional_number("dissipation_ratio", {.low = 1, .low_open = true});
+  ends.duration = table.optional_number("duration", positive);
+  if (!ends.axial_strain && !ends.relative_density && !ends.axial_stress && !ends.mean_stress &&
+      !ends.deviatoric_stress && !ends.stress_drop && !ends.dissipation_ratio && !ends.duration)
+    table.fail("type", fmt::format("found '{}' without an end, expected at least one of axial_strain, "
+                                   "dissipation_ratio, duration and the other ends of that type",
+                                   type));
+  return ends;
+}
+
+std::array<double, 2> read_direction(TableReader& table) {
+  const std::vector<double> direction = table.numbers("direction");
+  if (direction.size() != 2 || (direction[0] == 0 && direction[1] == 0))
+    table.fail("direction", "expected two numbers, [dp, dq], not both 0");
+  return {direction[0], direction[1]};
+}
+
+WallLoading read_loading(TableReader& table, std::string_view type) {
+  WallLoading loading;
+  loading.wall_speed = table.number("wall_speed", positive);
+  loading.ramp_fraction = table.number_or("ramp_fraction", loading.ramp_fraction, Range::between(0, 0.5));
+  if (type == stage_isotropic_compaction) {
+    loading.path = LoadingPath::isotropic;
+    loading.ends.mean_stress = table.number("mean_stress", positive);
+  } else if (type == stage_cycles) {
+    loading.path = LoadingPath::cycles;
+    loading.highest_mean_stress = table.number("highest_mean_stress", positive);
+    loading.lowest_mean_stress =
+        table.number("lowest_mean_stress", {.low = 0, .high = loading.highest_mean_stress, .high_open = true});
+    loading.cycles = table.integer("cycles", Range::between(1, 1e4));
+  } else {
+    // A packing that dilates moves its lateral walls faster than its axial ones.
+    constexpr double servo_speed = 3;
+    loading.servo_speed = table.number_or("servo_speed", servo_speed * loading.wall_speed, positive);
+    loading.path = type == stage_unconfined ? LoadingPath::unconfined
+                   : type == stage_triaxial ? LoadingPath::triaxial
+                   : type == stage_die      ? LoadingPath::die
+                                            : LoadingPath::probe;
+    if (type == stage_triaxial) {
+      loading.hold_force = table.choice_or("hold", "force", {"force", "stress"}) == "force";
+      loading.lateral_stress = table.optional_number("lateral_stress", positive);
+    }
+    if (type == stage_probe) loading.direction = read_direction(table);
+    loading.ends = read_ends(table, type);
+  }
+  return loading;
+}
 
 GripMotion read_grip(TableReader& table) {
   GripMotion grip;
@@ -235,7 +321,10 @@ Stage read_stage(TableReader table, std::size_t number) {
   for (const auto& [name, keys] : stage_keys)
     if (name == type) refuse_foreign_keys(table, all_keys, keys, fmt::format("type = '{}'", type));
 
-  if (type == stage_isotropic_compaction) {
+  if (type == stage_isotropic_compaction && table.has("mean_stress")) {
+    if (table.has("relative_density")) table.fail("mean_stress", "has no meaning with 'relative_density'");
+    stage.loading = read_loading(table, type);
+  } else if (type == stage_isotropic_compaction) {
     IsotropicCompaction compaction;
     compaction.relative_density = table.number("relative_density", target_density);
     compaction.wall_speed = table.number("wall_speed", positive);
@@ -249,8 +338,10 @@ Stage read_stage(TableReader table, std::size_t number) {
     stage.isotropic_unloading = unloading;
   } else if (type == stage_grip) {
     stage.grip = read_grip(table);
-  } else {
+  } else if (type == stage_hold) {
     stage.hold = Hold{.duration = table.number("duration", positive)};
+  } else {
+    stage.loading = read_loading(table, type);
   }
   stage.damping = read_damping(table);
   table.finish();
@@ -276,7 +367,7 @@ std::vector<Stage> read_stages(TableReader& root) {
 void check_walls(const TableReader& root, const Scenario& scenario) {
   if (scenario.walls) return;
   for (const Stage& stage : scenario.stages)
-    if (stage.isotropic_compaction || stage.isotropic_unloading)
+    if (stage.isotropic_compaction || stage.isotropic_unloading || stage.loading)
       root.fail("walls", fmt::format("found false, expected true, since stage '{}' moves the walls", stage.name));
 }
 

@@ -3,6 +3,7 @@
 // only.
 
 #include <array>
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
@@ -82,7 +83,8 @@ struct OutputParameters {
   int history_rows = 200;                          ///< rows per stage
   std::vector<double> snapshot_relative_densities; ///< a snapshot when the density first passes each of these
   bool snapshot_at_stage_end = true;
-  double checkpoint_interval = 60; ///< s of wall-clock time between rolling checkpoints
+  std::vector<double> checkpoint_relative_densities; ///< a checkpoint that stays when the density first passes each
+  double checkpoint_interval = 60;                   ///< s of wall-clock time between rolling checkpoints
 };
 
 /// Isotropic compaction by six walls to a relative density; smooth start and end.
@@ -115,6 +117,44 @@ struct Hold {
   double duration = 0; ///< s
 };
 
+/// What the walls of a stage do whose end is not a matter of time: some are driven, some are held at a stress.
+enum class LoadingPath {
+  isotropic,  ///< all walls together, to a mean stress
+  cycles,     ///< all walls together, between two mean stresses
+  unconfined, ///< x and y walls away, z walls driven
+  triaxial,   ///< x and y walls held at a stress or force, z walls driven
+  die,        ///< x and y walls at rest, z walls driven
+  probe,      ///< all walls held on a straight path of mean and deviatoric stress
+};
+
+/// What ends a loading: the first of those that are given. Strains are logarithmic, since the stage began, compression
+/// positive; stresses are those of the walls, MPa.
+struct LoadingEnds {
+  std::optional<double> axial_strain;      ///< negative: the walls move apart
+  std::optional<double> relative_density;  ///< reference grain volume over box volume
+  std::optional<double> axial_stress;      ///< MPa
+  std::optional<double> mean_stress;       ///< MPa
+  std::optional<double> deviatoric_stress; ///< MPa
+  std::optional<double> stress_drop; ///< fall below the peak of the axial stress (unconfined) or of |q|, over the peak
+  std::optional<double> dissipation_ratio; ///< plastic and damage dissipation over its value when the stage began
+  std::optional<double> duration;          ///< s
+};
+
+/// Driven and servo-held walls.
+struct WallLoading {
+  LoadingPath path = LoadingPath::isotropic;
+  double wall_speed = 0;      ///< largest speed of every driven wall, and of a probe, mm/s
+  double servo_speed = 0;     ///< largest speed of every held wall, mm/s
+  double ramp_fraction = 0.1; ///< of the time of the whole way (of 5 % of strain where that is not known) to full speed
+  bool hold_force = true;     ///< triaxial: the lateral walls' force is held; false: their stress
+  std::optional<double> lateral_stress; ///< triaxial, MPa: to be held; none: what acts when the stage begins
+  std::array<double, 2> direction{};    ///< probe: of the path, in mean and deviatoric stress
+  double lowest_mean_stress = 0;        ///< cycles, MPa
+  double highest_mean_stress = 0;       ///< cycles, MPa
+  std::int64_t cycles = 0;              ///< up and down again
+  LoadingEnds ends;
+};
+
 /// Mass-proportional damping of each grain's velocity relative to the affine velocity at the grain's centre. It fades
 /// from full at mean stress 0 to nothing at `fade_stress`.
 struct DampingParameters {
@@ -128,6 +168,7 @@ struct Stage {
   std::optional<IsotropicUnloading> isotropic_unloading;
   std::optional<GripMotion> grip;
   std::optional<Hold> hold;
+  std::optional<WallLoading> loading;
   DampingParameters damping;
 };
 

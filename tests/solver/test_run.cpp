@@ -66,6 +66,62 @@ fracture_energy = 0.05
 rebond = "on_contact"
 )";
 
+/// With bonds and every kind of loading: walls held by servos, taken away, and back.
+const std::string loading_text = R"(packing = "packing.h5"
+[material]
+density = 1.55e-9
+youngs_modulus = 5000
+poissons_ratio = 0.3
+[material.hardening]
+law = "power"
+yield_stress = 25
+coefficient = 125
+exponent = 0.3
+[bond]
+tensile_strength = 25
+shear_strength = 18
+fracture_energy = 0.05
+[output]
+history_rows = 10
+checkpoint_relative_densities = [0.5, 0.61]
+[[stages]]
+name = "compaction"
+type = "isotropic_compaction"
+mean_stress = 20
+wall_speed = 20000
+damping_rate = 1e6
+damping_fade_stress = 5
+[[stages]]
+name = "cycles"
+type = "stress_cycles"
+lowest_mean_stress = 5
+highest_mean_stress = 20
+cycles = 1
+wall_speed = 10000
+[[stages]]
+name = "triaxial"
+type = "triaxial_compression"
+wall_speed = 5000
+axial_strain = 0.02
+[[stages]]
+name = "probe"
+type = "probe"
+direction = [1, -1]
+wall_speed = 3000
+dissipation_ratio = 1.005
+[[stages]]
+name = "unconfined"
+type = "unconfined_compression"
+wall_speed = 10000
+axial_strain = 0.03
+stress_drop = 0.5
+[[stages]]
+name = "die"
+type = "die_compression"
+wall_speed = 10000
+duration = 2e-6
+)";
+
 /// Packing and scenario of eight grains in a folder.
 void prepare(const Folder& folder, int cells = 4, const std::string& text = scenario_text) {
   write_packing(folder / "packing.h5", eight_grains(cells), std::vector<double>(8, 0.1));
@@ -168,6 +224,135 @@ TEST_CASE("a run with bonds, unloading and grips is bitwise the same on one, two
   const schema::FileReader file(folder / "run.h5", schema::FileKind::run);
   CHECK(file.read(schema::run::history_bonds).back() > 0);
   CHECK(file.read(schema::run::history_damage_dissipation).back() > 0);
+}
+
+TEST_CASE("a run through every loading is bitwise the same on one, two and four threads") {
+  check_threads(loading_text, 3);
+}
+
+TEST_CASE("a run through every loading that is stopped and resumed ends bitwise as if it had not been") {
+  check_resuming(loading_text, 4);
+}
+
+TEST_CASE("a run says what ended its stages, and how well stresses were held") {
+  const Folder folder;
+  prepare(folder, 3, loading_text);
+  const Outcome plan = mpfem_command(fmt::format("check {}", folder / "scenario.toml"));
+  CHECK(plan.exit_code == 0);
+  CHECK_THAT(plan.output, Catch::Contains("held at constant force") && Catch::Contains("x and y walls away"));
+  const Outcome outcome = mpfem_command(fmt::format("run {} -o {}", folder / "scenario.toml", folder / "run.h5"));
+  REQUIRE(outcome.exit_code == 0);
+  CHECK_THAT(outcome.messages, Catch::Contains("stage 'triaxial' ended by axial strain 0.02; stresses held within"));
+  CHECK(schema::validate(folder / "run.h5").empty());
+  const schema::FileReader file(folder / "run.h5", schema::FileKind::run);
+  const auto name = file.read(schema::run::provenance_stage_name), end = file.read(schema::run::provenance_stage_end);
+  REQUIRE(name == std::vector<std::string>{"compaction", "cycles", "triaxial", "probe", "unconfined", "die"});
+  CHECK(end[0] == "mean stress 20 MPa");
+  CHECK(end[1] == "1 cycle");
+  CHECK(end[5] == "duration 2e-06 s");
+  CHECK(file.read(schema::run::provenance_stage_hold_error)[2] > 0);
+  CHECK(file.read(schema::run::provenance_stage_hold_error)[5] == 0);
+  CHECK(file.read(schema::run::provenance_stage_overshoot)[0] > 0);
+}
+
+TEST_CASE("a compaction leaves checkpoints at densities, from which branches begin") {
+  const Folder folder;
+  const std::string slow = replaced(scenario_text, "wall_speed = 20000", "wall_speed = 4000");
+  prepare(folder, 3, replaced(slow, "[output]", "[output]\ncheckpoint_relative_densities = [0.3, 0.5, 0.61, 0.7]"));
+  REQUIRE(mpfem_command(fmt::format("run {} -o {} --quiet", folder / "scenario.toml", folder / "run.h5")).exit_code ==
+          0);
+  CHECK_FALSE(fs::exists(folder / "run.D0.300.checkpoint.h5")); // was never passed
+  CHECK(fs::exists(folder / "run.D0.500.checkpoint.h5"));
+  CHECK_FALSE(fs::exists(folder / "run.D0.700.checkpoint.h5"));
+  const std::string from = folder / "run.D0.610.checkpoint.h5";
+  CHECK(schema::validate(from).empty());
+  // The rest of the way is the same, apart from the walls' start and end, and what that shakes up in eight grains.
+  write_text(folder / "rest.toml", slow);
+  REQUIRE(mpfem_command(fmt::format("run {} -o {} --from {} --quiet", folder / "rest.toml", folder / "rest.h5", from))
+              .exit_code == 0);
+  const schema::FileReader whole(folder / "run.h5", schema::FileKind::run), rest(folder / "rest.h5");
+  const auto density = rest.read(schema::run::history_relative_density);
+  CHECK(density.front() == Approx(0.61).epsilon(1e-3)); // the step in which it was passed
+  CHECK(rest.read(schema::run::history_mean_stress).back() ==
+        Approx(whole.read(schema::run::history_mean_stress).back()).epsilon(0.1));
+  CHECK(rest.read(schema::run::history_plastic_dissipation).back() ==
+        Approx(whole.read(schema::run::history_plastic_dissipation).back()).epsilon(0.05));
+}
+
+TEST_CASE("a loading that cannot reach its end exits with 3 and keeps what was computed") {
+  const Folder folder;
+  prepare(folder, 3, scenario_text + R"(
+[[stages]]
+type = "probe"
+direction = [-1, 0]
+wall_speed = 10000
+dissipation_ratio = 2
+)");
+  const Outcome outcome =
+      mpfem_command(fmt::format("run {} -o {} --quiet", folder / "scenario.toml", folder / "run.h5"));
+  CHECK(outcome.exit_code == 3);
+  CHECK_THAT(outcome.messages, Catch::Contains("probe-2") && Catch::Contains("pull"));
+  CHECK(schema::validate(folder / "run.h5").empty());
+}
+
+TEST_CASE("a branch may have bonds of another law as long as none is damaged") {
+  const Folder folder;
+  prepare(folder, 3, replaced(loading_text, "[0.5, 0.61]", "[0.405]"));
+  REQUIRE(mpfem_command(fmt::format("run {} -o {} --quiet", folder / "scenario.toml", folder / "run.h5")).exit_code ==
+          0);
+  const auto branch = [&](const std::string& checkpoint, const std::string& set) {
+    return mpfem_command(fmt::format("run {} -o {} --quiet --from {} {}", folder / "scenario.toml",
+                                     folder / "branch.h5", folder / checkpoint, set));
+  };
+  const Outcome untouched = branch("run.D0.405.checkpoint.h5", "--set bond.fracture_energy=0.1");
+  INFO(untouched.messages);
+  CHECK(untouched.exit_code == 0);
+  const Outcome damaged = branch("run.cycles.checkpoint.h5", "--set bond.fracture_energy=0.1");
+  CHECK(damaged.exit_code == 2);
+  CHECK_THAT(damaged.messages, Catch::Contains("bonds of another law"));
+  CHECK(branch("run.D0.405.checkpoint.h5", "--set material.youngs_modulus=4000").exit_code == 2);
+}
+
+TEST_CASE("keys of loadings are checked like all others") {
+  const Folder folder;
+  prepare(folder, 2);
+  struct Case {
+    std::string stage;
+    std::vector<std::string> expected;
+  };
+  const std::vector<Case> cases = {
+      {"type = 'isotropic_compaction'\nwall_speed = 1\nmean_stress = 1\nrelative_density = 0.9",
+       {"mean_stress", "relative_density"}},
+      {"type = 'isotropic_compaction'\nwall_speed = 1", {"relative_density", "missing"}},
+      {"type = 'unconfined_compression'\nwall_speed = 1", {"without an end", "axial_strain"}},
+      {"type = 'unconfined_compression'\nwall_speed = 1\naxial_strain = 0", {"axial_strain", "found 0"}},
+      {"type = 'unconfined_compression'\nwall_speed = 1\naxial_strain = 2", {"axial_strain", "2"}},
+      {"type = 'unconfined_compression'\nwall_speed = 1\naxial_strain = 0.1\nhold = 'force'",
+       {"hold", "no meaning", "unconfined_compression"}},
+      {"type = 'unconfined_compression'\nwall_speed = 1\nstress_drop = 1", {"stress_drop", "< 1"}},
+      {"type = 'triaxial_compression'\nwall_speed = 1\naxial_strain = 0.1\nhold = 'strain'", {"hold", "strain"}},
+      {"type = 'die_compression'\nwall_speed = 1\nstress_drop = 0.5", {"stress_drop", "no meaning"}},
+      {"type = 'die_compression'\nwall_speed = 1e9\naxial_strain = 0.1", {"wall_speed", "allowed at most"}},
+      {"type = 'probe'\nwall_speed = 1\ndissipation_ratio = 1.1\ndirection = [1]", {"direction", "two numbers"}},
+      {"type = 'probe'\nwall_speed = 1\ndissipation_ratio = 1.1\ndirection = [0, 0]", {"direction", "not both 0"}},
+      {"type = 'probe'\nwall_speed = 1\ndissipation_ratio = 0.9\ndirection = [1, 0]", {"dissipation_ratio", "> 1"}},
+      {"type = 'stress_cycles'\nwall_speed = 1\nlowest_mean_stress = 5\nhighest_mean_stress = 5\ncycles = 1",
+       {"lowest_mean_stress", "5"}},
+      {"type = 'stress_cycles'\nwall_speed = 1\nlowest_mean_stress = 1\nhighest_mean_stress = 5\ncycles = 0",
+       {"cycles", "0"}},
+  };
+  for (const Case& c : cases) {
+    write_text(folder / "scenario.toml", scenario_text + "[[stages]]\n" + c.stage + "\n");
+    const Outcome outcome = mpfem_command("check " + (folder / "scenario.toml"));
+    INFO(c.stage << ": " << outcome.messages);
+    CHECK(outcome.exit_code == 2);
+    for (const std::string& part : c.expected) CHECK_THAT(outcome.messages, Catch::Contains(part));
+  }
+  write_text(folder / "scenario.toml",
+             replaced(scenario_text, "[output]", "[output]\ncheckpoint_relative_densities = [0.5, 0.5001]"));
+  const Outcome outcome = mpfem_command("check " + (folder / "scenario.toml"));
+  CHECK(outcome.exit_code == 2);
+  CHECK_THAT(outcome.messages, Catch::Contains("checkpoint_relative_densities") && Catch::Contains("0.001"));
 }
 
 TEST_CASE("a run that is stopped and resumed again and again ends bitwise as if it had not been") {
