@@ -1,5 +1,7 @@
 #include "solver/kernels/thread_team.hpp"
 
+#include <algorithm>
+
 #include <stdexcept>
 #include <utility>
 
@@ -62,7 +64,10 @@ void ThreadTeam::for_each(int count, const std::function<void(int item, int thre
   }
   body_ = &body;
   count_ = count;
+  // Neighbouring items on one thread, as far as the threads still end together.
+  chunk_ = std::clamp(count / (32 * size()), 1, 8);
   error_ = nullptr;
+  failed_.store(count, std::memory_order_relaxed);
   next_.store(0, std::memory_order_relaxed);
   busy_.store(static_cast<int>(workers_.size()), std::memory_order_relaxed);
   round_.fetch_add(1, std::memory_order_release); // publishes all of the above
@@ -86,17 +91,21 @@ void ThreadTeam::work(int thread) {
 }
 
 void ThreadTeam::run_items(int thread) {
-  for (int item = next_.fetch_add(1, std::memory_order_relaxed); item < count_;
-       item = next_.fetch_add(1, std::memory_order_relaxed)) {
-    try {
-      (*body_)(item, thread);
-    } catch (...) {
-      const std::lock_guard lock(error_mutex_);
-      if (!error_ || item < error_item_) {
-        error_ = std::current_exception();
-        error_item_ = item;
+  for (int begin = next_.fetch_add(chunk_, std::memory_order_relaxed); begin < count_;
+       begin = next_.fetch_add(chunk_, std::memory_order_relaxed)) {
+    for (int item = begin; item < std::min(begin + chunk_, count_); ++item) {
+      // Items below one that has failed still begin: the lowest failure is to be found.
+      if (item > failed_.load(std::memory_order_relaxed)) break;
+      try {
+        (*body_)(item, thread);
+      } catch (...) {
+        const std::lock_guard lock(error_mutex_);
+        if (item < failed_.load(std::memory_order_relaxed)) {
+          error_ = std::current_exception();
+          failed_.store(item, std::memory_order_relaxed);
+        }
+        next_.store(count_, std::memory_order_relaxed);
       }
-      next_.store(count_, std::memory_order_relaxed);
     }
   }
 }

@@ -10,7 +10,7 @@
 
 namespace mpfem {
 
-/// Runs loops over independent items on a fixed number of threads. Items are handed out one by one, so which thread
+/// Runs loops over independent items on a fixed number of threads. Items are handed out few by few, so which thread
 /// runs an item is not determined: an item must write to its own data only, and sums over items are made afterwards in
 /// item order, so that results do not depend on the number of threads.
 class ThreadTeam {
@@ -36,7 +36,7 @@ private:
 
   std::vector<std::thread> workers_;
   const std::function<void(int, int)>* body_ = nullptr;
-  int count_ = 0;
+  int count_ = 0, chunk_ = 1;
   // Apart, so that handing out items does not disturb threads that wait for the next round.
   alignas(64) std::atomic<int> next_{0};
   alignas(64) std::atomic<int> busy_{0};
@@ -44,7 +44,7 @@ private:
   std::atomic<bool> stop_{false};
   std::mutex error_mutex_;
   std::exception_ptr error_;
-  int error_item_ = 0;
+  std::atomic<int> failed_{0}; ///< the lowest item that has failed, count_ while none has
 };
 
 } // namespace mpfem

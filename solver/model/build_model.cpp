@@ -171,6 +171,26 @@ void refuse_shared_places(const Model& model, const std::string& name) {
                       name, places[i - 1].grain, places[i].grain, places[i].x[0], places[i].x[1], places[i].x[2]));
 }
 
+/// The grains along a Morton curve through the box. Contact, which reads every grain's neighbours, finds them in the cache
+/// when it takes the grains in this order.
+std::vector<Index> spatial_order(const Model& model) {
+  const double size = *std::max_element(model.box_high.begin(), model.box_high.end());
+  std::vector<std::pair<std::uint64_t, Index>> order;
+  for (Index g = 0; g < model.grains; ++g) {
+    const auto first = at(model.node_offset[at(g)]), count = at(model.surface_node_count[at(g)]);
+    Vector3<double> centre{0, 0, 0};
+    for (std::size_t n = first; n < first + count; ++n)
+      centre =
+          centre + (1.0 / static_cast<double>(count)) *
+                       Vector3<double>{model.position[4 * n], model.position[4 * n + 1], model.position[4 * n + 2]};
+    order.emplace_back(morton_key(centre, {0, 0, 0}, size), g);
+  }
+  std::sort(order.begin(), order.end());
+  std::vector<Index> grains;
+  for (const auto& [key, grain] : order) grains.push_back(grain);
+  return grains;
+}
+
 /// Sets model.refinement where the facets of some grain differ much in size.
 void find_refinement(Model& model) {
   constexpr double graded = 3; // largest over smallest h of one grain's nodes; unrefined balls have up to about 2
@@ -346,6 +366,7 @@ Model build_model(const MeshedPacking& packing, const Scenario& scenario, const 
       m = 1.0 / m;
     }
   }
+  model.spatial_order = spatial_order(model);
   model.element = scenario.numerics.element;
   model.uniform_penalty = scenario.contact.stiffness.has_value();
   if (model.element == ElementType::tet4_anp) {

@@ -49,6 +49,7 @@ struct Model {
   std::vector<std::int32_t> tet_offset;         ///< [grains + 1]
   std::vector<std::int32_t> block_offset;       ///< [grains + 1]
   std::vector<std::int32_t> facet_offset;       ///< [grains + 1]
+  std::vector<std::int32_t> spatial_order;      ///< [grains]: all of them, neighbours in space near each other
   std::vector<std::int32_t> facet;              ///< [facets * 3], outward counter-clockwise
   std::vector<std::int32_t> file_node;          ///< [nodes]: index in the packing file
   std::vector<std::int32_t> file_tet;           ///< [tets]: index in the packing file, in block order

@@ -271,12 +271,14 @@ void Simulation::evaluate_forces() {
     ++state_.searches;
     profile_.add_serial(Part::contact_search, Profile::since(start));
   }
-  team_.for_each(model_.grains, [&](int grain, int thread) {
+  team_.for_each(model_.grains, [&](int item, int thread) {
+    const int grain = model_.spatial_order[static_cast<std::size_t>(item)];
     Stopwatch watch(profile_, thread);
     contact_sums_[static_cast<std::size_t>(grain)] = contact_forces(model_, contact_, grain);
     watch.mark(Part::contact);
   });
-  team_.for_each(model_.grains, [&](int grain, int thread) {
+  team_.for_each(model_.grains, [&](int item, int thread) {
+    const int grain = model_.spatial_order[static_cast<std::size_t>(item)];
     const auto g = static_cast<std::size_t>(grain);
     Stopwatch watch(profile_, thread);
     contact_reactions(model_, contact_, grain);
