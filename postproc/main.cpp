@@ -1,6 +1,7 @@
 // postproc: numbers, tables and pictures from run files.
 
 #include <cmath>
+#include <optional>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -9,9 +10,10 @@
 #include "common/errors.hpp"
 #include "common/version.hpp"
 #include "postproc/contact.hpp"
+#include "postproc/contact_history.hpp"
 #include "postproc/contact_picture.hpp"
 #include "postproc/damage_section.hpp"
-#include "postproc/energy.hpp"
+#include "postproc/metric_commands.hpp"
 #include "postproc/section_picture.hpp"
 #include "postproc/summary.hpp"
 #include "postproc/text_file.hpp"
@@ -28,7 +30,8 @@ struct Arguments {
   int snapshot = -1;
   std::string axis = "z";
   double position = 0.5;
-  bool relative = false, quiet = false;
+  bool relative = false, quiet = false, history = false;
+  std::optional<int> stage;
   bool field_given = false;
   std::vector<double> range, view;
   std::vector<int> pair;
@@ -77,7 +80,21 @@ void contact_of_pair(const Arguments& arguments) {
   deliver(arguments, to_json(map).dump(2) + "\n");
 }
 
+void contact_through_run(const Arguments& arguments) {
+  if (!arguments.pair.empty()) throw InputError("found both of --pair and --history, allowed: one of them");
+  const schema::FileReader file = open_run(arguments);
+  const Measurement end = measure_contact(file, arguments.stage); // also refuses a stage that is not there
+  const bool as_json = arguments.output.ends_with(".json");
+  deliver(arguments, as_json ? to_json(end).dump(2) + "\n" : csv_text(contact_history(HistoryTable(file))));
+  if (!arguments.quiet) fmt::print(arguments.output.empty() ? stderr : stdout, "{}", to_text(end));
+}
+
 void contact(const Arguments& arguments) {
+  if (arguments.history) {
+    contact_through_run(arguments);
+    return;
+  }
+  if (arguments.stage) throw InputError("--stage: found without --history, allowed: with it");
   if (!arguments.pair.empty()) {
     contact_of_pair(arguments);
     return;
@@ -91,11 +108,6 @@ void contact(const Arguments& arguments) {
                "D_r {:.4f}, p {:.4g} MPa: {} pairs, coordination number {:.2f}, contact area over surface {:.4f}\n",
                table.relative_density, table.mean_stress, table.columns.front().values.size(),
                table.coordination_number, table.contact_area_ratio);
-}
-
-void energy(const Arguments& arguments) {
-  const schema::FileReader file = open_run(arguments);
-  deliver(arguments, csv_text(energy_ledger(HistoryTable(file))));
 }
 
 Snapshot read_state(const Arguments& arguments) {
@@ -165,6 +177,8 @@ int body(int argc, char** argv) {
       "  postproc section run.h5 --snapshot -1 --axis z --position 0.5 --relative --field von_mises -o section.png\n"
       "  postproc section run.h5 --field damage -o damage.png\n"
       "  postproc contact run.h5 --pair 3,17 --view contact.png\n"
+      "  postproc elastic-recovery run.h5 -o recovery.json   (and modulus, strength, yield, hysteresis, energy)\n"
+      "  postproc fit points.csv --x relative_density --y strength --model exponential -o fits.json\n"
       "  postproc vtk run.h5 -o vtk        (open vtk/run.pvd in ParaView)\n"
       "  postproc validate run.h5\n"
       "Exit codes: 0 done, 2 bad usage or input, 3 a picture could not be drawn, 4 storage failed.");
@@ -215,21 +229,25 @@ int body(int argc, char** argv) {
       "Contacts between grains at a snapshot: force and area of every pair, with bonds also their area, damage and\n"
       "energies. With --pair one contact in detail: its force, areas, damage and bonds.\n"
       "Example: postproc contact run.h5 --snapshot -1 -o contacts.csv\n"
-      "Example: postproc contact run.h5 --pair 3,17 -o contact.json --data bonds.csv --view damage.png",
+      "Example: postproc contact run.h5 --pair 3,17 -o contact.json --data bonds.csv --view damage.png\n"
+      "Example: postproc contact run.h5 --history -o contacts.csv",
       false, "File to write, .json or .csv (default: CSV on standard output); with --pair JSON");
   add_run(*contact_command, true);
   add_snapshot(*contact_command);
   contact_command->add_option("--pair", arguments.pair, "Two grains, by comma: their contact in detail")
       ->delimiter(',')
       ->expected(2);
+  contact_command->add_flag(
+      "--history", arguments.history,
+      "All contacts together through the run: areas, coordination, damage, a row a history row; with "
+      "-o FILE.json at the end of a stage");
+  contact_command->add_option(
+      "--stage", arguments.stage,
+      "With --history: stage as in the scenario, from 0; negative from the end (default: the last)");
   contact_command->add_option("--data", arguments.data, "With --pair: CSV file to write, a row a bond");
   contact_command->add_option("--view", arguments.contact_picture,
                               "With --pair: PNG file to write, damage in the contact's plane");
   add_drawing(*contact_command, "With --view: ", "the grains and the relative density", "the nodes' patches");
-  CLI::App* energy_command =
-      add("energy", "The energy ledger over time, as CSV.\nExample: postproc energy run.h5 -o energy.csv", false,
-          "CSV file to write (default: standard output)");
-  add_run(*energy_command, true);
   CLI::App* vtk_command = add("vtk",
                               "Snapshots for ParaView.\nExample: postproc vtk run.h5 -o vtk\nExample: postproc vtk "
                               "--packing packing.h5 -o packing.vtu",
@@ -272,6 +290,7 @@ int body(int argc, char** argv) {
   section_command->add_option(
       "--data", arguments.data,
       "Also write the section's polygons as CSV; of damage the cut boundaries, a row a segment");
+  const MetricCommands metrics(app);
   CLI::App* validate_command =
       app.add_subcommand("validate", "Hold files to the results schema.\nExample: postproc validate run.h5 packing.h5");
   validate_command->add_option("files", arguments.files, "Files of any kind (HDF5)")->required();
@@ -291,9 +310,9 @@ int body(int argc, char** argv) {
   if (summary_command->parsed()) summary(arguments);
   if (curve_command->parsed()) curve(arguments);
   if (contact_command->parsed()) contact(arguments);
-  if (energy_command->parsed()) energy(arguments);
   if (vtk_command->parsed()) vtk(arguments);
   if (section_command->parsed()) section(arguments);
+  metrics.run();
   if (validate_command->parsed()) validate_files(arguments);
   return 0;
 }

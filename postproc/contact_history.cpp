@@ -1,0 +1,70 @@
+#include "postproc/contact_history.hpp"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "postproc/stages.hpp"
+#include "postproc/statistics.hpp"
+
+namespace mpfem {
+
+std::vector<Column> contact_history(const HistoryTable& history) {
+  std::vector<Column> columns;
+  for (const char* name : {"time", "stage", "relative_density", "mean_stress", "axial_strain"})
+    columns.push_back(history.column(name));
+  const auto ratio = [&](const char* area, const char* name) {
+    Column column{name, "1", {}};
+    for (std::size_t row = 0; row < history.rows(); ++row) {
+      const double surface = history["surface_area"][row];
+      column.values.push_back(surface > 0 ? history[area][row] / surface : 0.0);
+    }
+    columns.push_back(std::move(column));
+  };
+  ratio("contact_area", "contact_area_ratio");
+  ratio("bonded_area", "bonded_area_ratio");
+  for (const char* name : {"coordination_number", "bonds", "mean_damage", "damage_dissipation"})
+    columns.push_back(history.column(name));
+  return columns;
+}
+
+Measurement measure_contact(const schema::FileReader& file, std::optional<int> number) {
+  const HistoryTable history(file);
+  const auto stages = stages_of(history, scenario_facts(file));
+  const StageRows& stage = choose_stage(stages, number, {}, file.path());
+  const std::vector<Column> columns = contact_history(history);
+  const auto column = [&](std::string_view name) -> const std::vector<double>& {
+    return std::find_if(columns.begin(), columns.end(), [&](const Column& c) { return c.name == name; })->values;
+  };
+  const auto& ratio = column("contact_area_ratio");
+  Measurement m;
+  m.metric = "contact";
+  m.value = ratio[stage.last];
+  m.window.stage = stage.number;
+  m.window.stage_type = stage.type;
+  m.window.first_row = std::max(stage.first, stage.last < 4 ? std::size_t{0} : stage.last - 4);
+  m.window.last_row = stage.last;
+  if (const std::size_t rows = stage.last + 1 - m.window.first_row; rows > 2) {
+    std::vector<double> number_of_row(rows);
+    for (std::size_t i = 0; i < rows; ++i) number_of_row[i] = static_cast<double>(i);
+    m.uncertainty =
+        least_squares_line(number_of_row, std::span<const double>(ratio).subspan(m.window.first_row, rows)).scatter;
+  }
+  m.uncertainty_meaning = "standard deviation of the stage's last five rows about their line; not that of the mesh";
+  m.window.strain = range_of(history["axial_strain"], m.window.first_row, m.window.last_row);
+  m.window.stress_name = "mean_stress";
+  m.window.stress = range_of(history["mean_stress"], m.window.first_row, m.window.last_row);
+  m.method =
+      "area of grain surface in contact with other grains over total grain surface, at the stage's last row; axial "
+      "strain since the run began";
+  for (const char* name : {"contact_area_ratio", "bonded_area_ratio", "coordination_number", "bonds", "mean_damage",
+                           "damage_dissipation", "relative_density", "mean_stress"}) {
+    m.details[fmt::format("{}_at_start", name)] = column(name)[stage.first];
+    m.details[fmt::format("{}_at_end", name)] = column(name)[stage.last];
+  }
+  m.brief = fmt::format("contact area over surface, coordination number {:.2f}, mean damage {:.3g}",
+                        column("coordination_number")[stage.last], column("mean_damage")[stage.last]);
+  return m;
+}
+
+} // namespace mpfem

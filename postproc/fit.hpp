@@ -1,0 +1,59 @@
+#pragma once
+// Fits of the correlations that compaction studies draw through their points.
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include <nlohmann/json.hpp>
+
+namespace mpfem {
+
+/// Points of a fit, as many values in each; z for surfaces only.
+struct FitPoints {
+  std::vector<double> x, y, z;
+  std::string path = "points"; ///< for messages
+};
+
+struct Coefficient {
+  std::string name;
+  double value = 0, low = 0, high = 0; ///< with its 95 % interval
+};
+
+struct Fit {
+  std::string model, formula;
+  std::string fitted_in = "y"; ///< "y" or "ln y": where squares are summed, and what r_squared is of
+  std::vector<Coefficient> coefficients;
+  double r_squared = 0;
+  double r_squared_of_y = 0; ///< of y itself, where ln y is fitted
+  double scatter = 0;        ///< standard deviation of the residuals, in `fitted_in`
+  std::size_t points = 0;
+  std::vector<std::string> notes;
+  std::function<double(double x, double z)> at; ///< y of the fitted model
+};
+
+/// Names of the models, in the order of the help.
+const std::vector<std::string>& fit_models();
+
+/// What a model is, for help texts: "linear: y = a + b x".
+std::string fit_help();
+
+/// Models (P = x is the porosity, or with `x_is_relative_density` 1 - x):
+///   linear                y = a + b x
+///   bilinear              two lines that meet at x = kink (paper, Fig. 10a)
+///   log-log               ln y = ln A + b ln x (Figs. 10b, 13b)
+///   exponential           y = A exp(B x) (Fig. 16b)
+///   inverse-exponential   y = A - B exp(-x / C) (Fig. 16a)
+///   spriggs               ln y = b - a P, y = E_p / E (Eq. 10 with the paper's offset b)
+///   ryshkewitch-duckworth y = sigma_0 exp(-B P) (Eq. 11)
+///   rumpf                 y = c (1 - P) / P, c = F / d^2 (Eq. 12)
+///   pc-gc-surface         y = A - B exp(-x / C) exp(-z / D), x = p_c, z = G^c (Eq. 13 with the sign of p_c mended)
+/// Models that are not linear in their coefficients are searched on a grid of those that enter otherwise, the rest solved
+/// linearly, then refined by Levenberg and Marquardt from the best grid points: no start values are needed.
+/// Throws InputError: unknown model, too few points, values outside a model's domain, points that do not determine a
+/// coefficient.
+Fit fit(const std::string& model, const FitPoints& points, bool x_is_relative_density = false);
+
+nlohmann::ordered_json to_json(const Fit& fit);
+
+} // namespace mpfem

@@ -1,0 +1,211 @@
+#include "postproc/hysteresis.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "common/errors.hpp"
+#include "common/one_line.hpp"
+#include "postproc/statistics.hpp"
+
+namespace mpfem {
+
+namespace {
+
+struct TurningPoint {
+  std::size_t row;
+  bool high;
+};
+
+std::vector<TurningPoint> turning_points(std::span<const double> p) {
+  const auto [low, high] = std::minmax_element(p.begin(), p.end());
+  const double threshold = 0.2 * (*high - *low);
+  std::vector<TurningPoint> points;
+  if (!(threshold > 0)) return points;
+  std::size_t lowest = 0, highest = 0;
+  for (std::size_t row = 0; row < p.size(); ++row) {
+    if (p[row] < p[lowest]) lowest = row;
+    if (p[row] > p[highest]) highest = row;
+    const bool may_be_low = points.empty() || points.back().high, may_be_high = points.empty() || !points.back().high;
+    if (may_be_low && p[row] > p[lowest] + threshold) {
+      points.push_back({lowest, false});
+      highest = row;
+    } else if (may_be_high && p[row] < p[highest] - threshold) {
+      points.push_back({highest, true});
+      lowest = row;
+    }
+  }
+  // The end is a turning point too: nothing went back from it because nothing came after.
+  if (!points.empty()) points.push_back(points.back().high ? TurningPoint{lowest, false} : TurningPoint{highest, true});
+  return points;
+}
+
+/// Where the stress first passes `stress` between two rows, rising or falling.
+Crossing crossing(std::span<const double> p, std::size_t begin, std::size_t end, double stress) {
+  for (std::size_t row = begin; row < end; ++row) {
+    const double change = p[row + 1] - p[row];
+    if (change != 0 && (stress - p[row]) * (stress - p[row + 1]) <= 0) return {row, (stress - p[row]) / change};
+  }
+  return {end, 0};
+}
+
+double area_with_stride(std::span<const double> p, std::span<const double> strain, CycleRows c, std::size_t stride) {
+  const double base = 0.5 * (p[c.begin] + p[c.end]);
+  double area = 0;
+  std::size_t row = c.begin;
+  while (row < c.end) {
+    // The turning points stay in: without them the loop would lose its tips, not its resolution.
+    const std::size_t stop = row < c.top ? c.top : c.end, next = std::min(row + stride, stop);
+    area += (0.5 * (p[row] + p[next]) - base) * (strain[next] - strain[row]);
+    row = next;
+  }
+  return area;
+}
+
+} // namespace
+
+std::vector<CycleRows> find_cycles(std::span<const double> p) {
+  const auto points = turning_points(p);
+  std::vector<CycleRows> cycles;
+  for (std::size_t i = 0; i + 2 < points.size(); ++i) {
+    if (points[i].high) continue;
+    // The last lowest point counts only where the stress has come down to where the cycle began, within the threshold.
+    const double rise = p[points[i + 1].row] - p[points[i].row], fall = p[points[i + 1].row] - p[points[i + 2].row];
+    if (fall > 0.8 * rise) cycles.push_back({points[i].row, points[i + 1].row, points[i + 2].row});
+  }
+  return cycles;
+}
+
+double loop_area(std::span<const double> mean_stress, std::span<const double> volumetric_strain, CycleRows cycle) {
+  return area_with_stride(mean_stress, volumetric_strain, cycle, 1);
+}
+
+Hysteresis hysteresis(std::span<const double> mean_stress, std::span<const double> volumetric_strain,
+                      std::span<const double> relative_density, std::span<const double> plastic_dissipation,
+                      std::span<const double> damage_dissipation, const std::string& path) {
+  Hysteresis h;
+  const auto cycles = find_cycles(mean_stress);
+  if (cycles.empty())
+    throw InputError(
+        fmt::format("{}: the mean stress makes no whole cycle, from low over high to low; allowed: a stage "
+                    "with one, or --stage N",
+                    one_line(path)));
+  h.low_stress = mean_stress[cycles.front().end];
+  h.high_stress = mean_stress[cycles.front().top];
+  for (const CycleRows& c : cycles) {
+    h.low_stress = std::max(h.low_stress, mean_stress[c.end]);
+    h.high_stress = std::min(h.high_stress, mean_stress[c.top]);
+  }
+  for (const CycleRows& c : cycles) {
+    CycleResult r;
+    r.rows = c;
+    r.lowest_stress = std::min(mean_stress[c.begin], mean_stress[c.end]);
+    r.highest_stress = mean_stress[c.top];
+    r.area = loop_area(mean_stress, volumetric_strain, c);
+    r.area_uncertainty = std::abs(area_with_stride(mean_stress, volumetric_strain, c, 2) - r.area);
+    const Crossing high = crossing(mean_stress, c.begin, c.top, h.high_stress);
+    const Crossing low = crossing(mean_stress, c.top, c.end, h.low_stress);
+    r.density_at_high = high.of(relative_density);
+    r.density_at_low = low.of(relative_density);
+    h.drift_uncertainty =
+        std::max({h.drift_uncertainty, high.half_spacing(relative_density), low.half_spacing(relative_density)});
+    r.plastic = plastic_dissipation[c.end] - plastic_dissipation[c.begin];
+    r.damage = damage_dissipation[c.end] - damage_dissipation[c.begin];
+    h.cycles.push_back(r);
+  }
+  const auto steps = static_cast<double>(h.cycles.size()) - 1;
+  if (steps > 0) {
+    const CycleResult &first = h.cycles.front(), &last = h.cycles.back();
+    h.drift_at_low = (last.density_at_low - first.density_at_low) / steps;
+    h.drift_at_high = (last.density_at_high - first.density_at_high) / steps;
+    h.drift_uncertainty *= 2 / steps;
+  }
+  return h;
+}
+
+std::vector<Column> cycle_table(const Hysteresis& h, std::size_t first_row) {
+  std::vector<Column> columns = {{"cycle", "1", {}},
+                                 {"first_row", "1", {}},
+                                 {"top_row", "1", {}},
+                                 {"last_row", "1", {}},
+                                 {"lowest_mean_stress", "MPa", {}},
+                                 {"highest_mean_stress", "MPa", {}},
+                                 {"loop_area", "MPa", {}},
+                                 {"loop_area_uncertainty", "MPa", {}},
+                                 {"relative_density_at_low_stress", "1", {}},
+                                 {"relative_density_at_high_stress", "1", {}},
+                                 {"plastic_dissipation", "mJ", {}},
+                                 {"damage_dissipation", "mJ", {}}};
+  for (std::size_t i = 0; i < h.cycles.size(); ++i) {
+    const CycleResult& c = h.cycles[i];
+    const double row[] = {static_cast<double>(i + 1),
+                          static_cast<double>(first_row + c.rows.begin),
+                          static_cast<double>(first_row + c.rows.top),
+                          static_cast<double>(first_row + c.rows.end),
+                          c.lowest_stress,
+                          c.highest_stress,
+                          c.area,
+                          c.area_uncertainty,
+                          c.density_at_low,
+                          c.density_at_high,
+                          c.plastic,
+                          c.damage};
+    for (std::size_t k = 0; k < columns.size(); ++k) columns[k].values.push_back(row[k]);
+  }
+  return columns;
+}
+
+HysteresisMeasurement measure_hysteresis(const schema::FileReader& file, std::optional<int> number) {
+  const HistoryTable history(file);
+  const auto stages = stages_of(history, scenario_facts(file));
+  StageRows stage = choose_stage(stages, number, {"stress_cycles"}, file.path());
+  if (!number && stage.type != "stress_cycles") stage = {-1, "", 0, history.rows() - 1};
+  const auto part = [&](const char* name) {
+    return std::span<const double>(history[name]).subspan(stage.first, stage.last + 1 - stage.first);
+  };
+  const Hysteresis h = hysteresis(part("mean_stress"), part("volumetric_strain"), part("relative_density"),
+                                  part("plastic_dissipation"), part("damage_dissipation"), file.path());
+  const CycleResult& last = h.cycles.back();
+  Measurement m;
+  m.metric = "hysteresis";
+  m.value = last.area;
+  m.unit = "MPa";
+  m.uncertainty = last.area_uncertainty;
+  m.uncertainty_meaning = "change of the area when every second row is left out";
+  m.window.stage = stage.number;
+  m.window.stage_type = stage.type;
+  m.window.first_row = stage.first + h.cycles.front().rows.begin;
+  m.window.last_row = stage.first + last.rows.end;
+  m.window.strain_name = "volumetric_strain";
+  m.window.strain = range_of(history["volumetric_strain"], m.window.first_row, m.window.last_row);
+  m.window.stress_name = "mean_stress";
+  m.window.stress = range_of(history["mean_stress"], m.window.first_row, m.window.last_row);
+  m.method =
+      "area of the last cycle's loop, integral of (p - p_low) over the volumetric strain (mJ/mm^3 = MPa); cycles "
+      "from lowest over highest to lowest mean stress";
+  m.details = {{"cycles", h.cycles.size()},
+               {"drift_of_relative_density_at_low_stress_per_cycle", h.drift_at_low},
+               {"drift_of_relative_density_at_high_stress_per_cycle", h.drift_at_high},
+               {"drift_uncertainty", h.drift_uncertainty},
+               {"low_stress_MPa", h.low_stress},
+               {"high_stress_MPa", h.high_stress}};
+  HysteresisMeasurement result;
+  result.cycles = cycle_table(h, stage.first);
+  for (const Column& column : result.cycles)
+    m.details["per_cycle"][column.unit == "1" ? column.name : fmt::format("{} [{}]", column.name, column.unit)] =
+        column.values;
+  m.brief = fmt::format(
+      "loop area of the last of {} cycles, drift of D_r per cycle {:+.2e} at {:.3g} MPa and {:+.2e} at {:.3g} "
+      "MPa, last cycle {:.3g} mJ plastic and {:.3g} mJ damage",
+      h.cycles.size(), h.drift_at_low, h.low_stress, h.drift_at_high, h.high_stress, last.plastic, last.damage);
+  const auto deviatoric = range_of(history["deviatoric_stress"], m.window.first_row, m.window.last_row);
+  if (std::max(-deviatoric[0], deviatoric[1]) > 0.1 * m.window.stress[1])
+    m.notes.push_back(fmt::format("the cycles are not isotropic: q is between {:.3g} and {:.3g} MPa in them",
+                                  deviatoric[0], deviatoric[1]));
+  if (h.cycles.size() == 1) m.notes.emplace_back("one whole cycle: no drift from cycle to cycle");
+  result.measurement = std::move(m);
+  return result;
+}
+
+} // namespace mpfem

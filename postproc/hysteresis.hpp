@@ -1,0 +1,61 @@
+#pragma once
+// What isotropic load cycles leave behind: loops, drift of the density, dissipation.
+
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "postproc/measurement.hpp"
+#include "postproc/stages.hpp"
+
+namespace mpfem {
+
+/// Rows of a cycle: from one lowest stress over the highest to the next lowest.
+struct CycleRows {
+  std::size_t begin = 0, top = 0, end = 0;
+};
+
+/// Cycles of a curve of the mean stress: turning points are those from which it goes back by more than a fifth of its whole
+/// range, so that noise makes none. The first row is a lowest point where the stress rises from it; a beginning or an end
+/// that makes no whole cycle is left out.
+std::vector<CycleRows> find_cycles(std::span<const double> mean_stress);
+
+/// Area of the loop, integral of (p - p_0) over the volumetric strain (trapezoids), MPa = mJ/mm^3, where p_0 is the mean of
+/// both lowest stresses: a drift of the strain then counts for nothing where the loop is not closed.
+double loop_area(std::span<const double> mean_stress, std::span<const double> volumetric_strain, CycleRows cycle);
+
+struct CycleResult {
+  CycleRows rows;
+  double lowest_stress = 0, highest_stress = 0;   ///< MPa
+  double area = 0, area_uncertainty = 0;          ///< MPa; the latter from leaving out every second row
+  double density_at_low = 0, density_at_high = 0; ///< at the stresses that all cycles reach (see hysteresis)
+  double plastic = 0, damage = 0;                 ///< mJ, dissipated in the cycle
+};
+
+struct Hysteresis {
+  std::vector<CycleResult> cycles;
+  double low_stress = 0;  ///< MPa: highest of the lowest stresses; densities at low stress are read here, on unloading
+  double high_stress = 0; ///< MPa: lowest of the highest stresses; densities at high stress are read here, on loading
+  double drift_at_low = 0,
+         drift_at_high = 0;     ///< mean change of the relative density from cycle to cycle; 0 for one cycle
+  double drift_uncertainty = 0; ///< of both, from the spacing of rows
+};
+
+/// Curves row by row: MPa, 1 (compression positive), 1, mJ, mJ. Densities are read at common stresses because turning
+/// points overshoot by varying amounts, which would pass for a drift. Throws InputError naming `path` without a cycle.
+Hysteresis hysteresis(std::span<const double> mean_stress, std::span<const double> volumetric_strain,
+                      std::span<const double> relative_density, std::span<const double> plastic_dissipation,
+                      std::span<const double> damage_dissipation, const std::string& path);
+
+/// A row a cycle: rows of the history (`first_row` is that of the curves' first), stresses, area, densities, dissipation.
+std::vector<Column> cycle_table(const Hysteresis& hysteresis, std::size_t first_row);
+
+struct HysteresisMeasurement {
+  Measurement measurement;
+  std::vector<Column> cycles;
+};
+
+/// Of stage `number` (default: the last stress_cycles, else all rows). The value is the area of the last cycle's loop.
+HysteresisMeasurement measure_hysteresis(const schema::FileReader& file, std::optional<int> number);
+
+} // namespace mpfem

@@ -1,0 +1,44 @@
+#pragma once
+// A number read off a run: what it is, how well it is known, from which rows and by which rule.
+
+#include <array>
+#include <string>
+#include <vector>
+
+#include <nlohmann/json.hpp>
+
+namespace mpfem {
+
+/// Where a number was read. Ranges are of the rows used, lowest and highest.
+struct Window {
+  int stage = 0;                            ///< as in the scenario
+  std::string stage_type;                   ///< empty where it is not known
+  std::size_t first_row = 0, last_row = 0;  ///< rows of the history, both included
+  std::string strain_name = "axial_strain"; ///< which strain, counted from where `method` says
+  std::array<double, 2> strain{};           ///< 1
+  std::string stress_name = "axial_stress"; ///< which stress
+  std::array<double, 2> stress{};           ///< MPa
+};
+
+struct Measurement {
+  std::string metric;
+  double value = 0;
+  std::string unit = "1";
+  double uncertainty = 0;          ///< in the value's unit
+  std::string uncertainty_meaning; ///< what it covers
+  Window window;
+  std::string method;             ///< the rule in words, with the figures used
+  std::string brief;              ///< further numbers in words, for the line on the terminal
+  nlohmann::ordered_json details; ///< further numbers by name
+  std::vector<std::string> notes; ///< what a reader must know before using the number
+};
+
+nlohmann::ordered_json to_json(const Measurement& measurement);
+
+/// One line: "modulus: 1234 ± 56 MPa; BRIEF (stage 2, rows 401 … 433)".
+std::string to_text(const Measurement& measurement);
+
+/// Lowest and highest of values [first, last].
+std::array<double, 2> range_of(const std::vector<double>& values, std::size_t first, std::size_t last);
+
+} // namespace mpfem

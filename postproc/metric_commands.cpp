@@ -1,0 +1,291 @@
+#include "postproc/metric_commands.hpp"
+
+#include <algorithm>
+#include <functional>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include "common/errors.hpp"
+#include "common/one_line.hpp"
+#include "postproc/contact_history.hpp"
+#include "postproc/csv_file.hpp"
+#include "postproc/elastic_recovery.hpp"
+#include "postproc/energy.hpp"
+#include "postproc/energy_release.hpp"
+#include "postproc/fit.hpp"
+#include "postproc/hysteresis.hpp"
+#include "postproc/mean_radius.hpp"
+#include "postproc/modulus.hpp"
+#include "postproc/strength.hpp"
+#include "postproc/text_file.hpp"
+#include "postproc/yield_point.hpp"
+
+namespace mpfem {
+
+namespace {
+
+const auto positive = CLI::Range(1e-300, 1e300);
+const auto share = CLI::Range(0.0, 1.0);
+
+} // namespace
+
+struct MetricCommands::State {
+  std::string input, output, table, packing; ///< files
+  bool quiet = false;
+  std::optional<int> stage;
+  std::optional<double> youngs_modulus, mean_radius;
+  ModulusRule modulus;
+  std::vector<double> strain_range;
+  StrengthRule strength;
+  double yield_ratio = 1.003;
+  std::string x, y, z, curve;
+  std::vector<std::string> models;
+  bool x_is_relative_density = false;
+  std::vector<std::pair<CLI::App*, std::function<void()>>> commands;
+
+  schema::FileReader open_run() const { return {input, schema::FileKind::run}; }
+
+  CLI::App& add(CLI::App& app, const std::string& name, const std::string& help, const std::string& output_help,
+                std::function<void()> action) {
+    CLI::App* command = app.add_subcommand(name, help);
+    command->add_option("-o,--output", output, output_help);
+    command->add_flag("--quiet", quiet, "Nothing but the result");
+    commands.emplace_back(command, std::move(action));
+    return *command;
+  }
+
+  /// A command on one stage of a run.
+  CLI::App& add_metric(CLI::App& app, const std::string& name, const std::string& help,
+                       const std::string& default_stage, std::function<void()> action,
+                       const std::string& output_help = "JSON file to write") {
+    CLI::App& command = add(app, name, help, output_help, std::move(action));
+    command.add_option("run", input, "Run file (HDF5)")->required();
+    command.add_option("--stage", stage,
+                       "Stage as in the scenario, from 0; negative from the end (default: " + default_stage + ")");
+    return command;
+  }
+
+  void deliver(const Measurement& m) const {
+    if (!output.empty()) write_file(output, to_json(m).dump(2) + "\n");
+    if (quiet) return;
+    fmt::print("{}", to_text(m));
+    for (const std::string& note : m.notes) fmt::print(stderr, "postproc: note: {}\n", note);
+  }
+
+  void run_energy() const;
+  void run_fit() const;
+};
+
+void MetricCommands::State::run_energy() const {
+  const schema::FileReader file = open_run();
+  if (!output.ends_with(".json")) {
+    const std::string ledger = csv_text(energy_ledger(HistoryTable(file)));
+    if (output.empty())
+      fmt::print("{}", ledger);
+    else
+      write_file(output, ledger);
+    return;
+  }
+  EnergyScale scale{youngs_modulus, mean_radius};
+  if (!scale.youngs_modulus) scale.youngs_modulus = scenario_facts(file).youngs_modulus;
+  if (!scale.mean_radius)
+    scale.mean_radius = packing.empty() ? mean_radius_of_run(file) : mean_radius_of_packing(packing);
+  deliver(measure_energy(file, stage, scale));
+}
+
+void MetricCommands::State::run_fit() const {
+  const auto columns = read_csv(input);
+  FitPoints points;
+  points.path = input;
+  points.x = csv_column(columns, x, input).values;
+  points.y = csv_column(columns, y, input).values;
+  if (!z.empty()) points.z = csv_column(columns, z, input).values;
+  std::vector<Fit> fits;
+  for (const std::string& model : models) fits.push_back(fit(model, points, x_is_relative_density));
+
+  const auto range = [](const std::vector<double>& values) { return range_of(values, 0, values.size() - 1); };
+  const auto with_unit = [&](const std::string& name) {
+    return nlohmann::ordered_json{{"column", name}, {"unit", csv_column(columns, name, input).unit}};
+  };
+  if (!curve.empty()) {
+    if (!z.empty()) throw InputError("--curve: found a surface, allowed: a model of x alone");
+    constexpr int intervals = 200;
+    std::vector<Column> table_of_curve = {csv_column(columns, x, input)};
+    table_of_curve[0].values.clear();
+    const auto [low, high] = range(points.x);
+    for (int i = 0; i <= intervals; ++i) table_of_curve[0].values.push_back(low + (high - low) * i / intervals);
+    for (const Fit& f : fits) {
+      table_of_curve.push_back({f.model, csv_column(columns, y, input).unit, {}});
+      for (const double at : table_of_curve[0].values) table_of_curve.back().values.push_back(f.at(at, 0));
+    }
+    write_file(curve, csv_text(table_of_curve));
+  }
+  nlohmann::ordered_json json = nlohmann::ordered_json::array();
+  for (const Fit& f : fits) {
+    nlohmann::ordered_json one = to_json(f);
+    one["x"] = with_unit(x);
+    one["x"]["range"] = range(points.x);
+    one["x"]["porosity_is_1_minus_x"] = x_is_relative_density;
+    one["y"] = with_unit(y);
+    one["y"]["range"] = range(points.y);
+    if (!z.empty()) {
+      one["z"] = with_unit(z);
+      one["z"]["range"] = range(points.z);
+    }
+    json.push_back(one);
+  }
+  if (!output.empty()) write_file(output, json.dump(2) + "\n");
+  if (quiet) return;
+  for (const Fit& f : fits) {
+    std::string text;
+    for (const Coefficient& c : f.coefficients)
+      text += fmt::format("{} = {:.5g} [{:.4g}, {:.4g}], ", c.name, c.value, c.low, c.high);
+    fmt::print("{}: {}; {}R^2 = {:.4f} of {}, {} points\n", f.model, f.formula, text, f.r_squared, f.fitted_in,
+               f.points);
+    for (const std::string& note : f.notes) fmt::print(stderr, "postproc: note: {}: {}\n", f.model, note);
+  }
+}
+
+MetricCommands::MetricCommands(CLI::App& app) : state_(std::make_unique<State>()) {
+  State& s = *state_;
+  s.add_metric(app, "elastic-recovery",
+               "How far a compact springs back: (D_max - D_min) / D_max (paper, Eq. 9).\n"
+               "Example: postproc elastic-recovery run.h5 -o recovery.json",
+               "the last isotropic_unloading, else the first after the densest row that unloads",
+               [&s] { s.deliver(measure_elastic_recovery(s.open_run(), s.stage)); });
+
+  CLI::App& modulus = s.add_metric(
+      app, "modulus",
+      "Young's modulus of a compact: slope of axial stress at the beginning of an axial reloading.\n"
+      "Example: postproc modulus run.h5 --stage -1 -o modulus.json\n"
+      "Example: postproc modulus run.h5 --strain-range 0,0.002",
+      "the last unconfined_compression, else the last", [&s] {
+        if (!s.strain_range.empty()) {
+          if (!(s.strain_range[1] > s.strain_range[0]))
+            throw InputError(fmt::format("--strain-range: found {:g},{:g}, allowed: low,high with low < high",
+                                         s.strain_range[0], s.strain_range[1]));
+          s.modulus.strain_range = {s.strain_range[0], s.strain_range[1]};
+        }
+        s.deliver(measure_modulus(s.open_run(), s.stage, s.modulus, s.youngs_modulus));
+      });
+  modulus
+      .add_option("--slope-change", s.modulus.slope_change,
+                  "Largest change of slope between the window's halves, share")
+      ->check(share)
+      ->capture_default_str();
+  modulus
+      .add_option("--damage-share", s.modulus.damage_share, "Largest damage dissipation over axial work in the window")
+      ->check(share)
+      ->capture_default_str();
+  modulus
+      .add_option("--stress-fraction", s.modulus.stress_fraction,
+                  "The window ends at this share of the rise to the peak")
+      ->check(share)
+      ->capture_default_str();
+  modulus
+      .add_option("--strain-range", s.strain_range,
+                  "low,high: axial strain since the stage began, in place of the rule")
+      ->delimiter(',')
+      ->expected(2);
+  modulus.add_option("--youngs-modulus", s.youngs_modulus, "Of the grains, MPa (default: the scenario's)")
+      ->check(positive);
+
+  CLI::App& strength = s.add_metric(
+      app, "strength",
+      "Strength: unconfined, the peak of the axial stress; triaxial, the peak of q, else q at an axial strain.\n"
+      "Example: postproc strength run.h5 -o strength.json\n"
+      "Example: postproc strength run.h5 --test triaxial --at-strain 0.1",
+      "the last unconfined_compression or triaxial_compression, else the last",
+      [&s] { s.deliver(measure_strength(s.open_run(), s.stage, s.strength)); });
+  static const std::map<std::string, StrengthTest> tests = {{"unconfined", StrengthTest::unconfined},
+                                                            {"triaxial", StrengthTest::triaxial}};
+  static const std::map<std::string, StrengthCriterion> criteria = {{"peak", StrengthCriterion::peak},
+                                                                    {"damage-onset", StrengthCriterion::damage_onset}};
+  strength
+      .add_option_function<std::string>(
+          "--test", [&s](const std::string& name) { s.strength.test = tests.at(name); },
+          "unconfined or triaxial (default: as the stage is)")
+      ->check(CLI::IsMember({"unconfined", "triaxial"}));
+  strength
+      .add_option_function<std::string>(
+          "--criterion", [&s](const std::string& name) { s.strength.criterion = criteria.at(name); },
+          "peak, or damage-onset: the stress where damage begins to grow (default: peak)")
+      ->check(CLI::IsMember({"peak", "damage-onset"}));
+  strength.add_option("--drop", s.strength.drop, "Fall after the largest stress that makes it a peak, share")
+      ->check(share)
+      ->capture_default_str();
+  strength
+      .add_option("--at-strain", s.strength.at_strain,
+                  "Axial strain since the stage began, where q has no peak by then")
+      ->check(positive)
+      ->capture_default_str();
+
+  CLI::App& yield = s.add_metric(
+      app, "yield",
+      "Yield point of a probe: where plastic and damage dissipation reach 1.003 times their value at its beginning.\n"
+      "Example: postproc yield probe.h5 -o yield.json",
+      "the last probe, else the last", [&s] { s.deliver(measure_yield(s.open_run(), s.stage, s.yield_ratio)); });
+  yield.add_option("--ratio", s.yield_ratio, "Of the dissipation at yield to that at the stage's beginning")
+      ->check(CLI::Range(1.0 + 1e-9, 100.0))
+      ->capture_default_str();
+
+  CLI::App& hysteresis =
+      s.add_metric(app, "hysteresis",
+                   "Isotropic load cycles: loop area, drift of the density and dissipation of each.\n"
+                   "Example: postproc hysteresis run.h5 -o hysteresis.json --cycles cycles.csv",
+                   "the last stress_cycles, else the whole run", [&s] {
+                     const HysteresisMeasurement result = measure_hysteresis(s.open_run(), s.stage);
+                     if (!s.table.empty()) write_file(s.table, csv_text(result.cycles));
+                     s.deliver(result.measurement);
+                   });
+  hysteresis.add_option("--cycles", s.table, "CSV file to write, a row a cycle");
+
+  CLI::App& energy = s.add_metric(
+      app, "energy",
+      "Energies: the ledger over time as CSV, or with -o FILE.json what an unloading releases and dissipates, also "
+      "over\n"
+      "E R^3 of the grains.\n"
+      "Example: postproc energy run.h5 -o energy.csv\n"
+      "Example: postproc energy run.h5 --packing packing.h5 -o energy.json",
+      "as for elastic-recovery", [&s] { s.run_energy(); },
+      "File to write, .json, or CSV with any other ending (default: CSV on standard output)");
+  energy.add_option("--youngs-modulus", s.youngs_modulus, "Of the grains, MPa (default: the scenario's)")
+      ->check(positive);
+  energy
+      .add_option("--mean-radius", s.mean_radius, "Of the grains, mm (default: from --packing, else from a snapshot)")
+      ->check(positive);
+  energy.add_option("--packing", s.packing, "Packing file (HDF5) to take the mean radius from");
+
+  CLI::App& fit = s.add(
+      app, "fit",
+      "Fits models to points of a CSV file: coefficients with their 95 % intervals and R^2.\nModels:\n" + fit_help() +
+          "Example: postproc fit strength.csv --x porosity --y strength --model "
+          "ryshkewitch-duckworth,rumpf -o fits.json\n"
+          "Example: postproc fit q.csv --x p_c --z G_c --y q --model pc-gc-surface",
+      "JSON file to write, a list of fits", [&s] { s.run_fit(); });
+  fit.add_option("points", s.input, "CSV file with a heading, \"name [unit],…\"")->required();
+  fit.add_option("--x", s.x, "Column, without its unit")->required();
+  fit.add_option("--y", s.y, "Column")->required();
+  fit.add_option("--z", s.z, "Column: G^c of pc-gc-surface");
+  fit.add_option("--model", s.models, "Models, by comma")->required()->delimiter(',');
+  fit.add_flag("--relative-density", s.x_is_relative_density, "x holds relative densities: the porosity P is 1 - x");
+  fit.add_option("--curve", s.curve, "CSV file to write: the fitted curves at 201 values of x");
+}
+
+MetricCommands::~MetricCommands() = default;
+
+void MetricCommands::run() const {
+  for (const auto& [command, action] : state_->commands) {
+    if (!command->parsed()) continue;
+    for (const std::string& out : {state_->output, state_->table, state_->curve})
+      for (const std::string& in : {state_->input, state_->packing}) refuse_overwriting(out, in);
+    action();
+  }
+}
+
+} // namespace mpfem

@@ -1,0 +1,183 @@
+#include "postproc/modulus.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <span>
+
+#include <fmt/format.h>
+
+#include "common/errors.hpp"
+#include "postproc/smoothing.hpp"
+#include "postproc/statistics.hpp"
+
+namespace mpfem {
+
+namespace {
+
+constexpr std::size_t shortest_window = 7;   // two halves with four rows each, the middle one shared
+constexpr std::size_t longest_window = 1500; // of Theil and Sen's pairs, about a million
+
+struct Halves {
+  double first = 0, second = 0, whole = 0; ///< slopes, MPa
+  double change() const { return std::abs(second - first); }
+};
+
+/// Rows [begin, end] of a curve.
+struct Rows {
+  std::size_t begin, end;
+  std::size_t count() const { return end - begin + 1; }
+  std::span<const double> of(const std::vector<double>& column) const {
+    return std::span<const double>(column).subspan(begin, count());
+  }
+};
+
+bool strain_rises(const StageCurve& c, Rows rows) {
+  const std::size_t middle = (rows.begin + rows.end) / 2;
+  return c.axial_strain[middle] > c.axial_strain[rows.begin] && c.axial_strain[rows.end] > c.axial_strain[middle];
+}
+
+Halves halves_of(const StageCurve& c, Rows rows) {
+  const std::size_t middle = (rows.begin + rows.end) / 2;
+  const auto slope = [&](Rows part) {
+    return least_squares_line(part.of(c.axial_strain), part.of(c.axial_stress)).slope;
+  };
+  return {slope({rows.begin, middle}), slope({middle, rows.end}), slope(rows)};
+}
+
+struct Choice {
+  Rows rows;
+  std::string limit; ///< what ends the window
+};
+
+Choice window_by_hand(const StageCurve& c, std::array<double, 2> range) {
+  std::size_t begin = 0, end = 0;
+  const auto peak = std::max_element(c.axial_strain.begin(), c.axial_strain.end()) - c.axial_strain.begin();
+  const auto rows = static_cast<std::size_t>(peak) + 1;
+  while (begin < rows && c.axial_strain[begin] < range[0]) ++begin;
+  end = begin;
+  while (end + 1 < rows && c.axial_strain[end + 1] <= range[1]) ++end;
+  if (begin >= rows || end + 1 < begin + 3 || !strain_rises(c, {begin, end}))
+    throw InputError(fmt::format("{}: --strain-range: found {:g},{:g} with fewer than 3 rows of stage {}, whose axial "
+                                 "strain ends at {:g}",
+                                 c.path, range[0], range[1], c.stage, c.axial_strain.back()));
+  return {{begin, end}, "the strain range given"};
+}
+
+Choice window_by_rule(const StageCurve& c, const ModulusRule& rule, std::string& note) {
+  if (c.rows() < shortest_window)
+    throw InputError(
+        fmt::format("{}: stage {} has {} rows, needed for a modulus: {}", c.path, c.stage, c.rows(), shortest_window));
+  const std::vector<double> smooth = smoothed(c.axial_stress).value;
+  const auto peak = static_cast<std::size_t>(std::max_element(smooth.begin(), smooth.end()) - smooth.begin());
+  const auto begin = static_cast<std::size_t>(
+      std::min_element(smooth.begin(), smooth.begin() + static_cast<std::ptrdiff_t>(peak) + 1) - smooth.begin());
+  if (peak + 1 < begin + shortest_window || !strain_rises(c, {begin, peak}))
+    throw InputError(
+        fmt::format("{}: stage {} is no axial loading: {} rows from its lowest axial stress to the highest, "
+                    "needed: {} with rising axial strain",
+                    c.path, c.stage, peak - begin + 1, shortest_window));
+
+  std::string limit = fmt::format("{:g} % of the rise in stress", 100 * rule.stress_fraction);
+  const double highest = smooth[begin] + rule.stress_fraction * (smooth[peak] - smooth[begin]);
+  std::size_t end = begin;
+  while (end < peak && smooth[end + 1] <= highest) ++end;
+  end = std::max(end, begin + shortest_window - 1);
+  for (std::size_t row = begin + shortest_window - 1; row <= end; ++row) {
+    const double damage = c.damage_dissipation[row] - c.damage_dissipation[begin];
+    if (damage > rule.damage_share * (c.axial_work[row] - c.axial_work[begin])) {
+      end = std::max(row - 1, begin + shortest_window - 1);
+      limit = fmt::format("damage above {:g} % of the axial work", 100 * rule.damage_share);
+      break;
+    }
+  }
+  for (std::size_t last = end; last + 1 >= begin + shortest_window; --last) {
+    if (!strain_rises(c, {begin, last})) continue;
+    const Halves slopes = halves_of(c, {begin, last});
+    if (slopes.change() > rule.slope_change * slopes.whole) continue;
+    if (last < end) limit = fmt::format("a change of slope above {:g} %", 100 * rule.slope_change);
+    return {{begin, last}, limit};
+  }
+  const Rows shortest{begin, begin + shortest_window - 1};
+  note = fmt::format("even over the first {} rows the slope changes by more than {:g} %", shortest_window,
+                     100 * rule.slope_change);
+  if (!strain_rises(c, shortest))
+    throw InputError(fmt::format("{}: stage {}: the axial strain does not rise over the {} rows after its lowest axial "
+                                 "stress",
+                                 c.path, c.stage, shortest_window));
+  return {shortest, "nothing: no window meets the rule"};
+}
+
+/// Every so many rows that Theil and Sen's pairs stay few.
+std::vector<double> thinned(std::span<const double> values) {
+  const std::size_t stride = (values.size() + longest_window - 1) / longest_window;
+  std::vector<double> kept;
+  for (std::size_t i = 0; i < values.size(); i += stride) kept.push_back(values[i]);
+  return kept;
+}
+
+} // namespace
+
+Measurement modulus(const StageCurve& c, const ModulusRule& rule) {
+  std::string note;
+  const Choice choice = rule.strain_range ? window_by_hand(c, *rule.strain_range) : window_by_rule(c, rule, note);
+  const Rows rows = choice.rows;
+  const Line line = theil_sen_line(thinned(rows.of(c.axial_strain)), thinned(rows.of(c.axial_stress)));
+  if (!(line.slope > 0))
+    throw InputError(fmt::format("{}: stage {}: the axial stress does not rise with the axial strain (slope {:.3g} MPa "
+                                 "over {} rows)",
+                                 c.path, c.stage, line.slope, rows.count()));
+  const Halves slopes = halves_of(c, rows);
+  Measurement m;
+  m.metric = "modulus";
+  m.value = line.slope;
+  m.unit = "MPa";
+  m.uncertainty = std::hypot(line.slope_half_width, slopes.change());
+  m.uncertainty_meaning = "half of the slope's 95 % interval and the difference of the halves' slopes, in quadrature";
+  m.window.stage = c.stage;
+  m.window.stage_type = c.type;
+  m.window.first_row = c.first_row + rows.begin;
+  m.window.last_row = c.first_row + rows.end;
+  m.window.strain = {c.axial_strain[rows.begin], c.axial_strain[rows.end]};
+  m.window.stress = range_of(c.axial_stress, rows.begin, rows.end);
+  m.method =
+      fmt::format("Theil-Sen slope of axial stress over {} rows from the lowest stress on; the window ends with {}",
+                  rows.count(), choice.limit);
+  m.details = {{"half_of_95_percent_interval_MPa", line.slope_half_width},
+               {"slope_of_first_half_MPa", slopes.first},
+               {"slope_of_second_half_MPa", slopes.second},
+               {"scatter_of_stress_MPa", line.scatter},
+               {"damage_over_axial_work", nullptr},
+               {"unconfined", c.unconfined},
+               {"relative_density_at_start", c.relative_density.front()}};
+  if (const double work = c.axial_work[rows.end] - c.axial_work[rows.begin]; work > 0)
+    m.details["damage_over_axial_work"] = (c.damage_dissipation[rows.end] - c.damage_dissipation[rows.begin]) / work;
+  m.brief = fmt::format("axial strain {:.4g} … {:.4g}, window ends with {}", m.window.strain[0], m.window.strain[1],
+                        choice.limit);
+  if (!note.empty()) m.notes.push_back(note);
+  if (!c.unconfined)
+    m.notes.emplace_back(
+        "the lateral walls carry load: the slope is no Young's modulus unless their stress is constant");
+  return m;
+}
+
+Measurement measure_modulus(const schema::FileReader& file, std::optional<int> number, const ModulusRule& rule,
+                            std::optional<double> youngs_modulus) {
+  const HistoryTable history(file);
+  const ScenarioFacts facts = scenario_facts(file);
+  const auto stages = stages_of(history, facts);
+  const StageRows& stage = choose_stage(stages, number, {"unconfined_compression"}, file.path());
+  Measurement m = modulus(stage_curve(history, stage, file.path()), rule);
+  const auto& density = history["relative_density"];
+  m.details["relative_density_max"] =
+      *std::max_element(density.begin(), density.begin() + static_cast<std::ptrdiff_t>(stage.first) + 1);
+  const std::optional<double> grains = youngs_modulus ? youngs_modulus : facts.youngs_modulus;
+  m.details["youngs_modulus_of_grains_MPa"] = nullptr;
+  m.details["modulus_over_grains"] = nullptr;
+  if (grains && *grains > 0) {
+    m.details["youngs_modulus_of_grains_MPa"] = *grains;
+    m.details["modulus_over_grains"] = m.value / *grains;
+  }
+  return m;
+}
+
+} // namespace mpfem

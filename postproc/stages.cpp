@@ -1,0 +1,82 @@
+#include "postproc/stages.hpp"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "common/errors.hpp"
+#include "common/one_line.hpp"
+#include "common/table_reader.hpp"
+
+namespace mpfem {
+
+ScenarioFacts scenario_facts(const schema::FileReader& file) {
+  ScenarioFacts facts;
+  try {
+    const TomlDocument document =
+        TomlDocument::from_text(file.read_scalar(schema::run::provenance_scenario), file.path());
+    facts.youngs_modulus = document.root().at_path("material.youngs_modulus").value<double>();
+    if (const toml::array* stages = document.root()["stages"].as_array())
+      for (const toml::node& stage : *stages) {
+        const toml::table* table = stage.as_table();
+        facts.stage_types.push_back(table ? (*table)["type"].value_or(std::string()) : std::string());
+      }
+  } catch (const InputError&) { // a scenario of another make: its metrics need more options, and no more than that
+    return {};
+  }
+  return facts;
+}
+
+std::vector<StageRows> stages_of(const HistoryTable& history, const ScenarioFacts& facts) {
+  std::vector<StageRows> stages;
+  const auto& number = history["stage"];
+  for (std::size_t row = 0; row < history.rows(); ++row) {
+    const int stage = static_cast<int>(number[row]);
+    if (stages.empty() || stages.back().number != stage) {
+      const auto index = static_cast<std::size_t>(stage);
+      stages.push_back({stage, stage >= 0 && index < facts.stage_types.size() ? facts.stage_types[index] : "",
+                        row > 0 ? row - 1 : 0, row});
+    }
+    stages.back().last = row;
+  }
+  return stages;
+}
+
+const StageRows& stage_by_number(const std::vector<StageRows>& stages, int number, std::string_view path) {
+  if (number < 0 && static_cast<std::size_t>(-static_cast<long>(number)) <= stages.size())
+    return stages[stages.size() - static_cast<std::size_t>(-static_cast<long>(number))];
+  const auto found = std::find_if(stages.begin(), stages.end(), [&](const StageRows& s) { return s.number == number; });
+  if (found != stages.end()) return *found;
+  std::vector<int> numbers;
+  for (const StageRows& stage : stages) numbers.push_back(stage.number);
+  throw InputError(fmt::format("{}: --stage: found {}, allowed: {} (or from the end, -1 … -{})", one_line(path), number,
+                               fmt::join(numbers, ", "), stages.size()));
+}
+
+const StageRows& choose_stage(const std::vector<StageRows>& stages, std::optional<int> number,
+                              const std::vector<std::string>& types, std::string_view path) {
+  if (number) return stage_by_number(stages, *number, path);
+  const auto found = std::find_if(stages.rbegin(), stages.rend(), [&](const StageRows& stage) {
+    return std::find(types.begin(), types.end(), stage.type) != types.end();
+  });
+  return found == stages.rend() ? stages.back() : *found;
+}
+
+const StageRows& choose_unloading(const std::vector<StageRows>& stages, std::optional<int> number,
+                                  const HistoryTable& history, std::string_view path) {
+  if (number) return stage_by_number(stages, *number, path);
+  const StageRows& last = choose_stage(stages, {}, {"isotropic_unloading"}, path);
+  if (last.type == "isotropic_unloading") return last;
+  const auto &density = history["relative_density"], &stress = history["mean_stress"];
+  const auto densest = static_cast<std::size_t>(std::max_element(density.begin(), density.end()) - density.begin());
+  for (const StageRows& stage : stages)
+    if (stage.last > densest && density[stage.last] < density[stage.first] && stress[stage.last] < stress[stage.first])
+      return stage;
+  throw InputError(
+      fmt::format("{}: no unloading: in no stage after the densest row do relative density and mean stress "
+                  "fall; allowed: a run that unloads, or --stage N",
+                  one_line(path)));
+}
+
+} // namespace mpfem

@@ -1,0 +1,46 @@
+#pragma once
+// The stages of a run: which rows of its history belong to each, and what its scenario says of them.
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "postproc/history_table.hpp"
+
+namespace mpfem {
+
+/// Rows of one stage. `first` is the state in which it begins: the last row of the stage before, or, where the history
+/// begins with it, its own first row.
+struct StageRows {
+  int number = 0;        ///< as in the scenario, from 0
+  std::string type;      ///< as in the scenario ("isotropic_unloading"); empty where it is not known
+  std::size_t first = 0; ///< row of the history
+  std::size_t last = 0;  ///< row of the history, included
+};
+
+/// What a metric needs of the scenario that a run file carries; nothing of it must be there.
+struct ScenarioFacts {
+  std::vector<std::string> stage_types;
+  std::optional<double> youngs_modulus; ///< of the grains, MPa
+};
+
+/// Never fails: of a text that cannot be read nothing is known.
+ScenarioFacts scenario_facts(const schema::FileReader& file);
+
+/// In the order of the history.
+std::vector<StageRows> stages_of(const HistoryTable& history, const ScenarioFacts& facts);
+
+/// Stage `number` as in the scenario; negative from the end (-1 the last). Throws InputError listing what there is.
+const StageRows& stage_by_number(const std::vector<StageRows>& stages, int number, std::string_view path);
+
+/// The stage asked for, else the last of one of these types, else the last of all.
+const StageRows& choose_stage(const std::vector<StageRows>& stages, std::optional<int> number,
+                              const std::vector<std::string>& types, std::string_view path);
+
+/// The stage asked for, else the last of type isotropic_unloading, else the first after the densest row of all in which
+/// density and mean stress both fall. Throws InputError where there is none.
+const StageRows& choose_unloading(const std::vector<StageRows>& stages, std::optional<int> number,
+                                  const HistoryTable& history, std::string_view path);
+
+} // namespace mpfem

@@ -1,0 +1,127 @@
+// Lines, smoothing, Student's t and least squares against closed forms and simulated noise.
+
+#include <catch2/catch.hpp>
+
+#include "postproc/least_squares.hpp"
+#include "postproc/smoothing.hpp"
+#include "stage_run.hpp"
+#include "tests/support/tolerances.hpp"
+
+using namespace mpfem;
+using namespace mpfem::test;
+
+TEST_CASE("Student's t has the values of the tables") {
+  // Abramowitz & Stegun, table 26.10, to the printed digits.
+  for (const auto& [freedom, value] : std::vector<std::pair<std::size_t, double>>{{1, 12.706},
+                                                                                  {2, 4.303},
+                                                                                  {3, 3.182},
+                                                                                  {4, 2.776},
+                                                                                  {5, 2.571},
+                                                                                  {10, 2.228},
+                                                                                  {30, 2.042},
+                                                                                  {60, 2.000},
+                                                                                  {120, 1.980},
+                                                                                  {100000, 1.960}})
+    CHECK(std::abs(student_t_95(freedom) - value) <= 5.1e-4);
+}
+
+TEST_CASE("a line through points on a line is that line, by both methods") {
+  std::vector<double> x, y;
+  for (int i = 0; i < 9; ++i) {
+    x.push_back(0.1 * i * i);
+    y.push_back(3 - 2 * x.back());
+  }
+  for (const Line& line : {least_squares_line(x, y), theil_sen_line(x, y)}) {
+    CHECK(within(line.slope, -2, accumulated_rounding));
+    CHECK(within(line.intercept, 3, accumulated_rounding));
+    CHECK(line.slope_half_width < 1e-10);
+  }
+}
+
+TEST_CASE("a quarter of outliers hardly moves Theil and Sen's slope") {
+  Noise noise(1);
+  std::vector<double> x, y;
+  for (int i = 0; i < 40; ++i) {
+    x.push_back(i);
+    y.push_back(2.0 * i + 0.1 * noise() + (i % 4 == 3 ? 1000.0 : 0.0));
+  }
+  // Pairs of a good with a bad point lean to both sides, slightly unevenly: the median moves by a few per cent where the
+  // least squares slope is wrong by more than a half.
+  CHECK(within(theil_sen_line(x, y).slope, 2, 0.05));
+  CHECK(std::abs(least_squares_line(x, y).slope - 2) > 0.5);
+}
+
+TEST_CASE(
+    "the 95 % interval of Theil and Sen's slope holds the slope in about 95 % of 400 trials, with ringing in most") {
+  for (const double memory : {0.0, 0.6}) {
+    Noise noise(7);
+    int held = 0;
+    for (int trial = 0; trial < 400; ++trial) {
+      std::vector<double> x, y;
+      double ringing = 0;
+      for (int i = 0; i < 60; ++i) {
+        ringing = memory * ringing + noise();
+        x.push_back(i);
+        y.push_back(0.5 * i + ringing);
+      }
+      const Line line = theil_sen_line(x, y);
+      held += std::abs(line.slope - 0.5) <= line.slope_half_width;
+    }
+    INFO(memory << ": " << held);
+    // 400 trials at 95 %: 380 +- 3 * 4.4. The estimate of the memory from 60 rows costs some coverage.
+    CHECK(held >= (memory > 0 ? 340 : 366));
+  }
+}
+
+TEST_CASE("local parabolas leave parabolas as they are, up to the ends, and halve white noise") {
+  std::vector<double> y, slope;
+  for (int i = 0; i < 30; ++i) {
+    y.push_back(1 - 0.3 * i + 0.02 * i * i);
+    slope.push_back(-0.3 + 0.04 * i);
+  }
+  const Smoothed smooth = local_parabolas(y, 4);
+  for (std::size_t i = 0; i < y.size(); ++i) {
+    CHECK(std::abs(smooth.value[i] - y[i]) < 1e-12);
+    CHECK(std::abs(smooth.slope[i] - slope[i]) < 1e-12);
+  }
+  Noise noise(3);
+  std::vector<double> white(2000);
+  for (double& value : white) value = noise();
+  const Smoothed calm = local_parabolas(white, 4);
+  double squares = 0;
+  for (std::size_t i = 4; i + 4 < white.size(); ++i) squares += calm.value[i] * calm.value[i];
+  // Variance at the middle of nine rows: 59/231 (Savitzky and Golay); 2000 rows give it to some per cent.
+  CHECK(within(squares / 1992, 59.0 / 231.0, 0.1));
+  CHECK(smoothing_half_rows(10) == 3);
+  CHECK(smoothing_half_rows(200) == 4);
+  CHECK(smoothing_half_rows(1000) == 20);
+}
+
+TEST_CASE("Levenberg and Marquardt's method finds the minimum of Rosenbrock's valley") {
+  const ResidualFunction rosenbrock = [](const Eigen::VectorXd& p, Eigen::VectorXd& residual,
+                                         Eigen::MatrixXd& jacobian) {
+    residual.resize(2);
+    jacobian.resize(2, 2);
+    residual << 10 * (p[1] - p[0] * p[0]), 1 - p[0];
+    jacobian << -20 * p[0], 10, -1, 0;
+    return true;
+  };
+  const auto solution = levenberg_marquardt(rosenbrock, Eigen::Vector2d(-1.2, 1));
+  REQUIRE(solution);
+  CHECK(within(solution->parameters[0], 1, 1e-8));
+  CHECK(within(solution->parameters[1], 1, 1e-8));
+  CHECK(solution->squares < 1e-16);
+}
+
+TEST_CASE("linear least squares have the textbook's interval, and none where columns depend on each other") {
+  const std::vector<double> x = {1, 2, 3, 4, 5}, y = {1.1, 1.9, 3.2, 3.8, 5.1};
+  Eigen::MatrixXd basis(5, 2);
+  for (int i = 0; i < 5; ++i) basis.row(i) << 1, x[static_cast<std::size_t>(i)];
+  const auto solution = linear_least_squares(basis, Eigen::Map<const Eigen::VectorXd>(y.data(), 5));
+  REQUIRE(solution);
+  const Line line = least_squares_line(x, y);
+  CHECK(within(solution->parameters[1], line.slope, accumulated_rounding));
+  CHECK(within(solution->half_width[1], line.slope_half_width, 1e-8));
+  basis.col(1) = 2 * basis.col(0);
+  CHECK_FALSE(linear_least_squares(basis, Eigen::VectorXd::Ones(5)));
+}
