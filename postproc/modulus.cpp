@@ -19,6 +19,7 @@ constexpr std::size_t longest_window = 1500; // of Theil and Sen's pairs, about 
 
 struct Halves {
   double first = 0, second = 0, whole = 0; ///< slopes, MPa
+  double deviation = 0;                    ///< of the difference of both, by the halves' own scatter
   double change() const { return std::abs(second - first); }
 };
 
@@ -38,10 +39,13 @@ bool strain_rises(const StageCurve& c, Rows rows) {
 
 Halves halves_of(const StageCurve& c, Rows rows) {
   const std::size_t middle = (rows.begin + rows.end) / 2;
-  const auto slope = [&](Rows part) {
-    return least_squares_line(part.of(c.axial_strain), part.of(c.axial_stress)).slope;
+  const auto line = [&](Rows part) { return least_squares_line(part.of(c.axial_strain), part.of(c.axial_stress)); };
+  const Line first = line({rows.begin, middle}), second = line({middle, rows.end});
+  const auto deviation = [&](const Line& half, std::size_t count) {
+    return count > 2 ? half.slope_half_width / student_t_95(count - 2) : 0.0;
   };
-  return {slope({rows.begin, middle}), slope({middle, rows.end}), slope(rows)};
+  return {first.slope, second.slope, line(rows).slope,
+          std::hypot(deviation(first, middle - rows.begin + 1), deviation(second, rows.end - middle + 1))};
 }
 
 struct Choice {
@@ -77,29 +81,45 @@ Choice window_by_rule(const StageCurve& c, const ModulusRule& rule, std::string&
                     "needed: {} with rising axial strain",
                     c.path, c.stage, peak - begin + 1, shortest_window));
 
-  std::string limit = fmt::format("{:g} % of the rise in stress", 100 * rule.stress_fraction);
+  const std::string limit = fmt::format("{:g} % of the rise in stress", 100 * rule.stress_fraction);
   const double highest = smooth[begin] + rule.stress_fraction * (smooth[peak] - smooth[begin]);
   std::size_t end = begin;
   while (end < peak && smooth[end + 1] <= highest) ++end;
   end = std::max(end, begin + shortest_window - 1);
-  for (std::size_t row = begin + shortest_window - 1; row <= end; ++row) {
-    const double damage = c.damage_dissipation[row] - c.damage_dissipation[begin];
-    if (damage > rule.damage_share * (c.axial_work[row] - c.axial_work[begin])) {
-      end = std::max(row - 1, begin + shortest_window - 1);
-      limit = fmt::format("damage above {:g} % of the axial work", 100 * rule.damage_share);
-      break;
+  const auto longest_from = [&](std::size_t first) -> std::optional<Choice> {
+    std::string ended_by = limit;
+    for (std::size_t last = end; last + 1 >= first + shortest_window; --last) {
+      const double damage = c.damage_dissipation[last] - c.damage_dissipation[first];
+      if (damage > rule.damage_share * (c.axial_work[last] - c.axial_work[first])) {
+        ended_by = fmt::format("damage above {:g} % of the axial work", 100 * rule.damage_share);
+        continue;
+      }
+      if (!strain_rises(c, {first, last})) continue;
+      const Halves slopes = halves_of(c, {first, last});
+      if (slopes.change() <= rule.slope_change * slopes.whole) return Choice{{first, last}, ended_by};
+      ended_by = fmt::format("a change of slope above {:g} %", 100 * rule.slope_change);
     }
+    return {};
+  };
+  // A toe, where the slope still grows over the first fifth of the rise, is no elastic response of the whole sample yet:
+  // the window begins at the first row from which it spans as much.
+  const double fifth = 0.2 * (smooth[peak] - smooth[begin]);
+  std::size_t toe_end = begin + shortest_window - 1;
+  while (toe_end < end && smooth[toe_end] < smooth[begin] + fifth) ++toe_end;
+  if (strain_rises(c, {begin, toe_end})) {
+    const Halves slopes = halves_of(c, {begin, toe_end});
+    if (slopes.second - slopes.first > rule.slope_change * slopes.whole + 2 * slopes.deviation)
+      for (std::size_t first = begin + 1; first + shortest_window <= end + 1; ++first)
+        if (const auto choice = longest_from(first);
+            choice && smooth[choice->rows.end] - smooth[choice->rows.begin] >= fifth) {
+          note = fmt::format("the slope grows at first: {} rows of this toe are left out", first - begin);
+          return *choice;
+        }
   }
-  for (std::size_t last = end; last + 1 >= begin + shortest_window; --last) {
-    if (!strain_rises(c, {begin, last})) continue;
-    const Halves slopes = halves_of(c, {begin, last});
-    if (slopes.change() > rule.slope_change * slopes.whole) continue;
-    if (last < end) limit = fmt::format("a change of slope above {:g} %", 100 * rule.slope_change);
-    return {{begin, last}, limit};
-  }
+  if (const auto choice = longest_from(begin)) return *choice;
   const Rows shortest{begin, begin + shortest_window - 1};
-  note = fmt::format("even over the first {} rows the slope changes by more than {:g} %", shortest_window,
-                     100 * rule.slope_change);
+  note = fmt::format("no window meets the rule for slope ({:g} %) and damage ({:g} %): the first {} rows",
+                     100 * rule.slope_change, 100 * rule.damage_share, shortest_window);
   if (!strain_rises(c, shortest))
     throw InputError(fmt::format("{}: stage {}: the axial strain does not rise over the {} rows after its lowest axial "
                                  "stress",
@@ -140,8 +160,7 @@ Measurement modulus(const StageCurve& c, const ModulusRule& rule) {
   m.window.strain = {c.axial_strain[rows.begin], c.axial_strain[rows.end]};
   m.window.stress = range_of(c.axial_stress, rows.begin, rows.end);
   m.method =
-      fmt::format("Theil-Sen slope of axial stress over {} rows from the lowest stress on; the window ends with {}",
-                  rows.count(), choice.limit);
+      fmt::format("Theil-Sen slope of axial stress over {} rows; the window ends with {}", rows.count(), choice.limit);
   m.details = {{"half_of_95_percent_interval_MPa", line.slope_half_width},
                {"slope_of_first_half_MPa", slopes.first},
                {"slope_of_second_half_MPa", slopes.second},

@@ -173,6 +173,23 @@ TEST_CASE("the window of the modulus ends before damage takes its share, and beg
   CHECK(narrow.window.last_row == 75);
 }
 
+TEST_CASE("a toe is left out of the modulus, and a note says so") {
+  const Folder folder;
+  // The slope grows from 300 to 1500 MPa up to a strain of 0.004, is even up to 0.02, and then falls.
+  const auto stress = [](double e) {
+    if (e < 0.004) return 300 * e + 0.5 * 300000 * e * e;
+    return e < 0.02 ? 3.6 + 1500 * (e - 0.004) : 27.6 + 200 * (e - 0.02);
+  };
+  for (unsigned seed = 1; seed <= 5; ++seed) {
+    const Measurement m = modulus(curve_of(folder, reloading(200, 0.03, stress, no_damage, 0.1, seed)), {});
+    INFO(seed << ": " << m.value << " from " << m.window.strain[0]);
+    CHECK(std::abs(m.value - 1500) <= m.uncertainty + 0.02 * 1500); // a rest of the toe within the rule's 5 %
+    REQUIRE(m.notes.size() == 1);
+    CHECK_THAT(m.notes.front(), Catch::Contains("toe"));
+    CHECK(m.window.strain[0] > 0.002);
+  }
+}
+
 TEST_CASE("outliers do not spoil a modulus") {
   const Folder folder;
   auto rows = reloading(
