@@ -1,33 +1,36 @@
-# awk -f gather.awk -v labels='a;1 b;2' -v header='name,x' -v columns='COLUMN=METRIC.KEY ...' FOLDER...: a table with a row for every
-# run's folder: its label (; for ,), then the named keys of its METRIC.json; empty where a metric was refused.
+# awk -f gather.awk -v root=out/MESH/branches -v rows='NAME;E;G ...' -v columns='COLUMN=PROGRAMME/METRIC.KEY ...': a table with a row for
+# every NAME, its grains' Young's modulus and its bonds' fracture energy: KEY of root/NAME-PROGRAMME/METRIC.json, empty where that
+# was refused. ~ in COLUMN stands for a blank.
 BEGIN {
-  rows = split(labels, label, " ")
   many = split(columns, column, " ")
-  line = header
+  line = "name,youngs_modulus [MPa],fracture_energy [N/mm]"
   for (i = 1; i <= many; ++i) {
-    split(column[i], part, "=")
-    line = line "," part[1]
+    at = index(column[i], "=")
+    title = substr(column[i], 1, at - 1)
+    gsub(/~/, " ", title)
+    line = line "," title
+    source[i] = substr(column[i], at + 1)
   }
   print line
-  for (row = 1; row < ARGC; ++row) {
-    line = label[row]
-    gsub(/;/, ",", line)
+  n = split(rows, row, " ")
+  for (r = 1; r <= n; ++r) {
+    split(row[r], part, ";")
+    line = part[1] "," part[2] "," part[3]
     for (i = 1; i <= many; ++i) {
-      split(column[i], part, "=")
-      dot = index(part[2], ".")
-      line = line "," value_of(ARGV[row] "/" substr(part[2], 1, dot - 1) ".json", substr(part[2], dot + 1))
+      dot = index(source[i], ".")
+      line = line "," value_of(root "/" part[1] "-" substr(source[i], 1, dot - 1) ".json", substr(source[i], dot + 1))
     }
     print line
   }
   exit failed
 }
 
-# Of one `"key": value` a line.
+# Of one `"key": value` a line, the first.
 function value_of(file, key,   text, found, line, status) {
   text = "\"" key "\":"
   found = ""
   while ((status = (getline line < file)) > 0)
-    if (index(line, text) && found == "") {
+    if (found == "" && index(line, text)) {
       found = substr(line, index(line, text) + length(text))
       gsub(/[ ",]|null/, "", found)
     }

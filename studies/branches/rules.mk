@@ -42,9 +42,9 @@ branches := $(out)/branches
 compaction_assignments = element.type=$(ELEMENT) material.youngs_modulus=$(compaction_$(1)_modulus) \
   $(if $(filter-out 0,$(compaction_$(1)_energy)),bond.tensile_strength=25 bond.shear_strength=18 bond.fracture_energy=$(compaction_$(1)_energy)) \
   $(compaction_$(1)_settings)
+empty :=
 set_words = $(foreach word,$(1),--set '$(word)')
 comma := ,
-empty :=
 toml_list = [$(subst $(empty) $(empty),$(comma),$(strip $(1)))]
 
 # Of a parent: its kind and name, the checkpoint's own name, and the run, checkpoint and compaction that it stands for.
@@ -109,6 +109,8 @@ $(branches)/%/curve.csv: $(branches)/%/run.h5 | $(BIN)/postproc
 	mv $(@D)/new-curve.csv $@
 
 metric_options_energy = --packing $(mesh)
+# A sample sits down on its walls first and damage grows from the start: stricter rules leave no window (studies/fig12).
+metric_options_modulus = --slope-change 0.1 --damage-share 0.1
 define metric_rule
 $(branches)/%/$(1).json: $(branches)/%/run.h5 studies/branches/measure.sh | $(BIN)/postproc
 	sh studies/branches/measure.sh $(BIN)/postproc $(1) $$< $$@ $(metric_options_$(1))
@@ -117,3 +119,29 @@ $(foreach m,elastic-recovery modulus strength yield hysteresis energy,$(eval $(c
 
 $(branches)/%/contact.json: $(branches)/%/run.h5 studies/branches/measure.sh | $(BIN)/postproc
 	sh studies/branches/measure.sh $(BIN)/postproc contact $< $@ --history
+
+# $(call branch_table,FILE,NAMES,COLUMNS): FILE holds a row for each of NAMES (g0.5-D0.92 ...), columns as gather.awk reads them.
+branch_row_of = $(1);$(compaction_$(firstword $(subst -D, ,$(1)))_modulus);$(compaction_$(firstword $(subst -D, ,$(1)))_energy)
+column_source = $(firstword $(subst ., ,$(lastword $(subst =, ,$(1)))))
+define branch_table
+$(1): studies/branches/gather.awk $(foreach n,$(2),$(foreach s,$(sort $(foreach c,$(3),$(call column_source,$(c)))),$(branches)/$(n)-$(s).json)) | $(patsubst %/,%,$(dir $(1)))
+	awk -f $$< -v root=$(branches) -v rows='$(foreach n,$(2),$(call branch_row_of,$(n)))' -v columns='$(strip $(3))' > $$@.partial
+	mv $$@.partial $$@
+endef
+
+# $(call fit_rule,NAME,TABLE,OPTIONS): OUT/NAME.fits.json and OUT/NAME.fits.csv, what is fitted and its curves.
+define fit_rule
+$(basename $(2)).$(1).fits.json: $(2) | $(BIN)/postproc
+	awk '/,,|,$$$$/ { print FILENAME ": left out of the fit: " $$$$0 > "/dev/stderr"; next } { print }' $$< > $$(@D)/$(1).points.csv.partial
+	$(BIN)/postproc fit $$(@D)/$(1).points.csv.partial $(3) --quiet -o $$(@D)/new-$(1).fits.json --curve $$(@D)/new-$(1).fits.csv
+	mv $$(@D)/new-$(1).fits.csv $$(@:.json=.csv)
+	rm $$(@D)/$(1).points.csv.partial
+	mv $$(@D)/new-$(1).fits.json $$@
+endef
+
+# $(call branch_quality,FOLDER,BRANCHES): FOLDER/quality.csv, how quasi-static their last stages are.
+define branch_quality
+$(1)/quality.csv: studies/common/verdict.awk studies/branches/quality.awk $(foreach b,$(sort $(2)),$(branches)/$(b)/curve.csv) | $(1)
+	awk -f studies/common/verdict.awk -f studies/branches/quality.awk $(foreach b,$(sort $(2)),$(branches)/$(b)/curve.csv) > $$@.partial
+	mv $$@.partial $$@
+endef

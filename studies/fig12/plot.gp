@@ -1,0 +1,23 @@
+# gnuplot -c plot.gp png|svg loading|modulus FOLDER IMAGE
+load 'studies/common/style.gp'
+picture = ARG2
+folder = ARG3
+set output ARG4
+if (picture eq 'loading') {
+  set xlabel 'axial strain (logarithmic, since the beginning)'
+  set ylabel 'axial stress / MPa'
+  set yrange [0:*]
+  of(stage) = strcol(1) eq stage ? $3 : NaN
+  plot folder.'/loading.csv' skip 1 using 2:(of('loading')) with lines linetype 1 title '1: isotropic loading', \
+       '' skip 1 using 2:(of('unloading')) with lines linetype 3 title '2: isotropic unloading', \
+       '' skip 1 using 2:(of('reloading')) with lines linetype 2 title '3: unconfined reloading'
+} else {
+  set xlabel 'maximum relative density D_r^{max}'
+  set ylabel 'normalised Young''s modulus E_p / E'
+  set xrange [0.68:1.0]
+  set yrange [0:*]
+  set format x '%.2f'
+  fit = folder.'/modulus.spriggs.fits.csv'
+  plot fit skip 1 using 1:2 with lines linetype 2 title 'Spriggs, with an offset', \
+       folder.'/modulus.csv' skip 1 using 4:7:($6/$2) with yerrorbars linetype 1 pointsize 1.5 title 'computed'
+}
