@@ -1,5 +1,5 @@
-# For verdicts: reads a fits.json among their files. fit_of(MODEL, X, Y) is the number of the fit of these columns, 0 if there is
-# none; then fit_value, fit_low, fit_high[NUMBER, COEFFICIENT], fit_r2[NUMBER] and fit_points[NUMBER].
+# For verdicts: reads a fits.json among their files. fit_of(MODEL, X, Y, N) is the number of the Nth fit of these columns, 0 if
+# there is none; then fit_value, fit_low, fit_high[NUMBER, COEFFICIENT], fit_r2[NUMBER] and fit_points[NUMBER].
 FILENAME ~ /fits\.json$/ {
   if (/^    "model":/) { fit_model[++fits] = json_value(); fit_axis = "" }
   else if (/^    "r_squared":/) fit_r2[fits] = json_value()
@@ -18,8 +18,8 @@ function json_value(   text) {
   gsub(/[",]/, "", text)
   return text
 }
-function fit_of(model, x, y,   i) {
-  for (i = 1; i <= fits; ++i) if (fit_model[i] == model && fit_column[i, "x"] == x && fit_column[i, "y"] == y) return i
+function fit_of(model, x, y, n,   i) {
+  for (i = 1; i <= fits; ++i) if (fit_model[i] == model && fit_column[i, "x"] == x && fit_column[i, "y"] == y && --n <= 0) return i
   return 0
 }
 function interval(number, name, format) {

@@ -129,14 +129,14 @@ $(1): studies/branches/gather.awk $(foreach n,$(2),$(foreach s,$(sort $(foreach 
 	mv $$@.partial $$@
 endef
 
-# $(call fit_rule,NAME,TABLE,OPTIONS): OUT/NAME.fits.json and OUT/NAME.fits.csv, what is fitted and its curves.
+# $(call fit_rule,NAME,TABLE,OPTIONS): TABLE.NAME.fits.json and .csv, what is fitted and its curves.
 define fit_rule
 $(basename $(2)).$(1).fits.json: $(2) | $(BIN)/postproc
-	awk '/,,|,$$$$/ { print FILENAME ": left out of the fit: " $$$$0 > "/dev/stderr"; next } { print }' $$< > $$(@D)/$(1).points.csv.partial
-	$(BIN)/postproc fit $$(@D)/$(1).points.csv.partial $(3) --quiet -o $$(@D)/new-$(1).fits.json --curve $$(@D)/new-$(1).fits.csv
-	mv $$(@D)/new-$(1).fits.csv $$(@:.json=.csv)
-	rm $$(@D)/$(1).points.csv.partial
-	mv $$(@D)/new-$(1).fits.json $$@
+	awk '/,,|,$$$$/ { print FILENAME ": left out of the fit: " $$$$0 > "/dev/stderr"; next } { print }' $$< > $$@.points.partial
+	$(BIN)/postproc fit $$@.points.partial $(3) --quiet -o $$@.new.json --curve $$@.new.csv
+	rm $$@.points.partial
+	mv $$@.new.csv $$(@:.json=.csv)
+	mv $$@.new.json $$@
 endef
 
 # $(call branch_quality,FOLDER,BRANCHES): FOLDER/quality.csv, how quasi-static their last stages are.

@@ -93,54 +93,65 @@ $(eval $(call verdict_rule,fig12,$(fig12)/modulus.csv $(fig12)/fits.json $(fig12
 
 # ------------------------------------------------------------------------------------------------ fig13: strength and density
 by_strength := $(addprefix g0.3-D,0.62 0.63 0.65 0.67 0.70 0.73 0.77)
+# The same with the other reading of the softening law, on which strengths and the look of damage depend most.
+by_strength_energy_law := $(addprefix energy-g0.3-D,0.63 0.67 0.73 0.77)
 fig13_files := $(addprefix $(fig13)/,strength-density.png strength-density.svg strength-area.png strength-area.svg fits.json verdict.json)
 fig13: $(fig13_files)
 $(eval $(call branch_table,$(fig13)/strength.csv,$(by_strength),$(density_max_column) $(strength_columns) $(contact_columns)))
-$(eval $(call fit_rule,density,$(fig13)/strength.csv,--x relative_density_max --y strength --model ryshkewitch-duckworth$(comma)rumpf --relative-density))
-$(eval $(call fit_rule,area,$(fig13)/strength.csv,--x contact_area_max --y strength --model log-log))
-$(eval $(call fits_rule,fig13,$(fig13)/strength.density.fits.json $(fig13)/strength.area.fits.json))
-$(eval $(call picture_rules,fig13,strength-density,$(fig13)/strength.csv $(fig13)/strength.density.fits.json))
-$(eval $(call picture_rules,fig13,strength-area,$(fig13)/strength.csv $(fig13)/strength.area.fits.json))
-$(eval $(call branch_quality,$(fig13),$(by_strength:%=%-unconfined)))
-$(eval $(call verdict_rule,fig13,$(fig13)/strength.csv $(fig13)/fits.json $(fig13)/quality.csv))
+$(eval $(call branch_table,$(fig13)/strength-energy-law.csv,$(by_strength_energy_law),$(density_max_column) $(strength_columns) $(contact_columns)))
+fig13_tables := $(fig13)/strength.csv $(fig13)/strength-energy-law.csv
+$(foreach t,$(fig13_tables),$(eval $(call fit_rule,density,$(t),--x relative_density_max --y strength --model ryshkewitch-duckworth$(comma)rumpf --relative-density)))
+$(foreach t,$(fig13_tables),$(eval $(call fit_rule,area,$(t),--x contact_area_max --y strength --model log-log)))
+$(eval $(call fits_rule,fig13,$(fig13_tables:.csv=.density.fits.json) $(fig13_tables:.csv=.area.fits.json)))
+$(eval $(call picture_rules,fig13,strength-density,$(fig13_tables) $(fig13_tables:.csv=.density.fits.json)))
+$(eval $(call picture_rules,fig13,strength-area,$(fig13_tables) $(fig13_tables:.csv=.area.fits.json)))
+$(eval $(call branch_quality,$(fig13),$(by_strength:%=%-unconfined) $(by_strength_energy_law:%=%-unconfined)))
+$(eval $(call verdict_rule,fig13,$(fig13_tables) $(fig13)/fits.json $(fig13)/quality.csv))
 
 # ------------------------------------------------------------------------------------------------ fig14: damage at failure
-fig14_densities := 0.73 0.67 0.63
-fig14_sections := $(foreach d,$(fig14_densities),$(fig14)/damage-$(d))
-fig14_files := $(addsuffix .png,$(fig14_sections)) $(fig14)/verdict.json
+fig14_samples := $(foreach l,g0.3 energy-g0.3,$(addprefix $(l)-D,0.73 0.67 0.63))
+fig14_files := $(fig14_samples:%=$(fig14)/damage-%.png) $(fig14)/verdict.json
 fig14: $(fig14_files)
-fig14_section := --axis y --position 0.5 --relative --field damage --range 0,1
-$(fig14)/damage-%.png: $(branches)/g0.3-D%-unconfined/run.h5 | $(fig14) $(BIN)/postproc
-	$(BIN)/postproc section $< --snapshot -1 $(fig14_section) --title 'Damage after the peak, D_max = $*' -o $(@D)/new-damage-$*.png
+fig14_section := --axis y --position 0.5 --relative --field damage
+$(fig14)/damage-%.png: $(branches)/%-unconfined/run.h5 | $(fig14) $(BIN)/postproc
+	$(BIN)/postproc section $< --snapshot -1 $(fig14_section) --range 0,1 --title "$$(echo $* | sed 's/^energy-g0.3-D/Law energy, D_max = /; s/^g0.3-D/Law exponential, D_max = /')" -o $(@D)/new-damage-$*.png
 	mv $(@D)/new-damage-$*.png $@
 # Of the same plane before the reloading (snapshot 0: after the rest) and at its end.
-$(fig14)/before-%.csv: $(branches)/g0.3-D%-unconfined/run.h5 | $(fig14) $(BIN)/postproc
+$(fig14)/before-%.csv: $(branches)/%-unconfined/run.h5 | $(fig14) $(BIN)/postproc
 	$(BIN)/postproc section $< --snapshot 0 $(fig14_section) --data $(@D)/new-before-$*.csv
 	mv $(@D)/new-before-$*.csv $@
-$(fig14)/damage-%.csv: $(branches)/g0.3-D%-unconfined/run.h5 | $(fig14) $(BIN)/postproc
+$(fig14)/damage-%.csv: $(branches)/%-unconfined/run.h5 | $(fig14) $(BIN)/postproc
 	$(BIN)/postproc section $< --snapshot -1 $(fig14_section) --data $(@D)/new-damage-$*.csv
 	mv $(@D)/new-damage-$*.csv $@
-$(eval $(call branch_table,$(fig14)/contacts.csv,$(fig14_densities:%=g0.3-D%),$(density_max_column) $(strength_columns) $(contact_columns)))
-$(eval $(call verdict_rule,fig14,$(fig14)/contacts.csv $(fig14_densities:%=$(fig14)/before-%.csv) $(addsuffix .csv,$(fig14_sections))))
+$(eval $(call branch_table,$(fig14)/contacts.csv,$(fig14_samples),$(density_max_column) $(strength_columns) $(contact_columns)))
+$(eval $(call verdict_rule,fig14,$(fig14)/contacts.csv $(fig14_samples:%=$(fig14)/before-%.csv) $(fig14_samples:%=$(fig14)/damage-%.csv)))
 
 # ------------------------------------------------------------------------------------------------ fig15, fig16: fracture energy
 by_energy := $(addsuffix -D0.77,g0.05 g0.1 g0.2 g0.3 g0.4 g0.5)
-fig15_files := $(addprefix $(fig15)/,force-displacement.png force-displacement.svg verdict.json)
+by_energy_energy_law := $(addsuffix -D0.77,$(addprefix energy-,g0.05 g0.1 g0.2 g0.3 g0.5))
+fig15_files := $(foreach p,force-displacement force-displacement-energy-law,$(fig15)/$(p).png $(fig15)/$(p).svg) $(fig15)/verdict.json
 fig15: $(fig15_files)
-$(eval $(call branch_table,$(fig15)/strength.csv,$(by_energy),$(density_max_column) $(strength_columns) $(contact_columns)))
-$(fig15)/force-displacement.csv: studies/fig15/force-displacement.awk $(foreach n,$(by_energy),$(branches)/$(n)-unconfined/curve.csv) | $(fig15)
-	awk -f $^ > $@.partial
-	mv $@.partial $@
-$(eval $(call picture_rules,fig15,force-displacement,$(fig15)/force-displacement.csv $(fig15)/strength.csv))
-$(eval $(call branch_quality,$(fig15),$(by_energy:%=%-unconfined)))
-$(eval $(call verdict_rule,fig15,$(fig15)/strength.csv $(fig15)/force-displacement.csv $(fig15)/quality.csv))
+# $(call fig15_rules,SUFFIX,NAMES)
+define fig15_rules
+$(call branch_table,$(fig15)/strength$(1).csv,$(2),$(density_max_column) $(strength_columns) $(contact_columns))
+$(fig15)/force-displacement$(1).csv: studies/fig15/force-displacement.awk $(foreach n,$(2),$(branches)/$(n)-unconfined/curve.csv) | $(fig15)
+	awk -f $$^ > $$@.partial
+	mv $$@.partial $$@
+$(call picture_rules,fig15,force-displacement$(1),$(fig15)/force-displacement$(1).csv)
+endef
+$(eval $(call fig15_rules,,$(by_energy)))
+$(eval $(call fig15_rules,-energy-law,$(by_energy_energy_law)))
+$(eval $(call branch_quality,$(fig15),$(by_energy:%=%-unconfined) $(by_energy_energy_law:%=%-unconfined)))
+$(eval $(call verdict_rule,fig15,$(fig15)/strength.csv $(fig15)/strength-energy-law.csv $(fig15)/quality.csv))
 
 fig16_files := $(addprefix $(fig16)/,modulus.png modulus.svg strength.png strength.svg fits.json verdict.json)
 fig16: $(fig16_files)
+fig16_tables := $(fig16)/energy.csv $(fig16)/energy-energy-law.csv
 $(eval $(call branch_table,$(fig16)/energy.csv,$(by_energy),$(density_max_column) $(modulus_columns) $(strength_columns)))
-$(eval $(call fit_rule,modulus,$(fig16)/energy.csv,--x fracture_energy --y modulus --model inverse-exponential))
-$(eval $(call fit_rule,strength,$(fig16)/energy.csv,--x fracture_energy --y strength --model exponential$(comma)inverse-exponential))
-$(eval $(call fits_rule,fig16,$(fig16)/energy.modulus.fits.json $(fig16)/energy.strength.fits.json))
-$(eval $(call picture_rules,fig16,modulus,$(fig16)/energy.csv $(fig16)/energy.modulus.fits.json))
-$(eval $(call picture_rules,fig16,strength,$(fig16)/energy.csv $(fig16)/energy.strength.fits.json))
-$(eval $(call verdict_rule,fig16,$(fig16)/energy.csv $(fig16)/fits.json))
+$(eval $(call branch_table,$(fig16)/energy-energy-law.csv,$(by_energy_energy_law),$(density_max_column) $(modulus_columns) $(strength_columns)))
+$(foreach t,$(fig16_tables),$(eval $(call fit_rule,modulus,$(t),--x fracture_energy --y modulus --model inverse-exponential)))
+$(foreach t,$(fig16_tables),$(eval $(call fit_rule,strength,$(t),--x fracture_energy --y strength --model exponential$(comma)inverse-exponential)))
+$(eval $(call fits_rule,fig16,$(fig16_tables:.csv=.modulus.fits.json) $(fig16_tables:.csv=.strength.fits.json)))
+$(eval $(call picture_rules,fig16,modulus,$(fig16_tables) $(fig16_tables:.csv=.modulus.fits.json)))
+$(eval $(call picture_rules,fig16,strength,$(fig16_tables) $(fig16_tables:.csv=.strength.fits.json)))
+$(eval $(call verdict_rule,fig16,$(fig16_tables) $(fig16)/fits.json))

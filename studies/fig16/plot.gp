@@ -7,14 +7,20 @@ set xlabel 'fracture energy G^c / (N/mm)'
 set xrange [0:0.55]
 set yrange [0:*]
 set key right bottom
-table = folder.'/energy.csv'
+table(law) = folder.'/energy'.law.'.csv'
+fit(law) = folder.'/energy'.law.'.'.picture.'.fits.csv'
 if (picture eq 'modulus') {
   set ylabel 'Young''s modulus of the compact E_p / MPa'
-  plot folder.'/energy.modulus.fits.csv' skip 1 using 1:2 with lines linetype 2 title 'inverse exponential', \
-       table skip 1 using 3:5:6 with yerrorbars linetype 1 pointsize 1.5 title 'computed'
+  plot fit('') skip 1 using 1:2 with lines linetype 1 title 'inverse exponential', \
+       table('') skip 1 using 3:5:6 with yerrorbars linetype 1 pointsize 1.5 title 'computed, softening law exponential', \
+       fit('-energy-law') skip 1 using 1:2 with lines linetype 2, \
+       table('-energy-law') skip 1 using 3:5:6 with yerrorbars linetype 2 pointsize 1.5 title 'softening law energy'
 } else {
   set ylabel 'unconfined strength / MPa'
-  plot folder.'/energy.strength.fits.csv' skip 1 using 1:2 with lines linetype 2 title 'exponential', \
-       '' skip 1 using 1:3 with lines linetype 5 dashtype 2 linewidth 1 title 'inverse exponential', \
-       table skip 1 using 3:10:11 with yerrorbars linetype 1 pointsize 1.5 title 'computed'
+  plot fit('') skip 1 using 1:2 with lines linetype 1 title 'exponential', \
+       '' skip 1 using 1:3 with lines linetype 1 dashtype 2 linewidth 1 title 'inverse exponential', \
+       table('') skip 1 using 3:10:11 with yerrorbars linetype 1 pointsize 1.5 title 'computed, softening law exponential', \
+       fit('-energy-law') skip 1 using 1:2 with lines linetype 2, \
+       '' skip 1 using 1:3 with lines linetype 2 dashtype 2 linewidth 1, \
+       table('-energy-law') skip 1 using 3:10:11 with yerrorbars linetype 2 pointsize 1.5 title 'softening law energy'
 }
