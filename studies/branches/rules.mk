@@ -110,11 +110,12 @@ $(branches)/%/curve.csv: $(branches)/%/run.h5 | $(BIN)/postproc
 
 metric_options_energy = --packing $(mesh)
 # A sample sits down on its walls first and damage grows from the start: stricter rules leave no window (studies/fig12).
-metric_options_modulus = --slope-change 0.1 --damage-share 0.1
+metric_options_modulus = --slope-change 0.2 --damage-share 0.2
 # Triaxial tests end at an axial strain of 0.15, to rounding.
 metric_options_strength = --at-strain 0.1499
 define metric_rule
-$(branches)/%/$(1).json: $(branches)/%/run.h5 studies/branches/measure.sh | $(BIN)/postproc
+$(call stamp,$(branches)/$(1).settings,options $(metric_options_$(1)))
+$(branches)/%/$(1).json: $(branches)/%/run.h5 studies/branches/measure.sh $(branches)/$(1).settings | $(BIN)/postproc
 	sh studies/branches/measure.sh $(BIN)/postproc $(1) $$< $$@ $(metric_options_$(1))
 endef
 $(foreach m,elastic-recovery modulus strength yield hysteresis energy,$(eval $(call metric_rule,$(m))))
@@ -134,7 +135,7 @@ endef
 # $(call fit_rule,NAME,TABLE,OPTIONS): TABLE.NAME.fits.json and .csv, what is fitted and its curves.
 define fit_rule
 $(basename $(2)).$(1).fits.json: $(2) | $(BIN)/postproc
-	awk '/,,|,$$$$/ { print FILENAME ": left out of the fit: " $$$$0 > "/dev/stderr"; next } { print }' $$< > $$@.points.partial
+	awk '/,,|,$$$$/ { print FILENAME ": left out of the fit: " $$$$0 > "/dev/stderr"; next } { sub(/^[^,]*,/, ""); print }' $$< > $$@.points.partial
 	$(BIN)/postproc fit $$@.points.partial $(3) --quiet -o $$@.new.json --curve $$@.new.csv
 	rm $$@.points.partial
 	mv $$@.new.csv $$(@:.json=.csv)
