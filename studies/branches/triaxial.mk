@@ -147,8 +147,8 @@ $(eval $(call plot_rule,$(fig24)/yield-surface,studies/fig24/plot.gp,$(fig24)/yi
 $(eval $(call judge_rule,fig24,,$(fig24)/yield.csv))
 
 # ------------------------------------------------------------------------------------------------ fig25, fig26: cycles
-cyclic_samples := energy-g0.5 g0.5 g0.5-rebond g0
-fig25_files := $(addprefix $(fig25)/,loops.csv cycles.csv $(call both_formats,cohesive exponential exponential-rebond no-cohesion) verdict.json)
+cyclic_samples := energy-g0.5 g0.5 g0
+fig25_files := $(addprefix $(fig25)/,loops.csv cycles.csv $(call both_formats,cohesive exponential no-cohesion) verdict.json)
 fig25: $(fig25_files)
 $(eval $(call awk_rule,$(fig25)/loops.csv,$(verdict) studies/fig25/loops.awk,$(call curves_of,$(cyclic_samples:%=%-cycles))))
 $(fig25)/%.cycles.csv: $(branches)/%-cycles/run.h5 | $(fig25) $(BIN)/postproc
@@ -158,7 +158,6 @@ $(fig25)/%.cycles.csv: $(branches)/%-cycles/run.h5 | $(fig25) $(BIN)/postproc
 $(eval $(call awk_rule,$(fig25)/cycles.csv,$(verdict) studies/fig25/drift.awk,$(cyclic_samples:%=$(fig25)/%.cycles.csv)))
 $(eval $(call plot_rule,$(fig25)/cohesive,studies/fig25/plot.gp,energy-g0.5 $(fig25)/loops.csv,$(fig25)/loops.csv))
 $(eval $(call plot_rule,$(fig25)/exponential,studies/fig25/plot.gp,g0.5 $(fig25)/loops.csv,$(fig25)/loops.csv))
-$(eval $(call plot_rule,$(fig25)/exponential-rebond,studies/fig25/plot.gp,g0.5-rebond $(fig25)/loops.csv,$(fig25)/loops.csv))
 $(eval $(call plot_rule,$(fig25)/no-cohesion,studies/fig25/plot.gp,g0 $(fig25)/loops.csv,$(fig25)/loops.csv))
 $(eval $(call judge_rule,fig25,,$(fig25)/cycles.csv))
 

@@ -16,14 +16,14 @@ function drift(s) {
 }
 function cohesive(s, words) {
   if (!(s in cycles)) return
-  statement(words "with cohesion the loops drift to the looser side", "looser", drift(s), drift_low[s] < 0, "mean change of relative density")
+  statement(words "with cohesion the loops drift to the looser side", "looser", drift(s), drift_low[s] < 0, \
+            sprintf("mean change of relative density; without cohesion %+.2e at the lowest stress", drift_low["g0"] / cycles["g0"]))
 }
 END {
   if (failed) exit 1
   if (!("g0" in cycles) || !("energy-g0.5" in cycles)) { print "verdict: samples with and without bonds are needed" > "/dev/stderr"; exit 1 }
   cohesive("energy-g0.5", "Law `energy`: ")
-  cohesive("g0.5", "Law `exponential`, broken bonds stay broken: ")
-  cohesive("g0.5-rebond", "Law `exponential`, broken bonds form again on contact: ")
+  cohesive("g0.5", "Law `exponential`: ")
   statement("Without cohesion the loops drift to the denser side", "denser", drift("g0"), drift_low["g0"] > 0, "mean change of relative density")
   m = cycles["g0"] < cycles["energy-g0.5"] ? cycles["g0"] : cycles["energy-g0.5"]
   statement("Without cohesion loops enclose a larger area", "larger", \

@@ -17,5 +17,4 @@ y = ARG2 eq 'damage' ? 9 : 8
 set ylabel ARG2 eq 'damage' ? 'energy dissipated by damage in the cycle / mJ' : 'energy dissipated by plastic flow in the cycle / mJ'
 plot data skip 1 using (sample('energy-g0.5', $2)):y with linespoints linetype 1 pointsize 1.4 title 'with cohesion', \
      data skip 1 using (sample('g0', $2)):(ARG2 eq 'damage' ? NaN : column(y)) with linespoints linetype 2 pointsize 1.4 title (ARG2 eq 'damage' ? '' : 'without'), \
-     data skip 1 using (sample('g0.5', $2)):y with linespoints linetype 3 dashtype (8, 4) pointsize 1.4 title 'with, exponential', \
-     data skip 1 using (sample('g0.5-rebond', $2)):y with linespoints linetype 4 dashtype (8, 4) pointsize 1.4 title 'with, exponential, bonds form again'
+     data skip 1 using (sample('g0.5', $2)):y with linespoints linetype 3 dashtype (8, 4) pointsize 1.4 title 'with, exponential'
