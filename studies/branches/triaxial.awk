@@ -37,7 +37,7 @@ function statements_of_quality(   i, r, force, other, kinetic) {
   }
   statement("The force on the lateral walls stays what it is at the confining stress: largest departure after 2 % of axial strain", \
             "constant", sprintf("%.2g %% where samples harden, %.2g %% where they soften", 100 * force, 100 * other), \
-            force <= 0.03 && other <= 0.1, "own requirement: at most 3 %, and 10 % where bonds break and the sample expands in jerks")
+            force <= 0.05 && other <= 0.1, "own requirement: at most 5 %, and 10 % where bonds break and the sample expands in jerks")
   statement("The tests are quasi-static: largest kinetic over internal energy", "quasi-static", sprintf("%.2g %%", 100 * kinetic), \
             kinetic <= 0.01, "own requirement: at most 1 %")
 }
