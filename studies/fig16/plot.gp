@@ -17,6 +17,7 @@ if (picture eq 'modulus') {
        table('-energy-law') skip 1 using 3:5:6 with yerrorbars linetype 2 pointsize 1.5 title 'softening law energy'
 } else {
   set ylabel 'unconfined strength / MPa'
+  set key at graph 0.99, graph 0.62 right
   plot fit('') skip 1 using 1:2 with lines linetype 1 title 'exponential', \
        '' skip 1 using 1:3 with lines linetype 1 dashtype 2 linewidth 1 title 'inverse exponential', \
        table('') skip 1 using 3:10:11 with yerrorbars linetype 1 pointsize 1.5 title 'computed, softening law exponential', \
