@@ -1,5 +1,5 @@
 #!/bin/sh
-# fit.sh POSTPROC POINTS.csv FITS.json X Y MODEL,MODEL... [OPTION...]: every model fitted to the rows without empty fields, as one list,
+# fit.sh POSTPROC POINTS.csv FITS.json X Y MODEL,MODEL... [OPTION...]: every model fitted to Y over X, as one list,
 # and their curves in FITS.csv. A model that is refused stands in the list with "refused" and its reason, and has no curve.
 set -eu
 postproc=$1
@@ -11,8 +11,17 @@ models=$6
 shift 6
 work=$fits.partial
 mkdir -p "$work"
-# Names are no numbers; rows of what could not be measured are left out.
-awk '/,,|,$/ { print FILENAME ": left out of the fit: " $0 > "/dev/stderr"; next } { sub(/^[^,]*,/, ""); print }' "$points" >"$work/points.csv"
+# The two columns; rows of what could not be measured are left out.
+awk -F, -v x="$x" -v y="$y" 'NR == 1 {
+    for (i = 1; i <= NF; ++i) {
+      name = $i
+      sub(/ *\[.*$/, "", name)
+      if (name == x) first = i
+      if (name == y) second = i
+    }
+  }
+  $first == "" || $second == "" { print FILENAME ": left out of the fit: " $1 > "/dev/stderr"; next }
+  { print $first "," $second }' "$points" >"$work/points.csv"
 separator='['
 for model in $(echo "$models" | tr , ' '); do
   echo "$separator"
