@@ -1,5 +1,5 @@
 # gnuplot -c plot-energies.gp png|svg envelopes.csv IMAGE: how the fracture energy stretches the law, both axes in ratios.
-load 'studies/common/style.gp'
+call 'studies/common/style.gp' ARG1
 if (ARG1 eq 'svg') {
   set terminal svg size 1200,560 dynamic enhanced font 'DejaVu Sans,14' background 'white'
 } else {

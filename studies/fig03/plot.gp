@@ -1,5 +1,5 @@
 # gnuplot -c plot.gp png|svg FOLDER IMAGE: the walks of FOLDER, a row for each softening law. Separations in nm.
-load 'studies/common/style.gp'
+call 'studies/common/style.gp' ARG1
 if (ARG1 eq 'svg') {
   set terminal svg size 1350,850 dynamic enhanced font 'DejaVu Sans,14' background 'white'
 } else {

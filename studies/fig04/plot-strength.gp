@@ -1,5 +1,5 @@
 # gnuplot -c plot-strength.gp png|svg cohesive.csv summary.csv IMAGE: pull-off force against strength
-load 'studies/common/style.gp'
+call 'studies/common/style.gp' ARG1
 set output ARG4
 set logscale x
 set xrange [0.08:4]

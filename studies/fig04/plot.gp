@@ -1,5 +1,5 @@
 # gnuplot -c plot.gp png|svg FOLDER IMAGE: loading and unloading of three fracture energies against theory
-load 'studies/common/style.gp'
+call 'studies/common/style.gp' ARG1
 folder = ARG2
 set output ARG3
 set multiplot layout 1,3 margins 0.12,0.985,0.13,0.92 spacing 0.075

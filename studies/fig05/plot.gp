@@ -1,5 +1,5 @@
 # gnuplot -c plot.gp png|svg FOLDER IMAGE: loading and bonded unloading of elasto-plastic hemispheres
-load 'studies/common/style.gp'
+call 'studies/common/style.gp' ARG1
 folder = ARG2
 set output ARG3
 set xlabel 'approach h/R'

@@ -1,5 +1,5 @@
 # gnuplot -c plot.gp png|svg FOLDER IMAGE
-load 'studies/common/style.gp'
+call 'studies/common/style.gp' ARG1
 folder = ARG2
 set output ARG3
 set xlabel 'diameter / mm'

@@ -1,5 +1,5 @@
 # gnuplot -c plot.gp png|svg meshes.csv IMAGE: tetrahedra of a grain against nominal size, beside the paper's.
-load 'studies/common/style.gp'
+call 'studies/common/style.gp' ARG1
 data = ARG2
 set output ARG3
 set xlabel 'nominal element size / mm'

@@ -1,5 +1,5 @@
 # gnuplot -c plot.gp png|svg load-density.csv IMAGE
-load 'studies/common/style.gp'
+call 'studies/common/style.gp' ARG1
 data = ARG2
 set output ARG3
 set xlabel 'relative density D_r'

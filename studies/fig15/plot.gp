@@ -1,5 +1,5 @@
 # gnuplot -c plot.gp png|svg force-displacement|force-displacement-energy-law FOLDER IMAGE
-load 'studies/common/style.gp'
+call 'studies/common/style.gp' ARG1
 folder = ARG3
 set output ARG4
 energies = '0.05 0.1 0.2 0.3 0.4 0.5'

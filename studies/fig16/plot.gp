@@ -1,5 +1,5 @@
 # gnuplot -c plot.gp png|svg modulus|strength FOLDER IMAGE
-load 'studies/common/style.gp'
+call 'studies/common/style.gp' ARG1
 picture = ARG2
 folder = ARG3
 set output ARG4
