@@ -44,19 +44,24 @@ density_max_column := relative_density_max~[1]=unloading/elastic-recovery.relati
 # ------------------------------------------------------------------------------------------------ fig10: elastic recovery
 densities := 0.70 0.73 0.77 0.80 0.83 0.86 0.88 0.90 0.92
 by_density := $(densities:%=g0.5-D%)
+# The same with the other reading of the softening law, which leaves bonds all but undamaged by unloading.
+by_density_energy_law := $(addprefix energy-g0.5-D,0.73 0.77 0.80 0.86 0.92)
 by_modulus := $(addsuffix -D0.92,e3 e4 g0.5 e6 e7 e8)
 
 fig10_files := $(addprefix $(fig10)/,recovery-density.png recovery-density.svg recovery-modulus.png recovery-modulus.svg fits.json verdict.json)
 fig10: $(fig10_files)
 $(eval $(call branch_table,$(fig10)/density.csv,$(by_density),$(recovery_columns)))
+$(eval $(call branch_table,$(fig10)/density-energy-law.csv,$(by_density_energy_law),$(recovery_columns)))
+$(eval $(call fit_rule,recovery,$(fig10)/density-energy-law.csv,relative_density_max,recovery,linear$(comma)bilinear))
 $(eval $(call branch_table,$(fig10)/modulus.csv,$(by_modulus),$(recovery_columns)))
 $(eval $(call fit_rule,recovery,$(fig10)/density.csv,relative_density_max,recovery,linear$(comma)bilinear))
 $(eval $(call fit_rule,recovery,$(fig10)/modulus.csv,youngs_modulus,recovery,log-log))
-$(eval $(call fits_rule,fig10,$(fig10)/density.recovery.fits.json $(fig10)/modulus.recovery.fits.json))
-$(eval $(call picture_rules,fig10,recovery-density,$(fig10)/density.csv $(fig10)/density.recovery.fits.json))
+fig10_density_tables := $(fig10)/density.csv $(fig10)/density-energy-law.csv
+$(eval $(call fits_rule,fig10,$(fig10_density_tables:.csv=.recovery.fits.json) $(fig10)/modulus.recovery.fits.json))
+$(eval $(call picture_rules,fig10,recovery-density,$(fig10_density_tables) $(fig10_density_tables:.csv=.recovery.fits.json)))
 $(eval $(call picture_rules,fig10,recovery-modulus,$(fig10)/modulus.csv $(fig10)/modulus.recovery.fits.json))
-$(eval $(call branch_quality,$(fig10),$(by_density:%=%-unloading) $(by_modulus:%=%-unloading)))
-$(eval $(call verdict_rule,fig10,$(fig10)/density.csv $(fig10)/modulus.csv $(fig10)/fits.json $(fig10)/quality.csv))
+$(eval $(call branch_quality,$(fig10),$(by_density:%=%-unloading) $(by_density_energy_law:%=%-unloading) $(by_modulus:%=%-unloading)))
+$(eval $(call verdict_rule,fig10,$(fig10_density_tables) $(fig10)/modulus.csv $(fig10)/fits.json $(fig10)/quality.csv))
 
 # ------------------------------------------------------------------------------------------------ fig11: elastic energy
 energy_columns := loaded~[mJ]=unloading/energy.elastic_energy_loaded_mJ locked_in~[mJ]=unloading/energy.elastic_energy_locked_in_mJ \
@@ -80,16 +85,18 @@ $(eval $(call verdict_rule,fig11,$(fig11)/release.csv $(fig11)/curves.csv))
 fig12_files := $(addprefix $(fig12)/,loading.png loading.svg modulus.png modulus.svg fits.json verdict.json)
 fig12: $(fig12_files)
 $(eval $(call branch_table,$(fig12)/modulus.csv,$(by_density),$(density_max_column) $(modulus_columns)))
-$(eval $(call fit_rule,spriggs,$(fig12)/modulus.csv,relative_density_max,modulus_over_grains,spriggs,--relative-density))
-$(eval $(call fits_rule,fig12,$(fig12)/modulus.spriggs.fits.json))
+$(eval $(call branch_table,$(fig12)/modulus-energy-law.csv,$(by_density_energy_law),$(density_max_column) $(modulus_columns)))
+fig12_tables := $(fig12)/modulus.csv $(fig12)/modulus-energy-law.csv
+$(foreach t,$(fig12_tables),$(eval $(call fit_rule,spriggs,$(t),relative_density_max,modulus_over_grains,spriggs,--relative-density)))
+$(eval $(call fits_rule,fig12,$(fig12_tables:.csv=.spriggs.fits.json)))
 # Three stages on one axial stress over axial strain curve.
 $(fig12)/loading.csv: studies/fig12/loading.awk $(compactions)/g0.5/curve.csv $(branches)/g0.5-D0.92-unloading/curve.csv $(branches)/g0.5-D0.92-unconfined/curve.csv | $(fig12)
 	awk -f $^ > $@.partial
 	mv $@.partial $@
 $(eval $(call picture_rules,fig12,loading,$(fig12)/loading.csv))
-$(eval $(call picture_rules,fig12,modulus,$(fig12)/modulus.csv $(fig12)/modulus.spriggs.fits.json))
-$(eval $(call branch_quality,$(fig12),$(by_density:%=%-unconfined)))
-$(eval $(call verdict_rule,fig12,$(fig12)/modulus.csv $(fig12)/fits.json $(fig12)/quality.csv))
+$(eval $(call picture_rules,fig12,modulus,$(fig12_tables) $(fig12_tables:.csv=.spriggs.fits.json)))
+$(eval $(call branch_quality,$(fig12),$(by_density:%=%-unconfined) $(by_density_energy_law:%=%-unconfined)))
+$(eval $(call verdict_rule,fig12,$(fig12_tables) $(fig12)/fits.json $(fig12)/quality.csv))
 
 # ------------------------------------------------------------------------------------------------ fig13: strength and density
 by_strength := $(addprefix g0.3-D,0.62 0.63 0.65 0.67 0.70 0.73 0.77)

@@ -12,7 +12,8 @@ if (picture eq 'recovery-density') {
   set format x '%.2f'
   plot folder.'/density.recovery.fits.csv' skip 1 using 1:(100*$3) with lines linetype 2 title 'two lines', \
        '' skip 1 using 1:(100*$2) with lines linetype 5 dashtype 2 linewidth 1 title 'one line', \
-       folder.'/density.csv' skip 1 using 4:(100*$5):(100*$6) with yerrorbars linetype 1 pointsize 1.5 title 'computed'
+       folder.'/density.csv' skip 1 using 4:(100*$5):(100*$6) with yerrorbars linetype 1 pointsize 1.5 title 'computed, softening law exponential', \
+       folder.'/density-energy-law.csv' skip 1 using 4:(100*$5):(100*$6) with yerrorbars linetype 3 pointsize 1.5 title 'softening law energy'
 } else {
   set xlabel 'Young''s modulus of the grains E / GPa'
   set logscale xy
