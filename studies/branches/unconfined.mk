@@ -137,7 +137,9 @@ $(eval $(call verdict_rule,fig14,$(fig14)/contacts.csv $(fig14_samples:%=$(fig14
 
 # ------------------------------------------------------------------------------------------------ fig15, fig16: fracture energy
 by_energy := $(addsuffix -D0.77,g0.05 g0.1 g0.2 g0.3 g0.4 g0.5)
-by_energy_energy_law := $(addsuffix -D0.77,$(addprefix energy-,g0.05 g0.1 g0.2 g0.3 g0.5))
+# With the other softening law bonds bear so much that the trends lie at smaller energies.
+by_energy_energy_law := $(addsuffix -D0.77,$(addprefix energy-,g0.005 g0.01 g0.02 g0.05 g0.1 g0.2 g0.3 g0.5))
+by_energy_dense := $(addsuffix -D0.92,$(addprefix energy-,g0.005 g0.01 g0.02 g0.05 g0.1 g0.5))
 fig15_files := $(foreach p,force-displacement force-displacement-energy-law,$(fig15)/$(p).png $(fig15)/$(p).svg) $(fig15)/verdict.json
 fig15: $(fig15_files)
 # $(call fig15_rules,SUFFIX,NAMES)
@@ -156,11 +158,13 @@ $(eval $(call verdict_rule,fig15,$(fig15)/strength.csv $(fig15)/strength-energy-
 fig16_files := $(addprefix $(fig16)/,modulus.png modulus.svg strength.png strength.svg fits.json verdict.json)
 fig16: $(fig16_files)
 fig16_tables := $(fig16)/energy.csv $(fig16)/energy-energy-law.csv
+fig16_dense := $(fig16)/energy-energy-law-dense.csv
 $(eval $(call branch_table,$(fig16)/energy.csv,$(by_energy),$(density_max_column) $(modulus_columns) $(strength_columns)))
 $(eval $(call branch_table,$(fig16)/energy-energy-law.csv,$(by_energy_energy_law),$(density_max_column) $(modulus_columns) $(strength_columns)))
-$(foreach t,$(fig16_tables),$(eval $(call fit_rule,modulus,$(t),fracture_energy,modulus,inverse-exponential)))
+$(eval $(call branch_table,$(fig16_dense),$(by_energy_dense),$(density_max_column) $(modulus_columns)))
+$(foreach t,$(fig16_tables) $(fig16_dense),$(eval $(call fit_rule,modulus,$(t),fracture_energy,modulus,inverse-exponential)))
 $(foreach t,$(fig16_tables),$(eval $(call fit_rule,strength,$(t),fracture_energy,strength,exponential$(comma)inverse-exponential)))
-$(eval $(call fits_rule,fig16,$(fig16_tables:.csv=.modulus.fits.json) $(fig16_tables:.csv=.strength.fits.json)))
-$(eval $(call picture_rules,fig16,modulus,$(fig16_tables) $(fig16_tables:.csv=.modulus.fits.json)))
+$(eval $(call fits_rule,fig16,$(fig16_tables:.csv=.modulus.fits.json) $(fig16_dense:.csv=.modulus.fits.json) $(fig16_tables:.csv=.strength.fits.json)))
+$(eval $(call picture_rules,fig16,modulus,$(fig16_tables) $(fig16_dense) $(fig16_tables:.csv=.modulus.fits.json) $(fig16_dense:.csv=.modulus.fits.json)))
 $(eval $(call picture_rules,fig16,strength,$(fig16_tables) $(fig16_tables:.csv=.strength.fits.json)))
-$(eval $(call verdict_rule,fig16,$(fig16_tables) $(fig16)/fits.json))
+$(eval $(call verdict_rule,fig16,$(fig16_tables) $(fig16_dense) $(fig16)/fits.json))

@@ -10,10 +10,11 @@ if (picture eq 'recovery-density') {
   set key right bottom
   set yrange [0:*]
   set format x '%.2f'
-  plot folder.'/density.recovery.fits.csv' skip 1 using 1:(100*$3) with lines linetype 2 title 'two lines', \
-       '' skip 1 using 1:(100*$2) with lines linetype 5 dashtype 2 linewidth 1 title 'one line', \
+  plot folder.'/density.recovery.fits.csv' skip 1 using 1:(100*$3) with lines linetype 1 title 'two lines', \
+       folder.'/density-energy-law.recovery.fits.csv' skip 1 using 1:(100*$3) with lines linetype 2, \
+       folder.'/density.recovery.fits.csv' skip 1 using 1:(100*$2) with lines linetype 1 dashtype 2 linewidth 1 title 'one line', \
        folder.'/density.csv' skip 1 using 4:(100*$5):(100*$6) with yerrorbars linetype 1 pointsize 1.5 title 'computed, softening law exponential', \
-       folder.'/density-energy-law.csv' skip 1 using 4:(100*$5):(100*$6) with yerrorbars linetype 3 pointsize 1.5 title 'softening law energy'
+       folder.'/density-energy-law.csv' skip 1 using 4:(100*$5):(100*$6) with yerrorbars linetype 2 pointsize 1.5 title 'softening law energy'
 } else {
   set xlabel 'Young''s modulus of the grains E / GPa'
   set logscale xy
