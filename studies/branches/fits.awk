@@ -2,7 +2,7 @@
 # there is none; then fit_value, fit_low, fit_high[NUMBER, COEFFICIENT], fit_r2[NUMBER] and fit_points[NUMBER].
 FILENAME ~ /fits\.json$/ {
   if (/^    "model":/) { fit_model[++fits] = json_value(); fit_axis = "" }
-  else if (/^    "r_squared":/) fit_r2[fits] = json_value()
+  else if (/^    "r_squared":/) fit_r2[fits] = json_value() + 0
   else if (/^    "points":/) fit_points[fits] = json_value()
   else if (/^    "(x|y|z)": [{]/) fit_axis = substr($0, 6, 1)
   else if (/^      "column":/) fit_column[fits, fit_axis] = json_value()
@@ -23,6 +23,7 @@ function fit_of(model, x, y, n,   i) {
   return 0
 }
 function interval(number, name, format) {
+  if (!((number, name) in fit_value)) return "not determined by the points"
   return sprintf(format " [" format ", " format "]", fit_value[number, name], fit_low[number, name], fit_high[number, name])
 }
 function percent(x) { return sprintf("%.2g %%", 100 * x) }

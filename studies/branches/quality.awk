@@ -1,5 +1,5 @@
 # awk -f ../common/verdict.awk -f quality.awk BRANCH/curve.csv...: how quasi-static the last stage of each is, over the rows in which
-# the axial stress exceeds a fifth of its largest value.
+# the axial stress exceeds a fifth of its largest value and, where it rises, up to that value.
 BEGIN { FS = ","; print "name,kinetic_over_internal [1],kinetic_over_elastic [1],imbalance [1],residual_over_work [1]" }
 FNR == 1 {
   finish()
@@ -33,11 +33,11 @@ first {
 }
 END { finish() }
 
-function finish(   i, top, ratio, worst, worst_elastic, worst_residual, sum, stress) {
-  for (i = 1; i <= rows; ++i) if (axial[i] > top) top = axial[i]
+function finish(   i, top, peak, ratio, worst, worst_elastic, worst_residual, sum, stress) {
+  for (i = 1; i <= rows; ++i) if (axial[i] > top) { top = axial[i]; peak = i }
   for (i = 1; i <= rows; ++i) {
     if (absolute(residual[i]) > worst_residual) worst_residual = absolute(residual[i])
-    if (axial[i] < top / 5) continue
+    if (axial[i] < top / 5 || (i > peak && peak > rows / 10)) continue
     ratio = kinetic[i] / (elastic[i] + plastic[i])
     if (ratio > worst) worst = ratio
     ratio = kinetic[i] / elastic[i]

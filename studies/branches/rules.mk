@@ -132,14 +132,10 @@ $(1): studies/branches/gather.awk $(foreach n,$(2),$(foreach s,$(sort $(foreach 
 	mv $$@.partial $$@
 endef
 
-# $(call fit_rule,NAME,TABLE,OPTIONS): TABLE.NAME.fits.json and .csv, what is fitted and its curves.
+# $(call fit_rule,NAME,TABLE,X,Y,MODELS,OPTIONS): TABLE.NAME.fits.json and .csv, what is fitted and its curves.
 define fit_rule
-$(basename $(2)).$(1).fits.json: $(2) | $(BIN)/postproc
-	awk '/,,|,$$$$/ { print FILENAME ": left out of the fit: " $$$$0 > "/dev/stderr"; next } { sub(/^[^,]*,/, ""); print }' $$< > $$@.points.partial
-	$(BIN)/postproc fit $$@.points.partial $(3) --quiet -o $$@.new.json --curve $$@.new.csv
-	rm $$@.points.partial
-	mv $$@.new.csv $$(@:.json=.csv)
-	mv $$@.new.json $$@
+$(basename $(2)).$(1).fits.json: studies/branches/fit.sh $(2) | $(BIN)/postproc
+	sh $$< $(BIN)/postproc $(2) $$@ $(3) $(4) $(5) $(6)
 endef
 
 # $(call branch_quality,FOLDER,BRANCHES): FOLDER/quality.csv, how quasi-static their last stages are.

@@ -44,19 +44,24 @@ density_max_column := relative_density_max~[1]=unloading/elastic-recovery.relati
 # ------------------------------------------------------------------------------------------------ fig10: elastic recovery
 densities := 0.70 0.73 0.77 0.80 0.83 0.86 0.88 0.90 0.92
 by_density := $(densities:%=g0.5-D%)
+# The same with the other reading of the softening law, which leaves bonds all but undamaged by unloading.
+by_density_energy_law := $(addprefix energy-g0.5-D,0.73 0.77 0.80 0.86 0.92)
 by_modulus := $(addsuffix -D0.92,e3 e4 g0.5 e6 e7 e8)
 
 fig10_files := $(addprefix $(fig10)/,recovery-density.png recovery-density.svg recovery-modulus.png recovery-modulus.svg fits.json verdict.json)
 fig10: $(fig10_files)
 $(eval $(call branch_table,$(fig10)/density.csv,$(by_density),$(recovery_columns)))
+$(eval $(call branch_table,$(fig10)/density-energy-law.csv,$(by_density_energy_law),$(recovery_columns)))
+$(eval $(call fit_rule,recovery,$(fig10)/density-energy-law.csv,relative_density_max,recovery,linear$(comma)bilinear))
 $(eval $(call branch_table,$(fig10)/modulus.csv,$(by_modulus),$(recovery_columns)))
-$(eval $(call fit_rule,recovery,$(fig10)/density.csv,--x relative_density_max --y recovery --model linear$(comma)bilinear))
-$(eval $(call fit_rule,recovery,$(fig10)/modulus.csv,--x youngs_modulus --y recovery --model log-log))
-$(eval $(call fits_rule,fig10,$(fig10)/density.recovery.fits.json $(fig10)/modulus.recovery.fits.json))
-$(eval $(call picture_rules,fig10,recovery-density,$(fig10)/density.csv $(fig10)/density.recovery.fits.json))
+$(eval $(call fit_rule,recovery,$(fig10)/density.csv,relative_density_max,recovery,linear$(comma)bilinear))
+$(eval $(call fit_rule,recovery,$(fig10)/modulus.csv,youngs_modulus,recovery,log-log))
+fig10_density_tables := $(fig10)/density.csv $(fig10)/density-energy-law.csv
+$(eval $(call fits_rule,fig10,$(fig10_density_tables:.csv=.recovery.fits.json) $(fig10)/modulus.recovery.fits.json))
+$(eval $(call picture_rules,fig10,recovery-density,$(fig10_density_tables) $(fig10_density_tables:.csv=.recovery.fits.json)))
 $(eval $(call picture_rules,fig10,recovery-modulus,$(fig10)/modulus.csv $(fig10)/modulus.recovery.fits.json))
-$(eval $(call branch_quality,$(fig10),$(by_density:%=%-unloading) $(by_modulus:%=%-unloading)))
-$(eval $(call verdict_rule,fig10,$(fig10)/density.csv $(fig10)/modulus.csv $(fig10)/fits.json $(fig10)/quality.csv))
+$(eval $(call branch_quality,$(fig10),$(by_density:%=%-unloading) $(by_density_energy_law:%=%-unloading) $(by_modulus:%=%-unloading)))
+$(eval $(call verdict_rule,fig10,$(fig10_density_tables) $(fig10)/modulus.csv $(fig10)/fits.json $(fig10)/quality.csv))
 
 # ------------------------------------------------------------------------------------------------ fig11: elastic energy
 energy_columns := loaded~[mJ]=unloading/energy.elastic_energy_loaded_mJ locked_in~[mJ]=unloading/energy.elastic_energy_locked_in_mJ \
@@ -80,16 +85,18 @@ $(eval $(call verdict_rule,fig11,$(fig11)/release.csv $(fig11)/curves.csv))
 fig12_files := $(addprefix $(fig12)/,loading.png loading.svg modulus.png modulus.svg fits.json verdict.json)
 fig12: $(fig12_files)
 $(eval $(call branch_table,$(fig12)/modulus.csv,$(by_density),$(density_max_column) $(modulus_columns)))
-$(eval $(call fit_rule,spriggs,$(fig12)/modulus.csv,--x relative_density_max --y modulus_over_grains --model spriggs --relative-density))
-$(eval $(call fits_rule,fig12,$(fig12)/modulus.spriggs.fits.json))
+$(eval $(call branch_table,$(fig12)/modulus-energy-law.csv,$(by_density_energy_law),$(density_max_column) $(modulus_columns)))
+fig12_tables := $(fig12)/modulus.csv $(fig12)/modulus-energy-law.csv
+$(foreach t,$(fig12_tables),$(eval $(call fit_rule,spriggs,$(t),relative_density_max,modulus_over_grains,spriggs,--relative-density)))
+$(eval $(call fits_rule,fig12,$(fig12_tables:.csv=.spriggs.fits.json)))
 # Three stages on one axial stress over axial strain curve.
 $(fig12)/loading.csv: studies/fig12/loading.awk $(compactions)/g0.5/curve.csv $(branches)/g0.5-D0.92-unloading/curve.csv $(branches)/g0.5-D0.92-unconfined/curve.csv | $(fig12)
 	awk -f $^ > $@.partial
 	mv $@.partial $@
 $(eval $(call picture_rules,fig12,loading,$(fig12)/loading.csv))
-$(eval $(call picture_rules,fig12,modulus,$(fig12)/modulus.csv $(fig12)/modulus.spriggs.fits.json))
-$(eval $(call branch_quality,$(fig12),$(by_density:%=%-unconfined)))
-$(eval $(call verdict_rule,fig12,$(fig12)/modulus.csv $(fig12)/fits.json $(fig12)/quality.csv))
+$(eval $(call picture_rules,fig12,modulus,$(fig12_tables) $(fig12_tables:.csv=.spriggs.fits.json)))
+$(eval $(call branch_quality,$(fig12),$(by_density:%=%-unconfined) $(by_density_energy_law:%=%-unconfined)))
+$(eval $(call verdict_rule,fig12,$(fig12_tables) $(fig12)/fits.json $(fig12)/quality.csv))
 
 # ------------------------------------------------------------------------------------------------ fig13: strength and density
 by_strength := $(addprefix g0.3-D,0.62 0.63 0.65 0.67 0.70 0.73 0.77)
@@ -100,8 +107,8 @@ fig13: $(fig13_files)
 $(eval $(call branch_table,$(fig13)/strength.csv,$(by_strength),$(density_max_column) $(strength_columns) $(contact_columns)))
 $(eval $(call branch_table,$(fig13)/strength-energy-law.csv,$(by_strength_energy_law),$(density_max_column) $(strength_columns) $(contact_columns)))
 fig13_tables := $(fig13)/strength.csv $(fig13)/strength-energy-law.csv
-$(foreach t,$(fig13_tables),$(eval $(call fit_rule,density,$(t),--x relative_density_max --y strength --model ryshkewitch-duckworth$(comma)rumpf --relative-density)))
-$(foreach t,$(fig13_tables),$(eval $(call fit_rule,area,$(t),--x contact_area_max --y strength --model log-log)))
+$(foreach t,$(fig13_tables),$(eval $(call fit_rule,density,$(t),relative_density_max,strength,ryshkewitch-duckworth$(comma)rumpf,--relative-density)))
+$(foreach t,$(fig13_tables),$(eval $(call fit_rule,area,$(t),contact_area_max,strength,log-log)))
 $(eval $(call fits_rule,fig13,$(fig13_tables:.csv=.density.fits.json) $(fig13_tables:.csv=.area.fits.json)))
 $(eval $(call picture_rules,fig13,strength-density,$(fig13_tables) $(fig13_tables:.csv=.density.fits.json)))
 $(eval $(call picture_rules,fig13,strength-area,$(fig13_tables) $(fig13_tables:.csv=.area.fits.json)))
@@ -112,9 +119,11 @@ $(eval $(call verdict_rule,fig13,$(fig13_tables) $(fig13)/fits.json $(fig13)/qua
 fig14_samples := $(foreach l,g0.3 energy-g0.3,$(addprefix $(l)-D,0.73 0.67 0.63))
 fig14_files := $(fig14_samples:%=$(fig14)/damage-%.png) $(fig14)/verdict.json
 fig14: $(fig14_files)
-fig14_section := --axis y --position 0.5 --relative --field damage
+fig14_section := --axis x --position 0.5 --relative --field damage
+# With the law exponential every bond is damaged nearly all the way before the test, with energy hardly any.
+fig14_range = $(if $(filter energy-%,$(1)),0$(comma)0.1,0.99$(comma)1)
 $(fig14)/damage-%.png: $(branches)/%-unconfined/run.h5 | $(fig14) $(BIN)/postproc
-	$(BIN)/postproc section $< --snapshot -1 $(fig14_section) --range 0,1 --title "$$(echo $* | sed 's/^energy-g0.3-D/Law energy, D_max = /; s/^g0.3-D/Law exponential, D_max = /')" -o $(@D)/new-damage-$*.png
+	$(BIN)/postproc section $< --snapshot -1 $(fig14_section) --range $(call fig14_range,$*) --title "$$(echo $* | sed 's/^energy-g0.3-D/Law energy, D_max = /; s/^g0.3-D/Law exponential, D_max = /')" -o $(@D)/new-damage-$*.png
 	mv $(@D)/new-damage-$*.png $@
 # Of the same plane before the reloading (snapshot 0: after the rest) and at its end.
 $(fig14)/before-%.csv: $(branches)/%-unconfined/run.h5 | $(fig14) $(BIN)/postproc
@@ -128,7 +137,9 @@ $(eval $(call verdict_rule,fig14,$(fig14)/contacts.csv $(fig14_samples:%=$(fig14
 
 # ------------------------------------------------------------------------------------------------ fig15, fig16: fracture energy
 by_energy := $(addsuffix -D0.77,g0.05 g0.1 g0.2 g0.3 g0.4 g0.5)
-by_energy_energy_law := $(addsuffix -D0.77,$(addprefix energy-,g0.05 g0.1 g0.2 g0.3 g0.5))
+# With the other softening law bonds bear so much that the trends lie at smaller energies.
+by_energy_energy_law := $(addsuffix -D0.77,$(addprefix energy-,g0.005 g0.01 g0.02 g0.05 g0.1 g0.2 g0.3 g0.5))
+by_energy_dense := $(addsuffix -D0.92,$(addprefix energy-,g0.005 g0.01 g0.02 g0.05 g0.1 g0.5))
 fig15_files := $(foreach p,force-displacement force-displacement-energy-law,$(fig15)/$(p).png $(fig15)/$(p).svg) $(fig15)/verdict.json
 fig15: $(fig15_files)
 # $(call fig15_rules,SUFFIX,NAMES)
@@ -147,11 +158,13 @@ $(eval $(call verdict_rule,fig15,$(fig15)/strength.csv $(fig15)/strength-energy-
 fig16_files := $(addprefix $(fig16)/,modulus.png modulus.svg strength.png strength.svg fits.json verdict.json)
 fig16: $(fig16_files)
 fig16_tables := $(fig16)/energy.csv $(fig16)/energy-energy-law.csv
+fig16_dense := $(fig16)/energy-energy-law-dense.csv
 $(eval $(call branch_table,$(fig16)/energy.csv,$(by_energy),$(density_max_column) $(modulus_columns) $(strength_columns)))
 $(eval $(call branch_table,$(fig16)/energy-energy-law.csv,$(by_energy_energy_law),$(density_max_column) $(modulus_columns) $(strength_columns)))
-$(foreach t,$(fig16_tables),$(eval $(call fit_rule,modulus,$(t),--x fracture_energy --y modulus --model inverse-exponential)))
-$(foreach t,$(fig16_tables),$(eval $(call fit_rule,strength,$(t),--x fracture_energy --y strength --model exponential$(comma)inverse-exponential)))
-$(eval $(call fits_rule,fig16,$(fig16_tables:.csv=.modulus.fits.json) $(fig16_tables:.csv=.strength.fits.json)))
-$(eval $(call picture_rules,fig16,modulus,$(fig16_tables) $(fig16_tables:.csv=.modulus.fits.json)))
+$(eval $(call branch_table,$(fig16_dense),$(by_energy_dense),$(density_max_column) $(modulus_columns)))
+$(foreach t,$(fig16_tables) $(fig16_dense),$(eval $(call fit_rule,modulus,$(t),fracture_energy,modulus,inverse-exponential)))
+$(foreach t,$(fig16_tables),$(eval $(call fit_rule,strength,$(t),fracture_energy,strength,exponential$(comma)inverse-exponential)))
+$(eval $(call fits_rule,fig16,$(fig16_tables:.csv=.modulus.fits.json) $(fig16_dense:.csv=.modulus.fits.json) $(fig16_tables:.csv=.strength.fits.json)))
+$(eval $(call picture_rules,fig16,modulus,$(fig16_tables) $(fig16_dense) $(fig16_tables:.csv=.modulus.fits.json) $(fig16_dense:.csv=.modulus.fits.json)))
 $(eval $(call picture_rules,fig16,strength,$(fig16_tables) $(fig16_tables:.csv=.strength.fits.json)))
-$(eval $(call verdict_rule,fig16,$(fig16_tables) $(fig16)/fits.json))
+$(eval $(call verdict_rule,fig16,$(fig16_tables) $(fig16_dense) $(fig16)/fits.json))

@@ -2,7 +2,7 @@
 BEGIN { FS = ","; print "fracture_energy [N/mm],displacement [mm],force [N],damage_dissipation [mJ]" }
 FNR == 1 {
   energy = FILENAME
-  sub(/^.*\/g/, "", energy)
+  sub(/^.*\/(energy-)?g/, "", energy)
   sub(/-D.*$/, "", energy)
   split("", at)
   for (i = 1; i <= NF; ++i) {

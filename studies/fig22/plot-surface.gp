@@ -13,7 +13,6 @@ set ticslevel 0
 set xyplane 0
 set border 4095 linewidth 0.6
 set view 62,320
-set hidden3d
 set key at screen 0.98,0.98 right top Right noreverse
 splot grid_file skip 1 using 1:2:3 with lines linecolor rgb '#56b4e9' linewidth 0.8 title 'fit of Eq. 13', \
       points skip 1 using 1:2:3 with points linetype 2 pointsize 1.8 title 'triaxial tests', \
