@@ -24,6 +24,15 @@ function coefficient(law, name, words, paper, unit) {
             high[law, name] - low[law, name] > absolute(value[law, name]) ? -1 : absolute(value[law, name] / paper - 1) <= 0.15, \
             "taken as agreement: 15 %; not judged where the interval is wider than the value")
 }
+# Strength at 8 MPa, beside what Eq. 13 gives there.
+function at_8_MPa(law, energy,   i, paper) {
+  for (i = 1; i <= points[law]; ++i)
+    if (p[law, i] == 8 && g[law, i] == energy) {
+      paper = 89.93 - 73.64 * exp(-8 / 7.51) * exp(-energy / 0.11)
+      statement((energy ? "Law `" law "`: s" : "S") "trength at 8 MPa " (energy ? "with G^c = " energy " N/mm" : "without bonds"), \
+                sprintf("%.1f MPa by Eq. 13", paper), sprintf("%.1f MPa", q[law, i]), absolute(q[law, i] / paper - 1) <= 0.15, "taken as agreement: 15 %")
+    }
+}
 function judge(law,   i, j, pairs_p, pairs_g, falls_p, falls_g) {
   coefficient(law, "A", "largest strength A", 89.93, "MPa")
   coefficient(law, "B", "B, by which it is less without confinement and bonds", 73.64, "MPa")
@@ -44,7 +53,12 @@ function judge(law,   i, j, pairs_p, pairs_g, falls_p, falls_g) {
 END {
   if (failed) exit 1
   if (!(("energy", "A") in value) || !(("exponential", "A") in value)) { print "verdict: no fit" > "/dev/stderr"; exit 1 }
+  at_8_MPa("energy", 0)
+  at_8_MPa("energy", 0.1)
+  at_8_MPa("energy", 0.5)
   judge("energy")
+  at_8_MPa("exponential", 0.1)
+  at_8_MPa("exponential", 0.5)
   judge("exponential")
   end_of_verdict()
 }
