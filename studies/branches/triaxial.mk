@@ -79,7 +79,7 @@ $(fig19)/verdict.json: | $(fig19)
 fig21_energies := 0.5 0.1
 fig21_files := $(fig21_energies:%=$(fig21)/section-%.png) $(fig21)/sections.csv $(fig21)/verdict.json
 fig21: $(fig21_files)
-damage_section := --axis x --position 0.5 --relative --field damage
+damage_section := --axis x --position 0.5 --relative --field damage --range 0,0.5
 
 $(fig21)/section-%.png: $(branches)/energy-g%-D0.92-p8-triaxial/run.h5 | $(fig21) $(BIN)/postproc
 	$(BIN)/postproc section $< $(damage_section) --title 'G^c = $* N/mm, axial strain 0.15' -o $(@D)/new-section-$*.png

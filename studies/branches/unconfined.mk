@@ -45,7 +45,7 @@ density_max_column := relative_density_max~[1]=unloading/elastic-recovery.relati
 densities := 0.70 0.73 0.77 0.80 0.83 0.86 0.88 0.90 0.92
 by_density := $(densities:%=g0.5-D%)
 # The same with the other reading of the softening law, which leaves bonds all but undamaged by unloading.
-by_density_energy_law := $(addprefix energy-g0.5-D,0.73 0.77 0.80 0.86 0.92)
+by_density_energy_law := $(densities:%=energy-g0.5-D%)
 by_modulus := $(addsuffix -D0.92,e3 e4 g0.5 e6 e7 e8)
 
 fig10_files := $(addprefix $(fig10)/,recovery-density.png recovery-density.svg recovery-modulus.png recovery-modulus.svg fits.json verdict.json)
@@ -138,8 +138,8 @@ $(eval $(call verdict_rule,fig14,$(fig14)/contacts.csv $(fig14_samples:%=$(fig14
 # ------------------------------------------------------------------------------------------------ fig15, fig16: fracture energy
 by_energy := $(addsuffix -D0.77,g0.05 g0.1 g0.2 g0.3 g0.4 g0.5)
 # With the other softening law bonds bear so much that the trends lie at smaller energies.
-by_energy_energy_law := $(addsuffix -D0.77,$(addprefix energy-,g0.005 g0.01 g0.02 g0.05 g0.1 g0.2 g0.3 g0.5))
-by_energy_dense := $(addsuffix -D0.92,$(addprefix energy-,g0.005 g0.01 g0.02 g0.05 g0.1 g0.5))
+by_energy_energy_law := $(addsuffix -D0.77,$(addprefix energy-,g0.01 g0.02 g0.05 g0.1 g0.2 g0.3 g0.5))
+by_energy_dense := $(addsuffix -D0.92,$(addprefix energy-,g0.01 g0.02 g0.05 g0.1 g0.5))
 fig15_files := $(foreach p,force-displacement force-displacement-energy-law,$(fig15)/$(p).png $(fig15)/$(p).svg) $(fig15)/verdict.json
 fig15: $(fig15_files)
 # $(call fig15_rules,SUFFIX,NAMES)

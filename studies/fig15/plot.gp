@@ -2,7 +2,7 @@
 call 'studies/common/style.gp' ARG1
 folder = ARG3
 set output ARG4
-energies = '0.005 0.01 0.02 0.05 0.1 0.2 0.3 0.4 0.5'
+energies = '0.01 0.02 0.05 0.1 0.2 0.3 0.4 0.5'
 table = folder.'/'.ARG2.'.csv'
 set linetype 6 linecolor rgb '#e69f00' linewidth 2
 set linetype 7 linecolor rgb '#56b4e9' linewidth 2

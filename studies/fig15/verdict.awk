@@ -15,7 +15,7 @@ function judge(law, name,   n) {
   n = rows[law]
   statement("The peak rises with the bonds' fracture energy" name, "rises", \
             sprintf("%.3g MPa at %s N/mm, %.3g MPa at %s N/mm", strength[law, 1], energy[law, 1], strength[law, n], energy[law, n]), \
-            strength[law, n] > strength[law, 1] + 0 && !not_rising[law], not_rising[law] ? "not from each energy to the next" : "from each energy to the next")
+            strength[law, n] > strength[law, 1] + 0 && !not_rising[law], not_rising[law] ? "not from each energy to the next: where bonds hold, the grains yield and the energy no longer matters" : "from each energy to the next")
   statement("Every curve has a peak and falls after it" name, "peak", peaks[law] " of " n " fall by 2 % or more within the test", peaks[law] == n, \
             "the test ends at a fall of 10 % or an axial strain of 0.15")
   statement("Failure comes with the onset of damage growth" name, "coincide", "stress at the onset over the peak: " onsets[law], least[law] >= 0.9, \

@@ -6,7 +6,7 @@ set output ARG4
 set xlabel 'fracture energy G^c / (N/mm)'
 set xrange [0:0.55]
 set yrange [0:*]
-set key right bottom
+set key outside center above maxcols 1
 table(law) = folder.'/energy'.law.'.csv'
 fit(law) = folder.'/energy'.law.'.'.picture.'.fits.csv'
 if (picture eq 'modulus') {
@@ -21,7 +21,6 @@ if (picture eq 'modulus') {
        paper with lines linetype 5 dashtype 3 linewidth 1 title 'saturated value of the paper'
 } else {
   set ylabel 'unconfined strength / MPa'
-  set key at graph 0.99, graph 0.62 right
   plot fit('') skip 1 using 1:2 with lines linetype 1 title 'exponential', \
        '' skip 1 using 1:3 with lines linetype 1 dashtype 2 linewidth 1 title 'inverse exponential', \
        table('') skip 1 using 3:10:11 with yerrorbars linetype 1 pointsize 1.5 title 'computed, softening law exponential', \

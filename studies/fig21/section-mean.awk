@@ -12,8 +12,10 @@ FNR == 1 {
   next
 }
 {
+  # Where there is no bond damage is -1.
+  if ($need("damage_1") < 0 || $need("damage_2") < 0) next
   length_mm = $need("length")
-  d = ($need("damage_1") + $need("damage_2")) / 2
+  d = ($column["damage_1"] + $column["damage_2"]) / 2
   bonded += length_mm
   sum += d * length_mm
   if (d >= 0.99) broken += length_mm
