@@ -1,4 +1,4 @@
-# The look of all plots: call 'studies/common/style.gp' ARG1, png or svg (a script that is loaded does not see the caller's ARG1).
+# The look of all plots.   call 'studies/common/style.gp' png|svg   (load would hide the format: it has no arguments of its own)
 if (ARG1 eq 'svg') {
   set terminal svg size 800,600 dynamic enhanced font 'DejaVu Sans,16' background 'white'
 } else {

@@ -34,3 +34,6 @@ function need(name) {
   failed = 1
   exit 1
 }
+
+# list_add("a, b", "c"): "a, b, c".
+function list_add(list, text) { return list (list == "" ? "" : ", ") text }
