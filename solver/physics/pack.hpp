@@ -7,17 +7,11 @@
 #include <cstdint>
 #include <type_traits>
 
-// Before Eigen includes it: gcc 12 takes the deliberately undefined values of its own AVX-512 header for mistakes wherever
-// its functions are inlined (gcc bug 105593).
-#if defined(__AVX__)
-#pragma GCC diagnostic push
-#pragma GCC diagnostic ignored "-Wmaybe-uninitialized"
-#pragma GCC diagnostic ignored "-Wuninitialized"
-#include <immintrin.h>
-#pragma GCC diagnostic pop
-#endif
-
 #include <Eigen/Core>
+
+#if defined(__AVX__)
+#include <immintrin.h>
+#endif
 
 namespace mpfem {
 
