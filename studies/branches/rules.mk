@@ -111,8 +111,6 @@ $(branches)/%/curve.csv: $(branches)/%/run.h5 | $(BIN)/postproc
 metric_options_energy = --packing $(mesh)
 # A sample sits down on its walls first and damage grows from the start: stricter rules leave no window (studies/fig12).
 metric_options_modulus = --slope-change 0.15 --damage-share 0.5
-# Triaxial tests end at an axial strain of 0.15, to rounding.
-metric_options_strength = --at-strain 0.1499
 define metric_rule
 $(call stamp,$(branches)/$(1).settings,options $(metric_options_$(1)))
 $(branches)/%/$(1).json: $(branches)/%/run.h5 studies/branches/measure.sh $(branches)/$(1).settings | $(BIN)/postproc

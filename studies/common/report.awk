@@ -1,4 +1,5 @@
-# verdict.json (one statement a line, as studies/common/verdict.awk writes it) -> rows of an HTML table.
+# verdict.json (one statement a line, as studies/common/verdict.awk writes it) -> rows of an HTML table, or of a Markdown
+# one with -v format=markdown.
 function field(name,   start, rest, text, c) {
   start = index($0, "\"" name "\": ")
   if (!start) return ""
@@ -14,6 +15,10 @@ function field(name,   start, rest, text, c) {
   }
   return text
 }
+function cell(text) {
+  gsub(/\|/, "\\|", text)
+  return text
+}
 function html(text) {
   gsub(/&/, "\\&amp;", text)
   gsub(/</, "\\&lt;", text)
@@ -23,6 +28,10 @@ function html(text) {
 /"statement":/ {
   agrees = field("agrees")
   word = agrees == "true" ? "agrees" : agrees == "false" ? "differs" : "not judged"
+  if (format == "markdown") {
+    printf "| %s | %s | %s | %s |\n", cell(field("statement")), cell(field("paper")), cell(field("ours")), word
+    next
+  }
   printf "<tr class=\"%s\"><td>%s</td><td>%s</td><td>%s</td><td>%s</td><td>%s</td></tr>\n", \
          agrees, html(field("statement")), html(field("paper")), html(field("ours")), word, html(field("note"))
 }

@@ -1,0 +1,25 @@
+#!/bin/sh
+# keep.sh MESH FIGURE...: copies the small results of figures from out/MESH to studies/results/MESH, and sets the verdicts
+# of all figures kept for that mesh side by side in studies/results/MESH/verdicts.md. Large tables stay behind.
+set -eu
+mesh=$1
+shift
+kept=studies/results/$mesh
+for figure in "$@"; do
+  [ -e "out/$mesh/$figure/verdict.json" ] || { echo "keep.sh: out/$mesh/$figure has no verdict.json: left out" >&2 && continue; }
+  mkdir -p "$kept/$figure"
+  find "out/$mesh/$figure" -maxdepth 1 -type f \
+    \( -name '*.png' -size -720k -o -name '*.json' -o -name '*.csv' -size -100k \) -exec cp {} "$kept/$figure/" \;
+done
+{
+  echo "# Verdicts, MESH=$mesh"
+  echo
+  echo 'Statements of Ku, Zhao, Mollon and Zhao beside what the studies of this folder found, computed from their data. How each is'
+  echo 'judged, and what differs why, is in the notes of the verdict.json files and the README of each study.'
+  for folder in "$kept"/*/; do
+    [ -e "$folder/verdict.json" ] || continue
+    printf '\n## %s\n\n| statement | paper | here | verdict |\n|---|---|---|---|\n' "$(basename "$folder")"
+    awk -v format=markdown -f studies/common/report.awk "$folder/verdict.json"
+  done
+} >"$kept/verdicts.md.partial"
+mv "$kept/verdicts.md.partial" "$kept/verdicts.md"
