@@ -21,7 +21,7 @@ Outcome mpfem_command(const std::string& arguments) {
   return run_command(fmt::format("'{}' {}", MPFEM_EXECUTABLE, arguments));
 }
 
-const std::string scenario_text = R"(packing = "packing.h5"
+const std::string grains_text = R"(packing = "packing.h5"
 [material]
 density = 1.55e-9
 youngs_modulus = 5000
@@ -31,7 +31,9 @@ law = "power"
 yield_stress = 25
 coefficient = 125
 exponent = 0.3
-[output]
+)";
+
+const std::string scenario_text = grains_text + R"([output]
 history_rows = 20
 snapshot_relative_densities = [0.52]
 [[stages]]
@@ -67,17 +69,7 @@ rebond = "on_contact"
 )";
 
 /// With bonds and every kind of loading: walls held by servos, taken away, and back.
-const std::string loading_text = R"(packing = "packing.h5"
-[material]
-density = 1.55e-9
-youngs_modulus = 5000
-poissons_ratio = 0.3
-[material.hardening]
-law = "power"
-yield_stress = 25
-coefficient = 125
-exponent = 0.3
-[bond]
+const std::string loading_text = grains_text + R"([bond]
 tensile_strength = 25
 shear_strength = 18
 fracture_energy = 0.05
