@@ -1,7 +1,6 @@
 #include "solver/kernels/thread_team.hpp"
 
 #include <algorithm>
-
 #include <stdexcept>
 #include <utility>
 

@@ -69,19 +69,19 @@ void for_each_array(F&& f) {
   f(check::node_position), f(check::node_velocity), f(check::node_force);
   f(check::tet_deviator), f(check::tet_flow_stress), f(check::tet_plastic_strain), f(check::tet_length);
   f(check::grain_travel), f(check::grain_travel_at_search), f(check::contact_point_wake), f(check::contact_point_sure);
-  f(check::bond_values), f(check::grip_reference);
   f(check::contact_pair_first), f(check::contact_pair_second), f(check::contact_pair_point_offset);
   f(check::contact_point_node), f(check::contact_point_facet_offset), f(check::contact_candidate_facet);
-  f(check::contact_point_facet), f(check::bond_facet), f(check::grip_node), f(check::grip_side);
+  f(check::contact_point_facet);
+  f(check::bond_facet), f(check::bond_values), f(check::grip_node), f(check::grip_side), f(check::grip_reference);
 }
 
 /// Hash of the arrays in a file. One array is in memory at a time: a checkpoint may be as large as the model.
 std::uint64_t checksum(const schema::FileReader& file) {
   std::uint64_t hash = hash_seed;
   for_each_array([&](const auto& dataset) {
-    using Values = decltype(file.read(dataset));
-    const Values values = file.has(dataset) ? file.read(dataset) : Values();
-    hash = hash_values(std::span<const typename Values::value_type>(values), hash);
+    if (!file.has(dataset)) return; // bonds and grips
+    const auto values = file.read(dataset);
+    hash = hash_values(std::span<const typename decltype(values)::value_type>(values), hash);
   });
   return hash;
 }
@@ -99,10 +99,6 @@ public:
   template <class T, class Vector>
   void write(const schema::Dataset<T, 1>& dataset, const Vector& values) {
     write(dataset, values, values.size());
-  }
-  /// Arrays that are not in this file.
-  void leave_out(int arrays) {
-    for (int i = 0; i < arrays; ++i) hash_ = hash_values(std::span<const double>(), hash_);
   }
   std::uint64_t checksum() const { return hash_; }
 
@@ -195,30 +191,6 @@ void write_checkpoint(const std::string& path, const Simulation& simulation, con
   arrays.write(check::grain_travel_at_search, contact.travel_at_search);
   arrays.write(check::contact_point_wake, contact.point_wake);
   arrays.write(check::contact_point_sure, contact.point_sure);
-  std::vector<std::int32_t> bond_facet;
-  if (contact.bonding) {
-    std::vector<double> values;
-    for (const PointBond& bond : contact.bond) {
-      bond_facet.push_back(bond.facet);
-      values.insert(values.end(), {bond.weight1, bond.weight2, bond.state.initiation, bond.state.largest,
-                                   bond.remaining, bond.spent});
-    }
-    arrays.write(check::bond_values, values, bond_facet.size());
-  } else {
-    arrays.leave_out(1);
-  }
-  std::vector<std::int32_t> grip_node, grip_side;
-  if (simulation.grips().present()) {
-    std::vector<double> reference;
-    for (const GrippedNode& gripped : simulation.grips().node) {
-      grip_node.push_back(gripped.node);
-      grip_side.push_back(gripped.side);
-      reference.insert(reference.end(), gripped.reference.begin(), gripped.reference.end());
-    }
-    arrays.write(check::grip_reference, reference, grip_node.size());
-  } else {
-    arrays.leave_out(1);
-  }
   arrays.write(check::contact_pair_first, candidates.pair_first);
   arrays.write(check::contact_pair_second, candidates.pair_second);
   arrays.write(check::contact_pair_point_offset, candidates.pair_point_offset);
@@ -226,15 +198,28 @@ void write_checkpoint(const std::string& path, const Simulation& simulation, con
   arrays.write(check::contact_point_facet_offset, candidates.point_facet_offset);
   arrays.write(check::contact_candidate_facet, candidates.point_facet);
   arrays.write(check::contact_point_facet, contact.point_facet);
-  if (contact.bonding)
-    arrays.write(check::bond_facet, bond_facet);
-  else
-    arrays.leave_out(1);
+  if (contact.bonding) {
+    std::vector<std::int32_t> facet;
+    std::vector<double> values;
+    for (const PointBond& bond : contact.bond) {
+      facet.push_back(bond.facet);
+      values.insert(values.end(), {bond.weight1, bond.weight2, bond.state.initiation, bond.state.largest,
+                                   bond.remaining, bond.spent});
+    }
+    arrays.write(check::bond_facet, facet);
+    arrays.write(check::bond_values, values, facet.size());
+  }
   if (simulation.grips().present()) {
-    arrays.write(check::grip_node, grip_node);
-    arrays.write(check::grip_side, grip_side);
-  } else {
-    arrays.leave_out(2);
+    std::vector<std::int32_t> node, side;
+    std::vector<double> reference;
+    for (const GrippedNode& gripped : simulation.grips().node) {
+      node.push_back(gripped.node);
+      side.push_back(gripped.side);
+      reference.insert(reference.end(), gripped.reference.begin(), gripped.reference.end());
+    }
+    arrays.write(check::grip_node, node);
+    arrays.write(check::grip_side, side);
+    arrays.write(check::grip_reference, reference, node.size());
   }
   file.write_scalar(check::checksum, hash_text(arrays.checksum()));
   file.commit();

@@ -74,8 +74,8 @@ energy_columns := loaded~[mJ]=unloading/energy.elastic_energy_loaded_mJ locked_i
 fig11_files := $(foreach p,normalised release energy,$(fig11)/$(p).png $(fig11)/$(p).svg) $(fig11)/verdict.json
 fig11: $(fig11_files)
 $(eval $(call branch_table,$(fig11)/release.csv,$(by_modulus),$(energy_columns)))
-$(fig11)/curves.csv: studies/fig11/curves.awk $(fig11)/release.csv $(foreach n,$(by_modulus),$(compactions)/$(n:-D0.92=)/curve.csv $(branches)/$(n)-unloading/curve.csv)
-	awk -f $^ > $@.partial
+$(fig11)/curves.csv: studies/common/verdict.awk studies/fig11/curves.awk $(fig11)/release.csv $(foreach n,$(by_modulus),$(compactions)/$(n:-D0.92=)/curve.csv $(branches)/$(n)-unloading/curve.csv)
+	awk -f $< -f $(filter-out $<,$^) > $@.partial
 	mv $@.partial $@
 $(foreach p,normalised energy,$(eval $(call picture_rules,fig11,$(p),$(fig11)/curves.csv)))
 $(eval $(call picture_rules,fig11,release,$(fig11)/release.csv))
@@ -90,8 +90,8 @@ fig12_tables := $(fig12)/modulus.csv $(fig12)/modulus-energy-law.csv
 $(foreach t,$(fig12_tables),$(eval $(call fit_rule,spriggs,$(t),relative_density_max,modulus_over_grains,spriggs,--relative-density)))
 $(eval $(call fits_rule,fig12,$(fig12_tables:.csv=.spriggs.fits.json)))
 # Three stages on one axial stress over axial strain curve.
-$(fig12)/loading.csv: studies/fig12/loading.awk $(compactions)/g0.5/curve.csv $(branches)/g0.5-D0.92-unloading/curve.csv $(branches)/g0.5-D0.92-unconfined/curve.csv | $(fig12)
-	awk -f $^ > $@.partial
+$(fig12)/loading.csv: studies/common/verdict.awk studies/fig12/loading.awk $(compactions)/g0.5/curve.csv $(branches)/g0.5-D0.92-unloading/curve.csv $(branches)/g0.5-D0.92-unconfined/curve.csv | $(fig12)
+	awk -f $< -f $(filter-out $<,$^) > $@.partial
 	mv $@.partial $@
 $(eval $(call picture_rules,fig12,loading,$(fig12)/loading.csv))
 $(eval $(call picture_rules,fig12,modulus,$(fig12_tables) $(fig12_tables:.csv=.spriggs.fits.json)))
