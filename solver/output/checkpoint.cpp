@@ -44,10 +44,14 @@ void for_each_number(State& s, Record& r, F&& f) {
   for (auto* values : {&s.last_wall_force, &s.last_wall_move})
     for (auto& value : *values) f(value);
   for (auto& value : r.profile_seconds) f(value);
-  // A loading's state is numbers and nothing else.
-  auto loading = std::bit_cast<std::array<double, sizeof(LoadingState) / sizeof(double)>>(s.loading);
-  for (double& value : loading) f(value);
-  if constexpr (!std::is_const_v<State>) s.loading = std::bit_cast<LoadingState>(loading);
+  // These states are numbers and nothing else.
+  const auto each_of = [&]<class Numbers>(Numbers& state) {
+    using Plain = std::remove_const_t<Numbers>;
+    auto values = std::bit_cast<std::array<double, sizeof(Plain) / sizeof(double)>>(state);
+    for (double& value : values) f(value);
+    if constexpr (!std::is_const_v<Numbers>) state = std::bit_cast<Plain>(values);
+  };
+  each_of(s.loading), each_of(s.pace);
 }
 
 /// Calls f(block, lane, tet) for every tet of the model.

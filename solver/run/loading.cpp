@@ -60,6 +60,15 @@ Sample sample_of(const Model& model, const MaterialParameters& material) {
   return sample;
 }
 
+double wave_transit(const Sample& sample, const std::array<double, 3>& low, const std::array<double, 3>& high) {
+  double volume = 1, longest = 0;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    volume *= high[axis] - low[axis];
+    longest = std::max(longest, high[axis] - low[axis]);
+  }
+  return longest * std::sqrt(sample.mass / (volume * compact_modulus * sample.constrained_modulus));
+}
+
 int absent_axes(const Scenario& scenario, const Stage& stage) {
   if (!scenario.walls || stage.grip) return 7;
   return stage.loading && stage.loading->path == LoadingPath::unconfined ? 3 : 0;
@@ -68,13 +77,16 @@ int absent_axes(const Scenario& scenario, const Stage& stage) {
 /// Stresses in MPa, strains since the stage began.
 struct LoadingControl::Seen {
   double time, step;
+  double pace;
+  double wall_speed; ///< mm/s, the largest at this pace
   std::array<double, 3> length, area, force, stress, strain;
   double mean_stress, deviatoric_stress, relative_density, plastic_dissipation;
 };
 
 LoadingControl::Seen LoadingControl::see(const LoadingObservation& o) const {
   Seen s{};
-  s.time = o.time, s.step = o.step, s.plastic_dissipation = o.plastic_dissipation;
+  s.time = o.time, s.step = o.step, s.pace = o.pace, s.wall_speed = o.pace * loading_.wall_speed;
+  s.plastic_dissipation = o.plastic_dissipation;
   double volume = 1;
   for (std::size_t axis = 0; axis < 3; ++axis) {
     s.length[axis] = o.high[axis] - o.low[axis];
@@ -102,7 +114,7 @@ LoadingControl::LoadingControl(const Stage& stage, const std::array<double, 3>& 
     volume *= length_[axis];
   }
   const double density = sample.mass / volume, modulus = compact_modulus * sample.constrained_modulus;
-  transit_ = longest_ * std::sqrt(density / modulus);
+  transit_ = wave_transit(sample, low, high);
   gain_ = 1.0 / std::sqrt(density * modulus);
   slow_gain_ = 1.0 / (servo_mass * density * longest_);
 
@@ -218,8 +230,8 @@ double LoadingControl::approach(double left) const {
 }
 
 /// Speed of the driven walls a step later: nearer to the wanted one, as far as the ramp's acceleration allows.
-double LoadingControl::drive_towards(LoadingState& s, double wanted, double step) const {
-  const double change = ramp_ > 0 ? loading_.wall_speed * step / ramp_ : 2 * loading_.wall_speed;
+double LoadingControl::drive_towards(LoadingState& s, const Seen& seen, double wanted) const {
+  const double change = ramp_ > 0 ? seen.wall_speed * seen.step / ramp_ : 2 * seen.wall_speed;
   s.drive += std::clamp(wanted - s.drive, -change, change);
   return s.drive;
 }
@@ -246,8 +258,8 @@ void LoadingControl::drive_isotropic(LoadingState& s, const Seen& seen) const {
   const double leg = target - s.leg_start;
   double part = leg != 0 ? approach((target - p) / leg) : 0.0;
   if (leg < 0) part = std::max(part, slowest_unloading(target, s.leg_start));
-  const double wanted = std::copysign(loading_.wall_speed, leg) * part;
-  const double speed = drive_towards(s, wanted, seen.step);
+  const double wanted = std::copysign(seen.wall_speed, leg) * part;
+  const double speed = drive_towards(s, seen, wanted);
   for (std::size_t axis = 0; axis < 3; ++axis) s.speed[axis] = speed * seen.length[axis] / longest_;
 }
 
@@ -257,7 +269,7 @@ void LoadingControl::drive_axial(LoadingState& s, const Seen& seen) const {
   // A way that is known ends at rest, by constant deceleration.
   double left = std::numeric_limits<double>::infinity(); // mm, of each wall's way
   const auto stop_at = [&](double length) {
-    const double stopping = 0.5 * loading_.wall_speed * ramp_;
+    const double stopping = 0.5 * seen.wall_speed * ramp_;
     left = std::min(left, std::max(0.5 * s.sign * (seen.length[2] - length), 0.0));
     if (stopping > 0) part = std::min(part, std::clamp(std::sqrt(left / stopping), slowest, 1.0));
   };
@@ -271,11 +283,11 @@ void LoadingControl::drive_axial(LoadingState& s, const Seen& seen) const {
   slow_near(ends.deviatoric_stress, q, seen.deviatoric_stress);
   // The last step goes to the target and not past it.
   const double most = seen.step > 0 ? left / seen.step : left;
-  s.speed[2] = std::clamp(drive_towards(s, s.sign * loading_.wall_speed * part, seen.step), -most, most);
+  s.speed[2] = std::clamp(drive_towards(s, seen, s.sign * seen.wall_speed * part), -most, most);
 }
 
 void LoadingControl::hold(LoadingState& s, const Seen& seen, std::size_t axis, double wanted) const {
-  const double error = wanted - seen.stress[axis], limit = loading_.servo_speed;
+  const double error = wanted - seen.stress[axis], limit = loading_.servo_speed * std::max(1.0, seen.pace);
   const double delay = std::max(servo_delay * transit_, servo_delay_steps * seen.step);
   s.fast[axis] += (gain_ * error - s.fast[axis]) * seen.step / (delay + seen.step);
   // At its limit the wall cannot do more; what it has not done is not to be made up for later.
@@ -312,7 +324,7 @@ void LoadingControl::follow_path(LoadingState& s, const Seen& seen) const {
     off = std::max(off, std::abs(s.error[axis]));
   }
   // As fast as the walls may go, and as the stresses follow.
-  const double load = std::max(fastest / loading_.wall_speed, off / (path_tolerance * s.hold_stress));
+  const double load = std::max(fastest / seen.wall_speed, off / (path_tolerance * s.hold_stress));
   if (ramp_ > 0) s.path_rate *= std::exp(std::clamp(1 - load, -5.0, 1.0) * seen.step / ramp_);
   // Vibration must not bring it to a halt.
   s.path_rate = std::max(s.path_rate, slowest_path * path_rate_);

@@ -67,10 +67,14 @@ struct Sample {
 };
 Sample sample_of(const Model& model, const MaterialParameters& material);
 
+/// s, in which waves cross the longest side of a box (mm): in a compact that is a tenth as stiff as its grains.
+double wave_transit(const Sample& sample, const std::array<double, 3>& low, const std::array<double, 3>& high);
+
 /// What is seen at a time level.
 struct LoadingObservation {
   double time = 0;                          ///< s since the stage began
   double step = 0;                          ///< s since the observation before
+  double pace = 1;                          ///< speed of the driven walls over the stage's own
   std::array<double, 3> low{};              ///< mm, box
   std::array<double, 3> high{};             ///< mm
   std::array<double, 3> force{};            ///< N, mean of the two walls across each axis
@@ -116,7 +120,7 @@ private:
   Seen see(const LoadingObservation& observation) const;
   void begin(LoadingState& state, const Seen& seen, double damage) const;
   double approach(double left) const;
-  double drive_towards(LoadingState& state, double wanted, double step) const;
+  double drive_towards(LoadingState& state, const Seen& seen, double wanted) const;
   void drive_isotropic(LoadingState& state, const Seen& seen) const;
   void drive_axial(LoadingState& state, const Seen& seen) const;
   void hold(LoadingState& state, const Seen& seen, std::size_t axis, double wanted) const;

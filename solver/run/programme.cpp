@@ -184,16 +184,16 @@ void check_programme(const Scenario& scenario, std::int64_t first_stage, std::ar
   const double smallest_size = *std::min_element(model.element_size.begin(), model.element_size.end());
   for (auto s = static_cast<std::size_t>(first_stage); s < scenario.stages.size(); ++s) {
     const Stage& stage = scenario.stages[s];
-    const double speed = stage.isotropic_compaction  ? stage.isotropic_compaction->wall_speed
-                         : stage.isotropic_unloading ? stage.isotropic_unloading->wall_speed
-                         : stage.grip                ? stage.grip->speed
-                         : stage.loading             ? stage.loading->wall_speed
-                                                     : 0.0;
+    const double speed = stage.quasi_static ? stage.quasi_static->fastest_speed : stage.speed();
     if (const double fastest = largest_travel * smallest_size / stable_step; speed > fastest)
       throw InputError(
           fmt::format("stage '{}': key '{}': found {:g} mm/s, allowed at most {:.4g} mm/s here ({} of an element in a "
                       "stable step of {:.3g} s)",
-                      stage.name, stage.grip ? "speed" : "wall_speed", speed, fastest, largest_travel, stable_step));
+                      stage.name,
+                      stage.quasi_static ? "quasi_static.fastest_speed"
+                      : stage.grip       ? "speed"
+                                         : "wall_speed",
+                      speed, fastest, largest_travel, stable_step));
   }
 }
 

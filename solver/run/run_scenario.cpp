@@ -194,6 +194,7 @@ private:
     for (;;) {
       simulation_.evaluate_forces();
       RunState& state = simulation_.state();
+      warn_of_slowest_speed();
       const bool stage_end = simulation_.stage_complete();
       if (stage_end || row_due()) record_row();
       take_snapshots(stage_end);
@@ -207,6 +208,18 @@ private:
       save_checkpoints();
       report_progress();
     }
+  }
+
+  /// Once a stage: the tolerances ask for less speed than the scenario allows.
+  void warn_of_slowest_speed() {
+    const RunState& state = simulation_.state();
+    if (state.pace.at_slowest == 0 || warned_of_stage_ == state.stage) return;
+    warned_of_stage_ = state.stage;
+    if (!options_.quiet)
+      fmt::print(stderr,
+                 "mpfem: warning: stage '{}', D_r = {:.4f}: tolerances of quasi_static are not met with slowest_speed "
+                 "either\n",
+                 simulation_.stage().name, simulation_.relative_density());
   }
 
   void report_stage_end() {
@@ -402,6 +415,7 @@ private:
   std::int64_t steps_at_start_ = 0;
   std::vector<StageForecast> expected_; ///< of the stages from first_expected_ on
   std::int64_t first_expected_ = 0;
+  std::int64_t warned_of_stage_ = -1;
   std::int64_t branch_step_ = 0; ///< steps that the checkpoint of --from had done
   int reported_lines_ = 0;
   bool already_complete_ = false, begins_anew_ = false;

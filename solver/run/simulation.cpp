@@ -132,6 +132,10 @@ void Simulation::make_motion() {
   loading_.reset();
   if (stage().loading)
     loading_.emplace(stage(), state_.stage_low, state_.stage_high, sample_of(model_, scenario_.material));
+  pace_.reset();
+  if (stage().quasi_static)
+    pace_.emplace(*stage().quasi_static, stage().speed(),
+                  wave_transit(sample_of(model_, scenario_.material), state_.stage_low, state_.stage_high));
   const int absent = absent_axes(scenario_, stage());
   walls_.present = absent != 7;
   for (std::size_t axis = 0; axis < 3; ++axis) walls_.withdrawn[axis] = (absent >> axis & 1) != 0;
@@ -175,6 +179,7 @@ void Simulation::begin_stage() {
   state_.stage_high = walls_.high;
   state_.stage_mean_stress = state_.mean_stress;
   state_.loading = {};
+  state_.pace = {.dissipation_at_start = state_.plastic_dissipation};
   make_motion();
   grips_ = {};
   damping_rate_ = damping_rate();
@@ -210,7 +215,7 @@ double Simulation::relative_density() const {
 double Simulation::next_step() const {
   if (stage_complete()) return state_.last_step;
   // The last steps of a stage are shortened equally, so that the stage ends at its time without a tiny step.
-  const double left = motion_->duration() - state_.stage_time;
+  const double left = (motion_->duration() - state_.stage_time) / state_.pace.pace;
   if (!std::isfinite(left)) return state_.stable_step;
   const double steps = std::ceil(left / state_.stable_step * (1.0 - 1e-12));
   return steps <= 2 ? left / std::max(steps, 1.0) : state_.stable_step;
@@ -222,14 +227,13 @@ double Simulation::damping_rate() const {
 }
 
 Simulation::Plan Simulation::plan_step() const {
-  Plan plan{.step = next_step(),
-            .walls = walls_,
-            .sliding = motion_->sliding(state_.stage_time + next_step()),
-            .advance = {}};
+  Plan plan{.step = next_step(), .stage_time = 0, .walls = walls_, .sliding = {}, .advance = {}};
+  plan.stage_time = state_.pace.pace * plan.step;
+  plan.sliding = motion_->sliding(state_.stage_time + plan.stage_time);
   if (loading_)
     loading_->move(plan.walls, state_.loading, plan.step);
   else
-    motion_->move(plan.walls, state_.stage_time + plan.step, plan.step, state_.mean_stress);
+    motion_->move(plan.walls, state_.stage_time + plan.stage_time, plan.stage_time, state_.mean_stress);
   plan.advance.step = plan.step;
   plan.advance.step_mean = 0.5 * (state_.last_step + plan.step);
   plan.advance.damping_rate = damping_rate_;
@@ -325,12 +329,43 @@ void Simulation::evaluate_forces() {
   state_.last_wall_force = force;
   state_.last_wall_move = {};
   state_.mean_stress = stress;
+  if (pace_ && state_.step % PaceControl::steps_between_looks == 0 && !stage_complete()) regulate_pace();
   if (loading_ && !stage_complete()) loading_->update(state_.loading, observe_loading());
+}
+
+/// MPa, of all six walls at the last evaluation.
+std::array<double, 6> Simulation::wall_stress() const {
+  std::array<double, 6> stress{};
+  for (std::size_t side = 0; side < 6; ++side) {
+    const std::size_t b = (side / 2 + 1) % 3, c = (side / 2 + 2) % 3;
+    stress[side] = state_.last_wall_force[side] / ((walls_.high[b] - walls_.low[b]) * (walls_.high[c] - walls_.low[c]));
+  }
+  return stress;
+}
+
+void Simulation::regulate_pace() {
+  const auto start = Profile::Clock::now();
+  std::vector<double> kinetic(static_cast<std::size_t>(model_.grains)), elastic(kinetic.size());
+  team_.for_each(model_.grains, [&](int grain, int) {
+    const auto g = static_cast<std::size_t>(grain);
+    kinetic[g] = kinetic_energy(model_, grain, state_.last_step);
+    elastic[g] = elastic_energy(model_, grain);
+  });
+  PaceObservation seen{.elapsed = PaceControl::steps_between_looks * state_.last_step,
+                       .plastic_dissipation = state_.plastic_dissipation,
+                       .wall_stress = wall_stress()};
+  for (std::size_t g = 0; g < kinetic.size(); ++g) {
+    seen.kinetic_energy += kinetic[g];
+    seen.elastic_energy += elastic[g];
+  }
+  pace_->update(state_.pace, seen);
+  profile_.add_serial(Part::integration, Profile::since(start));
 }
 
 LoadingObservation Simulation::observe_loading() {
   LoadingObservation seen{.time = state_.stage_time,
                           .step = state_.last_step,
+                          .pace = state_.pace.pace,
                           .low = walls_.low,
                           .high = walls_.high,
                           .force = {},
@@ -354,6 +389,7 @@ StageResult Simulation::stage_result() {
   } else if (stage().isotropic_unloading) {
     result.overshoot = std::max(stage().isotropic_unloading->mean_stress - state_.mean_stress, 0.0);
   }
+  if (pace_) result.ended_by += "; " + pace_->text(state_.pace);
   return result;
 }
 
@@ -392,7 +428,8 @@ void Simulation::advance() {
   state_.low = walls_.low;
   state_.high = walls_.high;
   state_.time += step;
-  state_.stage_time = step >= motion_->duration() - state_.stage_time ? motion_->duration() : state_.stage_time + step;
+  state_.stage_time = plan.stage_time >= motion_->duration() - state_.stage_time ? motion_->duration()
+                                                                                 : state_.stage_time + plan.stage_time;
   if (loading_ ? state_.loading.ended_by != 0 : motion_->reached(walls_, state_.mean_stress)) state_.stage_ended = 1;
   state_.last_step = step;
   state_.strain_rate = strain / step;
@@ -453,10 +490,8 @@ HistoryRow Simulation::observe() {
     row.box_lengths[axis] = walls_.high[axis] - walls_.low[axis];
     box_volume *= row.box_lengths[axis];
   }
-  for (std::size_t side = 0; side < 6; ++side) {
-    row.wall_stress[side] = state_.last_wall_force[side] * row.box_lengths[side / 2] / box_volume;
-    wall_force += state_.last_wall_force[side];
-  }
+  row.wall_stress = wall_stress();
+  for (const double force : state_.last_wall_force) wall_force += force;
   row.time = state_.time;
   row.step = static_cast<double>(state_.step);
   row.stage = static_cast<double>(state_.stage);

@@ -19,6 +19,7 @@
 #include "solver/kernels/thread_team.hpp"
 #include "solver/model/model.hpp"
 #include "solver/run/loading.hpp"
+#include "solver/run/pace.hpp"
 #include "solver/run/profile.hpp"
 #include "solver/run/programme.hpp"
 #include "solver/scenario/scenario.hpp"
@@ -40,7 +41,7 @@ struct RunState {
   std::int64_t checkpoints_passed = 0; ///< of output.checkpoint_relative_densities
   // times
   double time = 0;        ///< s
-  double stage_time = 0;  ///< s, since the stage began
+  double stage_time = 0;  ///< s, since the stage began, by the stage's clock (solver/run/pace.hpp)
   double stable_step = 0; ///< s, estimate times safety factor
   double last_step = 0;   ///< s, the step that led to the present positions; 0 at the start
   double strain_since_estimate = 0;
@@ -64,12 +65,13 @@ struct RunState {
   std::array<double, 6> last_wall_force{}; ///< N, at the time level before
   std::array<double, 6> last_wall_move{};  ///< mm inward, in the last step
   LoadingState loading;                    ///< of the stage, where its walls are driven or held by stresses
+  PaceState pace;                          ///< of the stage, where it chooses its speed
 };
 
 /// How a stage ended.
 struct StageResult {
   std::string name;
-  std::string ended_by;   ///< "relative density 0.92"
+  std::string ended_by;   ///< "relative density 0.92", and which speed it chose where it was to
   double overshoot = 0;   ///< MPa by which a stress that ended or turned the stage was passed
   double hold_error = 0;  ///< MPa, largest deviation of a held stress, averaged over a transit of the box
   double hold_stress = 0; ///< MPa, the largest stress to be held
@@ -136,6 +138,7 @@ private:
   /// What the next advance does: its step, where the walls go, and the constants of the velocity update.
   struct Plan {
     double step;
+    double stage_time; ///< s, by which the stage's clock moves on
     Walls walls;
     std::array<double, 3> sliding; ///< mm, of the grips
     Advance advance;
@@ -146,6 +149,8 @@ private:
   void change_walls();
   void return_walls(std::size_t axis);
   LoadingObservation observe_loading();
+  std::array<double, 6> wall_stress() const;
+  void regulate_pace();
   double next_step() const;
   void estimate_stable_step();
   double damping_rate() const;
@@ -161,6 +166,7 @@ private:
   Profile profile_;
   std::optional<StageMotion> motion_;
   std::optional<LoadingControl> loading_;
+  std::optional<PaceControl> pace_;
   Grips grips_;
   double margin_ = 0;       ///< mm, of the contact search
   double damping_rate_ = 0; ///< 1/s, of the next advance

@@ -199,6 +199,26 @@ DampingParameters read_damping(TableReader& table) {
   return damping;
 }
 
+/// `speed`: mm/s, the stage's own; `youngs_modulus`: MPa, of the grains.
+std::optional<QuasiStatic> read_quasi_static(TableReader& stage, double speed, double youngs_modulus) {
+  constexpr double slower = 0.1, faster = 4; // bounds where none are given, over the stage's own speed
+  constexpr double loose = 1e-4;             // stress of a loose packing over the grains' modulus
+  constexpr Range part{.low = 0, .high = 1, .low_open = true};
+  std::optional<TableReader> table = stage.optional_table("quasi_static");
+  if (!table) return std::nullopt;
+  if (!(speed > 0)) stage.fail("quasi_static", "has no meaning where nothing moves");
+  if (stage.has("duration"))
+    stage.fail("duration", "has no meaning with quasi_static, which stretches the stage's time");
+  QuasiStatic q;
+  q.kinetic_tolerance = table->number_or("kinetic_tolerance", q.kinetic_tolerance, part);
+  q.imbalance_tolerance = table->number_or("imbalance_tolerance", q.imbalance_tolerance, part);
+  q.slowest_speed = table->number_or("slowest_speed", slower * speed, {.low = 0, .high = speed, .low_open = true});
+  q.fastest_speed = table->number_or("fastest_speed", faster * speed, {.low = speed});
+  q.loose_stress = table->number_or("loose_stress", loose * youngs_modulus, non_negative);
+  table->finish();
+  return q;
+}
+
 /// The name stands in file names, so it is a plain word.
 void check_stage_name(const TableReader& table, const std::string& name) {
   const bool plain = std::all_of(name.begin(), name.end(), [](char c) {
@@ -308,7 +328,7 @@ GripMotion read_grip(TableReader& table) {
   return grip;
 }
 
-Stage read_stage(TableReader table, std::size_t number) {
+Stage read_stage(TableReader table, std::size_t number, double youngs_modulus) {
   Stage stage;
   std::vector<std::string> types, all_keys;
   for (const auto& [name, keys] : stage_keys) {
@@ -343,12 +363,13 @@ Stage read_stage(TableReader table, std::size_t number) {
   } else {
     stage.loading = read_loading(table, type);
   }
+  stage.quasi_static = read_quasi_static(table, stage.speed(), youngs_modulus);
   stage.damping = read_damping(table);
   table.finish();
   return stage;
 }
 
-std::vector<Stage> read_stages(TableReader& root) {
+std::vector<Stage> read_stages(TableReader& root, double youngs_modulus) {
   std::vector<TableReader> tables = root.tables("stages");
   if (tables.empty())
     root.fail("stages", root.has("stages") ? "found no stage, expected at least one [[stages]]"
@@ -356,7 +377,7 @@ std::vector<Stage> read_stages(TableReader& root) {
   std::vector<Stage> stages;
   std::set<std::string> names;
   for (TableReader& table : tables) {
-    stages.push_back(read_stage(table, stages.size() + 1));
+    stages.push_back(read_stage(table, stages.size() + 1, youngs_modulus));
     const std::string& name = stages.back().name;
     if (!names.insert(name).second)
       table.fail("name", fmt::format("found '{}', which an earlier stage has, expected different names", name));
@@ -411,7 +432,7 @@ Scenario read_scenario(const TomlDocument& document) {
   if (auto table = root.optional_table("element")) scenario.numerics.element = read_element(*table);
   if (auto table = root.optional_table("output")) scenario.output = read_output(*table);
   if (auto table = root.optional_table("initial")) read_initial(*table, scenario);
-  scenario.stages = read_stages(root);
+  scenario.stages = read_stages(root, scenario.material.youngs_modulus);
   check_walls(root, scenario);
   root.finish();
   return scenario;

@@ -162,6 +162,15 @@ struct DampingParameters {
   double fade_stress = 0; ///< MPa
 };
 
+/// Tolerances of quasi-static loading, between whose bounds a stage chooses its speed (solver/run/pace.hpp).
+struct QuasiStatic {
+  double kinetic_tolerance = 0.01;   ///< kinetic energy over internal energy gained in the stage or stored at its start
+  double imbalance_tolerance = 0.02; ///< difference of opposite walls' stresses over the largest wall stress
+  double slowest_speed = 0;          ///< mm/s
+  double fastest_speed = 0;          ///< mm/s
+  double loose_stress = 0;           ///< MPa: below this wall stress the packing is loose and the speed stays as it is
+};
+
 struct Stage {
   std::string name;
   std::optional<IsotropicCompaction> isotropic_compaction; ///< exactly one of these is set
@@ -169,7 +178,17 @@ struct Stage {
   std::optional<GripMotion> grip;
   std::optional<Hold> hold;
   std::optional<WallLoading> loading;
+  std::optional<QuasiStatic> quasi_static; ///< none: the stage keeps its speed
   DampingParameters damping;
+
+  /// mm/s of each driven wall or grip, where nothing else is asked for; 0 where nothing moves.
+  double speed() const {
+    return isotropic_compaction  ? isotropic_compaction->wall_speed
+           : isotropic_unloading ? isotropic_unloading->wall_speed
+           : grip                ? grip->speed
+           : loading             ? loading->wall_speed
+                                 : 0.0;
+  }
 };
 
 struct Scenario {

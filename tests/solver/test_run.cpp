@@ -90,6 +90,7 @@ lowest_mean_stress = 5
 highest_mean_stress = 20
 cycles = 1
 wall_speed = 10000
+quasi_static = { kinetic_tolerance = 0.02, imbalance_tolerance = 0.1 }
 [[stages]]
 name = "triaxial"
 type = "triaxial_compression"
@@ -235,12 +236,14 @@ TEST_CASE("a run says what ended its stages, and how well stresses were held") {
   const Outcome outcome = mpfem_command(fmt::format("run {} -o {}", folder / "scenario.toml", folder / "run.h5"));
   REQUIRE(outcome.exit_code == 0);
   CHECK_THAT(outcome.messages, Catch::Contains("stage 'triaxial' ended by axial strain 0.02; stresses held within"));
+  CHECK_THAT(outcome.messages,
+             Catch::Contains("stage 'cycles' ended by 1 cycle") && Catch::Contains("wall speed chosen between"));
   CHECK(schema::validate(folder / "run.h5").empty());
   const schema::FileReader file(folder / "run.h5", schema::FileKind::run);
   const auto name = file.read(schema::run::provenance_stage_name), end = file.read(schema::run::provenance_stage_end);
   REQUIRE(name == std::vector<std::string>{"compaction", "cycles", "triaxial", "probe", "unconfined", "die"});
   CHECK(end[0] == "mean stress 20 MPa");
-  CHECK(end[1] == "1 cycle");
+  CHECK_THAT(end[1], Catch::StartsWith("1 cycle; wall speed chosen between"));
   CHECK(end[5] == "duration 2e-06 s");
   CHECK(file.read(schema::run::provenance_stage_hold_error)[2] > 0);
   CHECK(file.read(schema::run::provenance_stage_hold_error)[5] == 0);
@@ -332,6 +335,14 @@ TEST_CASE("keys of loadings are checked like all others") {
        {"lowest_mean_stress", "5"}},
       {"type = 'stress_cycles'\nwall_speed = 1\nlowest_mean_stress = 1\nhighest_mean_stress = 5\ncycles = 0",
        {"cycles", "0"}},
+      {"type = 'hold'\nduration = 1e-6\nquasi_static = {}", {"quasi_static", "nothing moves"}},
+      {"type = 'die_compression'\nwall_speed = 5\naxial_strain = 0.1\nquasi_static = { fastest_speed = 4 }",
+       {"quasi_static.fastest_speed", "4", "≥ 5"}},
+      {"type = 'die_compression'\nwall_speed = 5\naxial_strain = 0.1\nquasi_static = { kinetic = 0.1 }",
+       {"quasi_static.kinetic", "kinetic_tolerance"}},
+      {"type = 'die_compression'\nwall_speed = 5\nduration = 1\nquasi_static = {}", {"duration", "no meaning"}},
+      {"type = 'die_compression'\nwall_speed = 5\naxial_strain = 0.1\nquasi_static = { fastest_speed = 1e9 }",
+       {"quasi_static.fastest_speed", "allowed at most"}},
   };
   for (const Case& c : cases) {
     write_text(folder / "scenario.toml", scenario_text + "[[stages]]\n" + c.stage + "\n");

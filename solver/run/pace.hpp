@@ -1,0 +1,59 @@
+#pragma once
+// A stage that chooses its own speed: as fast as its tolerances of quasi-static loading allow.
+//
+// Two signs of inertia are looked at while the packing bears load: kinetic energy over internal energy, and the
+// difference of opposite walls' stresses, which vanishes in equilibrium since nothing but walls acts on the packing from
+// outside. The first grows with the square of the speed, the second with the speed; the larger of
+//   sqrt(kinetic / (tolerance internal)),   imbalance / tolerance
+// is the load, and the pace r, the present speed over the stage's own, follows d ln r/dt = (aim - load) / (2 transits),
+// between the bounds: waves need about a transit to tell of a change. The stage's clock runs r times as fast as time.
+
+#include <array>
+#include <cstdint>
+#include <string>
+
+#include "solver/scenario/scenario.hpp"
+
+namespace mpfem {
+
+/// State of the control. Numbers only: a checkpoint stores them as they are.
+struct PaceState {
+  double pace = 1;                   ///< present speed over the stage's own
+  double dissipation_at_start = 0;   ///< mJ, plastic, when the stage began
+  double slowest = 1, fastest = 1;   ///< of `pace` so far
+  std::array<double, 3> imbalance{}; ///< MPa, high less low wall of each axis, averaged over a transit
+  double largest_kinetic = 0;        ///< largest kinetic over internal energy while the packing bore load
+  double largest_imbalance = 0;      ///< largest averaged imbalance over the largest wall stress, likewise
+  double time_loaded = 0;            ///< s, in which the packing bore load
+  double time_beyond = 0;            ///< s, of it beyond a tolerance
+  double at_slowest = 0;             ///< 1: the tolerances asked for less than the slowest pace
+};
+
+/// What is seen now and then.
+struct PaceObservation {
+  double elapsed = 0;                  ///< s since the observation before
+  double kinetic_energy = 0;           ///< mJ
+  double elastic_energy = 0;           ///< mJ, of the grains
+  double plastic_dissipation = 0;      ///< mJ, since the run began
+  std::array<double, 6> wall_stress{}; ///< MPa; 0 of walls that are away
+};
+
+/// The control of one stage.
+class PaceControl {
+public:
+  static constexpr std::int64_t steps_between_looks = 25;
+
+  /// `transit`: s, in which waves cross the packing.
+  PaceControl(const QuasiStatic& tolerances, double wall_speed, double transit);
+  /// Looks at the packing and changes the pace.
+  void update(PaceState& state, const PaceObservation& seen) const;
+  /// "wall speed chosen between 900 and 8000 mm/s; kinetic/internal at most 0.8 %, ...".
+  std::string text(const PaceState& state) const;
+
+private:
+  QuasiStatic tolerances_;
+  double wall_speed_;
+  double transit_;
+};
+
+} // namespace mpfem
