@@ -176,6 +176,19 @@ AdvanceSums advance(Model& model, int grain, const Advance& p) {
   return sums;
 }
 
+ForceMoments force_moments(const Model& model, const std::array<double, 3>& centre, int grain) {
+  const auto g = static_cast<std::size_t>(grain);
+  ForceMoments sums;
+  for (auto n = static_cast<std::size_t>(model.node_offset[g]); n < static_cast<std::size_t>(model.node_offset[g + 1]);
+       ++n)
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const double force = model.force[4 * n + axis];
+      sums.force[axis] += force;
+      sums.moment[axis] += force * (model.position[4 * n + axis] - centre[axis]);
+    }
+  return sums;
+}
+
 double kinetic_energy(const Model& model, int grain, double step_mean) {
   const auto g = static_cast<std::size_t>(grain);
   double energy = 0;

@@ -88,6 +88,14 @@ GripSums grip_forces(Model& model, const Grips& grips, const Walls& next, const 
 /// with the v+ that `advance` would reach from the present forces without damping.
 double kinetic_energy(const Model& model, int grain, double step_mean);
 
+/// What the total forces on a grain's nodes add up to: zero in equilibrium, both of them, over all grains.
+struct ForceMoments {
+  std::array<double, 3> force{};  ///< N
+  std::array<double, 3> moment{}; ///< N mm: along each axis, force times distance from `centre`
+};
+/// With `centre` in mm, after contact and walls were added.
+ForceMoments force_moments(const Model& model, const std::array<double, 3>& centre, int grain);
+
 /// Adds K A/m (1/s^2) of the walls that each node touches to `rate` [nodes]: what they add to the frequency squared.
 void wall_stiffness_rate(const Model& model, const Walls& walls, const Bounds& bounds, int grain,
                          std::span<double> rate);

@@ -12,7 +12,7 @@ namespace {
 /// Part of the tolerances that is aimed at: what is seen scatters around its mean.
 constexpr double aim = 0.7;
 /// Transits in which the pace changes by a factor of e where the load is off its aim by one.
-constexpr double transits_to_respond = 2;
+constexpr double transits_to_respond = 1;
 /// Bounds on the load's distance from its aim: walls brake within a transit, and gather speed more gently.
 constexpr double hardest_braking = 2, strongest_acceleration = 0.5;
 
@@ -22,26 +22,30 @@ PaceControl::PaceControl(const QuasiStatic& tolerances, double wall_speed, doubl
     : tolerances_(tolerances), wall_speed_(wall_speed), transit_(transit) {}
 
 void PaceControl::update(PaceState& s, const PaceObservation& seen) const {
-  double largest_stress = 0, imbalance = 0;
+  double wall_stress = 0, stress = 0;
+  const double weight = seen.elapsed / (transit_ + seen.elapsed);
   for (std::size_t axis = 0; axis < 3; ++axis) {
-    const double low = seen.wall_stress[2 * axis], high = seen.wall_stress[2 * axis + 1];
-    largest_stress = std::max(largest_stress, 0.5 * (low + high));
-    s.imbalance[axis] += (high - low - s.imbalance[axis]) * seen.elapsed / (transit_ + seen.elapsed);
-    imbalance = std::max(imbalance, std::abs(s.imbalance[axis]));
+    wall_stress = std::max(wall_stress, seen.wall_stress[axis]);
+    s.imbalance[axis] += (seen.imbalance[axis] - s.imbalance[axis]) * weight;
+    s.dynamic[axis] += (seen.dynamic[axis] - s.dynamic[axis]) * weight;
+    stress = std::max({stress, std::abs(s.imbalance[axis]), std::abs(s.dynamic[axis])});
   }
-  if (!(largest_stress > tolerances_.loose_stress)) return;
-  imbalance /= largest_stress;
+  if (!(wall_stress > tolerances_.loose_stress)) return;
+  stress /= wall_stress;
   const double internal = seen.elastic_energy + seen.plastic_dissipation - s.dissipation_at_start;
   const double kinetic = seen.kinetic_energy / std::max(internal, 1e-3 * seen.kinetic_energy);
   s.largest_kinetic = std::max(s.largest_kinetic, kinetic);
-  s.largest_imbalance = std::max(s.largest_imbalance, imbalance);
+  s.largest_stress = std::max(s.largest_stress, stress);
   s.time_loaded += seen.elapsed;
   const double load =
-      std::max(std::sqrt(kinetic / tolerances_.kinetic_tolerance), imbalance / tolerances_.imbalance_tolerance);
+      std::max(std::sqrt(kinetic / tolerances_.kinetic_tolerance), stress / tolerances_.stress_tolerance);
   if (load > 1) s.time_beyond += seen.elapsed;
+  const double response = seen.elapsed / (transits_to_respond * transit_);
   const double rate = std::clamp(aim - load, -hardest_braking, strongest_acceleration);
-  const double wanted = s.pace * std::exp(rate * seen.elapsed / (transits_to_respond * transit_));
-  s.pace = std::clamp(wanted, tolerances_.slowest_speed / wall_speed_, tolerances_.fastest_speed / wall_speed_);
+  const double wanted = s.pace * std::exp(rate * response);
+  const double most = seen.stopping ? std::max(1.0, s.pace * std::exp(-hardest_braking * response))
+                                    : tolerances_.fastest_speed / wall_speed_;
+  s.pace = std::clamp(wanted, tolerances_.slowest_speed / wall_speed_, most);
   if (wanted < s.pace && load > 1) s.at_slowest = 1;
   s.slowest = std::min(s.slowest, s.pace);
   s.fastest = std::max(s.fastest, s.pace);
@@ -49,9 +53,9 @@ void PaceControl::update(PaceState& s, const PaceObservation& seen) const {
 
 std::string PaceControl::text(const PaceState& s) const {
   return fmt::format("wall speed chosen between {:.4g} and {:.4g} mm/s; under load kinetic/internal at most {:.2g} %, "
-                     "opposite walls within {:.2g} %, beyond the tolerances for {:.2g} % of the time",
-                     s.slowest * wall_speed_, s.fastest * wall_speed_, 100 * s.largest_kinetic,
-                     100 * s.largest_imbalance, s.time_loaded > 0 ? 100 * s.time_beyond / s.time_loaded : 0.0);
+                     "inertia bore at most {:.2g} % of the stress, beyond the tolerances for {:.2g} % of the time",
+                     s.slowest * wall_speed_, s.fastest * wall_speed_, 100 * s.largest_kinetic, 100 * s.largest_stress,
+                     s.time_loaded > 0 ? 100 * s.time_beyond / s.time_loaded : 0.0);
 }
 
 } // namespace mpfem

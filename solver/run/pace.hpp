@@ -1,12 +1,17 @@
 #pragma once
 // A stage that chooses its own speed: as fast as its tolerances of quasi-static loading allow.
 //
-// Two signs of inertia are looked at while the packing bears load: kinetic energy over internal energy, and the
-// difference of opposite walls' stresses, which vanishes in equilibrium since nothing but walls acts on the packing from
-// outside. The first grows with the square of the speed, the second with the speed; the larger of
-//   sqrt(kinetic / (tolerance internal)),   imbalance / tolerance
-// is the load, and the pace r, the present speed over the stage's own, follows d ln r/dt = (aim - load) / (2 transits),
+// Two signs of inertia are looked at while the packing bears load. One is kinetic energy over internal energy. The other
+// is the stress that inertia bears: along each axis, with f the total force on a node and x its distance from the box's
+// centre,
+//   sum f / A                the difference of opposite walls' stresses,
+//   sum f x / V              the walls' mean stress less that inside the grains,
+// both of which vanish in equilibrium. (The second sees what the first cannot: packings that are shaken symmetrically.)
+// Kinetic energy grows with the square of the speed, stresses with the speed; the larger of
+//   sqrt(kinetic / (tolerance internal)),   stress / (tolerance largest wall stress)
+// is the load, and the pace r, the present speed over the stage's own, follows d ln r/dt = (aim - load) / transit,
 // between the bounds: waves need about a transit to tell of a change. The stage's clock runs r times as fast as time.
+// Where walls are about to stop, the pace comes back to 1: how gently they stop is the stage's own affair.
 
 #include <array>
 #include <cstdint>
@@ -21,9 +26,10 @@ struct PaceState {
   double pace = 1;                   ///< present speed over the stage's own
   double dissipation_at_start = 0;   ///< mJ, plastic, when the stage began
   double slowest = 1, fastest = 1;   ///< of `pace` so far
-  std::array<double, 3> imbalance{}; ///< MPa, high less low wall of each axis, averaged over a transit
+  std::array<double, 3> imbalance{}; ///< MPa, of opposite walls across each axis, averaged over a transit
+  std::array<double, 3> dynamic{};   ///< MPa, walls' stresses less those inside the grains, likewise
   double largest_kinetic = 0;        ///< largest kinetic over internal energy while the packing bore load
-  double largest_imbalance = 0;      ///< largest averaged imbalance over the largest wall stress, likewise
+  double largest_stress = 0;         ///< largest stress borne by inertia over the largest wall stress, likewise
   double time_loaded = 0;            ///< s, in which the packing bore load
   double time_beyond = 0;            ///< s, of it beyond a tolerance
   double at_slowest = 0;             ///< 1: the tolerances asked for less than the slowest pace
@@ -35,7 +41,10 @@ struct PaceObservation {
   double kinetic_energy = 0;           ///< mJ
   double elastic_energy = 0;           ///< mJ, of the grains
   double plastic_dissipation = 0;      ///< mJ, since the run began
-  std::array<double, 6> wall_stress{}; ///< MPa; 0 of walls that are away
+  std::array<double, 3> wall_stress{}; ///< MPa, mean of the two walls across each axis; 0 where they are away
+  std::array<double, 3> imbalance{};   ///< MPa, of the two walls
+  std::array<double, 3> dynamic{};     ///< MPa, walls' stress less that inside the grains
+  bool stopping = false;               ///< the stage nears an end where walls come to rest
 };
 
 /// The control of one stage.

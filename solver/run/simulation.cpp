@@ -345,19 +345,35 @@ std::array<double, 6> Simulation::wall_stress() const {
 
 void Simulation::regulate_pace() {
   const auto start = Profile::Clock::now();
+  std::array<double, 3> centre{}, length{};
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    centre[axis] = 0.5 * (walls_.low[axis] + walls_.high[axis]);
+    length[axis] = walls_.high[axis] - walls_.low[axis];
+  }
   std::vector<double> kinetic(static_cast<std::size_t>(model_.grains)), elastic(kinetic.size());
+  std::vector<ForceMoments> moments(kinetic.size());
   team_.for_each(model_.grains, [&](int grain, int) {
     const auto g = static_cast<std::size_t>(grain);
     kinetic[g] = kinetic_energy(model_, grain, state_.last_step);
     elastic[g] = elastic_energy(model_, grain);
+    moments[g] = force_moments(model_, centre, grain);
   });
-  PaceObservation seen{.elapsed = PaceControl::steps_between_looks * state_.last_step,
-                       .plastic_dissipation = state_.plastic_dissipation,
-                       .wall_stress = wall_stress()};
+  PaceObservation seen;
+  seen.elapsed = PaceControl::steps_between_looks * state_.last_step;
+  seen.plastic_dissipation = state_.plastic_dissipation;
+  const double volume = length[0] * length[1] * length[2];
+  const std::array<double, 6> stress = wall_stress();
   for (std::size_t g = 0; g < kinetic.size(); ++g) {
     seen.kinetic_energy += kinetic[g];
     seen.elastic_energy += elastic[g];
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      seen.imbalance[axis] += moments[g].force[axis] * length[axis] / volume;
+      seen.dynamic[axis] += moments[g].moment[axis] / volume;
+    }
   }
+  for (std::size_t axis = 0; axis < 3; ++axis) seen.wall_stress[axis] = 0.5 * (stress[2 * axis] + stress[2 * axis + 1]);
+  constexpr double near_the_end = 0.85; // cycles have an end only after all of them, and turn gently by themselves
+  seen.stopping = stage_fraction_done() > near_the_end && !(stage().loading && stage().loading->cycles > 0);
   pace_->update(state_.pace, seen);
   profile_.add_serial(Part::integration, Profile::since(start));
 }

@@ -201,8 +201,8 @@ DampingParameters read_damping(TableReader& table) {
 
 /// `speed`: mm/s, the stage's own; `youngs_modulus`: MPa, of the grains.
 std::optional<QuasiStatic> read_quasi_static(TableReader& stage, double speed, double youngs_modulus) {
-  constexpr double slower = 0.1, faster = 4; // bounds where none are given, over the stage's own speed
-  constexpr double loose = 1e-4;             // stress of a loose packing over the grains' modulus
+  constexpr double slower = 0.25, faster = 4; // bounds where none are given, over the stage's own speed
+  constexpr double loose = 1e-3;              // stress of a loose packing over the grains' modulus
   constexpr Range part{.low = 0, .high = 1, .low_open = true};
   std::optional<TableReader> table = stage.optional_table("quasi_static");
   if (!table) return std::nullopt;
@@ -211,7 +211,7 @@ std::optional<QuasiStatic> read_quasi_static(TableReader& stage, double speed, d
     stage.fail("duration", "has no meaning with quasi_static, which stretches the stage's time");
   QuasiStatic q;
   q.kinetic_tolerance = table->number_or("kinetic_tolerance", q.kinetic_tolerance, part);
-  q.imbalance_tolerance = table->number_or("imbalance_tolerance", q.imbalance_tolerance, part);
+  q.stress_tolerance = table->number_or("stress_tolerance", q.stress_tolerance, part);
   q.slowest_speed = table->number_or("slowest_speed", slower * speed, {.low = 0, .high = speed, .low_open = true});
   q.fastest_speed = table->number_or("fastest_speed", faster * speed, {.low = speed});
   q.loose_stress = table->number_or("loose_stress", loose * youngs_modulus, non_negative);

@@ -164,11 +164,11 @@ struct DampingParameters {
 
 /// Tolerances of quasi-static loading, between whose bounds a stage chooses its speed (solver/run/pace.hpp).
 struct QuasiStatic {
-  double kinetic_tolerance = 0.01;   ///< kinetic energy over internal energy gained in the stage or stored at its start
-  double imbalance_tolerance = 0.02; ///< difference of opposite walls' stresses over the largest wall stress
-  double slowest_speed = 0;          ///< mm/s
-  double fastest_speed = 0;          ///< mm/s
-  double loose_stress = 0;           ///< MPa: below this wall stress the packing is loose and the speed stays as it is
+  double kinetic_tolerance = 0.01; ///< kinetic energy over internal energy gained in the stage or stored at its start
+  double stress_tolerance = 0.02;  ///< what inertia bears of the wall stresses, over the largest of them
+  double slowest_speed = 0;        ///< mm/s
+  double fastest_speed = 0;        ///< mm/s
+  double loose_stress = 0;         ///< MPa: below this wall stress the packing is loose and the speed stays as it is
 };
 
 struct Stage {

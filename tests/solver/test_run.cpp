@@ -90,7 +90,7 @@ lowest_mean_stress = 5
 highest_mean_stress = 20
 cycles = 1
 wall_speed = 10000
-quasi_static = { kinetic_tolerance = 0.02, imbalance_tolerance = 0.1 }
+quasi_static = { kinetic_tolerance = 0.02, stress_tolerance = 0.1 }
 [[stages]]
 name = "triaxial"
 type = "triaxial_compression"
