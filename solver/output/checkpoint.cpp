@@ -66,12 +66,17 @@ void for_each_tet(ModelType& model, F&& f) {
   }
 }
 
+/// Of a tet's deviator, in the order of TetBlock. One array each: a copy of all five would be the most that a run holds.
+constexpr std::array deviator_components = {check::tet_deviator_xx, check::tet_deviator_yy, check::tet_deviator_xy,
+                                            check::tet_deviator_yz, check::tet_deviator_zx};
+
 /// Calls f(dataset) for every array that the checksum covers, in its order, which is also that of writing.
 template <class F>
 void for_each_array(F&& f) {
   f(check::run_integers), f(check::run_numbers), f(check::run_history), f(check::run_stage_values);
   f(check::node_position), f(check::node_velocity), f(check::node_force);
-  f(check::tet_deviator), f(check::tet_flow_stress), f(check::tet_plastic_strain), f(check::tet_length);
+  for (const auto& component : deviator_components) f(component);
+  f(check::tet_flow_stress), f(check::tet_plastic_strain), f(check::tet_length);
   f(check::grain_travel), f(check::grain_travel_at_search), f(check::contact_point_wake), f(check::contact_point_sure);
   f(check::contact_pair_first), f(check::contact_pair_second), f(check::contact_pair_point_offset);
   f(check::contact_point_node), f(check::contact_point_facet_offset), f(check::contact_candidate_facet);
@@ -116,14 +121,6 @@ template <class Values>
 std::vector<double> of_tets(const Model& model, Values&& values) {
   std::vector<double> result(static_cast<std::size_t>(model.tets()));
   for_each_tet(model, [&](const TetBlock& block, int lane, std::size_t tet) { result[tet] = values(block)[lane]; });
-  return result;
-}
-
-std::vector<double> deviators(const Model& model) {
-  std::vector<double> result(5 * static_cast<std::size_t>(model.tets()));
-  for_each_tet(model, [&](const TetBlock& block, int lane, std::size_t tet) {
-    for (std::size_t c = 0; c < 5; ++c) result[5 * tet + c] = block.deviator[c][lane];
-  });
   return result;
 }
 
@@ -178,7 +175,7 @@ void write_checkpoint(const std::string& path, const Simulation& simulation, con
 
   std::vector<double> numbers;
   for_each_number(simulation.state(), record, [&](double value) { numbers.push_back(value); });
-  const auto nodes = static_cast<std::size_t>(model.nodes()), tets = static_cast<std::size_t>(model.tets());
+  const auto nodes = static_cast<std::size_t>(model.nodes());
   ArrayWriter arrays(file);
   arrays.write(check::run_integers, integers(simulation.state()));
   arrays.write(check::run_numbers, numbers);
@@ -187,7 +184,8 @@ void write_checkpoint(const std::string& path, const Simulation& simulation, con
   arrays.write(check::node_position, model.position, nodes);
   arrays.write(check::node_velocity, model.velocity, nodes);
   arrays.write(check::node_force, model.force, nodes);
-  arrays.write(check::tet_deviator, deviators(model), tets);
+  for (std::size_t c = 0; c < deviator_components.size(); ++c)
+    arrays.write(deviator_components[c], of_tets(model, [c](const TetBlock& b) { return b.deviator[c]; }));
   arrays.write(check::tet_flow_stress, of_tets(model, [](const TetBlock& b) { return b.flow_stress; }));
   arrays.write(check::tet_plastic_strain, of_tets(model, [](const TetBlock& b) { return b.plastic_strain; }));
   arrays.write(check::tet_length, of_tets(model, [](const TetBlock& b) { return b.length; }));
@@ -311,16 +309,15 @@ void read_checkpoint(const std::string& path, Simulation& simulation, RunRecord&
   take_nodes(check::node_position, model.position);
   take_nodes(check::node_velocity, model.velocity);
   take_nodes(check::node_force, model.force);
-  const auto take_tets = [&](const auto& dataset, std::size_t components, const auto& place) {
-    const auto values = take(dataset, components * tets);
-    for_each_tet(model, [&](TetBlock& block, int lane, std::size_t tet) {
-      for (std::size_t k = 0; k < components; ++k) place(block, k)[lane] = values[components * tet + k];
-    });
+  const auto take_tets = [&](const auto& dataset, const auto& place) {
+    const auto values = take(dataset, tets);
+    for_each_tet(model, [&](TetBlock& block, int lane, std::size_t tet) { place(block)[lane] = values[tet]; });
   };
-  take_tets(check::tet_deviator, 5, [](TetBlock& b, std::size_t k) { return b.deviator[k]; });
-  take_tets(check::tet_flow_stress, 1, [](TetBlock& b, std::size_t) { return b.flow_stress; });
-  take_tets(check::tet_plastic_strain, 1, [](TetBlock& b, std::size_t) { return b.plastic_strain; });
-  take_tets(check::tet_length, 1, [](TetBlock& b, std::size_t) { return b.length; });
+  for (std::size_t c = 0; c < deviator_components.size(); ++c)
+    take_tets(deviator_components[c], [c](TetBlock& b) { return b.deviator[c]; });
+  take_tets(check::tet_flow_stress, [](TetBlock& b) { return b.flow_stress; });
+  take_tets(check::tet_plastic_strain, [](TetBlock& b) { return b.plastic_strain; });
+  take_tets(check::tet_length, [](TetBlock& b) { return b.length; });
   fill_unused_lanes(model);
 
   Contact& contact = simulation.contact();

@@ -1,6 +1,7 @@
 #!/bin/sh
 # keep.sh MESH FIGURE...: copies the small results of figures from out/MESH to studies/results/MESH, and sets the verdicts
-# of all figures kept for that mesh side by side in studies/results/MESH/verdicts.md. Large tables stay behind.
+# of all figures kept for that mesh side by side in studies/results/MESH/verdicts.md, with what their runs took
+# (out/MESH/times.csv). Large tables stay behind.
 set -eu
 mesh=$1
 shift
@@ -21,5 +22,10 @@ done
     printf '\n## %s\n\n| statement | paper | here | verdict |\n|---|---|---|---|\n' "$(basename "$folder")"
     awk -v format=markdown -f studies/common/report.awk "$folder/verdict.json"
   done
+  cp "out/$mesh/times.csv" "$kept/times.csv"
+  printf '\n## What the runs took\n\nA run that several studies use counts for the first of them.\n\n'
+  echo '| study | runs | counted before | tet-steps | wall time of the others, s | times threads, s |'
+  echo '|---|---|---|---|---|---|'
+  awk -F, 'NR > 1 { printf "| %s | %d | %d | %s | %s | %s |\n", $1, $2, $3, $4, $5, $6 }' "$kept/times.csv"
 } >"$kept/verdicts.md.partial"
 mv "$kept/verdicts.md.partial" "$kept/verdicts.md"
