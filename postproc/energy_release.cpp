@@ -40,6 +40,7 @@ Measurement measure_energy(const schema::FileReader& file, std::optional<int> nu
   m.window.stress_name = "mean_stress";
   m.window.stress = range_of(history["mean_stress"], stage.first, stage.last);
   m.method = "elastic energy at the beginning of the unloading less that at its end";
+  if (m.value < 0) m.notes.emplace_back("the elastic energy grows in this stage: it is no unloading");
 
   const std::vector<std::pair<std::string, double>> energies = {
       {"elastic_energy_loaded", at("elastic_energy", stage.first)},

@@ -63,6 +63,13 @@ double area_with_stride(std::span<const double> p, std::span<const double> strai
   return area;
 }
 
+const CycleResult& first_whole(const Hysteresis& h) {
+  return h.cycles[h.cycles.front().rows.whole ? 0 : 1];
+}
+std::size_t whole_cycles(const Hysteresis& h) {
+  return h.cycles.size() - (h.cycles.front().rows.whole ? 0 : 1);
+}
+
 } // namespace
 
 std::vector<CycleRows> find_cycles(std::span<const double> p) {
@@ -72,7 +79,8 @@ std::vector<CycleRows> find_cycles(std::span<const double> p) {
     if (points[i].high) continue;
     // The last lowest point counts only where the stress has come down to where the cycle began, within the threshold.
     const double rise = p[points[i + 1].row] - p[points[i].row], fall = p[points[i + 1].row] - p[points[i + 2].row];
-    if (fall > 0.8 * rise) cycles.push_back({points[i].row, points[i + 1].row, points[i + 2].row});
+    const bool whole = !cycles.empty() || rise > 0.8 * fall;
+    if (fall > 0.8 * rise) cycles.push_back({points[i].row, points[i + 1].row, points[i + 2].row, whole});
   }
   return cycles;
 }
@@ -86,7 +94,7 @@ Hysteresis hysteresis(std::span<const double> mean_stress, std::span<const doubl
                       std::span<const double> damage_dissipation, const std::string& path) {
   Hysteresis h;
   const auto cycles = find_cycles(mean_stress);
-  if (cycles.empty())
+  if (cycles.empty() || !cycles.back().whole)
     throw InputError(
         fmt::format("{}: the mean stress makes no whole cycle, from low over high to low; allowed: a stage "
                     "with one, or --stage N",
@@ -114,9 +122,9 @@ Hysteresis hysteresis(std::span<const double> mean_stress, std::span<const doubl
     r.damage = damage_dissipation[c.end] - damage_dissipation[c.begin];
     h.cycles.push_back(r);
   }
-  const auto steps = static_cast<double>(h.cycles.size()) - 1;
+  const auto steps = static_cast<double>(whole_cycles(h)) - 1;
   if (steps > 0) {
-    const CycleResult &first = h.cycles.front(), &last = h.cycles.back();
+    const CycleResult &first = first_whole(h), &last = h.cycles.back();
     h.drift_at_low = (last.density_at_low - first.density_at_low) / steps;
     h.drift_at_high = (last.density_at_high - first.density_at_high) / steps;
     h.drift_uncertainty *= 2 / steps;
@@ -139,7 +147,7 @@ std::vector<Column> cycle_table(const Hysteresis& h, std::size_t first_row) {
                                  {"damage_dissipation", "mJ", {}}};
   for (std::size_t i = 0; i < h.cycles.size(); ++i) {
     const CycleResult& c = h.cycles[i];
-    const double row[] = {static_cast<double>(i + 1),
+    const double row[] = {static_cast<double>(h.cycles.front().rows.whole ? i + 1 : i),
                           static_cast<double>(first_row + c.rows.begin),
                           static_cast<double>(first_row + c.rows.top),
                           static_cast<double>(first_row + c.rows.end),
@@ -175,7 +183,7 @@ HysteresisMeasurement measure_hysteresis(const schema::FileReader& file, std::op
   m.uncertainty_meaning = "change of the area when every second row is left out";
   m.window.stage = stage.number;
   m.window.stage_type = stage.type;
-  m.window.first_row = stage.first + h.cycles.front().rows.begin;
+  m.window.first_row = stage.first + first_whole(h).rows.begin;
   m.window.last_row = stage.first + last.rows.end;
   m.window.strain_name = "volumetric_strain";
   m.window.strain = range_of(history["volumetric_strain"], m.window.first_row, m.window.last_row);
@@ -184,7 +192,7 @@ HysteresisMeasurement measure_hysteresis(const schema::FileReader& file, std::op
   m.method =
       "area of the last cycle's loop, integral of (p - p_low) over the volumetric strain (mJ/mm^3 = MPa); cycles "
       "from lowest over highest to lowest mean stress";
-  m.details = {{"cycles", h.cycles.size()},
+  m.details = {{"cycles", whole_cycles(h)},
                {"drift_of_relative_density_at_low_stress_per_cycle", h.drift_at_low},
                {"drift_of_relative_density_at_high_stress_per_cycle", h.drift_at_high},
                {"drift_uncertainty", h.drift_uncertainty},
@@ -198,12 +206,17 @@ HysteresisMeasurement measure_hysteresis(const schema::FileReader& file, std::op
   m.brief = fmt::format(
       "loop area of the last of {} cycles, drift of D_r per cycle {:+.2e} at {:.3g} MPa and {:+.2e} at {:.3g} "
       "MPa, last cycle {:.3g} mJ plastic and {:.3g} mJ damage",
-      h.cycles.size(), h.drift_at_low, h.low_stress, h.drift_at_high, h.high_stress, last.plastic, last.damage);
+      whole_cycles(h), h.drift_at_low, h.low_stress, h.drift_at_high, h.high_stress, last.plastic, last.damage);
   const auto deviatoric = range_of(history["deviatoric_stress"], m.window.first_row, m.window.last_row);
   if (std::max(-deviatoric[0], deviatoric[1]) > 0.1 * m.window.stress[1])
     m.notes.push_back(fmt::format("the cycles are not isotropic: q is between {:.3g} and {:.3g} MPa in them",
                                   deviatoric[0], deviatoric[1]));
-  if (h.cycles.size() == 1) m.notes.emplace_back("one whole cycle: no drift from cycle to cycle");
+  if (const CycleResult& first = h.cycles.front(); !first.rows.whole)
+    m.notes.push_back(
+        fmt::format("the first loading begins at {:.3g} MPa, between the cycles' stresses: it is no cycle "
+                    "and stands as number 0",
+                    history["mean_stress"][stage.first + first.rows.begin]));
+  if (whole_cycles(h) == 1) m.notes.emplace_back("one whole cycle: no drift from cycle to cycle");
   result.measurement = std::move(m);
   return result;
 }

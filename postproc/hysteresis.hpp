@@ -13,11 +13,13 @@ namespace mpfem {
 /// Rows of a cycle: from one lowest stress over the highest to the next lowest.
 struct CycleRows {
   std::size_t begin = 0, top = 0, end = 0;
+  bool whole = true; ///< false: a first loading from a stress between the cycles', and the unloading after it
 };
 
 /// Cycles of a curve of the mean stress: turning points are those from which it goes back by more than a fifth of its whole
-/// range, so that noise makes none. The first row is a lowest point where the stress rises from it; a beginning or an end
-/// that makes no whole cycle is left out.
+/// range, so that noise makes none. The first row is a lowest point where the stress rises from it. An end that makes no
+/// whole cycle is left out; a first loading that rises by less than four fifths of what the stress falls after it is in the
+/// list, as not whole.
 std::vector<CycleRows> find_cycles(std::span<const double> mean_stress);
 
 /// Area of the loop, integral of (p - p_0) over the volumetric strain (trapezoids), MPa = mJ/mm^3, where p_0 is the mean of
@@ -33,7 +35,7 @@ struct CycleResult {
 };
 
 struct Hysteresis {
-  std::vector<CycleResult> cycles;
+  std::vector<CycleResult> cycles; ///< the first may be a loading that is not whole; drifts are those of whole ones
   double low_stress = 0;  ///< MPa: highest of the lowest stresses; densities at low stress are read here, on unloading
   double high_stress = 0; ///< MPa: lowest of the highest stresses; densities at high stress are read here, on loading
   double drift_at_low = 0,
@@ -42,12 +44,13 @@ struct Hysteresis {
 };
 
 /// Curves row by row: MPa, 1 (compression positive), 1, mJ, mJ. Densities are read at common stresses because turning
-/// points overshoot by varying amounts, which would pass for a drift. Throws InputError naming `path` without a cycle.
+/// points overshoot by varying amounts, which would pass for a drift. Throws InputError naming `path` without a whole cycle.
 Hysteresis hysteresis(std::span<const double> mean_stress, std::span<const double> volumetric_strain,
                       std::span<const double> relative_density, std::span<const double> plastic_dissipation,
                       std::span<const double> damage_dissipation, const std::string& path);
 
-/// A row a cycle: rows of the history (`first_row` is that of the curves' first), stresses, area, densities, dissipation.
+/// A row a cycle: its number from 1 (0: a first loading that is not whole), rows of the history (`first_row` is that of the
+/// curves' first), stresses, area, densities, dissipation.
 std::vector<Column> cycle_table(const Hysteresis& hysteresis, std::size_t first_row);
 
 struct HysteresisMeasurement {

@@ -83,10 +83,13 @@ void contact_of_pair(const Arguments& arguments) {
 void contact_through_run(const Arguments& arguments) {
   if (!arguments.pair.empty()) throw InputError("found both of --pair and --history, allowed: one of them");
   const schema::FileReader file = open_run(arguments);
-  const Measurement end = measure_contact(file, arguments.stage); // also refuses a stage that is not there
+  Measurement end = measure_contact(file, arguments.stage); // also refuses a stage that is not there
+  note_unfinished(end, file);
   const bool as_json = arguments.output.ends_with(".json");
   deliver(arguments, as_json ? to_json(end).dump(2) + "\n" : csv_text(contact_history(HistoryTable(file))));
-  if (!arguments.quiet) fmt::print(arguments.output.empty() ? stderr : stdout, "{}", to_text(end));
+  if (arguments.quiet) return;
+  fmt::print(arguments.output.empty() ? stderr : stdout, "{}", to_text(end));
+  for (const std::string& note : end.notes) fmt::print(stderr, "postproc: note: {}\n", note);
 }
 
 void contact(const Arguments& arguments) {

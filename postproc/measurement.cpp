@@ -4,7 +4,15 @@
 
 #include <fmt/format.h>
 
+#include "common/one_line.hpp"
+
 namespace mpfem {
+
+void note_unfinished(Measurement& m, const schema::FileReader& run) {
+  const std::string status = run.read_scalar(schema::run::provenance_status);
+  if (status != "complete")
+    m.notes.push_back(fmt::format("the run is not complete ({}): its last stage may end early", one_line(status)));
+}
 
 nlohmann::ordered_json to_json(const Measurement& m) {
   nlohmann::ordered_json json = {{"metric", m.metric},

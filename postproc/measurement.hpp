@@ -7,6 +7,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include "results-schema/file.hpp"
+
 namespace mpfem {
 
 /// Where a number was read. Ranges are of the rows used, lowest and highest.
@@ -32,6 +34,9 @@ struct Measurement {
   nlohmann::ordered_json details; ///< further numbers by name
   std::vector<std::string> notes; ///< what a reader must know before using the number
 };
+
+/// Adds a note where the run stopped on its way: its history looks like any other.
+void note_unfinished(Measurement& measurement, const schema::FileReader& run);
 
 nlohmann::ordered_json to_json(const Measurement& measurement);
 

@@ -70,7 +70,8 @@ struct MetricCommands::State {
     return command;
   }
 
-  void deliver(const Measurement& m) const {
+  void deliver(Measurement m) const {
+    note_unfinished(m, open_run());
     if (!output.empty()) write_file(output, to_json(m).dump(2) + "\n");
     if (quiet) return;
     fmt::print("{}", to_text(m));

@@ -22,8 +22,9 @@ Summary summarise(const schema::FileReader& file) {
   s.tets = static_cast<std::int64_t>(file.rows(run::mesh_tet));
   s.grains = static_cast<std::int64_t>(file.rows(run::mesh_grain_tet_offset)) - 1;
   s.steps = static_cast<std::int64_t>(history["step"][last]);
-  if (s.steps > 0 && s.tets > 0)
-    s.nanoseconds_per_tet_step = 1e9 * s.wall_time / (static_cast<double>(s.steps) * static_cast<double>(s.tets));
+  // A branch counts on from the steps of the run that it began at.
+  if (const double steps = history["step"][last] - history["step"].front(); steps > 0 && s.tets > 0)
+    s.nanoseconds_per_tet_step = 1e9 * s.wall_time / (steps * static_cast<double>(s.tets));
   s.relative_density = history["relative_density"][last];
   s.mean_stress = history["mean_stress"][last];
   s.deviatoric_stress = history["deviatoric_stress"][last];

@@ -390,6 +390,38 @@ TEST_CASE("a cycle that is not closed is none, and the first loading from nothin
   CHECK(find_cycles(std::vector<double>{85, 40, 1, 40, 84, 40, 1, 40, 85, 40, 0.5, 40}).size() == 2);
 }
 
+TEST_CASE("a first loading from between the cycles' stresses is told from whole cycles and counts for none") {
+  const std::vector<double> p = {40, 60, 85, 40, 1, 40, 85, 40, 1, 40, 85, 40, 1};
+  const auto rows_of_cycles = find_cycles(p);
+  REQUIRE(rows_of_cycles.size() == 3);
+  CHECK_FALSE(rows_of_cycles[0].whole);
+  CHECK(rows_of_cycles[1].whole);
+  CHECK(rows_of_cycles[1].begin == 4);
+  CHECK(find_cycles(std::vector<double>{1, 60, 85, 40, 1, 60, 85, 1})[0].whole);
+
+  // Density grows by 0.05 in the first loading, and by 0.001 in each cycle after it.
+  std::vector<Row> rows;
+  for (std::size_t i = 0; i < p.size(); ++i) {
+    Row row = isotropic(0, 0.75 + (i < 2 ? 0.0 : 0.05) + 0.001 * static_cast<double>((i + 2) / 4) + p[i] / 1e5, p[i]);
+    row.plastic = i < 4 ? 0.1 * static_cast<double>(i) : 0.4;
+    rows.push_back(row);
+  }
+  const Folder folder;
+  write_run(folder / "run.h5", run_of(rows));
+  const HysteresisMeasurement result = measure_hysteresis(schema::FileReader(folder / "run.h5"), {});
+  const Measurement& m = result.measurement;
+  CHECK(m.details["cycles"] == 2);
+  CHECK(m.window.first_row == 4);
+  CHECK(within(m.details["drift_of_relative_density_at_high_stress_per_cycle"].get<double>(), 0.001, 1e-6));
+  REQUIRE(m.notes.size() == 1);
+  CHECK_THAT(m.notes.front(), Catch::Contains("begins at 40 MPa"));
+  CHECK(result.cycles[0].values == std::vector<double>{0, 1, 2}); // its numbers stay those of the cycles
+  // Alone it is no cycle at all.
+  rows.resize(6);
+  write_run(folder / "one.h5", run_of(rows));
+  CHECK_THROWS_WITH(measure_hysteresis(schema::FileReader(folder / "one.h5"), {}), Catch::Contains("no whole cycle"));
+}
+
 TEST_CASE("a rectangle between two strains encloses its area, with a drift or without") {
   const std::vector<double> p = {1, 11, 11, 1, 1}, strain = {0, 0, 0.02, 0.02, 0};
   CHECK(within(loop_area(p, strain, {0, 2, 4}), 10 * 0.02, rounding));
@@ -422,6 +454,12 @@ TEST_CASE("an unloading releases elastic energy, also over E R^3") {
   CHECK(loading.value == 0);
   CHECK(within(loading.details["elastic_energy_locked_in_mJ"].get<double>(), 0.9, rounding));
   CHECK_THAT(loading.notes.front(), Catch::Contains("no unloading"));
+  // A stage asked for that is none.
+  const Measurement grown = measure_energy(file, 0, {});
+  CHECK(grown.value < 0);
+  REQUIRE(grown.notes.size() == 1);
+  CHECK_THAT(grown.notes.front(), Catch::Contains("grows"));
+  CHECK(m.notes.empty());
 }
 
 TEST_CASE("the mean radius is that of the grains' volumes at the reference density") {
@@ -498,6 +536,24 @@ TEST_CASE("metric commands write JSON with value, unit, uncertainty, window and 
   CHECK_THAT(ledger.output, Catch::StartsWith("time [s],"));
   REQUIRE(postproc(fmt::format("hysteresis {} --cycles {}", run, folder / "cycles.csv")).exit_code == 0);
   CHECK_THAT(read_text(folder / "cycles.csv"), Catch::StartsWith("cycle [1],first_row [1],"));
+}
+
+TEST_CASE("a metric of a run that did not end says so") {
+  const Folder folder;
+  RunContents contents = run_of(loaded_and_unloaded(0.5, 1));
+  const std::string run = folder / "run.h5", json = folder / "out.json";
+  for (const std::string status : {"complete", "interrupted", "failed: a tet is inverted"}) {
+    contents.texts["/provenance/status"] = {status};
+    write_run(run, contents);
+    for (const std::string command : {"elastic-recovery", "energy", "contact --history"}) {
+      const Outcome outcome = postproc(fmt::format("{} {} -o {}", command, run, json));
+      INFO(command << ": " << outcome.messages);
+      REQUIRE(outcome.exit_code == 0);
+      const std::string expected = fmt::format("the run is not complete ({})", status);
+      CHECK((outcome.messages.find(expected) != std::string::npos) == (status != "complete"));
+      CHECK((read_text(json).find(expected) != std::string::npos) == (status != "complete"));
+    }
+  }
 }
 
 TEST_CASE("metric commands refuse what they cannot use with one line and exit code 2") {

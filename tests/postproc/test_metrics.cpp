@@ -22,6 +22,16 @@ Outcome postproc(const std::string& arguments) {
 
 } // namespace
 
+TEST_CASE("a branch's cost a step is that of its own steps") {
+  const Folder folder;
+  RunContents branch = small_run();
+  branch.numbers["/history/step"] = {1000, 1010, 1020};
+  write_run(folder / "run.h5", branch);
+  const Summary s = summarise(schema::FileReader(folder / "run.h5", schema::FileKind::run));
+  CHECK(s.steps == 1020);
+  CHECK(s.nanoseconds_per_tet_step == Approx(0.96e9 / (20 * 48)));
+}
+
 TEST_CASE("a summary holds the numbers of the run") {
   const Folder folder;
   write_run(folder / "run.h5", small_run());
