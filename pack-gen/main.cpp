@@ -2,11 +2,11 @@
 
 #include <cstdio>
 #include <filesystem>
-#include <thread>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
+#include "common/available_cores.hpp"
 #include "common/errors.hpp"
 #include "common/progress.hpp"
 #include "common/table_reader.hpp"
@@ -159,7 +159,7 @@ int body(int argc, char** argv) {
   app.require_subcommand(1);
 
   Arguments arguments;
-  arguments.threads = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
+  arguments.threads = available_cores();
   const auto add = [&](const char* name, const char* help, const char* input, bool writes) {
     CLI::App* command = app.add_subcommand(name, help);
     command->add_option("input", arguments.input, input)->required();
@@ -169,7 +169,8 @@ int body(int argc, char** argv) {
   };
   const auto add_threads = [&](CLI::App& command) {
     command
-        .add_option("--threads", arguments.threads, "Threads (default: all cores); the result does not depend on it")
+        .add_option("--threads", arguments.threads,
+                    "Threads (default: all cores that it may use); the result does not depend on it")
         ->check(CLI::Range(1, 1024));
   };
 

@@ -2,13 +2,13 @@
 
 #include <filesystem>
 #include <map>
-#include <thread>
 
 #include <malloc.h>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
+#include "common/available_cores.hpp"
 #include "common/errors.hpp"
 #include "common/table_reader.hpp"
 #include "common/version.hpp"
@@ -49,7 +49,8 @@ void add_common(CLI::App& command, Arguments& arguments) {
   command.add_option("scenario", arguments.scenario, "Scenario file (TOML)")->required();
   command.add_option("--set", arguments.assignments, "Override a value: KEY=VALUE, e.g. stages.0.wall_speed=2000")
       ->take_all();
-  command.add_option("--threads", arguments.run.threads, "Threads (default: all cores)")->check(CLI::Range(1, 1024));
+  command.add_option("--threads", arguments.run.threads, "Threads (default: all cores that it may use)")
+      ->check(CLI::Range(1, 1024));
   command.add_flag("--quiet", arguments.run.quiet, "No progress");
 }
 
@@ -91,7 +92,8 @@ CLI::App* add_bench(CLI::App& app, Arguments& arguments, BenchOptions& options, 
   bench->add_option("scenario", arguments.scenario, "Scenario to measure instead of the built-in packing (TOML)");
   bench->add_option("--from", from, "Checkpoint whose state is measured")->check(CLI::ExistingFile);
   bench->add_option("--set", arguments.assignments, "Override a value of the scenario: KEY=VALUE")->take_all();
-  bench->add_option("--threads", arguments.run.threads, "Threads (default: all cores)")->check(CLI::Range(1, 1024));
+  bench->add_option("--threads", arguments.run.threads, "Threads (default: all cores that it may use)")
+      ->check(CLI::Range(1, 1024));
   bench->add_option("--tets", options.tets, "Tetrahedra of the built-in packing, about")
       ->check(CLI::Range(std::int64_t{8}, std::int64_t{400'000'000}))
       ->capture_default_str();
@@ -128,7 +130,7 @@ int body(int argc, char** argv) {
   app.require_subcommand(1);
 
   Arguments arguments;
-  arguments.run.threads = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
+  arguments.run.threads = available_cores();
 
   CLI::App* run = app.add_subcommand("run", "Run a scenario.\nExample: mpfem run compaction.toml -o run.h5 --resume");
   add_common(*run, arguments);

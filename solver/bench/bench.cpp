@@ -201,7 +201,7 @@ void run_bench(const BenchOptions& options) {
     model = build_model(dense.packing, scenario, scenario.packing_file);
     scenario.stages[0].isotropic_compaction = {std::min(0.999, 1.15 * dense.relative_density), 1.0, 0.01};
   }
-  Simulation simulation(std::move(model), scenario, team);
+  Simulation simulation(std::move(model), scenario, team, options.from.has_value());
   const bool built_in = !options.scenario;
   if (built_in) {
     strain_before_hand(simulation.model());

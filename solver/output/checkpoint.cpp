@@ -74,6 +74,7 @@ constexpr std::array deviator_components = {check::tet_deviator_xx, check::tet_d
 template <class F>
 void for_each_array(F&& f) {
   f(check::run_integers), f(check::run_numbers), f(check::run_history), f(check::run_stage_values);
+  f(check::run_stage_hold_rms);
   f(check::node_position), f(check::node_velocity), f(check::node_force);
   for (const auto& component : deviator_components) f(component);
   f(check::tet_flow_stress), f(check::tet_plastic_strain), f(check::tet_length);
@@ -163,15 +164,17 @@ void write_checkpoint(const std::string& path, const Simulation& simulation, con
     file.write(dataset, std::span<const std::string>(texts), texts.size());
   };
   std::vector<std::string> stage_name, stage_end;
-  std::vector<double> stage_values;
+  std::vector<double> stage_values, stage_hold_rms;
   for (const StageResult& stage : record.stages) {
     stage_name.push_back(stage.name);
     stage_end.push_back(stage.ended_by);
     stage_values.insert(stage_values.end(), {stage.overshoot, stage.hold_error, stage.hold_stress});
+    stage_hold_rms.push_back(stage.hold_rms);
   }
   write_texts(check::run_snapshots, record.snapshot_files);
   write_texts(check::run_stage_name, stage_name);
   write_texts(check::run_stage_end, stage_end);
+  if (!record.from.empty()) file.write_scalar(check::run_from, record.from);
 
   std::vector<double> numbers;
   for_each_number(simulation.state(), record, [&](double value) { numbers.push_back(value); });
@@ -181,6 +184,7 @@ void write_checkpoint(const std::string& path, const Simulation& simulation, con
   arrays.write(check::run_numbers, numbers);
   arrays.write(check::run_history, flatten(record.history));
   arrays.write(check::run_stage_values, stage_values, stage_name.size());
+  arrays.write(check::run_stage_hold_rms, stage_hold_rms);
   arrays.write(check::node_position, model.position, nodes);
   arrays.write(check::node_velocity, model.velocity, nodes);
   arrays.write(check::node_force, model.force, nodes);
@@ -290,10 +294,14 @@ void read_checkpoint(const std::string& path, Simulation& simulation, RunRecord&
   if (file.has(check::run_stage_values)) {
     const auto name = file.read(check::run_stage_name), end = file.read(check::run_stage_end);
     const auto values = file.read(check::run_stage_values);
-    if (end.size() != name.size() || values.size() != 3 * name.size()) throw damaged();
+    const auto rms = file.has(check::run_stage_hold_rms) ? file.read(check::run_stage_hold_rms)
+                                                         : std::vector<double>(name.size(), 0.0);
+    if (end.size() != name.size() || values.size() != 3 * name.size() || rms.size() != name.size()) throw damaged();
     for (std::size_t i = 0; i < name.size(); ++i)
-      record.stages.push_back({name[i], end[i], values[3 * i], values[3 * i + 1], values[3 * i + 2], 0});
+      record.stages.push_back({name[i], end[i], values[3 * i], values[3 * i + 1], values[3 * i + 2], rms[i]});
   }
+
+  if (file.has(check::run_from)) record.from = file.read_scalar(check::run_from);
 
   // One array at a time is in memory beside the model.
   const auto take = [&](const auto& dataset, std::size_t count) {
@@ -372,6 +380,10 @@ void read_checkpoint(const std::string& path, Simulation& simulation, RunRecord&
     grips.make_offsets(model.node_offset);
   }
   simulation.restored(std::move(grips));
+}
+
+std::string checkpoint_checksum(const std::string& path) {
+  return schema::FileReader(path, schema::FileKind::checkpoint).read_scalar(check::checksum);
 }
 
 } // namespace mpfem

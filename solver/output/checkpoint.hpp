@@ -13,6 +13,7 @@ struct RunRecord {
   std::vector<HistoryRow> history;
   std::vector<std::string> snapshot_files;
   std::vector<StageResult> stages; ///< those that are complete
+  std::string from;                ///< where the run began: checksum of a checkpoint, "packing", or empty: not known
   double wall_time = 0;            ///< s, of all parts of the run so far
   std::array<double, profile_parts> profile_seconds{};
 };
@@ -25,5 +26,8 @@ void write_checkpoint(const std::string& path, const Simulation& simulation, con
 /// another scenario text (unless `any_scenario`), or was written by a build with another block width.
 void read_checkpoint(const std::string& path, Simulation& simulation, RunRecord& record,
                      const std::string& scenario_text, bool any_scenario);
+
+/// What tells a checkpoint's state from others. Throws InputError where the file is no checkpoint.
+std::string checkpoint_checksum(const std::string& path);
 
 } // namespace mpfem

@@ -230,17 +230,20 @@ void write_run_file(const std::string& path, const Model& model, const std::vect
              provenance.profile_seconds.size());
   file.write_scalar(run::provenance_status, provenance.status);
   std::vector<std::string> name, end;
-  std::vector<double> overshoot, hold_error;
+  std::vector<double> overshoot, hold_error, hold_rms;
   for (const StageResult& stage : provenance.stages) {
     name.push_back(stage.name);
     end.push_back(stage.ended_by);
     overshoot.push_back(stage.overshoot);
     hold_error.push_back(stage.hold_error);
+    hold_rms.push_back(stage.hold_rms);
   }
   file.write(run::provenance_stage_name, std::span<const std::string>(name), name.size());
   file.write(run::provenance_stage_end, std::span<const std::string>(end), end.size());
   file.write(run::provenance_stage_overshoot, std::span<const double>(overshoot), overshoot.size());
   file.write(run::provenance_stage_hold_error, std::span<const double>(hold_error), hold_error.size());
+  file.write(run::provenance_stage_hold_rms, std::span<const double>(hold_rms), hold_rms.size());
+  if (!provenance.from.empty()) file.write_scalar(run::provenance_from, provenance.from);
   file.commit();
 }
 

@@ -23,6 +23,7 @@ struct Provenance {
   std::vector<std::string> profile_name;
   std::vector<double> profile_seconds;
   std::vector<StageResult> stages; ///< those that are complete
+  std::string from;                ///< where the run began: checksum of a checkpoint, "packing", or empty: not known
 };
 
 /// Writes RUN.h5 from history, snapshot files and provenance. Throws StorageError.

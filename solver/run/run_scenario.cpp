@@ -4,6 +4,7 @@
 #include <chrono>
 #include <csignal>
 #include <cstdio>
+#include <ctime>
 #include <filesystem>
 #include <fstream>
 
@@ -17,6 +18,7 @@
 #include "solver/output/checkpoint.hpp"
 #include "solver/output/history.hpp"
 #include "solver/output/run_file.hpp"
+#include "solver/output/run_lock.hpp"
 #include "solver/run/programme.hpp"
 #include "solver/run/simulation.hpp"
 
@@ -24,23 +26,35 @@ namespace mpfem {
 
 namespace {
 
+/// Signals that follow each other within this time (s) are one request: batch systems send several at a time limit.
+constexpr std::time_t one_request = 5;
+
 volatile std::sig_atomic_t interrupt_requested = 0;
-extern "C" void request_interrupt(int) {
-  interrupt_requested = 1;
+volatile std::sig_atomic_t requested_at = 0; // s
+extern "C" void request_interrupt(int signal) {
+  timespec now{};
+  clock_gettime(CLOCK_MONOTONIC, &now);
+  if (interrupt_requested == 0) {
+    requested_at = static_cast<std::sig_atomic_t>(now.tv_sec);
+    interrupt_requested = 1;
+  } else if (now.tv_sec - requested_at > one_request) {
+    std::signal(signal, SIG_DFL);
+    std::raise(signal);
+  }
 }
 
-/// Catches SIGINT and SIGTERM while it lives; a second signal acts as usual.
+/// Catches SIGINT and SIGTERM while it lives; a signal some seconds after the first acts as usual.
 class InterruptGuard {
 public:
   InterruptGuard() {
     interrupt_requested = 0;
     struct sigaction action {};
     action.sa_handler = request_interrupt;
-    action.sa_flags = static_cast<int>(SA_RESETHAND);
     sigaction(SIGINT, &action, &old_int_);
     sigaction(SIGTERM, &action, &old_term_);
   }
   ~InterruptGuard() {
+    if (interrupt_requested != 0) return; // the program ends; what comes late shall not change how
     sigaction(SIGINT, &old_int_, nullptr);
     sigaction(SIGTERM, &old_term_, nullptr);
   }
@@ -104,7 +118,8 @@ class Runner {
 public:
   Runner(const Scenario& scenario, const RunOptions& options)
       : scenario_(scenario), options_(options), team_(options.threads),
-        simulation_(build_model(read_packing(scenario.packing_file), scenario, scenario.packing_file), scenario, team_),
+        simulation_(build_model(read_packing(scenario.packing_file), scenario, scenario.packing_file), scenario, team_,
+                    options.from.has_value()),
         progress_("mpfem", options.quiet) {
     const auto warnings = check_bonds(simulation_.model(), scenario_);
     begin();
@@ -147,8 +162,13 @@ public:
 private:
   void begin() {
     const std::string rolling = checkpoint_path(options_.output);
+    const std::string from = options_.from ? checkpoint_checksum(*options_.from) : "packing";
     if (options_.resume && std::filesystem::exists(rolling)) {
       read_checkpoint(rolling, simulation_, record_, scenario_.text, false);
+      if (options_.from && !record_.from.empty() && record_.from != from)
+        throw InputError(fmt::format("{}: the run did not begin at {}; run without --resume to begin anew", rolling,
+                                     one_line(*options_.from)));
+      if (!record_.history.empty()) first_step_ = static_cast<std::int64_t>(record_.history.front().step);
       for (const std::string& name : record_.snapshot_files)
         if (const std::string part = snapshot_path(name); !std::filesystem::exists(part))
           throw InputError(fmt::format(
@@ -157,7 +177,7 @@ private:
       if (!options_.quiet) fmt::print(stderr, "mpfem: resumed {} at step {}\n", rolling, simulation_.state().step);
       return;
     }
-    if (options_.resume && is_complete()) {
+    if (options_.resume && is_complete(from)) {
       already_complete_ = true;
       if (!options_.quiet) fmt::print(stderr, "mpfem: {} is complete already\n", options_.output);
       return;
@@ -166,8 +186,9 @@ private:
       RunRecord earlier;
       read_checkpoint(*options_.from, simulation_, earlier, scenario_.text, true);
       simulation_.begin_branch();
-      branch_step_ = simulation_.state().step;
+      first_step_ = simulation_.state().step;
     }
+    record_.from = from;
     begins_anew_ = true;
   }
 
@@ -181,13 +202,16 @@ private:
     remove_parts();
   }
 
-  /// True where the output is the finished run of this very scenario and packing.
-  bool is_complete() const {
+  /// True where the output is the finished run of this very scenario and packing, from this beginning (where one is
+  /// asked for).
+  bool is_complete(const std::string& from) const {
     if (!std::filesystem::exists(options_.output)) return false;
     const schema::FileReader file(options_.output, schema::FileKind::run);
     return file.read_scalar(schema::run::provenance_status) == "complete" &&
            file.read_scalar(schema::run::provenance_scenario) == scenario_.text &&
-           file.read_scalar(schema::run::provenance_packing_hash) == hash_text(simulation_.model().mesh_hash);
+           file.read_scalar(schema::run::provenance_packing_hash) == hash_text(simulation_.model().mesh_hash) &&
+           (!options_.from || !file.has(schema::run::provenance_from) ||
+            file.read_scalar(schema::run::provenance_from) == from);
   }
 
   void loop() {
@@ -316,7 +340,8 @@ private:
   void write_result(const std::string& status) {
     RunRecord record = record_;
     add_times(record);
-    Provenance provenance{scenario_.text, status, options_.threads, record.wall_time, {}, {}, record_.stages};
+    Provenance provenance{scenario_.text, status,      options_.threads, record.wall_time, {}, {},
+                          record_.stages, record_.from};
     double accounted = 0;
     for (std::size_t i = 0; i < profile_parts; ++i) {
       provenance.profile_name.emplace_back(part_names[i]);
@@ -391,7 +416,7 @@ private:
     add_times(record);
     fmt::print(stderr, "{:<24} {:>10} {:>8} {:>12}\n", "part", "wall s", "share", "ns/tet-step");
     const double tet_steps =
-        static_cast<double>(simulation_.state().step - branch_step_) * static_cast<double>(simulation_.model().tets());
+        static_cast<double>(simulation_.state().step - first_step_) * static_cast<double>(simulation_.model().tets());
     double accounted = 0;
     const auto line = [&](const char* name, double seconds) {
       fmt::print(stderr, "{:<24} {:>10.2f} {:>7.1f}% {:>12.2f}\n", name, seconds, 100 * seconds / record.wall_time,
@@ -416,7 +441,7 @@ private:
   std::vector<StageForecast> expected_; ///< of the stages from first_expected_ on
   std::int64_t first_expected_ = 0;
   std::int64_t warned_of_stage_ = -1;
-  std::int64_t branch_step_ = 0; ///< steps that the checkpoint of --from had done
+  std::int64_t first_step_ = 0; ///< steps that the checkpoint of --from had done
   int reported_lines_ = 0;
   bool already_complete_ = false, begins_anew_ = false;
 };
@@ -475,6 +500,7 @@ std::string density_checkpoint_path(const std::string& run_file, double relative
 
 void run_scenario(const Scenario& scenario, const RunOptions& options) {
   check_output(scenario, options);
+  const RunLock lock(options.output);
   Runner(scenario, options).run();
 }
 

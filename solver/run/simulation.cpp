@@ -30,7 +30,7 @@ double smooth_fade(double value, double full) {
 
 } // namespace
 
-Simulation::Simulation(Model model, const Scenario& scenario, ThreadTeam& team)
+Simulation::Simulation(Model model, const Scenario& scenario, ThreadTeam& team, bool branch)
     : model_(std::move(model)), scenario_(scenario), team_(team), profile_(team.size()) {
   const auto grains = static_cast<std::size_t>(model_.grains);
   for (const auto* list : {&scenario.grain_velocity, &scenario.grain_angular_velocity})
@@ -88,7 +88,7 @@ Simulation::Simulation(Model model, const Scenario& scenario, ThreadTeam& team)
   }
   std::fill(model_.force.begin(), model_.force.end(), 0.0);
   estimate_stable_step();
-  begin_stage();
+  if (!branch) begin_stage();
 }
 
 void Simulation::refuse_overlap(int grain) {

@@ -75,7 +75,7 @@ struct StageResult {
   double overshoot = 0;   ///< MPa by which a stress that ended or turned the stage was passed
   double hold_error = 0;  ///< MPa, largest deviation of a held stress, averaged over a transit of the box
   double hold_stress = 0; ///< MPa, the largest stress to be held
-  double hold_rms = 0;    ///< MPa, root mean square of the deviation at every step; not in checkpoints of later stages
+  double hold_rms = 0;    ///< MPa, root mean square of the deviation at every step
 };
 
 /// One line of the history; the columns are those of /history in results-schema.
@@ -92,8 +92,9 @@ struct HistoryRow {
 
 class Simulation {
 public:
-  /// Begins at rest apart from the scenario's initial velocities. Throws InputError where grains overlap at the start.
-  Simulation(Model model, const Scenario& scenario, ThreadTeam& team);
+  /// Begins at rest apart from the scenario's initial velocities. With `branch`, the first stage is not begun: that waits
+  /// for a checkpoint and begin_branch(). Throws InputError where grains overlap at the start.
+  Simulation(Model model, const Scenario& scenario, ThreadTeam& team, bool branch = false);
 
   Model& model() { return model_; }
   const Model& model() const { return model_; }

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "results-schema/file.hpp"
+#include "solver/output/run_lock.hpp"
 #include "tests/support/folder.hpp"
 #include "tests/support/packing_file.hpp"
 
@@ -197,6 +198,10 @@ void check_resuming(const std::string& text, int cells) {
   }
   CHECK(stops >= 2);
   CHECK(results(folder / "whole.h5") == results(folder / "parts.h5"));
+  const schema::FileReader in_one(folder / "whole.h5"), in_parts(folder / "parts.h5");
+  for (const auto& dataset : {schema::run::provenance_stage_overshoot, schema::run::provenance_stage_hold_error,
+                              schema::run::provenance_stage_hold_rms})
+    CHECK(in_one.read(dataset) == in_parts.read(dataset));
   CHECK_FALSE(fs::exists(folder / "parts.checkpoint.h5"));
   CHECK(fs::exists(folder / "parts.compaction.checkpoint.h5"));
 }
@@ -247,6 +252,11 @@ TEST_CASE("a run says what ended its stages, and how well stresses were held") {
   CHECK(end[5] == "duration 2e-06 s");
   CHECK(file.read(schema::run::provenance_stage_hold_error)[2] > 0);
   CHECK(file.read(schema::run::provenance_stage_hold_error)[5] == 0);
+  const auto rms = file.read(schema::run::provenance_stage_hold_rms);
+  CHECK(rms[2] > 0);
+  CHECK(rms[3] > 0);
+  CHECK(rms[5] == 0);
+  CHECK_THAT(outcome.messages, Catch::Contains(fmt::format("{:.3g} MPa in the root mean square", rms[2])));
   CHECK(file.read(schema::run::provenance_stage_overshoot)[0] > 0);
 }
 
@@ -272,6 +282,75 @@ TEST_CASE("a compaction leaves checkpoints at densities, from which branches beg
         Approx(whole.read(schema::run::history_mean_stress).back()).epsilon(0.1));
   CHECK(rest.read(schema::run::history_plastic_dissipation).back() ==
         Approx(whole.read(schema::run::history_plastic_dissipation).back()).epsilon(0.05));
+}
+
+TEST_CASE("a branch goes on from the checkpoint that it began at, and not from another") {
+  const Folder folder;
+  prepare(folder, 3, replaced(scenario_text, "[output]", "[output]\ncheckpoint_relative_densities = [0.5, 0.61]"));
+  REQUIRE(mpfem_command(fmt::format("run {} -o {} --quiet", folder / "scenario.toml", folder / "run.h5")).exit_code ==
+          0);
+  write_text(folder / "further.toml", replaced(scenario_text, "relative_density = 0.62", "relative_density = 0.64"));
+  const auto branch = [&](const std::string& density, const std::string& more) {
+    return mpfem_command(fmt::format("run {} -o {} --resume --from {} {}", folder / "further.toml",
+                                     folder / "branch.h5", folder / ("run.D" + density + ".checkpoint.h5"), more));
+  };
+  const auto first_density = [&] {
+    return schema::FileReader(folder / "branch.h5").read(schema::run::history_relative_density).front();
+  };
+  REQUIRE(branch("0.500", "--time-limit 1e-9").exit_code == 5);
+  const Outcome other = branch("0.610", "--quiet");
+  CHECK(other.exit_code == 2);
+  CHECK(other.one_error_line("mpfem"));
+  CHECK_THAT(other.messages, Catch::Contains("did not begin at") && Catch::Contains("run.D0.610"));
+  const Outcome same = branch("0.500", "");
+  REQUIRE(same.exit_code == 0);
+  CHECK(first_density() == Approx(0.5).epsilon(1e-2));
+  // What a step took counts the branch's own steps, also where a part of it was resumed.
+  const schema::FileReader file(folder / "branch.h5");
+  const auto step = file.read(schema::run::history_step);
+  const auto tets = static_cast<double>(file.rows(schema::run::mesh_tet));
+  const double expected = 1e9 * file.read_scalar(schema::run::provenance_wall_time) /
+                          (static_cast<double>(step.back() - step.front()) * tets);
+  const std::size_t total = same.messages.find("\ntotal ");
+  REQUIRE(total != std::string::npos);
+  CHECK(std::stod(same.messages.substr(same.messages.find('%', total) + 1)) == Approx(expected).epsilon(0.05));
+  // A complete branch is complete for its own beginning only.
+  CHECK_THAT(branch("0.500", "").messages, Catch::Contains("complete already"));
+  CHECK(branch("0.610", "--quiet").exit_code == 0);
+  CHECK(first_density() == Approx(0.61).epsilon(1e-2));
+}
+
+TEST_CASE("a branch may begin with grips that would hold nothing of the packing as it was") {
+  const Folder folder;
+  prepare(folder, 4, bonded_text);
+  const std::string grips = bonded_text.substr(bonded_text.find("[[stages]]\nname = \"tearing\""));
+  REQUIRE(mpfem_command(fmt::format("run {} -o {} --quiet", folder / "scenario.toml", folder / "run.h5")).exit_code ==
+          0);
+  write_text(folder / "tearing.toml", grains_text + replaced(grips, "grip_depth = 0.03", "grip_depth = 1e-9"));
+  const std::string command = fmt::format("run {} -o {} --quiet ", folder / "tearing.toml", folder / "tearing.h5");
+  CHECK(mpfem_command(command).exit_code == 3); // in the packing nothing stands at the walls
+  const Outcome branch = mpfem_command(command + "--from " + (folder / "run.compaction.checkpoint.h5"));
+  INFO(branch.messages);
+  CHECK(branch.exit_code == 0);
+}
+
+TEST_CASE("one process at a time works on a run, and what a killed one left stops nobody") {
+  const Folder folder;
+  prepare(folder, 3);
+  const std::string command = fmt::format("run {} -o {} --quiet --resume", folder / "scenario.toml", folder / "run.h5");
+  {
+    const RunLock lock(folder / "run.h5");
+    const Outcome second = mpfem_command(command);
+    CHECK(second.exit_code == 2);
+    CHECK(second.one_error_line("mpfem"));
+    CHECK_THAT(second.messages, Catch::Contains("another mpfem is at work") && Catch::Contains("run.lock"));
+    CHECK_FALSE(fs::exists(folder / "run.h5"));
+    CHECK(mpfem_command(replaced(command, "run.h5", "other.h5")).exit_code == 0);
+  }
+  CHECK_FALSE(fs::exists(folder / "run.lock"));
+  write_text(folder / "run.lock", "");
+  CHECK(mpfem_command(command).exit_code == 0);
+  CHECK_FALSE(fs::exists(folder / "run.lock"));
 }
 
 TEST_CASE("a loading that cannot reach its end exits with 3 and keeps what was computed") {
@@ -328,6 +407,8 @@ TEST_CASE("keys of loadings are checked like all others") {
       {"type = 'triaxial_compression'\nwall_speed = 1\naxial_strain = 0.1\nhold = 'strain'", {"hold", "strain"}},
       {"type = 'die_compression'\nwall_speed = 1\nstress_drop = 0.5", {"stress_drop", "no meaning"}},
       {"type = 'die_compression'\nwall_speed = 1e9\naxial_strain = 0.1", {"wall_speed", "allowed at most"}},
+      {"type = 'triaxial_compression'\nwall_speed = 1\nservo_speed = 1e9\naxial_strain = 0.1",
+       {"servo_speed", "allowed at most"}},
       {"type = 'probe'\nwall_speed = 1\ndissipation_ratio = 1.1\ndirection = [1]", {"direction", "two numbers"}},
       {"type = 'probe'\nwall_speed = 1\ndissipation_ratio = 1.1\ndirection = [0, 0]", {"direction", "not both 0"}},
       {"type = 'probe'\nwall_speed = 1\ndissipation_ratio = 0.9\ndirection = [1, 0]", {"dissipation_ratio", "> 1"}},
@@ -387,6 +468,25 @@ TEST_CASE("a killed run goes on from its checkpoint, and ends bitwise as if it h
   }
   CHECK(kills >= 1);
   CHECK(results(folder / "whole.h5") == results(folder / "killed.h5"));
+}
+
+TEST_CASE("a run that is asked several times at once to stop, as batch systems do, saves its state and stops") {
+  const Folder folder;
+  prepare(folder, 6);
+  // The first checkpoint, at a density just above the start's, says that the time loop has begun.
+  const std::string command =
+      fmt::format("'{}' run {} -o {} --threads 1 --quiet --set output.checkpoint_relative_densities=[0.348]",
+                  MPFEM_EXECUTABLE, folder / "scenario.toml", folder / "run.h5");
+  const Outcome outcome = run_command(fmt::format(
+      "{} & pid=$!; while [ ! -e {} ]; do sleep 0.01; done; for i in 1 2 3 4 5 6 7 8; do kill -TERM $pid 2>/dev/null; "
+      "sleep 0.002; done; wait $pid",
+      command, folder / "run.D0.348.checkpoint.h5"));
+  INFO(outcome.messages);
+  CHECK(outcome.exit_code == 5);
+  CHECK(mpfem_command(fmt::format("run {} -o {} --threads 1 --quiet --resume --set "
+                                  "output.checkpoint_relative_densities=[0.348]",
+                                  folder / "scenario.toml", folder / "run.h5"))
+            .exit_code == 0);
 }
 
 TEST_CASE("files of a run hold to the schema, and the ledger closes") {

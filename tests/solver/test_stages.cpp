@@ -84,6 +84,21 @@ TEST_CASE("a packing unloads to zero stress, expands, and keeps its ledger") {
   CHECK(std::abs(unloaded.energy_residual) < 0.01 * unloaded.external_work);
 }
 
+TEST_CASE("an unloading that begins at its target or below ends there, whatever the stress does next") {
+  Stage stage;
+  stage.isotropic_unloading = IsotropicUnloading{1.0, 1000, 0.1};
+  const std::array<double, 3> low{}, high{1, 1, 1};
+  const Walls walls{.low = low, .high = high};
+  for (const double start : {0.5, 0.9999, 1.0}) {
+    const StageMotion motion(stage, low, high, 0.8, start);
+    for (const double stress : {0.9, 1.0, 1.1}) CHECK(motion.reached(walls, stress));
+    CHECK(motion.fraction_done(0, start) == 1);
+  }
+  const StageMotion motion(stage, low, high, 0.8, 2.0);
+  CHECK_FALSE(motion.reached(walls, 1.1));
+  CHECK(motion.reached(walls, 1.0005));
+}
+
 TEST_CASE("masses scaled to a step allow that step and report what they added") {
   Scenario scenario = pulling_scenario(300);
   const MeshedPacking packing = pack({single_cube()}, {0.6, 0.6, 0.2});

@@ -1,0 +1,55 @@
+#include "solver/output/run_lock.hpp"
+
+#include <cerrno>
+
+#include <fcntl.h>
+#include <sys/file.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <fmt/format.h>
+
+#include "common/errors.hpp"
+#include "common/one_line.hpp"
+
+namespace mpfem {
+
+namespace {
+
+/// Whether the file that is open still stands under its name: whoever held it before has removed it otherwise.
+bool stands(int file, const std::string& path) {
+  struct stat open {
+  }, named{};
+  return fstat(file, &open) == 0 && stat(path.c_str(), &named) == 0 && open.st_dev == named.st_dev &&
+         open.st_ino == named.st_ino;
+}
+
+} // namespace
+
+std::string lock_path(const std::string& run_file) {
+  return (run_file.ends_with(".h5") ? run_file.substr(0, run_file.size() - 3) : run_file) + ".lock";
+}
+
+RunLock::RunLock(const std::string& run_file) : path_(lock_path(run_file)) {
+  for (;;) {
+    file_ = open(path_.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
+    if (file_ < 0) throw StorageError(fmt::format("{}: cannot be written", one_line(path_)));
+    if (flock(file_, LOCK_EX | LOCK_NB) != 0) {
+      if (errno != EWOULDBLOCK) return;
+      close(file_);
+      throw InputError(
+          fmt::format("--output {}: another mpfem is at work on this run and holds {}: wait for it, or end "
+                      "it (kill, scancel)",
+                      one_line(run_file), one_line(path_)));
+    }
+    if (stands(file_, path_)) return;
+    close(file_);
+  }
+}
+
+RunLock::~RunLock() {
+  if (stands(file_, path_)) unlink(path_.c_str());
+  close(file_);
+}
+
+} // namespace mpfem

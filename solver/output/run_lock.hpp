@@ -1,0 +1,26 @@
+#pragma once
+// One process at a time writes a run's files.
+
+#include <string>
+
+namespace mpfem {
+
+/// Holds RUN.lock while it lives. The system lets go of it with the process, however that ends: a lock file that is left
+/// behind stops nobody. Throws InputError where another process holds it. File systems that know no locks are taken as
+/// they are.
+class RunLock {
+public:
+  explicit RunLock(const std::string& run_file);
+  ~RunLock();
+  RunLock(const RunLock&) = delete;
+  RunLock& operator=(const RunLock&) = delete;
+
+private:
+  std::string path_;
+  int file_ = -1;
+};
+
+/// Name of the lock of a run file.
+std::string lock_path(const std::string& run_file);
+
+} // namespace mpfem
