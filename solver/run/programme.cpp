@@ -189,10 +189,10 @@ void check_programme(const Scenario& scenario, std::int64_t first_stage, std::ar
     const double fastest = largest_travel * smallest_size / stable_step;
     const auto check = [&](const char* key, double speed) {
       if (speed > fastest)
-        throw InputError(
-            fmt::format("stage '{}': key '{}': found {:g} mm/s, allowed at most {:.4g} mm/s here ({} of an element in a "
-                        "stable step of {:.3g} s)",
-                        stage.name, key, speed, fastest, largest_travel, stable_step));
+        throw InputError(fmt::format(
+            "stage '{}': key '{}': found {:g} mm/s, allowed at most {:.4g} mm/s here ({} of an element in a "
+            "stable step of {:.3g} s)",
+            stage.name, key, speed, fastest, largest_travel, stable_step));
     };
     if (stage.quasi_static)
       check("quasi_static.fastest_speed", stage.quasi_static->fastest_speed);
