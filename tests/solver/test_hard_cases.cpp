@@ -210,3 +210,21 @@ TEST_CASE("an impact beyond what elements bear ends with a message that names th
       CHECK_THROWS_WITH(finish_stage(simulation, check, worst), Catch::Contains("grain"));
     }
 }
+
+TEST_CASE("a compaction to a stress beyond all densities ends with a message") {
+  Scenario scenario = holding_scenario(1e-6);
+  scenario.walls = true;
+  Stage stage;
+  stage.name = "squeeze";
+  stage.loading = WallLoading{};
+  stage.loading->path = LoadingPath::isotropic;
+  stage.loading->wall_speed = 20000;
+  stage.loading->ends.mean_stress = 1e7;
+  scenario.stages = {stage};
+  ThreadTeam team(1);
+  Simulation simulation(build_model(eight_grains(2), scenario, "test"), scenario, team);
+  EnergyCheck check = check_of(simulation.model());
+  double worst = 0;
+  CHECK_THROWS_WITH(finish_stage(simulation, check, worst),
+                    Catch::Contains("'squeeze'") && Catch::Contains("not reached") && Catch::Contains("denser"));
+}
