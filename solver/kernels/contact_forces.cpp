@@ -430,7 +430,33 @@ void contact_stiffness_rate(const Model& model, const Contact& contact, int grai
   }
 }
 
-void raise_to_expected_rate(const Model& model, int grain, std::span<double> rate) {
+namespace {
+
+/// A node of a grain r times as coarse brings r^2/(1 + r) times what a grain expects of its like (the harmonic mean of both penalties,
+/// r^2 times the area): below 1.5 that is less.
+void raise_near_coarser_grains(const Model& model, const Contact& contact, int grain, std::span<double> rate) {
+  constexpr double coarser = 1.5;
+  const ContactCandidates& candidates = contact.candidates;
+  const auto g = static_cast<std::size_t>(grain);
+  for (std::int32_t i = candidates.incoming_offset[g]; i < candidates.incoming_offset[g + 1]; ++i) {
+    const std::size_t pair = at(candidates.incoming_pair[at(i)]), other = at(candidates.pair_first[pair]);
+    if (model.element_size[other] < coarser * model.element_size[g]) continue;
+    const double stiffness = pass_stiffness(model, other, g);
+    for (std::int32_t p = candidates.pair_point_offset[pair]; p < candidates.pair_point_offset[pair + 1]; ++p) {
+      const std::size_t node = at(candidates.point_node[at(p)]);
+      const double k = stiffness * model.local_stiffness(node) * model.reference_area[node];
+      for (std::int32_t f = candidates.point_facet_offset[at(p)]; f < candidates.point_facet_offset[at(p) + 1]; ++f)
+        for (std::size_t corner = 0; corner < 3; ++corner) {
+          const std::size_t touched = at(model.facet[3 * at(candidates.point_facet[at(f)]) + corner]);
+          rate[touched] = std::max(rate[touched], 2.0 * k * model.inverse_mass[touched]);
+        }
+    }
+  }
+}
+
+} // namespace
+
+void raise_to_expected_rate(const Model& model, const Contact& contact, int grain, std::span<double> rate) {
   const auto g = static_cast<std::size_t>(grain);
   const std::int32_t first = model.node_offset[g];
   for (std::int32_t node = first; node < first + model.surface_node_count[g]; ++node) {
@@ -439,6 +465,7 @@ void raise_to_expected_rate(const Model& model, int grain, std::span<double> rat
                             model.reference_area[at(node)] * model.inverse_mass[at(node)];
     rate[at(node)] = std::max(rate[at(node)], expected);
   }
+  raise_near_coarser_grains(model, contact, grain, rate);
 }
 
 BondSums bond_sums(const Model& model, const Contact& contact, std::int32_t pair) {

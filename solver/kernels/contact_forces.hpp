@@ -85,8 +85,9 @@ double contact_area(const Model& model, const Contact& contact, int grain);
 /// k gap^2 <= 2 k (|u_s|^2 + sum w_i |u_i|^2).
 void contact_stiffness_rate(const Model& model, const Contact& contact, int grain, std::span<double> rate);
 
-/// Raises `rate` to what a node in contact has as a rule, so that the step does not jump when one comes into contact.
-void raise_to_expected_rate(const Model& model, int grain, std::span<double> rate);
+/// Raises `rate` to what a node in contact has as a rule, so that the step does not jump when one comes into contact; nodes near a
+/// coarser grain to what one of its nodes would bring, whose stiffness is that of its larger area.
+void raise_to_expected_rate(const Model& model, const Contact& contact, int grain, std::span<double> rate);
 
 /// Law of the bonds of points whose nodes are on `first` and whose facets are on `second`; its stiffness is to be
 /// multiplied by the node's local_stiffness.

@@ -19,6 +19,7 @@
 #include "solver/output/history.hpp"
 #include "solver/output/run_file.hpp"
 #include "solver/output/run_lock.hpp"
+#include "solver/run/energy_check.hpp"
 #include "solver/run/programme.hpp"
 #include "solver/run/simulation.hpp"
 
@@ -120,6 +121,7 @@ public:
       : scenario_(scenario), options_(options), team_(options.threads),
         simulation_(build_model(read_packing(scenario.packing_file), scenario, scenario.packing_file), scenario, team_,
                     options.from.has_value()),
+        energy_check_(scenario.material.youngs_modulus * simulation_.model().total_reference_volume()),
         progress_("mpfem", options.quiet) {
     const auto warnings = check_bonds(simulation_.model(), scenario_);
     begin();
@@ -129,6 +131,7 @@ public:
     }
     const RunState& state = simulation_.state();
     check_programme(scenario_, state.stage, state.stage_low, state.stage_high, simulation_.model(), state.stable_step);
+    for (const HistoryRow& row : record_.history) energy_check_.take(row);
     expected_ = forecast(scenario_, state.stage, state.stage_low, state.stage_high, simulation_.model());
     first_expected_ = state.stage;
     if (begins_anew_) pass_densities();
@@ -266,6 +269,21 @@ private:
     while (row_due() && simulation_.stage_duration() > 0);
     simulation_.profile().add_serial(Part::output, Profile::since(start));
     if (!options_.quiet) report_row(record_.history.back());
+    check_energy(record_.history.back());
+  }
+
+  /// Fails where the energy balance is so far off that the run means nothing any more; warns, once, where it may matter.
+  void check_energy(const HistoryRow& row) {
+    const double error = energy_check_.take(row);
+    if (!(error <= EnergyCheck::allowed))
+      throw SimulationError(fmt::format(
+          "step {:.0f}, t = {:.4g} s, D_r = {:.4f}: the energy balance is off by {:.3g} % of its largest term, allowed "
+          "{:g} %: the motion is not computed stably; lower numerics.time_step_factor, or the speed",
+          row.step, row.time, row.relative_density, 100 * error, 100 * EnergyCheck::allowed));
+    if (error <= EnergyCheck::noteworthy || warned_of_energy_ || options_.quiet) return;
+    warned_of_energy_ = true;
+    fmt::print(stderr, "mpfem: warning: the energy balance is off by {:.2g} % of its largest term at step {:.0f}\n",
+               100 * error, row.step);
   }
 
   void take_snapshots(bool stage_end) {
@@ -434,6 +452,7 @@ private:
   const RunOptions& options_;
   ThreadTeam team_;
   Simulation simulation_;
+  EnergyCheck energy_check_;
   Progress progress_;
   RunRecord record_;
   Profile::Clock::time_point start_, last_checkpoint_;
@@ -443,7 +462,7 @@ private:
   std::int64_t warned_of_stage_ = -1;
   std::int64_t first_step_ = 0; ///< steps that the checkpoint of --from had done
   int reported_lines_ = 0;
-  bool already_complete_ = false, begins_anew_ = false;
+  bool already_complete_ = false, begins_anew_ = false, warned_of_energy_ = false;
 };
 
 bool same_file(const std::string& a, const std::string& b) {

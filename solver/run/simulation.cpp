@@ -251,7 +251,7 @@ void Simulation::estimate_stable_step() {
     const auto g = static_cast<std::size_t>(grain);
     contact_stiffness_rate(model_, contact_, grain, stiffness_rate_);
     wall_stiffness_rate(model_, walls_, bounds_[g], grain, stiffness_rate_);
-    raise_to_expected_rate(model_, grain, stiffness_rate_);
+    raise_to_expected_rate(model_, contact_, grain, stiffness_rate_);
     // |tr e| <= sqrt(3) |e|
     stable_steps_[g] = mpfem::stable_step(model_, grain, stiffness_rate_, std::sqrt(3.0) * state_.strain_rate);
   });

@@ -146,7 +146,8 @@ ElementType read_element(TableReader table) {
 
 NumericsParameters read_numerics(TableReader table) {
   NumericsParameters numerics;
-  numerics.time_step_factor = table.number_or("time_step_factor", numerics.time_step_factor, fraction_without_zero);
+  numerics.time_step_factor =
+      table.number_or("time_step_factor", numerics.time_step_factor, {.low = 0, .high = 2, .low_open = true});
   numerics.bulk_viscosity_linear =
       table.number_or("bulk_viscosity_linear", numerics.bulk_viscosity_linear, Range::between(0, 1));
   numerics.bulk_viscosity_quadratic =

@@ -71,7 +71,7 @@ const char* element_name(ElementType element);
 
 struct NumericsParameters {
   ElementType element = ElementType::tet4;
-  double time_step_factor = 0.9; ///< safety factor on the stable step, (0, 1]
+  double time_step_factor = 0.9; ///< safety factor on the stable step, (0, 2]; beyond 1 nothing is proven
   double bulk_viscosity_linear = 0.06;
   double bulk_viscosity_quadratic = 1.2;
   double mass_scaling = 1;      ///< uniform factor on the density

@@ -16,10 +16,15 @@ done
   echo "# Verdicts, MESH=$mesh"
   echo
   echo 'Statements of Ku, Zhao, Mollon and Zhao beside what the studies of this folder found, computed from their data. How each is'
-  echo 'judged, and what differs why, is in the notes of the verdict.json files and the README of each study.'
+  echo 'judged, and what differs why, is in the notes of the verdict.json files and the README of each study. A study that is no'
+  echo 'figure states what it expects itself.'
   for folder in "$kept"/*/; do
     [ -e "$folder/verdict.json" ] || continue
-    printf '\n## %s\n\n| statement | paper | here | verdict |\n|---|---|---|---|\n' "$(basename "$folder")"
+    case $folder in
+    */fig*) reference=paper ;;
+    *) reference=expected ;; # a study of its own
+    esac
+    printf '\n## %s\n\n| statement | %s | here | verdict |\n|---|---|---|---|\n' "$(basename "$folder")" "$reference"
     awk -v format=markdown -f studies/common/report.awk "$folder/verdict.json"
   done
   cp "out/$mesh/times.csv" "$kept/times.csv"

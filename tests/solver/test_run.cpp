@@ -369,6 +369,24 @@ dissipation_ratio = 2
   CHECK(schema::validate(folder / "run.h5").empty());
 }
 
+TEST_CASE("a step too large for the motion to be stable exits with 3, says so, and keeps what was computed") {
+  const Folder folder;
+  prepare(folder, 4);
+  const auto run = [&](double factor) {
+    return mpfem_command(fmt::format("run {} -o {} --quiet --set numerics.time_step_factor={}",
+                                     folder / "scenario.toml", folder / "run.h5", factor));
+  };
+  CHECK(run(1.0).exit_code == 0);
+  const Outcome outcome = run(2.0);
+  INFO(outcome.messages);
+  CHECK(outcome.exit_code == 3);
+  CHECK_THAT(outcome.messages, Catch::Contains("energy balance") && Catch::Contains("time_step_factor"));
+  CHECK(schema::validate(folder / "run.h5").empty());
+  const schema::FileReader file(folder / "run.h5", schema::FileKind::run);
+  CHECK(file.read(schema::run::history_time).size() > 1);
+  CHECK(run(2.1).exit_code == 2);
+}
+
 TEST_CASE("a branch may have bonds of another law as long as none is damaged") {
   const Folder folder;
   prepare(folder, 3, replaced(loading_text, "[0.5, 0.61]", "[0.405]"));
