@@ -100,8 +100,8 @@ void geometry() {
 
 void print_state(const std::string& label, double nominal, const ColumnState& s) {
   const auto row = [&](const char* contact, double approach, double force) {
-    fmt::print("{},{},{},{:.6f},{:.6e},{:.5f},{:.1e},{:.1e},{:.4f}\n", label, nominal, contact, approach / radius, force,
-               error_of(force, approach), s.kinetic_over_elastic, s.residual_over_work, s.penetration);
+    fmt::print("{},{},{},{:.6f},{:.6e},{:.5f},{:.1e},{:.1e},{:.4f}\n", label, nominal, contact, approach / radius,
+               force, error_of(force, approach), s.kinetic_over_elastic, s.residual_over_work, s.penetration);
   };
   row("wall", s.low_approach, s.low_force);
   row("wall", s.high_approach, s.high_force);
@@ -142,8 +142,8 @@ void unequal(const std::string& element, double lower, double upper, std::uint64
         const ColumnState state = column.state();
         const SurfacePressure surface = surface_pressure(column.model(), column.simulation().contact());
         const auto size = [](const std::vector<double>& v) { return std::hypot(v[0], v[1], v[2]); };
-        print_state(fmt::format("{},{},{},{},{},{:.1e},{:.1e}", element, lower, upper, from_top ? "top" : "bottom", seed,
-                                size(surface.net_force) / state.pair_force,
+        print_state(fmt::format("{},{},{},{},{},{:.1e},{:.1e}", element, lower, upper, from_top ? "top" : "bottom",
+                                seed, size(surface.net_force) / state.pair_force,
                                 size(surface.net_moment) / (state.pair_force * radius)),
                     approach / radius, state);
       }
@@ -178,8 +178,8 @@ void pressure(const std::string& element, double size_ratio, double factor) {
         if (surface.touching[n] != 0)
           fmt::print(stderr, "{},{},{},{},{:.5f},{:.3f},{:.3f}\n", element, size_ratio, factor,
                      n < static_cast<std::size_t>(model.node_offset[1]) ? "lower" : "upper",
-                     std::hypot(model.position[4 * n] - 0.5, model.position[4 * n + 1] - 0.5) / radius, surface.total[n],
-                     surface.own[n]);
+                     std::hypot(model.position[4 * n] - 0.5, model.position[4 * n + 1] - 0.5) / radius,
+                     surface.total[n], surface.own[n]);
     }
     std::fflush(stdout);
   }
@@ -217,17 +217,18 @@ void packing(const std::string& element, const std::string& file, double factor)
     const SurfacePressure surface = surface_pressure(simulation.model(), simulation.contact());
     const PressureOscillation total = oscillation(simulation.model(), surface, surface.total),
                               own = oscillation(simulation.model(), surface, surface.own);
-    fmt::print("{},{},{:.4f},{:.3f},{},{:.2f},{:.4f},{:.4f},{:.3f},{:.4f},{:.4f},{:.4f},{:.1e},{:.1e}\n", element, factor,
-               row.relative_density, row.mean_stress, total.nodes, total.mean, total.from_mean, total.from_plane,
-               total.largest, own.from_mean, own.from_plane, row.max_penetration,
+    fmt::print("{},{},{:.4f},{:.3f},{},{:.2f},{:.4f},{:.4f},{:.3f},{:.4f},{:.4f},{:.4f},{:.1e},{:.1e}\n", element,
+               factor, row.relative_density, row.mean_stress, total.nodes, total.mean, total.from_mean,
+               total.from_plane, total.largest, own.from_mean, own.from_plane, row.max_penetration,
                row.kinetic_energy / row.elastic_energy, row.energy_residual / row.external_work);
     std::fflush(stdout);
   }
 }
 
 int usage() {
-  fmt::print(stderr, "contact-surface geometry | rotations ELEMENT SCALING R/h FIRST LAST | unequal ELEMENT R/h R/h FIRST "
-                     "LAST | pressure ELEMENT R/h FACTOR | packing ELEMENT PACKING.h5 FACTOR\n");
+  fmt::print(stderr,
+             "contact-surface geometry | rotations ELEMENT SCALING R/h FIRST LAST | unequal ELEMENT R/h R/h FIRST "
+             "LAST | pressure ELEMENT R/h FACTOR | packing ELEMENT PACKING.h5 FACTOR\n");
   return 2;
 }
 

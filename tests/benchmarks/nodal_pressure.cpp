@@ -50,7 +50,8 @@ double peak_frequency(const std::vector<double>& sample, double step, double gue
   const auto power = [&](double omega) {
     std::complex<double> sum = 0, turn = std::polar(1.0, -omega * step), phase = 1;
     for (std::size_t i = 0; i < sample.size(); ++i, phase *= turn) {
-      const double window = std::pow(std::sin(M_PI * (static_cast<double>(i) + 0.5) / static_cast<double>(sample.size())), 2);
+      const double window =
+          std::pow(std::sin(M_PI * (static_cast<double>(i) + 0.5) / static_cast<double>(sample.size())), 2);
       sum += window * sample[i] * phase;
     }
     return std::norm(sum);
@@ -128,9 +129,9 @@ void vibration(const std::string& element, double size_ratio, const std::string&
       amplitude.push_back(q), time.push_back(simulation.state().time);
     }
     if ((step + 1) % (steps / windows) == 0) {
-      fmt::print("{},{},{},{},{},{},{:.4e},{:.2e},{:.2e},{:.4f},{:.4f},{:.5f},{:.5f}\n", element, size_ratio, model.tets(), mode,
-                 (step + 1) / (steps / windows), step + 1, simulation.state().time, energy_error, largest,
-                 kinetic_share / samples, std::sqrt(sum.averaged_square / samples / sum.reference_volume),
+      fmt::print("{},{},{},{},{},{},{:.4e},{:.2e},{:.2e},{:.4f},{:.4f},{:.5f},{:.5f}\n", element, size_ratio,
+                 model.tets(), mode, (step + 1) / (steps / windows), step + 1, simulation.state().time, energy_error,
+                 largest, kinetic_share / samples, std::sqrt(sum.averaged_square / samples / sum.reference_volume),
                  std::sqrt(sum.tet_square / sum.averaged_square), std::sqrt(sum.node_square / sum.averaged_square));
       std::fflush(stdout);
       sum = {}, samples = 0, kinetic_share = 0;
@@ -143,8 +144,8 @@ void vibration(const std::string& element, double size_ratio, const std::string&
     // The step changes a little where it is estimated anew; samples are evenly spaced but for that.
     const double spacing = (time.back() - time.front()) / static_cast<double>(time.size() - 1);
     const double found = peak_frequency(amplitude, spacing, reference, 0.2);
-    fmt::print(stderr, "{},{},{},{},{:.6e},{:.6e},{:.5f}\n", element, size_ratio, model.tets(), mode, found / (2 * M_PI),
-               reference / (2 * M_PI), found / reference - 1);
+    fmt::print(stderr, "{},{},{},{},{:.6e},{:.6e},{:.5f}\n", element, size_ratio, model.tets(), mode,
+               found / (2 * M_PI), reference / (2 * M_PI), found / reference - 1);
   }
 }
 
@@ -172,17 +173,19 @@ void cycles(const std::string& element, const std::string& file, int count) {
   Simulation simulation(build_model(read_packing(file), scenario, file), scenario, team);
   const Model& model = simulation.model();
   const auto neighbours = tet_neighbours(model);
-  fmt::print("element,stage,half_cycle,time [s],relative_density,mean_stress [MPa],pressure [MPa],pressure_rms [MPa],"
-             "tet_oscillation [MPa],node_oscillation [MPa],volume_ratio,tet_lowest,tet_highest,node_lowest,node_highest,"
-             "kinetic_over_elastic,residual_over_work\n");
+  fmt::print(
+      "element,stage,half_cycle,time [s],relative_density,mean_stress [MPa],pressure [MPa],pressure_rms [MPa],"
+      "tet_oscillation [MPa],node_oscillation [MPa],volume_ratio,tet_lowest,tet_highest,node_lowest,node_highest,"
+      "kinetic_over_elastic,residual_over_work\n");
   const auto print = [&](double half) {
     const HistoryRow row = simulation.observe();
     const VolumeState v = volume_state(model, neighbours);
-    fmt::print("{},{},{},{:.4e},{:.5f},{:.3f},{:.3f},{:.3f},{:.4f},{:.4f},{:.6f},{:.4f},{:.4f},{:.4f},{:.4f},{:.1e},{:.1e}\n",
-               element, scenario.stages[std::size_t(simulation.state().stage)].name, half, simulation.state().time,
-               row.relative_density, row.mean_stress, v.pressure(), v.pressure_rms(), v.tet_oscillation(),
-               v.node_oscillation(), v.volume / v.reference_volume, v.tet_lowest, v.tet_highest, v.node_lowest,
-               v.node_highest, row.kinetic_energy / row.elastic_energy, row.energy_residual / row.external_work);
+    fmt::print(
+        "{},{},{},{:.4e},{:.5f},{:.3f},{:.3f},{:.3f},{:.4f},{:.4f},{:.6f},{:.4f},{:.4f},{:.4f},{:.4f},{:.1e},{:.1e}\n",
+        element, scenario.stages[std::size_t(simulation.state().stage)].name, half, simulation.state().time,
+        row.relative_density, row.mean_stress, v.pressure(), v.pressure_rms(), v.tet_oscillation(),
+        v.node_oscillation(), v.volume / v.reference_volume, v.tet_lowest, v.tet_highest, v.node_lowest, v.node_highest,
+        row.kinetic_energy / row.elastic_energy, row.energy_residual / row.external_work);
     std::fflush(stdout);
   };
   for (std::size_t s = 0; s < 2; ++s) {
@@ -223,18 +226,20 @@ void flattening(const std::string& element, double size_ratio) {
     // Mean stress of a body at rest from the forces on it alone: p = F H/(3 V); faces without friction.
     const double mean_force = 0.5 * (state.low_force + state.high_force);
     const double by_forces = mean_force * (box.high[2] - box.low[2]) / (3 * v.volume);
-    fmt::print("{},{},{},{},{:.5f},{:.4f},{:.6f},{:.6f},{:.4f},{:.4f},{:.4f},{:.4f},{:.4f},{:.4f},{:.4f},{:.1e},{:.1e}\n",
-               element, size_ratio, model.tets(), approach / radius, mean_force, by_forces,
-               v.volume / v.reference_volume - 1, -by_forces / model.material.moduli.bulk, v.pressure(),
-               v.tet_oscillation() / v.pressure_rms(), v.node_oscillation() / v.pressure_rms(), v.tet_lowest, v.tet_highest,
-               v.node_lowest, v.node_highest, state.kinetic_over_elastic, state.residual_over_work);
+    fmt::print(
+        "{},{},{},{},{:.5f},{:.4f},{:.6f},{:.6f},{:.4f},{:.4f},{:.4f},{:.4f},{:.4f},{:.4f},{:.4f},{:.1e},{:.1e}\n",
+        element, size_ratio, model.tets(), approach / radius, mean_force, by_forces, v.volume / v.reference_volume - 1,
+        -by_forces / model.material.moduli.bulk, v.pressure(), v.tet_oscillation() / v.pressure_rms(),
+        v.node_oscillation() / v.pressure_rms(), v.tet_lowest, v.tet_highest, v.node_lowest, v.node_highest,
+        state.kinetic_over_elastic, state.residual_over_work);
     std::fflush(stdout);
   }
 }
 
 int usage() {
-  fmt::print(stderr, "nodal-pressure frequencies | vibration ELEMENT R/h MODE STEPS | cycles ELEMENT PACKING.h5 CYCLES | "
-                     "flattening ELEMENT R/h\n");
+  fmt::print(stderr,
+             "nodal-pressure frequencies | vibration ELEMENT R/h MODE STEPS | cycles ELEMENT PACKING.h5 CYCLES | "
+             "flattening ELEMENT R/h\n");
   return 2;
 }
 

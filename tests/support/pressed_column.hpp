@@ -22,14 +22,14 @@ struct ColumnSetup {
   std::vector<double> approaches;           ///< mm, nominal, of a sphere's centre towards each contact, growing
   double wall_speed = 4000;                 ///< mm/s, of each wall
   double rest = 1e-6;                       ///< s, of damping at every approach, walls at rest
-  bool listed_from_top = false;             ///< grains stand in the packing from the top down instead of from the bottom up
+  bool listed_from_top = false; ///< grains stand in the packing from the top down instead of from the bottom up
 };
 
 /// What a column shows at rest. Approaches (mm) are those of a sphere's centre towards the contact; between two spheres,
 /// half of the approach of both centres.
 struct ColumnState {
-  double low_force = 0, high_force = 0, pair_force = 0;          ///< N, axial, compression positive
-  double low_approach = 0, high_approach = 0, pair_approach = 0; ///< mm
+  double low_force = 0, high_force = 0, pair_force = 0;                     ///< N, axial, compression positive
+  double low_approach = 0, high_approach = 0, pair_approach = 0;            ///< mm
   double kinetic_over_elastic = 0, residual_over_work = 0, penetration = 0; ///< penetration over h
 };
 
@@ -76,8 +76,8 @@ public:
       scenario_.stages.push_back(rest);
       before = after;
     }
-    simulation_ = std::make_unique<Simulation>(build_model(pack(spheres, {1, 1, height}), scenario_, "column"),
-                                               scenario_, team_);
+    simulation_ =
+        std::make_unique<Simulation>(build_model(pack(spheres, {1, 1, height}), scenario_, "column"), scenario_, team_);
     for (std::size_t i = 0; i < count; ++i) center_offset_.push_back(center[i] - mean(model().position, i, 2));
   }
 

@@ -13,11 +13,11 @@ namespace mpfem::test {
 
 /// Contact pressures of surface nodes by grain contacts (walls and bonds are left out), of every node of the model.
 struct SurfacePressure {
-  std::vector<double> total;              ///< MPa: own and reaction forces along the inward normal over the present area
-  std::vector<double> own;                ///< MPa: K times gap of the node's own points, over the present area
-  std::vector<char> touching;             ///< 1 where an own point is active
-  std::vector<double> net_force;          ///< [3], N: sum of all contact forces, zero if action equals reaction
-  std::vector<double> net_moment;         ///< [3], N mm, about the origin
+  std::vector<double> total;      ///< MPa: own and reaction forces along the inward normal over the present area
+  std::vector<double> own;        ///< MPa: K times gap of the node's own points, over the present area
+  std::vector<char> touching;     ///< 1 where an own point is active
+  std::vector<double> net_force;  ///< [3], N: sum of all contact forces, zero if action equals reaction
+  std::vector<double> net_moment; ///< [3], N mm, about the origin
   std::vector<std::vector<int>> neighbour; ///< surface nodes that share a facet
 };
 
@@ -65,8 +65,8 @@ inline SurfacePressure surface_pressure(const Model& model, const Contact& conta
 /// How much a pressure differs from what its neighbours say, over inner contact nodes: those whose neighbours all touch.
 struct PressureOscillation {
   int nodes = 0;
-  double mean = 0;      ///< MPa, over inner nodes
-  double from_mean = 0; ///< root mean square of pressure less the area-weighted mean of its neighbours, over the mean
+  double mean = 0;       ///< MPa, over inner nodes
+  double from_mean = 0;  ///< root mean square of pressure less the area-weighted mean of its neighbours, over the mean
   double from_plane = 0; ///< the same from the linear field through its neighbours: a gradient does not count
   double largest = 0;    ///< largest difference from the linear field, over the mean
 };

@@ -12,17 +12,17 @@ namespace mpfem::test {
 
 /// Sums over grains, so that a packing is one sample.
 struct VolumeState {
-  double reference_volume = 0, volume = 0;       ///< mm^3
-  double tet_lowest = 1e300, tet_highest = 0;    ///< extremes of J of single tets
-  double node_lowest = 1e300, node_highest = 0;  ///< of J around nodes
-  double averaged_square = 0;  ///< MPa^2 mm^3: sum of V0 (mean of the tet's nodal pressures)^2
-  double mean_pressure = 0;    ///< MPa mm^3: sum of V0 times the same
-  double tet_square = 0;       ///< MPa^2 mm^3: sum of V0 (that mean less the tet's own -K ln J)^2
-  double node_square = 0;      ///< MPa^2 mm^3: sum of V0 (nodal pressure less the mean of its neighbours')^2
-  double pressure() const { return mean_pressure / reference_volume; }                       ///< MPa
-  double pressure_rms() const { return std::sqrt(averaged_square / reference_volume); }      ///< MPa
-  double tet_oscillation() const { return std::sqrt(tet_square / reference_volume); }        ///< MPa
-  double node_oscillation() const { return std::sqrt(node_square / reference_volume); }      ///< MPa
+  double reference_volume = 0, volume = 0;      ///< mm^3
+  double tet_lowest = 1e300, tet_highest = 0;   ///< extremes of J of single tets
+  double node_lowest = 1e300, node_highest = 0; ///< of J around nodes
+  double averaged_square = 0;                   ///< MPa^2 mm^3: sum of V0 (mean of the tet's nodal pressures)^2
+  double mean_pressure = 0;                     ///< MPa mm^3: sum of V0 times the same
+  double tet_square = 0;                        ///< MPa^2 mm^3: sum of V0 (that mean less the tet's own -K ln J)^2
+  double node_square = 0; ///< MPa^2 mm^3: sum of V0 (nodal pressure less the mean of its neighbours')^2
+  double pressure() const { return mean_pressure / reference_volume; }                  ///< MPa
+  double pressure_rms() const { return std::sqrt(averaged_square / reference_volume); } ///< MPa
+  double tet_oscillation() const { return std::sqrt(tet_square / reference_volume); }   ///< MPa
+  double node_oscillation() const { return std::sqrt(node_square / reference_volume); } ///< MPa
 };
 
 /// The nodes with which each node shares a tet.
