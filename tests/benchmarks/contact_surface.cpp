@@ -4,14 +4,14 @@
 //   contact-surface geometry                                      how far facets lie from the sphere
 //   contact-surface rotations ELEMENT SCALING R/h FIRST LAST      elastic columns of two, meshes turned by each seed
 //   contact-surface unequal ELEMENT R/h R/h FIRST LAST            lower and upper sphere meshed differently, also renumbered
-//   contact-surface pressure ELEMENT R/h FACTOR                   elasto-plastic pair, flattened
+//   contact-surface pressure ELEMENT R/h FACTOR PROFILE.csv       elasto-plastic pair, flattened; pressure node by node
 //   contact-surface packing ELEMENT PACKING.h5 FACTOR             a meshed packing compacted to a relative density of 0.9
 //
 // ELEMENT: tet4, tet4-anp. SCALING: exact (volume, as pack-gen makes grains) or inscribed (nodes on the sphere).
 // R/h: radius over nominal element size. FACTOR: penalty K = FACTOR E/h.
 
 #include <cstdlib>
-#include <cstring>
+#include <fstream>
 #include <string>
 
 #include <fmt/format.h>
@@ -152,9 +152,10 @@ void unequal(const std::string& element, double lower, double upper, std::uint64
     }
 }
 
-void pressure(const std::string& element, double size_ratio, double factor) {
-  fmt::print("element,size_ratio,factor,nominal_approach,force,inner_nodes,mean_pressure,from_mean,from_plane,largest,"
-             "own_from_mean,own_from_plane,penetration,kinetic_over_elastic,residual_over_work\n");
+void pressure(const std::string& element, double size_ratio, double factor, const std::string& profile) {
+  fmt::print(
+      "element,size_ratio,factor,contact,nominal_approach,force,inner_nodes,mean_pressure,from_mean,from_plane,largest,"
+      "own_from_mean,own_from_plane,penetration,kinetic_over_elastic,residual_over_work\n");
   const GrainMesh mesh = ball(size_ratio, true);
   ColumnSetup setup;
   setup.element = element_of(element);
@@ -166,22 +167,27 @@ void pressure(const std::string& element, double size_ratio, double factor) {
     column.press();
     const ColumnState state = column.state();
     const SurfacePressure surface = surface_pressure(column.model(), column.simulation().contact());
-    const PressureOscillation total = oscillation(column.model(), surface, surface.total),
-                              own = oscillation(column.model(), surface, surface.own);
-    fmt::print("{},{},{},{},{:.5f},{},{:.2f},{:.4f},{:.4f},{:.3f},{:.4f},{:.4f},{:.4f},{:.1e},{:.1e}\n", element,
-               size_ratio, factor, approach / radius, state.pair_force, total.nodes, total.mean, total.from_mean,
-               total.from_plane, total.largest, own.from_mean, own.from_plane, state.penetration,
-               state.kinetic_over_elastic, state.residual_over_work);
-    if (approach == setup.approaches.back()) { // the profile, to look at
-      const Model& model = column.model();
-      for (std::size_t n = 0; n < static_cast<std::size_t>(model.nodes()); ++n)
-        if (surface.touching[n] != 0)
-          fmt::print(stderr, "{},{},{},{},{:.5f},{:.3f},{:.3f}\n", element, size_ratio, factor,
-                     n < static_cast<std::size_t>(model.node_offset[1]) ? "lower" : "upper",
-                     std::hypot(model.position[4 * n] - 0.5, model.position[4 * n + 1] - 0.5) / radius,
-                     surface.total[n], surface.own[n]);
+    const SurfacePressure on_walls = wall_pressure(column.simulation(), surface);
+    for (const SurfacePressure* seen : {&surface, &on_walls}) {
+      const PressureOscillation total = oscillation(column.model(), *seen, seen->total),
+                                own = oscillation(column.model(), *seen, seen->own);
+      fmt::print("{},{},{},{},{},{:.5f},{},{:.2f},{:.4f},{:.4f},{:.3f},{:.4f},{:.4f},{:.4f},{:.1e},{:.1e}\n", element,
+                 size_ratio, factor, seen == &surface ? "pair" : "wall", approach / radius, state.pair_force,
+                 total.nodes, total.mean, total.from_mean, total.from_plane, total.largest, own.from_mean,
+                 own.from_plane, state.penetration, state.kinetic_over_elastic, state.residual_over_work);
     }
     std::fflush(stdout);
+    if (approach != setup.approaches.back()) continue;
+    auto file = std::ofstream(profile);
+    file << "grain,distance_over_radius,pressure,own_pressure\n";
+    const Model& model = column.model();
+    for (std::size_t n = 0; n < static_cast<std::size_t>(model.nodes()); ++n)
+      if (surface.touching[n] != 0)
+        file << fmt::format("{},{:.5f},{:.3f},{:.3f}\n",
+                            n < static_cast<std::size_t>(model.node_offset[1]) ? "lower" : "upper",
+                            std::hypot(model.position[4 * n] - 0.5, model.position[4 * n + 1] - 0.5) / radius,
+                            surface.total[n], surface.own[n]);
+    if (!file.flush()) throw std::runtime_error(profile + ": not written");
   }
 }
 
@@ -228,7 +234,7 @@ void packing(const std::string& element, const std::string& file, double factor)
 int usage() {
   fmt::print(stderr,
              "contact-surface geometry | rotations ELEMENT SCALING R/h FIRST LAST | unequal ELEMENT R/h R/h FIRST "
-             "LAST | pressure ELEMENT R/h FACTOR | packing ELEMENT PACKING.h5 FACTOR\n");
+             "LAST | pressure ELEMENT R/h FACTOR PROFILE.csv | packing ELEMENT PACKING.h5 FACTOR\n");
   return 2;
 }
 
@@ -244,8 +250,8 @@ int main(int argc, char** argv) {
     rotations(argv[2], argv[3], number(4), whole(5), whole(6));
   else if (what == "unequal" && argc == 7)
     unequal(argv[2], number(3), number(4), whole(5), whole(6));
-  else if (what == "pressure" && argc == 5)
-    pressure(argv[2], number(3), number(4));
+  else if (what == "pressure" && argc == 6)
+    pressure(argv[2], number(3), number(4), argv[5]);
   else if (what == "packing" && argc == 5)
     packing(argv[2], argv[3], number(4));
   else

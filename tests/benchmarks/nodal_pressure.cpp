@@ -1,7 +1,9 @@
 // Is average nodal pressure free of weak modes? The measurements of studies/nodal-pressure; each prints CSV.
 //
 //   nodal-pressure frequencies                          eigenfrequencies of a free elastic sphere
-//   nodal-pressure vibration ELEMENT R/h MODE STEPS     one free elastic grain; MODE: spheroidal, breathing, torsional, noise
+//   nodal-pressure vibration ELEMENT R/h MODE STEPS SPEED VISCOSITY   one free elastic grain; MODE: spheroidal, breathing,
+//                                                       torsional, noise; SPEED mm/s at the surface, at first; VISCOSITY:
+//                                                       bulk viscosity over its default
 //   nodal-pressure cycles ELEMENT PACKING.h5 CYCLES     a packing of Table 1 compacted to 60 MPa, then cycles of 1 to 60 MPa
 //   nodal-pressure flattening ELEMENT R/h               one elasto-plastic sphere between walls, to half of its height
 //
@@ -67,11 +69,26 @@ double peak_frequency(const std::vector<double>& sample, double step, double gue
   return best;
 }
 
-void vibration(const std::string& element, double size_ratio, const std::string& mode, std::int64_t steps) {
+/// The columns frequency (1/s) and its relative error of a mode's amplitude so far; "-" where the mode has no reference.
+std::string frequency_columns(const std::string& mode, const std::vector<double>& amplitude,
+                              const std::vector<double>& time) {
+  for (const ModeName& m : modes) {
+    if (mode != m.name) continue;
+    const double reference = sphere_frequency(m.mode, m.l, radius, youngs_modulus, poissons_ratio, density);
+    // The step changes a little where it is estimated anew; samples are evenly spaced but for that.
+    const double spacing = (time.back() - time.front()) / static_cast<double>(time.size() - 1);
+    const double found = peak_frequency(amplitude, spacing, reference, 0.2);
+    return fmt::format("{:.5e},{:.4f}", found / (2 * M_PI), found / reference - 1);
+  }
+  return "-,-";
+}
+
+void vibration(const std::string& element, double size_ratio, const std::string& mode, std::int64_t steps, double speed,
+               double viscosity) {
   Scenario scenario = holding_scenario(1);
   scenario.numerics.element = element_of(element);
-  scenario.numerics.bulk_viscosity_linear = 0;
-  scenario.numerics.bulk_viscosity_quadratic = 0;
+  scenario.numerics.bulk_viscosity_linear *= viscosity;
+  scenario.numerics.bulk_viscosity_quadratic *= viscosity;
   ThreadTeam team(1);
   GrainMesh mesh = sphere_mesh(size_ratio, radius, 1);
   move(mesh, {0.5, 0.5, 0.5});
@@ -79,7 +96,6 @@ void vibration(const std::string& element, double size_ratio, const std::string&
   Model& model = simulation.model();
   const auto neighbours = tet_neighbours(model);
   const auto nodes = static_cast<std::size_t>(model.nodes());
-  // 2 m/s at the surface: strains of a thousandth.
   std::vector<double> shape(3 * nodes);
   Random random(5);
   for (std::size_t n = 0; n < nodes; ++n) {
@@ -93,18 +109,16 @@ void vibration(const std::string& element, double size_ratio, const std::string&
       for (int a = 0; a < 3; ++a) v[a] = 2 * random.uniform() - 1;
   }
   for (std::size_t n = 0; n < nodes; ++n)
-    for (std::size_t a = 0; a < 3; ++a) model.velocity[4 * n + a] = 2000 * shape[3 * n + a];
-  double initial = 0;
-  for (std::size_t n = 0; n < nodes; ++n)
-    for (std::size_t a = 0; a < 3; ++a) initial += 0.5 * std::pow(model.velocity[4 * n + a], 2) / model.inverse_mass[n];
+    for (std::size_t a = 0; a < 3; ++a) model.velocity[4 * n + a] = speed * shape[3 * n + a];
 
   constexpr int windows = 10;
   const std::int64_t every = std::max<std::int64_t>(1, steps / (windows * 200));
   VolumeState sum;
   int samples = 0;
   std::vector<double> amplitude, time;
-  fmt::print("element,size_ratio,tets,mode,window,steps,time [s],energy_error,largest_energy_error,kinetic_share,"
-             "pressure_rms [MPa],tet_oscillation,node_oscillation\n");
+  fmt::print("element,size_ratio,tets,mode,speed [mm/s],viscosity,window,steps,time "
+             "[s],energy_error,largest_energy_error,kinetic_share,"
+             "pressure_rms [MPa],tet_oscillation,node_oscillation,frequency [1/s],frequency_error\n");
   double energy_error = 0, largest = 0, kinetic_share = 0;
   double first_energy = 0;
   for (std::int64_t step = 0; step < steps; ++step) {
@@ -129,23 +143,16 @@ void vibration(const std::string& element, double size_ratio, const std::string&
       amplitude.push_back(q), time.push_back(simulation.state().time);
     }
     if ((step + 1) % (steps / windows) == 0) {
-      fmt::print("{},{},{},{},{},{},{:.4e},{:.2e},{:.2e},{:.4f},{:.4f},{:.5f},{:.5f}\n", element, size_ratio,
-                 model.tets(), mode, (step + 1) / (steps / windows), step + 1, simulation.state().time, energy_error,
-                 largest, kinetic_share / samples, std::sqrt(sum.averaged_square / samples / sum.reference_volume),
-                 std::sqrt(sum.tet_square / sum.averaged_square), std::sqrt(sum.node_square / sum.averaged_square));
+      fmt::print("{},{},{},{},{},{},{},{},{:.4e},{:.2e},{:.2e},{:.4f},{:.4f},{:.5f},{:.5f},{}\n", element, size_ratio,
+                 model.tets(), mode, speed, viscosity, (step + 1) / (steps / windows), step + 1,
+                 simulation.state().time, energy_error, largest, kinetic_share / samples,
+                 std::sqrt(sum.averaged_square / samples / sum.reference_volume),
+                 std::sqrt(sum.tet_square / sum.averaged_square), std::sqrt(sum.node_square / sum.averaged_square),
+                 frequency_columns(mode, amplitude, time));
       std::fflush(stdout);
       sum = {}, samples = 0, kinetic_share = 0;
     }
     simulation.advance();
-  }
-  for (const ModeName& m : modes) {
-    if (mode != m.name) continue;
-    const double reference = sphere_frequency(m.mode, m.l, radius, youngs_modulus, poissons_ratio, density);
-    // The step changes a little where it is estimated anew; samples are evenly spaced but for that.
-    const double spacing = (time.back() - time.front()) / static_cast<double>(time.size() - 1);
-    const double found = peak_frequency(amplitude, spacing, reference, 0.2);
-    fmt::print(stderr, "{},{},{},{},{:.6e},{:.6e},{:.5f}\n", element, size_ratio, model.tets(), mode,
-               found / (2 * M_PI), reference / (2 * M_PI), found / reference - 1);
   }
 }
 
@@ -237,9 +244,9 @@ void flattening(const std::string& element, double size_ratio) {
 }
 
 int usage() {
-  fmt::print(stderr,
-             "nodal-pressure frequencies | vibration ELEMENT R/h MODE STEPS | cycles ELEMENT PACKING.h5 CYCLES | "
-             "flattening ELEMENT R/h\n");
+  fmt::print(stderr, "nodal-pressure frequencies | vibration ELEMENT R/h MODE STEPS SPEED VISCOSITY | cycles ELEMENT "
+                     "PACKING.h5 CYCLES | "
+                     "flattening ELEMENT R/h\n");
   return 2;
 }
 
@@ -249,8 +256,8 @@ int main(int argc, char** argv) {
   const std::string what = argc > 1 ? argv[1] : "";
   if (what == "frequencies" && argc == 2)
     frequencies();
-  else if (what == "vibration" && argc == 6)
-    vibration(argv[2], std::atof(argv[3]), argv[4], std::atoll(argv[5]));
+  else if (what == "vibration" && argc == 8)
+    vibration(argv[2], std::atof(argv[3]), argv[4], std::atoll(argv[5]), std::atof(argv[6]), std::atof(argv[7]));
   else if (what == "cycles" && argc == 5)
     cycles(argv[2], argv[3], std::atoi(argv[4]));
   else if (what == "flattening" && argc == 4)

@@ -60,6 +60,19 @@ Eigen::VectorXd squared_frequencies(const GrainMesh& mesh, ElementType element) 
 
 } // namespace
 
+TEST_CASE(
+    "eigenfrequencies of the free sphere: breathing obeys its own equation, torsion does not know Poisson's ratio") {
+  for (const double nu : {0.0, 0.25, 0.3, 0.45}) {
+    const double eta = sphere_eigenvalue(SphereMode::spheroidal, 0, nu);
+    const double xi = eta * std::sqrt((1 - 2 * nu) / (2 - 2 * nu));
+    CHECK(within(std::tan(xi) / xi, 4 / (4 - eta * eta), 1e-9));
+    CHECK(within(sphere_eigenvalue(SphereMode::torsional, 2, nu), 2.50113, 1e-5));
+  }
+  // Poisson's solid: 0.8160 pi and 0.840 pi (Love, A Treatise on the Mathematical Theory of Elasticity).
+  CHECK(within(sphere_eigenvalue(SphereMode::spheroidal, 0, 0.25) / std::sqrt(3.0), 0.8160 * M_PI, 1e-4));
+  CHECK(within(sphere_eigenvalue(SphereMode::spheroidal, 2, 0.25), 0.840 * M_PI, 1e-3));
+}
+
 // The lowest elastic modes of a sphere of nu = 0.3 are the five torsional ones with l = 2 (2.5011 c_s/R) and the five
 // ellipsoidal ones (2.6462 c_s/R). A weak mode would stand among or below them.
 TEST_CASE("averaged pressure has six rigid modes and no weak one: the next are those of the elastic sphere") {
