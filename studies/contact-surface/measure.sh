@@ -10,27 +10,28 @@ measure() {
   shift
   [ -e "$file" ] && return
   echo "contact-surface $*" >&2
-  "$bin/contact-surface" "$@" > "$file.partial" 2> "$file.notes"
+  "$bin/contact-surface" "$@" > "$file.partial"
   mv "$file.partial" "$file"
-  [ -s "$file.notes" ] || rm -f "$file.notes"
 }
+# Orientations: seeds 1 to 20 are 40 turned spheres, so 40 contacts with a wall and 20 between spheres.
+measure rotations-tet4-anp-exact-5.csv rotations tet4-anp exact 5 1 20
+measure rotations-tet4-exact-5.csv rotations tet4 exact 5 1 20
+measure rotations-tet4-anp-inscribed-5.csv rotations tet4-anp inscribed 5 1 20
+measure rotations-tet4-anp-exact-7.csv rotations tet4-anp exact 7 1 6
+measure rotations-tet4-exact-7.csv rotations tet4 exact 7 1 6
+measure rotations-tet4-anp-exact-10.csv rotations tet4-anp exact 10 1 3
 measure geometry.csv geometry
+# Unequal meshes.
+measure unequal-4-4.csv unequal tet4-anp 4 4 1 4
+measure unequal-8-4.csv unequal tet4-anp 8 4 1 2
+measure unequal-8-8.csv unequal tet4-anp 8 8 1 2
+measure unequal-3-3.csv unequal tet4-anp 3 3 1 4
+measure unequal-9-3.csv unequal tet4-anp 9 3 1 2
+# Pressure from node to node.
 for element in tet4-anp tet4; do
-  measure rotations-$element-exact-5.csv rotations $element exact 5 1 20
-  measure rotations-$element-exact-7.csv rotations $element exact 7 1 10
-  for size in 5 7; do
-    for factor in 1 10 100; do
-      measure pressure-$element-$size-$factor.csv pressure $element $size $factor
-    done
-  done
   for factor in 1 10 100; do
+    measure pressure-$element-5-$factor.csv pressure $element 5 $factor "$folder/profile-$element-5-$factor.csv"
+    measure pressure-$element-7-$factor.csv pressure $element 7 $factor "$folder/profile-$element-7-$factor.csv"
     measure packing-$element-$factor.csv packing $element "$packing" $factor
   done
 done
-measure rotations-tet4-anp-exact-10.csv rotations tet4-anp exact 10 1 4
-measure rotations-tet4-anp-inscribed-5.csv rotations tet4-anp inscribed 5 1 20
-measure unequal-8-8.csv unequal tet4-anp 8 8 1 3
-measure unequal-8-4.csv unequal tet4-anp 8 4 1 3
-measure unequal-4-4.csv unequal tet4-anp 4 4 1 6
-measure unequal-9-3.csv unequal tet4-anp 9 3 1 3
-measure unequal-3-3.csv unequal tet4-anp 3 3 1 6

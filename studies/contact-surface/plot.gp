@@ -3,12 +3,16 @@ call 'studies/common/style.gp' ARG1
 set output ARG3
 set xlabel 'approach/R'
 set ylabel 'force over the reference, less 1, %'
-set xrange [0.007:0.06]
+set xrange [0.0085:0.05]
 set logscale x
 set xtics (0.01, 0.02, 0.04)
-set yrange [0:*]
+set xzeroaxis linetype -1
 set key top right
-cases = system("awk -F, 'NR > 1 && $2 == \"exact\" && $5 == \"pair\" { k = $1 \",\" $3; if (!(k in s)) { s[k] = 1; printf \"%s \", k } }' '" . ARG2 . "'")
-wanted(c, contact) = strcol(1) . ',' . strcol(3) eq c && strcol(2) eq 'exact' && strcol(5) eq contact
-plot for [i = 1:words(cases)] ARG2 skip 1 using ($4 * (0.97 + 0.012 * i)):(wanted(word(cases, i), 'pair') ? 100 * $7 : NaN):(100 * $8) with yerrorbars linetype i title 'sphere on sphere, ' . word(cases, i)[1:strstrt(word(cases, i), ',') - 1] . ', R/h = ' . word(cases, i)[strstrt(word(cases, i), ',') + 1:*], \
-     for [i = 1:words(cases)] ARG2 skip 1 using ($4 * (0.97 + 0.012 * i)):(wanted(word(cases, i), 'wall') ? 100 * $7 : NaN) with points linetype i pointtype 6 pointsize 1.6 title (i == 1 ? 'sphere on wall' : '')
+# ELEMENT,SCALING,R/h of every mesh in the table
+cases = system("awk -F, 'NR > 1 { k = $1 \",\" $2 \",\" $3; if (!(k in s)) { s[k] = 1; printf \"%s \", k } }' '" . ARG2 . "'")
+part(c, n) = system(sprintf("echo '%s' | cut -d, -f%d", c, n))
+name(c) = part(c, 1) . ', R/h = ' . part(c, 3) . (part(c, 2) eq 'exact' ? '' : ', nodes on the sphere')
+of(c, contact) = strcol(1) . ',' . strcol(2) . ',' . strcol(3) eq c && strcol(5) eq contact
+beside(i) = 0.95 + 0.02 * i
+plot for [i = 1:words(cases)] ARG2 skip 1 using ($4 * beside(i)):(of(word(cases, i), 'pair') ? 100 * $7 : NaN):(100 * $8) with yerrorbars linetype i title name(word(cases, i)), \
+     for [i = 1:words(cases)] ARG2 skip 1 using ($4 * beside(i)):(of(word(cases, i), 'wall') ? 100 * $7 : NaN) with points linetype i pointtype 6 pointsize 1.6 title (i == 1 ? 'open: on the wall' : '')
