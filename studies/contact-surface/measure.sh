@@ -17,8 +17,8 @@ measure() {
 measure rotations-tet4-anp-exact-5.csv rotations tet4-anp exact 5 1 20
 measure rotations-tet4-exact-5.csv rotations tet4 exact 5 1 20
 measure rotations-tet4-anp-inscribed-5.csv rotations tet4-anp inscribed 5 1 20
-measure rotations-tet4-anp-exact-7.csv rotations tet4-anp exact 7 1 6
-measure rotations-tet4-exact-7.csv rotations tet4 exact 7 1 6
+measure rotations-tet4-anp-exact-7.csv rotations tet4-anp exact 7 1 10
+measure rotations-tet4-anp-inscribed-7.csv rotations tet4-anp inscribed 7 1 6
 measure rotations-tet4-anp-exact-10.csv rotations tet4-anp exact 10 1 3
 measure geometry.csv geometry
 # Unequal meshes.
@@ -29,9 +29,9 @@ measure unequal-3-3.csv unequal tet4-anp 3 3 1 4
 measure unequal-9-3.csv unequal tet4-anp 9 3 1 2
 # Pressure from node to node.
 for element in tet4-anp tet4; do
+  measure pressure-$element-7-10.csv pressure $element 7 10 "$folder/profile-$element-7-10.csv"
   for factor in 1 10 100; do
     measure pressure-$element-5-$factor.csv pressure $element 5 $factor "$folder/profile-$element-5-$factor.csv"
-    measure pressure-$element-7-$factor.csv pressure $element 7 $factor "$folder/profile-$element-7-$factor.csv"
     measure packing-$element-$factor.csv packing $element "$packing" $factor
   done
 done

@@ -29,4 +29,3 @@ for element in tet4-anp tet4; do
 done
 measure vibration-tet4-anp-4-noise-slow.csv vibration tet4-anp 4 noise 100000 200 0
 measure vibration-tet4-anp-4-noise-viscous.csv vibration tet4-anp 4 noise 100000 2000 1
-measure vibration-tet4-anp-3-noise.csv vibration tet4-anp 3 noise 1000000 200 0
