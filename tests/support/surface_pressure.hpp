@@ -1,6 +1,7 @@
 #pragma once
 // Contact pressure node by node on the surface of grains, and how much it oscillates from node to node.
 
+#include <algorithm>
 #include <cmath>
 #include <set>
 #include <vector>
