@@ -3,6 +3,8 @@
 #include <catch2/catch.hpp>
 
 #include "tests/support/hertz_column.hpp"
+#include "tests/support/pressed_column.hpp"
+#include "tests/support/surface_pressure.hpp"
 
 using namespace mpfem::test;
 
@@ -38,4 +40,34 @@ TEST_CASE("the force between two spheres approaches Hertz as the mesh is refined
   CHECK(std::abs(fine.sphere_error) < 0.6 * coarse.sphere_error);
   // Facets that do not match make a pair a little stiffer than a sphere on a plane, not more than the mesh itself does.
   CHECK(std::abs(fine.sphere_error - fine.wall_error) < 0.06);
+}
+
+TEST_CASE("unequal meshes: action equals reaction, and the grains' order in the packing does not matter") {
+  constexpr double radius = 0.1;
+  ColumnState states[2];
+  for (const bool from_top : {false, true}) {
+    GrainMesh lower = sphere_mesh(5, radius, 1), upper = sphere_mesh(2.5, radius, 2);
+    rotate(lower, {0.6, 0, 0.8}, 1.0), rotate(upper, {0, 0.6, 0.8}, 1.7);
+    ColumnSetup setup;
+    setup.element = mpfem::ElementType::tet4_anp;
+    setup.approaches = {0.04 * radius};
+    setup.listed_from_top = from_top;
+    PressedColumn column({lower, upper}, setup);
+    column.press();
+    const ColumnState state = states[from_top ? 1 : 0] = column.state();
+    const SurfacePressure surface = surface_pressure(column.model(), column.simulation().contact());
+    CAPTURE(state.pair_force, state.low_force, state.high_force, state.kinetic_over_elastic);
+    REQUIRE(state.pair_force > 0.1);
+    // Frictionless bodies at rest: what the walls bear, the pair bears.
+    CHECK(std::abs(state.low_force - state.pair_force) < 0.03 * state.pair_force);
+    CHECK(std::abs(state.high_force - state.pair_force) < 0.03 * state.pair_force);
+    for (std::size_t a = 0; a < 3; ++a) {
+      CHECK(std::abs(surface.net_force[a]) < 1e-12 * state.pair_force);
+      CHECK(std::abs(surface.net_moment[a]) < 1e-12 * state.pair_force); // arms of up to 1 mm
+    }
+  }
+  // The same bodies at the same places: sums in another order, so equal but for rounding, which impacts of nodes amplify.
+  CAPTURE(states[0].pair_force, states[1].pair_force);
+  CHECK(std::abs(states[1].pair_force - states[0].pair_force) < 1e-6 * states[0].pair_force);
+  CHECK(std::abs(states[1].pair_approach - states[0].pair_approach) < 1e-6 * states[0].pair_approach);
 }

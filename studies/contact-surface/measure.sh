@@ -1,0 +1,37 @@
+#!/bin/sh
+# measure.sh BIN PACKING FOLDER: every measurement of the study into a file of its own in FOLDER. What is there is not
+# measured again, so that an interrupted call goes on where it stood.
+set -eu
+bin=$1
+packing=$2
+folder=$3
+measure() {
+  file=$folder/$1
+  shift
+  [ -e "$file" ] && return
+  echo "contact-surface $*" >&2
+  "$bin/contact-surface" "$@" > "$file.partial"
+  mv "$file.partial" "$file"
+}
+# Orientations: seeds 1 to 20 are 40 turned spheres, so 40 contacts with a wall and 20 between spheres.
+measure rotations-tet4-anp-exact-5.csv rotations tet4-anp exact 5 1 20
+measure rotations-tet4-exact-5.csv rotations tet4 exact 5 1 20
+measure rotations-tet4-anp-inscribed-5.csv rotations tet4-anp inscribed 5 1 20
+measure rotations-tet4-anp-exact-7.csv rotations tet4-anp exact 7 1 10
+measure rotations-tet4-anp-inscribed-7.csv rotations tet4-anp inscribed 7 1 6
+measure rotations-tet4-anp-exact-10.csv rotations tet4-anp exact 10 1 3
+measure geometry.csv geometry
+# Unequal meshes.
+measure unequal-4-4.csv unequal tet4-anp 4 4 1 4
+measure unequal-8-4.csv unequal tet4-anp 8 4 1 2
+measure unequal-8-8.csv unequal tet4-anp 8 8 1 2
+measure unequal-3-3.csv unequal tet4-anp 3 3 1 4
+measure unequal-9-3.csv unequal tet4-anp 9 3 1 2
+# Pressure from node to node.
+for element in tet4-anp tet4; do
+  measure pressure-$element-7-10.csv pressure $element 7 10 "$folder/profile-$element-7-10.csv"
+  for factor in 1 10 100; do
+    measure pressure-$element-5-$factor.csv pressure $element 5 $factor "$folder/profile-$element-5-$factor.csv"
+    measure packing-$element-$factor.csv packing $element "$packing" $factor
+  done
+done

@@ -1,0 +1,107 @@
+#pragma once
+// Volume ratios of tets and around nodes, and how far the pressure of tets oscillates about that of their nodes.
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+#include <vector>
+
+#include "solver/model/model.hpp"
+
+namespace mpfem::test {
+
+/// Sums over grains, so that a packing is one sample.
+struct VolumeState {
+  double reference_volume = 0, volume = 0;      ///< mm^3
+  double tet_lowest = 1e300, tet_highest = 0;   ///< extremes of J of single tets
+  double node_lowest = 1e300, node_highest = 0; ///< of J around nodes
+  double averaged_square = 0;                   ///< MPa^2 mm^3: sum of V0 (mean of the tet's nodal pressures)^2
+  double mean_pressure = 0;                     ///< MPa mm^3: sum of V0 times the same
+  double tet_square = 0;                        ///< MPa^2 mm^3: sum of V0 (that mean less the tet's own -K ln J)^2
+  double node_square = 0; ///< MPa^2 mm^3: sum of V0 (nodal pressure less the mean of its neighbours')^2
+  double pressure() const { return mean_pressure / reference_volume; }                  ///< MPa
+  double pressure_rms() const { return std::sqrt(averaged_square / reference_volume); } ///< MPa
+  double tet_oscillation() const { return std::sqrt(tet_square / reference_volume); }   ///< MPa
+  double node_oscillation() const { return std::sqrt(node_square / reference_volume); } ///< MPa
+};
+
+/// The nodes with which each node shares a tet.
+inline std::vector<std::vector<std::int32_t>> tet_neighbours(const Model& model) {
+  std::vector<std::set<std::int32_t>> ring(static_cast<std::size_t>(model.nodes()));
+  for (int grain = 0; grain < model.grains; ++grain) {
+    const auto g = static_cast<std::size_t>(grain);
+    for (std::int32_t b = model.block_offset[g]; b < model.block_offset[g + 1]; ++b)
+      for (int lane = 0; lane < model.tets_in_block(grain, b); ++lane)
+        for (int c = 0; c < 4; ++c)
+          for (int d = 0; d < 4; ++d)
+            if (c != d)
+              ring[static_cast<std::size_t>(model.node_offset[g] + model.block[std::size_t(b)].node[c][lane])].insert(
+                  model.node_offset[g] + model.block[std::size_t(b)].node[d][lane]);
+  }
+  std::vector<std::vector<std::int32_t>> result;
+  for (const auto& around : ring) result.emplace_back(around.begin(), around.end());
+  return result;
+}
+
+/// At the model's present positions, whatever its element: the nodal pressures of averaged tets, and of plain tets what
+/// they would be.
+inline VolumeState volume_state(const Model& model, const std::vector<std::vector<std::int32_t>>& neighbours) {
+  const double bulk = model.material.moduli.bulk;
+  VolumeState result;
+  const auto nodes = static_cast<std::size_t>(model.nodes());
+  std::vector<double> volume(nodes, 0.0), reference(nodes, 0.0), pressure(nodes);
+  struct Tet {
+    std::int32_t node[4];
+    double reference, ratio;
+  };
+  std::vector<Tet> tets;
+  for (int grain = 0; grain < model.grains; ++grain) {
+    const auto g = static_cast<std::size_t>(grain);
+    for (std::int32_t b = model.block_offset[g]; b < model.block_offset[g + 1]; ++b) {
+      const TetBlock& block = model.block[static_cast<std::size_t>(b)];
+      for (int lane = 0; lane < model.tets_in_block(grain, b); ++lane) {
+        Tet tet{};
+        Vector3<double> x[4];
+        for (int c = 0; c < 4; ++c) {
+          tet.node[c] = model.node_offset[g] + block.node[c][lane];
+          const double* at = &model.position[4 * static_cast<std::size_t>(tet.node[c])];
+          x[c] = {at[0], at[1], at[2]};
+        }
+        const double now = dot(cross(x[1] - x[0], x[2] - x[0]), x[3] - x[0]) / 6;
+        tet.reference = 1 / block.inverse_volume[lane];
+        tet.ratio = now / tet.reference;
+        for (const auto n : tet.node) {
+          volume[static_cast<std::size_t>(n)] += now / 4;
+          reference[static_cast<std::size_t>(n)] += tet.reference / 4;
+        }
+        result.volume += now, result.reference_volume += tet.reference;
+        result.tet_lowest = std::min(result.tet_lowest, tet.ratio);
+        result.tet_highest = std::max(result.tet_highest, tet.ratio);
+        tets.push_back(tet);
+      }
+    }
+  }
+  for (std::size_t n = 0; n < nodes; ++n) {
+    const double ratio = volume[n] / reference[n];
+    result.node_lowest = std::min(result.node_lowest, ratio);
+    result.node_highest = std::max(result.node_highest, ratio);
+    pressure[n] = -bulk * std::log(ratio);
+  }
+  for (const Tet& tet : tets) {
+    double mean = 0;
+    for (const auto n : tet.node) mean += 0.25 * pressure[static_cast<std::size_t>(n)];
+    const double own = -bulk * std::log(tet.ratio);
+    result.averaged_square += tet.reference * mean * mean;
+    result.mean_pressure += tet.reference * mean;
+    result.tet_square += tet.reference * (mean - own) * (mean - own);
+  }
+  for (std::size_t n = 0; n < nodes; ++n) {
+    double mean = 0;
+    for (const auto m : neighbours[n]) mean += pressure[static_cast<std::size_t>(m)];
+    mean /= static_cast<double>(neighbours[n].size());
+    result.node_square += reference[n] * (pressure[n] - mean) * (pressure[n] - mean);
+  }
+  return result;
+}
+
+} // namespace mpfem::test
