@@ -1,6 +1,6 @@
 # awk -f case.awk -v sets='default large' cases.csv: the cases as words for make, CASE|SCENE|MESH|SCENARIO|OPTIONS|RECOVERY,
 # blanks in options as ';'. MESH is KIND-FINENESS as mesh.sh reads it, OPTIONS are KEY=VALUE words of the scenario, RECOVERY those
-# of recovery.toml, which packings go on with ('-': no such run).
+# of recovery.toml, which the small packing goes on with ('-': no such run).
 #
 # Masses of hemispheres follow the step that they are made for, 4e-7 s/mm times the element size (studies/fig04): mass_factor
 # times the mass is a step longer by the root of it.
@@ -40,10 +40,9 @@ NR == 1 || /^#/ || !($9 in wanted) { next }
   if (scene == "hertz") options = options speed(0, 2000)
   if (scene == "flattened") options = options speed(0, 4000)
   if (scene == "confined") options = options speed(0, 4000) speed(1, 4000)
-  if (scene == "small" || scene == "full") {
-    recovery = options speed(1, 1000) speed(3, 1000)
+  if (scene == "small") recovery = options speed(1, 1000) speed(3, 1000)
+  if (scene == "small" || scene == "full")
     options = options speed(0, 4000) " output.snapshot_relative_densities=[] output.snapshot_at_stage_end=false"
-  }
   gsub(/ /, ";", options)
   gsub(/ /, ";", recovery)
   print $1 "|" scene "|" (scene in kind ? kind[scene] : scene) "-" $5 "|" scenario[scene] "|" options "|" recovery

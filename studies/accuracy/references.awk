@@ -3,7 +3,8 @@
 #
 # Spheres and hemispheres in elastic contact, and the plastic pair, have references of others: Hertz with the finite-sphere
 # factor (tests/reference/README.md), axisymmetric finite elements, boundary elements. All else is extrapolated from the runs that
-# differ in mesh and element alone: both elements tend to one answer q as their size x = tets^(-1/3) vanishes,
+# differ in mesh and element alone: both elements tend to one answer q as their size x = tets^(-1/3), of hemispheres the element
+# size at the contact, vanishes,
 #   value(element, x) = q + c(element) x^order,
 # fitted by least squares to the finest three meshes of each element, with that order from 0.8 to 2 which fits best. Uncertainty: the
 # largest of the scatter of the fit, the distance from q to what every order gives that fits with at most twice the scatter, and
@@ -13,7 +14,7 @@
 BEGIN { FS = "," }
 FNR == 1 { ++file; split("", column); read_header(); next }
 /^#/ { next }
-file == 1 && $need("lever") == "mesh" { scene[$1] = $need("scene"); element[$1] = $need("element"); size[$1] = $need("tets")^(-1 / 3) }
+file == 1 && $need("lever") == "mesh" { scene[$1] = $need("scene"); element[$1] = $need("element"); size[$1] = $2 ~ /^p/ ? 1 / $need("fineness") : $need("tets")^(-1 / 3) }
 file == 2 && $1 in scene {
   key = scene[$1] SUBSEP $2
   if (!(key in points)) order_of[++quantities] = key

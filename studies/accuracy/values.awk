@@ -1,12 +1,12 @@
 # awk -f ../common/verdict.awk -f values.awk -v scene=SCENE curve.csv [recovery.curve.csv]: what a case came to, quantity,value.
 #
-#   hertz       force over E R^2 at an approach of 0.02 R and 0.04 R to either plane
+#   hertz       force on a sphere over E R^2 at an approach of 0.02 R and 0.04 R to either plane, mean of four spheres
 #   flattened   the same at 0.042, 0.088 and 0.135 R
 #   confined    axial stress in MPa at relative densities of 0.70, 0.80 and 0.92
 #   pair        force over E R^2 at an approach of the flat faces of 0.02, 0.04, 0.06 and 0.08 R
 #   pull-off    the same at 0.01 R, and the largest tension
-#   small, full mean stress in MPa at relative densities of 0.70, 0.80 and 0.92; with a second file elastic recovery at its end and
-#               Young's modulus of the compact in MPa, the slope of axial stress over axial strain from 0.004 to 0.010
+#   small, full mean stress in MPa at relative densities of 0.70, 0.80 and 0.92; small also elastic recovery and Young's modulus
+#               of the compact in MPa, the slope of axial stress over axial strain from 0.004 to 0.010
 #
 # E = 5000 MPa, R = 0.1 mm in all.
 
@@ -40,8 +40,8 @@ function passing(name, x, y, marks,   many, mark, i, t) {
   last[name, "y"] = y
 }
 
-scene == "hertz" { passing("force", 1 - height / 0.2, force, "0.02 0.04") }
-scene == "flattened" { passing("force", 1 - height / 0.2, force, "0.042 0.088 0.135") }
+scene == "hertz" { passing("force", 1 - height / 0.2, force / 4, "0.02 0.04") }
+scene == "flattened" { passing("force", 1 - height / 0.2, force / 4, "0.042 0.088 0.135") }
 scene == "confined" && stage == 1 { passing("axial-stress", density, axial, "0.7 0.8 0.92") }
 scene == "pair" { passing("force", (0.2 + gap - height) / 0.1, force, "0.02 0.04 0.06 0.08") }
 scene == "pull-off" && stage == 0 { passing("force", (0.2 + gap - height) / 0.1, force, "0.01") }
