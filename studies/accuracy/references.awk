@@ -1,15 +1,15 @@
 # awk -f ../common/verdict.awk -f references.awk runs.csv values.csv fig05/finite-elements.csv fig04/cohesive.csv: what the values of each scene
-# should be, and how surely: scene,quantity,reference,uncertainty,order,source.
+# should be, and how surely: scene,quantity,reference,uncertainty,source,extrapolated.
 #
 # Spheres and hemispheres in elastic contact, and the plastic pair, have references of others: Hertz with the finite-sphere
 # factor (tests/reference/README.md), axisymmetric finite elements, boundary elements. All else is extrapolated from the runs that
 # differ in mesh and element alone: both elements tend to one answer q as their size x = tets^(-1/3), of hemispheres the element
 # size at the contact, vanishes,
-#   value(element, x) = q + c(element) x^order,
-# fitted by least squares to the finest three meshes of each element, with that order from 0.8 to 2 which fits best. Uncertainty: the
-# largest of the scatter of the fit, the distance from q to what every order gives that fits with at most twice the scatter, and
-# that to what either element gives alone. References of others are taken as good to 1 %, an assumption; what the runs
-# themselves tend to stands beside them.
+#   value(element, x) = q + c(element) x^order(element),
+# fitted by least squares to the finest four meshes of each element with all pairs of orders from 1 to 2. The reference is the middle of
+# the q of all pairs that fit nearly as well as the best (at most 1.5 times its scatter), its uncertainty half of their range and
+# the scatter. References of others are taken as good to 1 %, an assumption; what the runs themselves tend to stands beside
+# them.
 
 BEGIN { FS = "," }
 FNR == 1 { ++file; split("", column); read_header(); next }
@@ -26,23 +26,18 @@ file == 2 && $1 in scene {
 file == 3 && $need("approach") != "" { finite[$need("approach") + 0] = $need("table_1") }
 file == 4 && $need("energy") == 0.1 && $need("lambda") == 2 { cohesive = $need("pull_off_over_jkr") }
 
-# Fit of q, c(tet4), c(tet4-anp) with a given order to the finest meshes; `only`: of one element alone. Sets residual (root mean square).
-function fit(key, order, only,   i, j, k, m, rank, a, b, s, used, row, sum, q) {
+# Fit of q, c(tet4), c(tet4-anp) with given orders; returns q, sets `scatter` (root mean square). 
+function fit(key, plain, averaged,   i, j, k, a, b, s, row, sum, count) {
   split("", a)
   split("", b)
   for (i = 1; i <= points[key]; ++i) {
-    if (only != "" && what[key, i] != only) continue
-    rank = 1
-    for (j = 1; j <= points[key]; ++j) if (what[key, j] == what[key, i] && x[key, j] < x[key, i]) ++rank
-    if (rank > finest) continue
+    if (!used[key, i]) continue
     row[1] = 1
-    row[2] = what[key, i] == "tet4" ? x[key, i]^order : 0
-    row[3] = what[key, i] == "tet4" ? 0 : x[key, i]^order
+    row[2] = what[key, i] == "tet4" ? x[key, i]^plain : 0
+    row[3] = what[key, i] == "tet4" ? 0 : x[key, i]^averaged
     for (j = 1; j <= 3; ++j) { for (k = 1; k <= 3; ++k) a[j, k] += row[j] * row[k]; b[j] += row[j] * y[key, i] }
-    ++used
   }
-  for (j = 1; j <= 3; ++j) if (a[j, j] == 0) a[j, j] = 1
-  # Gauss, symmetric and positive.
+  # Gauss; the matrix is symmetric and positive.
   for (j = 1; j <= 3; ++j)
     for (i = j + 1; i <= 3; ++i) {
       s = a[i, j] / a[j, j]
@@ -50,39 +45,40 @@ function fit(key, order, only,   i, j, k, m, rank, a, b, s, used, row, sum, q) {
       b[i] -= s * b[j]
     }
   for (j = 3; j >= 1; --j) { for (k = j + 1; k <= 3; ++k) b[j] -= a[j, k] * b[k]; b[j] /= a[j, j] }
-  q = b[1]
-  sum = 0
-  for (i = 1; i <= points[key]; ++i) {
-    if (only != "" && what[key, i] != only) continue
-    rank = 1
-    for (j = 1; j <= points[key]; ++j) if (what[key, j] == what[key, i] && x[key, j] < x[key, i]) ++rank
-    if (rank <= finest) sum += (y[key, i] - q - (what[key, i] == "tet4" ? b[2] : b[3]) * x[key, i]^order)^2
-  }
-  residual = sqrt(sum / used)
-  return q
+  for (i = 1; i <= points[key]; ++i)
+    if (used[key, i]) {
+      sum += (y[key, i] - b[1] - (what[key, i] == "tet4" ? b[2] * x[key, i]^plain : b[3] * x[key, i]^averaged))^2
+      ++count
+    }
+  scatter = sqrt(sum / count)
+  return b[1]
 }
 
-function farther(value) { if (absolute(value - best) > uncertainty) uncertainty = absolute(value - best) }
-
-# Sets best, best_order, uncertainty; false where there are too few runs.
-function extrapolate(key,   order, least, i, plain, averaged) {
-  for (i = 1; i <= points[key]; ++i) if (what[key, i] == "tet4") ++plain; else ++averaged
-  if (plain < 2 || averaged < 2) return 0
+# Sets best and uncertainty; false where there are too few runs.
+function extrapolate(key,   i, j, rank, count, plain, averaged, q, least, low, high) {
+  for (i = 1; i <= points[key]; ++i) {
+    rank = 1
+    for (j = 1; j <= points[key]; ++j) if (what[key, j] == what[key, i] && x[key, j] < x[key, i]) ++rank
+    used[key, i] = rank <= finest
+    if (used[key, i]) ++count[what[key, i]]
+  }
+  if (count["tet4"] < 2 || count["tet4-anp"] < 2 || count["tet4"] + count["tet4-anp"] < 5) return 0
   least = -1
-  for (order = lowest; order <= highest + 0.01; order += 0.05) {
-    fit(key, order, "")
-    if (least < 0 || residual < least) { least = residual; best_order = order }
-  }
-  best = fit(key, best_order, "")
-  uncertainty = least
-  for (order = lowest; order <= highest + 0.01; order += 0.05) {
-    value = fit(key, order, "")
-    if (residual <= 2 * least) farther(value)
-  }
-  if (averaged > 2) {
-    farther(fit(key, best_order, "tet4-anp"))
-    farther(fit(key, best_order, "tet4"))
-  }
+  for (plain = 1; plain < 2.01; plain += 0.1)
+    for (averaged = 1; averaged < 2.01; averaged += 0.1) {
+      fit(key, plain, averaged)
+      if (least < 0 || scatter < least) least = scatter
+    }
+  low = high = ""
+  for (plain = 1; plain < 2.01; plain += 0.1)
+    for (averaged = 1; averaged < 2.01; averaged += 0.1) {
+      q = fit(key, plain, averaged)
+      if (scatter > 1.5 * least) continue
+      if (low == "" || q < low) low = q
+      if (high == "" || q > high) high = q
+    }
+  best = (low + high) / 2
+  uncertainty = (high - low) / 2 + least
   return 1
 }
 
@@ -91,10 +87,8 @@ function hertz(approach, factor) { return factor * 4 / 3 / (1 - 0.3^2) * approac
 
 END {
   if (failed) exit 1
-  finest = 3
+  finest = 4
   taken_as = 0.01
-  lowest = 0.8
-  highest = 2
   pi = atan2(0, -1)
   # Factors at 2 approach/R = 0.04 and 0.08, and for two spheres at approach/R = 0.01.
   known["hertz", "force-0.02"] = hertz(0.02, 1.068)
@@ -106,15 +100,15 @@ END {
   known["pull-off", "force-0.01"] = 1.030 * 4 / 3 / (2 * (1 - 0.3^2)) * sqrt(0.5) * 0.01^1.5
   known["pull-off", "pull-off"] = cohesive * 1.5 * pi * 0.1 * 0.05 / (5000 * 0.1^2)
   source["pull-off"] = "Hertz and boundary elements"
-  print "scene,quantity,reference,uncertainty,order,source,extrapolated,uncertainty_of_extrapolation"
+  print "scene,quantity,reference,uncertainty,source,extrapolated,uncertainty_of_extrapolation"
   for (i = 1; i <= quantities; ++i) {
     key = order_of[i]
     split(key, part, SUBSEP)
     if (!extrapolate(key)) continue
     if ((part[1], part[2]) in known) {
       value = known[part[1], part[2]]
-      printf "%s,%s,%.6g,%.2g,%.2f,%s,%.6g,%.2g\n", part[1], part[2], value, taken_as * value, best_order, source[part[1]], best, uncertainty
+      printf "%s,%s,%.6g,%.2g,%s,%.6g,%.2g\n", part[1], part[2], value, taken_as * value, source[part[1]], best, uncertainty
     } else
-      printf "%s,%s,%.6g,%.2g,%.2f,%s,%.6g,%.2g\n", part[1], part[2], best, uncertainty, best_order, "extrapolated", best, uncertainty
+      printf "%s,%s,%.6g,%.2g,%s,%.6g,%.2g\n", part[1], part[2], best, uncertainty, "extrapolated", best, uncertainty
   }
 }

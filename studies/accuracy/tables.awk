@@ -34,7 +34,7 @@ file == 1 {
   next
 }
 file == 2 { value[$1, $2] = $3; next }
-file == 3 { quantity[++quantities] = $1 SUBSEP $2; reference[$1, $2] = $3; unsure[$1, $2] = $4; source[$1, $2] = $6; tends[$1, $2] = $7; tends_unsure[$1, $2] = $8 }
+file == 3 { quantity[++quantities] = $1 SUBSEP $2; reference[$1, $2] = $3; unsure[$1, $2] = $4; source[$1, $2] = $5; tends[$1, $2] = $6; tends_unsure[$1, $2] = $7 }
 
 function title(scene, measure) {
   if (scene == "hertz") return "elastic sphere on planes: force"
@@ -152,26 +152,28 @@ function levers(   g, i, d, part, key, k, many, what) {
   }
 }
 
-# Work and tets at which the averaged element, at default settings, has a given error: log-log between its meshes. Sets
-# equal_tets, equal_work, and equal_mark ('<' where its coarsest mesh is better already, '>' where its finest is not as good).
-function averaged_at(group, wish,   i, j, t, low, high) {
-  low = high = 0 # neighbours: low is coarser with a larger error
-  for (i = 1; i <= cases[group]; ++i) {
-    if (lever[group, i] != "mesh" || element[group, i] != "tet4-anp") continue
-    if (!coarsest || tets[group, i] < tets[group, coarsest]) coarsest = i
-    if (error[group, i] >= wish) { if (!low || tets[group, i] > tets[group, low]) low = i }
+# Work and tets at which the averaged element, at default settings, has a given error: log-log between its meshes, and a
+# little beyond the finest. Sets equal_tets, equal_work, and equal_mark: '<' where its coarsest mesh is better already, '~' beyond
+# its finest, '>' where that would be more than 1.5 times as fine.
+function averaged_at(group, wish,   i, n, at, t, low, high) {
+  n = 0
+  for (i = 1; i <= cases[group]; ++i) # from coarse to fine, as cases.csv has them
+    if (lever[group, i] == "mesh" && element[group, i] == "tet4-anp") at[++n] = i
+  equal_mark = ""
+  if (error[group, at[1]] <= wish) {
+    equal_mark = "<"
+    equal_tets = tets[group, at[1]]
+    equal_work = work[group, at[1]]
+    return
   }
-  for (i = 1; i <= cases[group]; ++i)
-    if (lever[group, i] == "mesh" && element[group, i] == "tet4-anp" && low && tets[group, i] > tets[group, low] && (!high || tets[group, i] < tets[group, high])) high = i
-  if (!low) { equal_mark = "<"; equal_tets = tets[group, coarsest]; equal_work = work[group, coarsest] }
-  else if (!high) { equal_mark = ">"; equal_tets = tets[group, low]; equal_work = work[group, low] }
-  else {
-    t = log(wish / error[group, low]) / log(error[group, high] / error[group, low])
-    equal_mark = ""
-    equal_tets = exp(log(tets[group, low]) + t * log(tets[group, high] / tets[group, low]))
-    equal_work = exp(log(work[group, low]) + t * log(work[group, high] / work[group, low]))
-  }
-  coarsest = 0
+  for (i = 2; i < n && error[group, at[i]] > wish; ++i) continue
+  low = at[i - 1]
+  high = at[i]
+  if (n < 2 || error[group, low] <= error[group, high]) { equal_mark = ">"; return }
+  t = log(wish / error[group, low]) / log(error[group, high] / error[group, low])
+  equal_tets = exp(log(tets[group, low]) + t * log(tets[group, high] / tets[group, low]))
+  equal_work = exp(log(work[group, low]) + t * log(work[group, high] / work[group, low]))
+  if (t > 1) equal_mark = equal_tets > 1.5 * tets[group, high] ? ">" : "~"
 }
 function equal(   g, i, part) {
   print "| scene and measure | `tet4`: mesh | tets | work | error | `tet4-anp` with this error: tets | work | tets over tets | work over work |"
@@ -184,7 +186,7 @@ function equal(   g, i, part) {
       averaged_at(group_of[g], error[group_of[g], i])
       if (equal_mark == ">") continue
       printf "| %s | %s | %s | %s | %s | %s%s | %s%s | %s%.2g | %s%.2g |\n", first ? title(part[1], part[2]) : "", sprintf(unit(part[1]), fineness[group_of[g], i]), thousands(tets[group_of[g], i]), \
-             seconds(work[group_of[g], i]), percent(error[group_of[g], i]), equal_mark == "<" ? "fewer than " : "", thousands(int(equal_tets + 0.5)), \
+             seconds(work[group_of[g], i]), percent(error[group_of[g], i]), equal_mark == "<" ? "fewer than " : equal_mark == "~" ? "about " : "", thousands(int(equal_tets + 0.5)), \
              equal_mark == "<" ? "less than " : "", seconds(equal_work), equal_mark == "<" ? "> " : "", tets[group_of[g], i] / equal_tets, \
              equal_mark == "<" ? "> " : "", work[group_of[g], i] / equal_work
       first = 0
