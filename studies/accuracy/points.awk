@@ -23,6 +23,8 @@ file == 3 {
   seconds_all[name] = $need("processor_time_all")
   next
 }
+# At 0.70 a packing has hardly jammed and its reference is the least sure: it is in the tables of values only.
+file == 4 && $2 == "mean-stress-0.7" { next }
 file == 4 && ($1 in of_scene) && (of_scene[$1], $2) in reference {
   measure = $2
   sub(/-[0-9.]+$/, "", measure)

@@ -6,10 +6,10 @@
 # differ in mesh and element alone: both elements tend to one answer q as their size x = tets^(-1/3), of hemispheres the element
 # size at the contact, vanishes,
 #   value(element, x) = q + c(element) x^order(element),
-# fitted by least squares to the finest four meshes of each element with all pairs of orders from 1 to 2. The reference is the middle of
-# the q of all pairs that fit nearly as well as the best (at most 1.5 times its scatter), its uncertainty half of their range and
-# the scatter. References of others are taken as good to 1 %, an assumption; what the runs themselves tend to stands beside
-# them.
+# fitted by least squares to the finest four meshes of each element with all pairs of orders from 1 to 2. The reference is the middle
+# of the q of all pairs that fit nearly as well as the best (at most 1.5 times its scatter, or 0.5 %, taken as the noise of single
+# meshes), its uncertainty half of their range and the scatter. References of others are taken as good to 1 %, an assumption; what
+# the runs themselves tend to stands beside them.
 
 BEGIN { FS = "," }
 FNR == 1 { ++file; split("", column); read_header(); next }
@@ -73,12 +73,12 @@ function extrapolate(key,   i, j, rank, count, plain, averaged, q, least, low, h
   for (plain = 1; plain < 2.01; plain += 0.1)
     for (averaged = 1; averaged < 2.01; averaged += 0.1) {
       q = fit(key, plain, averaged)
-      if (scatter > 1.5 * least) continue
+      if (scatter > 1.5 * least && scatter > noise * absolute(q)) continue
       if (low == "" || q < low) low = q
       if (high == "" || q > high) high = q
     }
   best = (low + high) / 2
-  uncertainty = (high - low) / 2 + least
+  uncertainty = (high - low) / 2 + (least > noise * best ? least : noise * best)
   return 1
 }
 
@@ -88,6 +88,7 @@ function hertz(approach, factor) { return factor * 4 / 3 / (1 - 0.3^2) * approac
 END {
   if (failed) exit 1
   finest = 4
+  noise = 0.005
   taken_as = 0.01
   pi = atan2(0, -1)
   # Factors at 2 approach/R = 0.04 and 0.08, and for two spheres at approach/R = 0.01.
@@ -104,11 +105,11 @@ END {
   for (i = 1; i <= quantities; ++i) {
     key = order_of[i]
     split(key, part, SUBSEP)
-    if (!extrapolate(key)) continue
+    tends = extrapolate(key) ? sprintf("%.6g,%.2g", best, uncertainty) : ","
     if ((part[1], part[2]) in known) {
       value = known[part[1], part[2]]
-      printf "%s,%s,%.6g,%.2g,%s,%.6g,%.2g\n", part[1], part[2], value, taken_as * value, source[part[1]], best, uncertainty
-    } else
-      printf "%s,%s,%.6g,%.2g,%s,%.6g,%.2g\n", part[1], part[2], best, uncertainty, "extrapolated", best, uncertainty
+      printf "%s,%s,%.6g,%.2g,%s,%s\n", part[1], part[2], value, taken_as * value, source[part[1]], tends
+    } else if (tends != ",")
+      printf "%s,%s,%.6g,%.2g,%s,%s\n", part[1], part[2], best, uncertainty, "extrapolated", tends
   }
 }
