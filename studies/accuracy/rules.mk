@@ -6,7 +6,7 @@
 
 accuracy := out/accuracy
 accuracy_page := docs/speed-against-error
-# default: what two cores do in half an hour. 'default large' adds the finer meshes.
+# default: some 30 minutes of processor time. 'default large' adds the finer meshes.
 ACCURACY_SETS ?= default
 .PHONY: accuracy
 

@@ -51,6 +51,7 @@ function unit(scene) {
 }
 function percent(x) { return sprintf(absolute(x) < 0.0995 ? "%.1f %%" : "%.0f %%", 100 * x) }
 function signed(x) { return (x < 0 ? "−" : "+") percent(absolute(x)) }
+function ratio(x) { return sprintf(x < 9.95 ? "%.1f" : "%.0f", x) }
 function seconds(x) { return x < 9.95 ? sprintf("%.2g s", x) : x < 600 ? sprintf("%.0f s", x) : sprintf("%.0f min", x / 60) }
 function thousands(n) { return n < 1000 ? n "" : thousands(int(n / 1000)) sprintf(",%03d", n % 1000) }
 function settings(group, i,   text, part) {
@@ -185,10 +186,10 @@ function equal(   g, i, part) {
       if (lever[group_of[g], i] != "mesh" || element[group_of[g], i] != "tet4" || error[group_of[g], i] < doubt[group_of[g]]) continue
       averaged_at(group_of[g], error[group_of[g], i])
       if (equal_mark == ">") continue
-      printf "| %s | %s | %s | %s | %s | %s%s | %s%s | %s%.2g | %s%.2g |\n", first ? title(part[1], part[2]) : "", sprintf(unit(part[1]), fineness[group_of[g], i]), thousands(tets[group_of[g], i]), \
+      printf "| %s | %s | %s | %s | %s | %s%s | %s%s | %s%s | %s%s |\n", first ? title(part[1], part[2]) : "", sprintf(unit(part[1]), fineness[group_of[g], i]), thousands(tets[group_of[g], i]), \
              seconds(work[group_of[g], i]), percent(error[group_of[g], i]), equal_mark == "<" ? "fewer than " : equal_mark == "~" ? "about " : "", thousands(int(equal_tets + 0.5)), \
-             equal_mark == "<" ? "less than " : "", seconds(equal_work), equal_mark == "<" ? "> " : "", tets[group_of[g], i] / equal_tets, \
-             equal_mark == "<" ? "> " : "", work[group_of[g], i] / equal_work
+             equal_mark == "<" ? "less than " : "", seconds(equal_work), equal_mark == "<" ? "> " : "", ratio(tets[group_of[g], i] / equal_tets), \
+             equal_mark == "<" ? "> " : "", ratio(work[group_of[g], i] / equal_work)
       first = 0
     }
   }
