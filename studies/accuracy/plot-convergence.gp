@@ -24,7 +24,7 @@ if (what eq 'locking') {
   array titles = ['25 grains, D_r = 0.92', '25 grains', '25 grains', '329 grains, D_r = 0.92']
   array labels = ['mean stress / MPa', 'elastic recovery / %', 'E_p / GPa', 'mean stress / MPa']
 }
-set multiplot layout 2,2 margins 0.115,0.975,0.1,0.94 spacing 0.13,0.13
+set multiplot layout 2,2 margins 0.135,0.975,0.1,0.94 spacing 0.13,0.13
 set key top right Right noreverse font ',17' samplen 1.5
 do for [p = 1:4] {
   s = word(scenes, p)
