@@ -12,7 +12,8 @@ set ylabel 'error, mean of absolute values / %'
 set format y '%g'
 set format x '10^{%L}'
 set key below maxcols 3 spacing 1.1 width 1
-here = sprintf("awk -F, -v s='%s' -v m='%s' 'NR > 1 && $2 == s && $9 == m { print $0 \",\" (100 * $14) \",\" (100 * $16) }' '%s'", scene, measure, data)
+# Column 18 is the error in per cent, 19 the reference's uncertainty; what is smaller than a third of it is drawn there.
+here = sprintf("awk -F, -v s='%s' -v m='%s' 'NR > 1 && $2 == s && $9 == m { d = 100 * $16; e = 100 * $14; print $0 \",\" (e < 0.3 * d ? 0.3 * d : e) \",\" d }' '%s'", scene, measure, data)
 chosen(condition) = sprintf("< %s | awk -F, '%s'", here, condition)
 sorted(condition) = sprintf("< %s | awk -F, '%s' | LC_ALL=C sort -t, -k12,12g", here, condition)
 doubt = real(system(here . " | awk -F, '$19 > d { d = $19 } END { print d + 0 }'"))
