@@ -1,0 +1,249 @@
+# awk -f ../common/verdict.awk -f tables.awk -v table=NAME points.csv [values.csv references.csv]: tables of the page, in Markdown.
+#
+#   choice      cheapest settings for 10, 3 and 1 % of error, scene by scene: each element at default settings, and of all cases
+#   meshes      error of both elements over meshes, scene by scene
+#   levers      what each lever does to error and work, against the default of the same mesh
+#   equal       at which mesh and work the averaged element has the error of plain tets
+#   locking     values of the sphere over meshes, and what they tend to
+#   packing     values of the packings, likewise
+
+BEGIN { FS = "," }
+FNR == 1 { ++file; split("", column); read_header(); next }
+file == 1 {
+  group = $need("scene") SUBSEP $need("measure")
+  if (!(group in cases)) group_of[++groups] = group
+  i = ++cases[group]
+  name[group, i] = $1
+  lever[group, i] = $need("lever")
+  element[group, i] = $need("element")
+  fineness[group, i] = $need("fineness")
+  penalty[group, i] = $need("penalty_factor")
+  speed[group, i] = $need("speed_factor")
+  mass[group, i] = $need("mass_factor")
+  tets[group, i] = $need("tets")
+  work[group, i] = $need("work")
+  error[group, i] = $need("error")
+  bias[group, i] = $need("bias")
+  doubt[group] = $need("uncertainty")
+  scene_of[$1] = $need("scene")
+  tets_of[$1] = $need("tets")
+  fineness_of[$1] = $need("fineness")
+  element_of[$1] = $need("element")
+  lever_of[$1] = $need("lever")
+  if ($need("on_front")) front[group, i] = 1
+  next
+}
+file == 2 { value[$1, $2] = $3; next }
+file == 3 { quantity[++quantities] = $1 SUBSEP $2; reference[$1, $2] = $3; unsure[$1, $2] = $4; source[$1, $2] = $5; tends[$1, $2] = $6; tends_unsure[$1, $2] = $7 }
+
+function title(scene, measure) {
+  if (scene == "hertz") return "elastic sphere on planes: force"
+  if (scene == "flattened") return "sphere flattened between planes: force"
+  if (scene == "confined") return "sphere in a die: axial stress"
+  if (scene == "pair") return "two plastic hemispheres: force"
+  if (scene == "pull-off") return "bonded elastic hemispheres: force and pull-off"
+  return (scene == "small" ? "25 grains: " : "329 grains: ") (measure == "mean-stress" ? "mean stress" : measure == "recovery" ? "elastic recovery" : "E_p")
+}
+function unit(scene) {
+  if (scene == "small" || scene == "full") return "h = %s mm"
+  if (scene == "pair" || scene == "pull-off") return "%s elements in the contact radius"
+  return "R/h = %s"
+}
+function percent(x) { return sprintf(absolute(x) < 0.0995 ? "%.1f %%" : "%.0f %%", 100 * x) }
+function signed(x) { return (x < 0 ? "−" : "+") percent(absolute(x)) }
+function ratio(x) { return sprintf(x < 9.95 ? "%.1f" : "%.0f", x) }
+function seconds(x) { return x < 9.95 ? sprintf("%.2g s", x) : x < 600 ? sprintf("%.0f s", x) : sprintf("%.0f min", x / 60) }
+function thousands(n) { return n < 1000 ? n "" : thousands(int(n / 1000)) sprintf(",%03d", n % 1000) }
+function settings(group, i,   text, part) {
+  split(group, part, SUBSEP)
+  text = "`" element[group, i] "`, " sprintf(unit(part[1]), fineness[group, i])
+  if (lever[group, i] == "penalty") text = text ", K = " penalty[group, i] " E/h"
+  if (lever[group, i] == "speed") text = text ", " speed[group, i] " × speed"
+  if (lever[group, i] == "mass") text = text ", " mass[group, i] " × mass"
+  return text " (" thousands(tets[group, i]) " tets, " seconds(work[group, i]) ")"
+}
+
+# Cheapest case of a group with an error of at most `most`: of one element at default settings, finer ones included (an error that
+# is small by chance and grows again does not count), or of all cases (element "").
+function cheapest(group, which, most,   i, j, found, good) {
+  found = 0
+  for (i = 1; i <= cases[group]; ++i) {
+    if (error[group, i] > most || (which != "" && (element[group, i] != which || lever[group, i] != "mesh"))) continue
+    good = 1
+    if (which != "")
+      for (j = 1; j <= cases[group]; ++j)
+        if (element[group, j] == which && lever[group, j] == "mesh" && tets[group, j] > tets[group, i] && error[group, j] > most) good = 0
+    if (good && (!found || work[group, i] < work[group, found])) found = i
+  }
+  return found
+}
+function choice(   g, t, i, cell, mark, wish, marks, which, e) {
+  print "| scene and measure | error | `tet4`, default | `tet4-anp`, default | cheapest of all cases |"
+  print "|---|---|---|---|---|"
+  marks = split("0.10 0.03 0.01", mark, " ")
+  split("tet4 tet4-anp", which, " ")
+  for (g = 1; g <= groups; ++g) {
+    split(group_of[g], part, SUBSEP)
+    for (t = 1; t <= marks; ++t) {
+      cell = ""
+      if (mark[t] < doubt[group_of[g]]) {
+        printf "| %s | %d %% | the reference is sure to %s only | | |\n", t == 1 ? title(part[1], part[2]) : "", 100 * mark[t] + 0.5, percent(doubt[group_of[g]])
+        break
+      }
+      for (e = 1; e <= 2; ++e) {
+        i = cheapest(group_of[g], which[e], mark[t])
+        cell = cell " | " (i ? sprintf(unit(part[1]), fineness[group_of[g], i]) ", " thousands(tets[group_of[g], i]) " tets, " seconds(work[group_of[g], i]) : "finer than run")
+      }
+      i = cheapest(group_of[g], "", mark[t])
+      printf "| %s | %d %%%s | %s |\n", t == 1 ? title(part[1], part[2]) : "", 100 * mark[t] + 0.5, cell, i ? settings(group_of[g], i) : "none"
+    }
+  }
+}
+
+function meshes(   g, i, j, part) {
+  print "| scene and measure | mesh | tets | `tet4`: error | work | `tet4-anp`: error | work |"
+  print "|---|---|---|---|---|---|---|"
+  for (g = 1; g <= groups; ++g) {
+    split(group_of[g], part, SUBSEP)
+    first = 1
+    for (i = 1; i <= cases[group_of[g]]; ++i) {
+      if (lever[group_of[g], i] != "mesh") continue
+      other = 0
+      for (j = 1; j <= cases[group_of[g]]; ++j)
+        if (lever[group_of[g], j] == "mesh" && fineness[group_of[g], j] == fineness[group_of[g], i] && element[group_of[g], j] != element[group_of[g], i]) other = j
+      if (element[group_of[g], i] == "tet4-anp" && other) continue
+      plain = element[group_of[g], i] == "tet4" ? i : other
+      averaged = element[group_of[g], i] == "tet4" ? other : i
+      printf "| %s | %s | %s | %s | %s | %s | %s |\n", first ? title(part[1], part[2]) : "", sprintf(unit(part[1]), fineness[group_of[g], i]), \
+             thousands(tets[group_of[g], i]), plain ? signed(bias[group_of[g], plain]) : "", plain ? seconds(work[group_of[g], plain]) : "", \
+             averaged ? signed(bias[group_of[g], averaged]) : "", averaged ? seconds(work[group_of[g], averaged]) : ""
+      first = 0
+    }
+  }
+}
+
+function default_of(group, i,   j) {
+  for (j = 1; j <= cases[group]; ++j)
+    if (lever[group, j] == "mesh" && element[group, j] == element[group, i] && fineness[group, j] == fineness[group, i]) return j
+  return 0
+}
+function levers(   g, i, d, part, key, k, many, what) {
+  print "| scene and measure | mesh, element | default | K = 1 | 3 | 30 | 100 E/h | ½ × speed | 2 × | 4 × | 4 × mass | 16 × |"
+  print "|---|---|---|---|---|---|---|---|---|---|---|---|"
+  many = split("penalty:1 penalty:3 penalty:30 penalty:100 speed:0.5 speed:2 speed:4 mass:4 mass:16", what, " ")
+  for (g = 1; g <= groups; ++g) {
+    split(group_of[g], part, SUBSEP)
+    split("", cell)
+    split("", seen)
+    rows = 0
+    for (i = 1; i <= cases[group_of[g]]; ++i) {
+      if (lever[group_of[g], i] == "mesh") continue
+      d = default_of(group_of[g], i)
+      if (!d) continue
+      if (!(d in seen)) { seen[d] = 1; at[++rows] = d }
+      key = lever[group_of[g], i] ":" (lever[group_of[g], i] == "penalty" ? penalty[group_of[g], i] : lever[group_of[g], i] == "speed" ? speed[group_of[g], i] : mass[group_of[g], i])
+      cell[d, key] = signed(bias[group_of[g], i]) sprintf(" (%.2g)", work[group_of[g], i] / work[group_of[g], d])
+    }
+    for (k = 1; k <= rows; ++k) {
+      d = at[k]
+      printf "| %s | %s, `%s` | %s", k == 1 ? title(part[1], part[2]) : "", sprintf(unit(part[1]), fineness[group_of[g], d]), element[group_of[g], d], signed(bias[group_of[g], d])
+      for (i = 1; i <= many; ++i) printf " | %s", cell[d, what[i]]
+      print " |"
+    }
+  }
+}
+
+# Work and tets at which the averaged element, at default settings, has a given error: log-log between its meshes, and a
+# little beyond the finest. Sets equal_tets, equal_work, and equal_mark: '<' where its coarsest mesh is better already, '~' beyond
+# its finest, '>' where that would be more than 1.5 times as fine.
+function averaged_at(group, wish,   i, n, at, t, low, high) {
+  n = 0
+  for (i = 1; i <= cases[group]; ++i) # from coarse to fine, as cases.csv has them
+    if (lever[group, i] == "mesh" && element[group, i] == "tet4-anp") at[++n] = i
+  equal_mark = ""
+  if (error[group, at[1]] <= wish) {
+    equal_mark = "<"
+    equal_tets = tets[group, at[1]]
+    equal_work = work[group, at[1]]
+    return
+  }
+  for (i = 2; i < n && error[group, at[i]] > wish; ++i) continue
+  low = at[i - 1]
+  high = at[i]
+  if (n < 2 || error[group, low] <= error[group, high]) { equal_mark = ">"; return }
+  t = log(wish / error[group, low]) / log(error[group, high] / error[group, low])
+  equal_tets = exp(log(tets[group, low]) + t * log(tets[group, high] / tets[group, low]))
+  equal_work = exp(log(work[group, low]) + t * log(work[group, high] / work[group, low]))
+  if (t > 1) equal_mark = equal_tets > 1.5 * tets[group, high] ? ">" : "~"
+}
+function equal(   g, i, part) {
+  print "| scene and measure | `tet4`: mesh | tets | work | error | `tet4-anp` with this error: tets | work | tets over tets | work over work |"
+  print "|---|---|---|---|---|---|---|---|---|"
+  for (g = 1; g <= groups; ++g) {
+    split(group_of[g], part, SUBSEP)
+    first = 1
+    for (i = 1; i <= cases[group_of[g]]; ++i) {
+      if (lever[group_of[g], i] != "mesh" || element[group_of[g], i] != "tet4" || error[group_of[g], i] < doubt[group_of[g]]) continue
+      averaged_at(group_of[g], error[group_of[g], i])
+      if (equal_mark == ">") continue
+      printf "| %s | %s | %s | %s | %s | %s%s | %s%s | %s%s | %s%s |\n", first ? title(part[1], part[2]) : "", sprintf(unit(part[1]), fineness[group_of[g], i]), thousands(tets[group_of[g], i]), \
+             seconds(work[group_of[g], i]), percent(error[group_of[g], i]), equal_mark == "<" ? "fewer than " : equal_mark == "~" ? "about " : "", thousands(int(equal_tets + 0.5)), \
+             equal_mark == "<" ? "less than " : "", seconds(equal_work), equal_mark == "<" ? "> " : "", ratio(tets[group_of[g], i] / equal_tets), \
+             equal_mark == "<" ? "> " : "", ratio(work[group_of[g], i] / equal_work)
+      first = 0
+    }
+  }
+}
+
+# Values of scenes, a row for each mesh and element.
+function values(scenes, factors,   many, s, i, q, k, c, part, list, f, format) {
+  many = split(scenes, list, " ")
+  for (s = 1; s <= many; ++s) {
+    line = "| mesh | tets | element"
+    rule = "|---|---|---"
+    k = 0
+    for (q = 1; q <= quantities; ++q) {
+      split(quantity[q], part, SUBSEP)
+      if (part[1] != list[s]) continue
+      shown[++k] = part[2]
+      line = line " | " heading(part[1], part[2])
+      rule = rule "|---"
+    }
+    print line " |"
+    print rule "|"
+    for (i = 1; i <= many_names; ++i) {
+      c = names[i]
+      if (scene_of[c] != list[s] || lever_of[c] != "mesh") continue
+      printf "| %s | %s | `%s`", sprintf(unit(list[s]), fineness_of[c]), thousands(tets_of[c]), element_of[c]
+      for (q = 1; q <= k; ++q) printf " | %s", (c, shown[q]) in value ? shown_value(list[s], shown[q], value[c, shown[q]]) : ""
+      print " |"
+    }
+    printf "| reference | | "
+    for (q = 1; q <= k; ++q) printf "| %s ± %s ", shown_value(list[s], shown[q], reference[list[s], shown[q]]), shown_value(list[s], shown[q], unsure[list[s], shown[q]])
+    print "|"
+    print ""
+  }
+}
+function heading(scene, q,   at) {
+  at = q
+  sub(/.*-/, "", at)
+  if (q ~ /^force/) return "100 F/(E R²) at " at " R"
+  if (q ~ /^axial-stress/) return "σ_z at D_r = " at " / MPa"
+  if (q ~ /^mean-stress/) return "p at D_r = " at " / MPa"
+  return q == "recovery" ? "R_E / %" : "E_p / MPa"
+}
+function shown_value(scene, q, x) {
+  if (q ~ /^force/ || q == "recovery") return sprintf("%.3f", 100 * x)
+  return sprintf(q == "modulus" ? "%.0f" : x < 9.95 ? "%.2f" : "%.1f", x)
+}
+
+END {
+  if (failed) exit 1
+  for (g = 1; g <= groups; ++g) for (i = 1; i <= cases[group_of[g]]; ++i) if (!(name[group_of[g], i] in met)) { met[name[group_of[g], i]] = 1; names[++many_names] = name[group_of[g], i] }
+  if (table == "choice") choice()
+  if (table == "meshes") meshes()
+  if (table == "levers") levers()
+  if (table == "equal") equal()
+  if (table == "locking") values("flattened confined")
+  if (table == "packing") values("small full")
+}
