@@ -493,12 +493,12 @@ TEST_CASE("a run that is asked several times at once to stop, as batch systems d
   prepare(folder, 6);
   // The first checkpoint, at a density just above the start's, says that the time loop has begun.
   const std::string command =
-      fmt::format("'{}' run {} -o {} --threads 1 --quiet --set output.checkpoint_relative_densities=[0.348]",
+      fmt::format("'{}' run {} -o {} --threads 1 --quiet --set output.checkpoint_relative_densities=[0.44]",
                   MPFEM_EXECUTABLE, folder / "scenario.toml", folder / "run.h5");
   const Outcome outcome = run_command(fmt::format("{} & pid=$!; while [ ! -e {} ] && kill -0 $pid; do sleep 0.01; "
                                                   "done; for i in 1 2 3 4 5 6 7 8; do kill -TERM $pid "
                                                   "2>/dev/null; sleep 0.002; done; wait $pid",
-                                                  command, folder / "run.D0.348.checkpoint.h5"));
+                                                  command, folder / "run.D0.440.checkpoint.h5"));
   INFO(outcome.messages);
   CHECK(outcome.exit_code == 5);
   CHECK_THAT(outcome.messages, Catch::Contains("go on with --resume"));
