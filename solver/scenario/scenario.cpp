@@ -138,8 +138,11 @@ ContactParameters read_contact(TableReader table) {
   return contact;
 }
 
+/// The one with the least error at equal time (docs/speed-against-error).
+constexpr ElementType default_element = ElementType::tet4_anp;
+
 ElementType read_element(TableReader table) {
-  const std::string type = table.choice_or("type", "tet4", {"tet4", "tet4-anp"});
+  const std::string type = table.choice_or("type", element_name(default_element), {"tet4", "tet4-anp"});
   table.finish();
   return type == "tet4" ? ElementType::tet4 : ElementType::tet4_anp;
 }
@@ -430,7 +433,8 @@ Scenario read_scenario(const TomlDocument& document) {
   if (auto table = root.optional_table("contact")) scenario.contact = read_contact(*table);
   if (auto table = root.optional_table("bond")) scenario.bond = read_bond(*table);
   if (auto table = root.optional_table("numerics")) scenario.numerics = read_numerics(*table);
-  if (auto table = root.optional_table("element")) scenario.numerics.element = read_element(*table);
+  auto element = root.optional_table("element");
+  scenario.numerics.element = element ? read_element(*element) : default_element;
   if (auto table = root.optional_table("output")) scenario.output = read_output(*table);
   if (auto table = root.optional_table("initial")) read_initial(*table, scenario);
   scenario.stages = read_stages(root, scenario.material.youngs_modulus);
