@@ -313,7 +313,8 @@ TEST_CASE("a branch goes on from the checkpoint that it began at, and not from a
                           (static_cast<double>(step.back() - step.front()) * tets);
   const std::size_t total = same.messages.find("\ntotal ");
   REQUIRE(total != std::string::npos);
-  CHECK(std::stod(same.messages.substr(same.messages.find('%', total) + 1)) == Approx(expected).epsilon(0.05));
+  // Printed after the file was written, which in so short a run takes its time; with the parent's steps it would be less.
+  CHECK(std::stod(same.messages.substr(same.messages.find('%', total) + 1)) > 0.95 * expected);
   // A complete branch is complete for its own beginning only.
   CHECK_THAT(branch("0.500", "").messages, Catch::Contains("complete already"));
   CHECK(branch("0.610", "--quiet").exit_code == 0);
@@ -373,7 +374,7 @@ TEST_CASE("a step too large for the motion to be stable exits with 3, says so, a
   const Folder folder;
   prepare(folder, 4);
   const auto run = [&](double factor) {
-    return mpfem_command(fmt::format("run {} -o {} --quiet --set numerics.time_step_factor={}",
+    return mpfem_command(fmt::format("run {} -o {} --quiet --set element.type=tet4 --set numerics.time_step_factor={}",
                                      folder / "scenario.toml", folder / "run.h5", factor));
   };
   CHECK(run(1.0).exit_code == 0);
