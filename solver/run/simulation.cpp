@@ -229,6 +229,9 @@ double Simulation::damping_rate() const {
 Simulation::Plan Simulation::plan_step() const {
   Plan plan{.step = next_step(), .stage_time = 0, .walls = walls_, .sliding = {}, .advance = {}};
   plan.stage_time = state_.pace.pace * plan.step;
+  // The last step ends the stage, whatever rounding makes of a step divided by the pace and multiplied by it.
+  if (const double left = motion_->duration() - state_.stage_time; plan.stage_time > left * (1 - 1e-12))
+    plan.stage_time = left;
   plan.sliding = motion_->sliding(state_.stage_time + plan.stage_time);
   if (loading_)
     loading_->move(plan.walls, state_.loading, plan.step);
@@ -444,8 +447,8 @@ void Simulation::advance() {
   state_.low = walls_.low;
   state_.high = walls_.high;
   state_.time += step;
-  state_.stage_time = plan.stage_time >= motion_->duration() - state_.stage_time ? motion_->duration()
-                                                                                 : state_.stage_time + plan.stage_time;
+  const bool ends = plan.stage_time >= motion_->duration() - state_.stage_time;
+  state_.stage_time = ends ? motion_->duration() : state_.stage_time + plan.stage_time;
   if (loading_ ? state_.loading.ended_by != 0 : motion_->reached(walls_, state_.mean_stress)) state_.stage_ended = 1;
   state_.last_step = step;
   state_.strain_rate = strain / step;

@@ -9,6 +9,7 @@
 //
 // ELEMENT: tet4, tet4-anp. R/h: radius over nominal element size.
 
+#include <algorithm>
 #include <complex>
 #include <cstdlib>
 #include <string>
@@ -243,8 +244,14 @@ void flattening(const std::string& element, double size_ratio) {
   }
 }
 
+bool is_mode(const std::string& name) {
+  return name == "noise" ||
+         std::any_of(std::begin(modes), std::end(modes), [&](const ModeName& m) { return name == m.name; });
+}
+
 int usage() {
-  fmt::print(stderr, "nodal-pressure frequencies | vibration ELEMENT R/h MODE STEPS SPEED VISCOSITY | cycles ELEMENT "
+  fmt::print(stderr, "nodal-pressure frequencies | vibration ELEMENT R/h MODE STEPS SPEED VISCOSITY (MODE: breathing, "
+                     "spheroidal, torsional, noise) | cycles ELEMENT "
                      "PACKING.h5 CYCLES | "
                      "flattening ELEMENT R/h\n");
   return 2;
@@ -256,7 +263,7 @@ int main(int argc, char** argv) {
   const std::string what = argc > 1 ? argv[1] : "";
   if (what == "frequencies" && argc == 2)
     frequencies();
-  else if (what == "vibration" && argc == 8)
+  else if (what == "vibration" && argc == 8 && is_mode(argv[4]))
     vibration(argv[2], std::atof(argv[3]), argv[4], std::atoll(argv[5]), std::atof(argv[6]), std::atof(argv[7]));
   else if (what == "cycles" && argc == 5)
     cycles(argv[2], argv[3], std::atoi(argv[4]));
