@@ -60,7 +60,7 @@ double median(std::vector<double> values) {
 
 /// Grains that have been strained before, as those of a compact have.
 void strain_before_hand(Model& model) {
-  const auto* law = std::get_if<PowerLaw>(&model.material.flow);
+  const auto* law = std::get_if<PowerLaw>(&model.material_of(0).flow);
   for (TetBlock& b : model.block)
     for (int lane = 0; lane < TetBlock::lanes; ++lane) {
       b.plastic_strain[lane] = strain_before;

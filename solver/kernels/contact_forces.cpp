@@ -454,14 +454,30 @@ void raise_near_coarser_grains(const Model& model, const Contact& contact, int g
   }
 }
 
+/// Against a much stiffer neighbour a grain meets up to twice the stiffness that it meets in its like: the harmonic mean of
+/// both penalties over its own. Contrasts below three, as those of sizes, are left to the estimates that follow.
+double stiffness_contrast(const Model& model, const Contact& contact, int grain) {
+  constexpr double noteworthy = 1.5;
+  const ContactCandidates& candidates = contact.candidates;
+  const auto g = static_cast<std::size_t>(grain);
+  double contrast = 1;
+  for (std::int32_t i = candidates.incoming_offset[g]; i < candidates.incoming_offset[g + 1]; ++i) {
+    const std::size_t other = at(candidates.pair_first[at(candidates.incoming_pair[at(i)])]);
+    const double mean = 2 * pass_stiffness(model, other, g) / model.penalty_stiffness[g];
+    if (mean > noteworthy) contrast = std::max(contrast, mean);
+  }
+  return contrast;
+}
+
 } // namespace
 
 void raise_to_expected_rate(const Model& model, const Contact& contact, int grain, std::span<double> rate) {
   const auto g = static_cast<std::size_t>(grain);
   const std::int32_t first = model.node_offset[g];
+  const double contrast = stiffness_contrast(model, contact, grain);
   for (std::int32_t node = first; node < first + model.surface_node_count[g]; ++node) {
     // As a node with stiffness K/2 A and, by symmetry, a facet's share of the same size; against a wall K A alone.
-    const double expected = 2.0 * model.penalty_stiffness[g] * model.local_stiffness(at(node)) *
+    const double expected = contrast * 2.0 * model.penalty_stiffness[g] * model.local_stiffness(at(node)) *
                             model.reference_area[at(node)] * model.inverse_mass[at(node)];
     rate[at(node)] = std::max(rate[at(node)], expected);
   }

@@ -69,23 +69,28 @@ struct OwnPressure {
   }
 }
 
-/// Mean stress of a tet as the mean of its nodes'.
+/// Mean stress of a tet as the mean of its nodes', with a share of its own.
 struct AveragedPressure {
   const double* nodal; ///< MPa, of the grain's nodes
-  S operator()(const TetBlock& block, const S&) const {
-    return mean_of_nodes(load_numbers<W>(nodal, block.node[0]), load_numbers<W>(nodal, block.node[1]),
-                         load_numbers<W>(nodal, block.node[2]), load_numbers<W>(nodal, block.node[3]));
+  double own = 0;      ///< share of the tet's own mean stress
+  ElasticModuli moduli{};
+  S operator()(const TetBlock& block, const S& volume_ratio) const {
+    const S mean = mean_of_nodes(load_numbers<W>(nodal, block.node[0]), load_numbers<W>(nodal, block.node[1]),
+                                 load_numbers<W>(nodal, block.node[2]), load_numbers<W>(nodal, block.node[3]));
+    if (own == 0) return mean;
+    return S(1 - own) * mean + S(own) * mean_stress(moduli, volume_ratio);
   }
 };
 
 /// Mean stresses of the nodes of a grain, into `mean` [nodes of the grain].
 AveragedPressure average_pressure(const Model& model, int grain, double* mean) {
   nodal_volumes(model, grain, mean);
+  const ElasticModuli moduli = model.material_of(grain).moduli;
   const auto first = static_cast<std::size_t>(model.node_offset[static_cast<std::size_t>(grain)]);
   const auto count = static_cast<std::size_t>(model.node_offset[static_cast<std::size_t>(grain) + 1]) - first;
   for (std::size_t n = 0; n < count; ++n)
-    mean[n] = nodal_mean_stress(model.material.moduli, mean[n], model.inverse_nodal_volume[first + n]);
-  return {mean};
+    mean[n] = nodal_mean_stress(moduli, mean[n], model.inverse_nodal_volume[first + n]);
+  return {mean, model.own_pressure, moduli};
 }
 
 // flatten: everything below is inlined here. Called as functions, packs go through memory: 1.2 times the time.
@@ -99,7 +104,7 @@ template <class Law, class Pressure>
   double* force = model.force.data() + 4 * first_node;
   std::fill(force, force + 4 * (model.node_offset[g + 1] - first_node), 0.0);
 
-  const Material& material = model.material;
+  const Material& material = model.material_of(grain);
   const TetConstants constants{material.moduli, model.viscosity, material.wave_speed, material.density, time_step};
   S plastic_work(0.0), viscous_work(0.0), largest_strain(0.0), smallest_ratio(1.0), check(0.0);
 
@@ -138,22 +143,25 @@ ElementSums element_forces(Model& model, int grain, double time_step) {
   return std::visit(
       [&](const auto& law) {
         if (model.element == ElementType::tet4)
-          return element_pass(model, grain, time_step, law, OwnPressure{model.material.moduli});
+          return element_pass(model, grain, time_step, law, OwnPressure{model.material_of(grain).moduli});
         double* nodal = model.nodal_mean.data() + model.node_offset[static_cast<std::size_t>(grain)];
         return element_pass(model, grain, time_step, law, average_pressure(model, grain, nodal));
       },
-      model.material.flow);
+      model.material_of(grain).flow);
 }
 
 double elastic_energy(const Model& model, int grain) {
   const auto g = static_cast<std::size_t>(grain);
   const double* position = model.position.data() + 4 * model.node_offset[g];
+  const ElasticModuli moduli = model.material_of(grain).moduli;
+  // The part of the volumetric energy that belongs to single tets; the rest belongs to nodes.
+  const double own = model.element == ElementType::tet4 ? 1.0 : model.own_pressure;
   S energy(0.0);
   for (std::int32_t b = model.block_offset[g]; b < model.block_offset[g + 1]; ++b) {
     const TetBlock& block = model.block[static_cast<std::size_t>(b)];
     const S ratio = current_volume_ratio(block, position);
-    S density = ratio * distortion_energy(model.material.moduli, load_deviator(block));
-    if (model.element == ElementType::tet4) density += volumetric_energy(model.material.moduli, ratio);
+    S density = ratio * distortion_energy(moduli, load_deviator(block));
+    if (own > 0) density += S(own) * volumetric_energy(moduli, ratio);
     energy += lane_weights(model.tets_in_block(grain, b)) / S::load(block.inverse_volume) * density;
   }
   double total = sum(energy);
@@ -162,7 +170,7 @@ double elastic_energy(const Model& model, int grain) {
     std::vector<double> volume(static_cast<std::size_t>(model.node_offset[g + 1]) - first);
     nodal_volumes(model, grain, volume.data());
     for (std::size_t n = 0; n < volume.size(); ++n)
-      total += nodal_volumetric_energy(model.material.moduli, volume[n], model.inverse_nodal_volume[first + n]);
+      total += (1 - own) * nodal_volumetric_energy(moduli, volume[n], model.inverse_nodal_volume[first + n]);
   }
   return total;
 }
@@ -197,7 +205,7 @@ BadTet find_bad_tet(const Model& model, int grain) {
   const auto g = static_cast<std::size_t>(grain);
   const std::int32_t first_node = model.node_offset[g];
   const double* position = model.position.data() + 4 * first_node;
-  const Material& material = model.material;
+  const Material& material = model.material_of(grain);
   S smallest_step(std::numeric_limits<double>::infinity()), smallest_no_contact = smallest_step;
   for (std::int32_t b = model.block_offset[g]; b < model.block_offset[g + 1]; ++b) {
     TetBlock& block = model.block[static_cast<std::size_t>(b)];
@@ -246,9 +254,9 @@ TetFields tet_fields(const Model& model) {
     for (std::int32_t b = model.block_offset[g]; b < model.block_offset[g + 1]; ++b) {
       const TetBlock& block = model.block[static_cast<std::size_t>(b)];
       const S q = von_mises(load_deviator(block));
-      const S mean = averaged.nodal != nullptr
-                         ? averaged(block, S(1.0))
-                         : mean_stress(model.material.moduli, current_volume_ratio(block, position));
+      const S ratio = current_volume_ratio(block, position);
+      const S mean =
+          averaged.nodal != nullptr ? averaged(block, ratio) : mean_stress(model.material_of(grain).moduli, ratio);
       for (int lane = 0; lane < model.tets_in_block(grain, b); ++lane) {
         const auto tet = static_cast<std::size_t>(model.tet_offset[g] + (b - model.block_offset[g]) * W + lane);
         const auto file = static_cast<std::size_t>(model.file_tet[tet]);

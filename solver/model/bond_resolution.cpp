@@ -11,7 +11,11 @@ namespace mpfem {
 
 BondResolution bond_resolution(const Model& model, const Scenario& scenario) {
   const BondParameters& bond = *scenario.bond;
-  const double youngs = scenario.material.youngs_modulus, poissons = scenario.material.poissons_ratio;
+  // The softest grains: cohesive zones are shortest there.
+  const auto softest = std::min_element(model.material.begin(), model.material.end(), [](const auto& a, const auto& b) {
+    return a.moduli.youngs() < b.moduli.youngs();
+  });
+  const double youngs = softest->moduli.youngs(), poissons = youngs / (2 * softest->moduli.shear) - 1;
   const double reduced = youngs / (2 * (1 - poissons * poissons));
   const double strength =
       bond.normal_only ? bond.tensile_strength : std::max(bond.tensile_strength, bond.shear_strength);

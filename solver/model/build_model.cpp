@@ -241,11 +241,26 @@ Material make_material(const MaterialParameters& parameters, double mass_scaling
   return {moduli, density, std::sqrt(moduli.dilatational() / density), make_flow_law(parameters)};
 }
 
+/// Materials and which grain has which.
+static void choose_materials(const Scenario& scenario, const std::string& name, Model& model) {
+  model.material = {make_material(scenario.material, scenario.numerics.mass_scaling)};
+  model.grain_material.assign(at(model.grains), 0);
+  for (const GrainMaterial& other : scenario.grain_materials) {
+    for (const std::int64_t grain : other.grains) {
+      if (grain >= model.grains)
+        throw InputError(fmt::format("{}: key 'grain_material.grains': found grain {}, allowed 0 … {}", name, grain,
+                                     model.grains - 1));
+      model.grain_material[static_cast<std::size_t>(grain)] = static_cast<Index>(model.material.size());
+    }
+    model.material.push_back(make_material(other.material, scenario.numerics.mass_scaling));
+  }
+}
+
 Model build_model(const MeshedPacking& packing, const Scenario& scenario, const std::string& name) {
   check_packing(packing, name);
   Model model;
   model.grains = static_cast<int>(packing.grain_node_offset.size()) - 1;
-  model.material = make_material(scenario.material, scenario.numerics.mass_scaling);
+  choose_materials(scenario, name, model);
   model.viscosity = {scenario.numerics.bulk_viscosity_linear, scenario.numerics.bulk_viscosity_quadratic};
   model.node_offset = packing.grain_node_offset;
   model.tet_offset = packing.grain_tet_offset;
@@ -275,13 +290,14 @@ Model build_model(const MeshedPacking& packing, const Scenario& scenario, const 
     blocks += at(model.tet_offset[g + 1] - model.tet_offset[g] + TetBlock::lanes - 1) / TetBlock::lanes;
   model.block.reserve(blocks);
 
-  const double initial_flow_stress =
-      std::visit([](const auto& law) { return law.initial_flow_stress(); }, model.material.flow);
   std::vector<Index> new_index(nodes); // file node -> model node
   for (int g = 0; g < model.grains; ++g) {
     const auto gs = static_cast<std::size_t>(g);
     const Index n0 = model.node_offset[gs], n1 = model.node_offset[gs + 1];
     const Index t0 = model.tet_offset[gs], t1 = model.tet_offset[gs + 1];
+    const Material& material = model.material_of(g);
+    const double initial_flow_stress =
+        std::visit([](const auto& law) { return law.initial_flow_stress(); }, material.flow);
 
     // 1. Surface, then nodes: surface nodes first, each group along a Morton curve.
     const auto faces = boundary_faces(packing.tet, t0, t1, fmt::format("{}: grain {}", name, g));
@@ -326,7 +342,7 @@ Model build_model(const MeshedPacking& packing, const Scenario& scenario, const 
     const double h = edge_sum / (3.0 * static_cast<double>(faces.size()));
     model.element_size.push_back(h);
     model.penalty_stiffness.push_back(
-        scenario.contact.stiffness.value_or(scenario.contact.stiffness_factor * scenario.material.youngs_modulus / h));
+        scenario.contact.stiffness.value_or(scenario.contact.stiffness_factor * material.moduli.youngs() / h));
 
     // 2. Tets along the same curve, in blocks.
     std::vector<std::pair<std::uint64_t, Index>> tet_order;
@@ -351,14 +367,14 @@ Model build_model(const MeshedPacking& packing, const Scenario& scenario, const 
           model.file_tet[at(t0 + i + lane)] = t;
           volume += tet_v;
           for (int c = 0; c < 4; ++c) // mass here; inverted below
-            model.inverse_mass[at(n0 + block.node[c][lane])] += 0.25 * model.material.density * tet_v;
+            model.inverse_mass[at(n0 + block.node[c][lane])] += 0.25 * material.density * tet_v;
         }
       }
       model.block.push_back(block);
     }
     model.block_offset.push_back(static_cast<Index>(model.block.size()));
     model.reference_volume.push_back(volume);
-    model.mass.push_back(volume * model.material.density);
+    model.mass.push_back(volume * material.density);
     for (Index n = n0; n < n1; ++n) {
       double& m = model.inverse_mass[at(n)];
       if (!(m > 0))
@@ -368,11 +384,13 @@ Model build_model(const MeshedPacking& packing, const Scenario& scenario, const 
   }
   model.spatial_order = spatial_order(model);
   model.element = scenario.numerics.element;
+  model.own_pressure = scenario.numerics.own_pressure;
   model.uniform_penalty = scenario.contact.stiffness.has_value();
   if (model.element == ElementType::tet4_anp) {
     // Masses are still as lumped: density times the volume around a node.
-    for (const double inverse_mass : model.inverse_mass)
-      model.inverse_nodal_volume.push_back(inverse_mass * model.material.density);
+    for (int g = 0; g < model.grains; ++g)
+      for (Index n = model.node_offset[at(g)]; n < model.node_offset[at(g) + 1]; ++n)
+        model.inverse_nodal_volume.push_back(model.inverse_mass[at(n)] * model.material_of(g).density);
     model.nodal_mean.assign(nodes, 0.0);
   }
   refuse_shared_places(model, name);

@@ -24,6 +24,7 @@ void scale_masses(Model& model, double step, bool lighten) {
   for (int grain = 0; grain < model.grains; ++grain) {
     const auto g = static_cast<std::size_t>(grain);
     const std::int32_t first = model.node_offset[g], surface_end = first + model.surface_node_count[g];
+    const Material& material = model.material_of(grain);
     // What contact adds to the frequency squared as a rule, as in raise_to_expected_rate.
     const auto contact_rate = [&](std::int32_t node) {
       const auto n = static_cast<std::size_t>(node);
@@ -44,8 +45,7 @@ void scale_masses(Model& model, double step, bool lighten) {
         const auto geometry = tet_geometry(position(model, corner[1]) - x0, position(model, corner[2]) - x0,
                                            position(model, corner[3]) - x0);
         const double factor =
-            (largest_frequency_squared(model.material.moduli, model.material.density, geometry) + contact) /
-            largest_rate;
+            (largest_frequency_squared(material.moduli, material.density, geometry) + contact) / largest_rate;
         for (const std::int32_t node : corner) {
           double& largest = model.mass_factor[static_cast<std::size_t>(node)];
           largest = std::max(largest, factor);

@@ -40,8 +40,10 @@ struct Material {
 /// Node arrays hold rows of four doubles (x, y, z, spare); the surface nodes of a grain are its first ones.
 struct Model {
   int grains = 0;
-  Material material;
+  std::vector<Material> material;           ///< [materials]
+  std::vector<std::int32_t> grain_material; ///< [grains], into `material`
   ElementType element = ElementType::tet4;
+  double own_pressure = 0; ///< tet4_anp: share of each tet's own pressure
   BulkViscosity viscosity{};
 
   std::vector<std::int32_t> node_offset;        ///< [grains + 1]
@@ -83,6 +85,7 @@ struct Model {
   std::int32_t nodes() const { return node_offset.back(); }
   std::int32_t tets() const { return tet_offset.back(); }
   std::int32_t facets() const { return facet_offset.back(); }
+  const Material& material_of(int grain) const { return material[std::size_t(grain_material[std::size_t(grain)])]; }
   int tets_in_block(int grain, int block_index) const {
     const int left = tet_offset[std::size_t(grain) + 1] - tet_offset[std::size_t(grain)] -
                      TetBlock::lanes * (block_index - block_offset[std::size_t(grain)]);

@@ -257,7 +257,7 @@ void read_checkpoint(const std::string& path, Simulation& simulation, RunRecord&
     const std::string earlier = file.read_scalar(check::scenario);
     const Scenario before = read_scenario(TomlDocument::from_text(earlier, path)),
                    now = read_scenario(TomlDocument::from_text(scenario_text, path));
-    if (before.material != now.material)
+    if (before.material != now.material || before.grain_materials != now.grain_materials)
       throw InputError(
           fmt::format("{}: the checkpoint's material differs from the scenario's, allowed the same [material]", path));
     // Bonds that are whole hold nothing but their places, so that the law may still be chosen.

@@ -13,6 +13,7 @@ struct ElasticModuli {
   double lame() const { return bulk - 2.0 / 3.0 * shear; }
   /// lambda + 2 mu, the modulus of dilatational waves.
   double dilatational() const { return bulk + 4.0 / 3.0 * shear; }
+  double youngs() const { return 9.0 * bulk * shear / (3.0 * bulk + shear); }
 };
 
 inline ElasticModuli elastic_moduli(double youngs_modulus, double poissons_ratio) {

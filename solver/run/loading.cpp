@@ -51,12 +51,13 @@ double unloading_tolerance(double target, double way) {
   return target > 0 ? std::min(of_way * way, of_target * target) : of_way * way;
 }
 
-Sample sample_of(const Model& model, const MaterialParameters& material) {
+Sample sample_of(const Model& model) {
   Sample sample;
   for (const double mass : model.mass) sample.mass += mass;
   sample.solid_volume = model.total_reference_volume();
-  const double e = material.youngs_modulus, nu = material.poissons_ratio;
-  sample.constrained_modulus = e * (1 - nu) / ((1 + nu) * (1 - 2 * nu));
+  for (int grain = 0; grain < model.grains; ++grain)
+    sample.constrained_modulus += model.material_of(grain).moduli.dilatational() *
+                                  model.reference_volume[static_cast<std::size_t>(grain)] / sample.solid_volume;
   return sample;
 }
 

@@ -63,9 +63,9 @@ enum class LoadingEnd {
 struct Sample {
   double mass = 0;                ///< tonne, as scaled
   double solid_volume = 0;        ///< mm^3, of all grains at the start
-  double constrained_modulus = 0; ///< MPa, K + 4 G/3 of the grains
+  double constrained_modulus = 0; ///< MPa, K + 4 G/3 of the grains, the mean over their volumes
 };
-Sample sample_of(const Model& model, const MaterialParameters& material);
+Sample sample_of(const Model& model);
 
 /// s, in which waves cross the longest side of a box (mm): in a compact that is a tenth as stiff as its grains.
 double wave_transit(const Sample& sample, const std::array<double, 3>& low, const std::array<double, 3>& high);

@@ -154,7 +154,7 @@ std::vector<StageForecast> forecast(const Scenario& scenario, std::int64_t first
   for (auto s = static_cast<std::size_t>(first_stage); s < scenario.stages.size(); ++s) {
     const Stage& stage = scenario.stages[s];
     if (stage.loading) {
-      const LoadingControl control(stage, f.low, f.high, sample_of(model, scenario.material));
+      const LoadingControl control(stage, f.low, f.high, sample_of(model));
       f.duration = control.expected_duration();
       f.sure = false;
       const auto scale = control.expected_scale();

@@ -114,6 +114,14 @@ std::string stage_text(const Stage& stage) {
   return {};
 }
 
+/// Young's modulus times volume, summed over all grains, mJ.
+double stiffness_of(const Model& model) {
+  double stiffness = 0;
+  for (int grain = 0; grain < model.grains; ++grain)
+    stiffness += model.material_of(grain).moduli.youngs() * model.reference_volume[static_cast<std::size_t>(grain)];
+  return stiffness;
+}
+
 /// The time loop and its records.
 class Runner {
 public:
@@ -121,8 +129,7 @@ public:
       : scenario_(scenario), options_(options), team_(options.threads),
         simulation_(build_model(read_packing(scenario.packing_file), scenario, scenario.packing_file), scenario, team_,
                     options.from.has_value()),
-        energy_check_(scenario.material.youngs_modulus * simulation_.model().total_reference_volume()),
-        progress_("mpfem", options.quiet) {
+        energy_check_(stiffness_of(simulation_.model())), progress_("mpfem", options.quiet) {
     const auto warnings = check_bonds(simulation_.model(), scenario_);
     begin();
     if (!options_.quiet && !already_complete_) {

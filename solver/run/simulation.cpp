@@ -130,12 +130,11 @@ void Simulation::make_motion() {
   motion_.emplace(stage(), state_.stage_low, state_.stage_high, model_.total_reference_volume(),
                   state_.stage_mean_stress);
   loading_.reset();
-  if (stage().loading)
-    loading_.emplace(stage(), state_.stage_low, state_.stage_high, sample_of(model_, scenario_.material));
+  if (stage().loading) loading_.emplace(stage(), state_.stage_low, state_.stage_high, sample_of(model_));
   pace_.reset();
   if (stage().quasi_static)
     pace_.emplace(*stage().quasi_static, stage().speed(),
-                  wave_transit(sample_of(model_, scenario_.material), state_.stage_low, state_.stage_high));
+                  wave_transit(sample_of(model_), state_.stage_low, state_.stage_high));
   const int absent = absent_axes(scenario_, stage());
   walls_.present = absent != 7;
   for (std::size_t axis = 0; axis < 3; ++axis) walls_.withdrawn[axis] = (absent >> axis & 1) != 0;

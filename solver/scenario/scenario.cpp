@@ -115,14 +115,35 @@ HardeningParameters read_hardening(TableReader table, double youngs_modulus, dou
   return hardening;
 }
 
-MaterialParameters read_material(TableReader table) {
+/// Without table.finish(): the table may hold more.
+MaterialParameters read_material(TableReader& table) {
   MaterialParameters material;
   material.density = table.number("density", positive);
   material.youngs_modulus = table.number("youngs_modulus", positive);
   material.poissons_ratio = table.number("poissons_ratio", admissible_poissons_ratio);
   material.hardening = read_hardening(table.table("hardening"), material.youngs_modulus, material.poissons_ratio);
-  table.finish();
   return material;
+}
+
+std::vector<GrainMaterial> read_grain_materials(TableReader& root) {
+  std::vector<GrainMaterial> materials;
+  std::set<std::int64_t> seen;
+  for (TableReader& table : root.tables("grain_material")) {
+    GrainMaterial other;
+    for (const double number : table.numbers("grains", non_negative)) {
+      const auto grain = static_cast<std::int64_t>(number);
+      if (static_cast<double>(grain) != number)
+        table.fail("grains", fmt::format("found {:g}, allowed whole numbers", number));
+      if (!seen.insert(grain).second)
+        table.fail("grains", fmt::format("found {} twice, allowed one material a grain", grain));
+      other.grains.push_back(grain);
+    }
+    if (other.grains.empty()) table.fail("grains", "found no grain, expected at least one");
+    other.material = read_material(table);
+    table.finish();
+    materials.push_back(std::move(other));
+  }
+  return materials;
 }
 
 ContactParameters read_contact(TableReader table) {
@@ -141,10 +162,15 @@ ContactParameters read_contact(TableReader table) {
 /// The one with the least error at equal time (docs/speed-against-error).
 constexpr ElementType default_element = ElementType::tet4_anp;
 
-ElementType read_element(TableReader table) {
+void read_element(TableReader table, NumericsParameters& numerics) {
   const std::string type = table.choice_or("type", element_name(default_element), {"tet4", "tet4-anp"});
+  numerics.element = type == "tet4" ? ElementType::tet4 : ElementType::tet4_anp;
+  refuse_foreign_keys(table, {"own_pressure"},
+                      numerics.element == ElementType::tet4 ? std::vector<std::string>{}
+                                                            : std::vector<std::string>{"own_pressure"},
+                      "type = 'tet4'");
+  numerics.own_pressure = table.number_or("own_pressure", 0, Range::between(0, 1));
   table.finish();
-  return type == "tet4" ? ElementType::tet4 : ElementType::tet4_anp;
 }
 
 NumericsParameters read_numerics(TableReader table) {
@@ -429,12 +455,15 @@ Scenario read_scenario(const TomlDocument& document) {
   scenario.text = document.text();
   scenario.packing_file = packing_path(root, document.name());
   scenario.walls = root.boolean_or("walls", true);
-  scenario.material = read_material(root.table("material"));
+  TableReader material = root.table("material");
+  scenario.material = read_material(material);
+  material.finish();
+  scenario.grain_materials = read_grain_materials(root);
   if (auto table = root.optional_table("contact")) scenario.contact = read_contact(*table);
   if (auto table = root.optional_table("bond")) scenario.bond = read_bond(*table);
   if (auto table = root.optional_table("numerics")) scenario.numerics = read_numerics(*table);
-  auto element = root.optional_table("element");
-  scenario.numerics.element = element ? read_element(*element) : default_element;
+  scenario.numerics.element = default_element;
+  if (auto table = root.optional_table("element")) read_element(*table, scenario.numerics);
   if (auto table = root.optional_table("output")) scenario.output = read_output(*table);
   if (auto table = root.optional_table("initial")) read_initial(*table, scenario);
   scenario.stages = read_stages(root, scenario.material.youngs_modulus);

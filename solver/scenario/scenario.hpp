@@ -41,6 +41,13 @@ struct MaterialParameters {
   bool operator==(const MaterialParameters&) const = default;
 };
 
+/// Grains of another material than the others.
+struct GrainMaterial {
+  std::vector<std::int64_t> grains; ///< numbers in the packing, from 0
+  MaterialParameters material;
+  bool operator==(const GrainMaterial&) const = default;
+};
+
 struct ContactParameters {
   double stiffness_factor = 10;    ///< penalty K = factor * E / h, h the mean facet edge of the grain
   std::optional<double> stiffness; ///< K itself, MPa/mm, where it is given instead (locally refined meshes)
@@ -71,6 +78,7 @@ const char* element_name(ElementType element);
 
 struct NumericsParameters {
   ElementType element = ElementType::tet4;
+  double own_pressure = 0;       ///< tet4_anp: share of each tet's own pressure, [0, 1]; 1 is tet4
   double time_step_factor = 0.9; ///< safety factor on the stable step, (0, 2]; beyond 1 nothing is proven
   double bulk_viscosity_linear = 0.06;
   double bulk_viscosity_quadratic = 1.2;
@@ -192,9 +200,10 @@ struct Stage {
 };
 
 struct Scenario {
-  std::string packing_file; ///< meshed packing; relative to the scenario's folder
-  bool walls = true;        ///< the six walls of the box
-  MaterialParameters material;
+  std::string packing_file;                   ///< meshed packing; relative to the scenario's folder
+  bool walls = true;                          ///< the six walls of the box
+  MaterialParameters material;                ///< of all grains but those of grain_materials
+  std::vector<GrainMaterial> grain_materials; ///< no grain stands in two of them
   ContactParameters contact;
   std::optional<BondParameters> bond; ///< none: grains do not stick
   NumericsParameters numerics;

@@ -237,7 +237,7 @@ void flattening(const std::string& element, double size_ratio) {
     fmt::print(
         "{},{},{},{},{:.5f},{:.4f},{:.6f},{:.6f},{:.4f},{:.4f},{:.4f},{:.4f},{:.4f},{:.4f},{:.4f},{:.1e},{:.1e}\n",
         element, size_ratio, model.tets(), approach / radius, mean_force, by_forces, v.volume / v.reference_volume - 1,
-        -by_forces / model.material.moduli.bulk, v.pressure(), v.tet_oscillation() / v.pressure_rms(),
+        -by_forces / model.material_of(0).moduli.bulk, v.pressure(), v.tet_oscillation() / v.pressure_rms(),
         v.node_oscillation() / v.pressure_rms(), v.tet_lowest, v.tet_highest, v.node_lowest, v.node_highest,
         state.kinetic_over_elastic, state.residual_over_work);
     std::fflush(stdout);

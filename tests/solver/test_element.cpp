@@ -166,12 +166,14 @@ TEST_CASE("a freely spinning grain keeps its energy and angular momentum over ma
     CHECK(std::abs(end[a] - start[a]) < 1e-9 * (std::abs(start[0]) + std::abs(start[2])));
 }
 
-TEST_CASE("averaged pressure is the gradient of its energy") {
+TEST_CASE("averaged pressure is the gradient of its energy, with a share of the tets' own too") {
+  const double own = GENERATE(0.0, 0.3);
   // Without a deviator (a fresh grain, moved in no step) forces come from the pressure alone: compare with differences of
   // the energy over small moves of single coordinates.
   GrainMesh mesh = ball_mesh(3, 1.0);
   for (auto& x : mesh.node) x[0] *= 1 + 0.02 * x[1], x[2] *= 1 - 0.03 * x[0];
   Model model = single_grain(mesh, HardeningLaw::elastic, ElementType::tet4_anp);
+  model.own_pressure = own;
   // Away from the reference state: volumes change by some per cent, differently everywhere.
   for (std::size_t n = 0; n < static_cast<std::size_t>(model.nodes()); ++n) {
     double* x = &model.position[4 * n];

@@ -168,6 +168,29 @@ TEST_CASE("a fixed die presses an elastic block to the stress of uniaxial strain
   CHECK(bench.result.overshoot < 1);
 }
 
+TEST_CASE("a soft block on a wider one a hundred times as stiff gives way by its own modulus") {
+  GrainMesh soft = cube_mesh(4), stiff = cube_mesh(4);
+  scale(soft, 0.1), scale(stiff, 0.15);
+  move(soft, {0.15, 0.15, 0.1}), move(stiff, {0.15, 0.15, 0.35});
+  Stage stage = unconfined(0.002, 50);
+  stage.damping = {1e6, 1e4}; // the stiff one rings on the soft one
+  Scenario scenario = scenario_of({stage}, HardeningLaw::elastic);
+  MaterialParameters other = scenario.material;
+  other.youngs_modulus *= 100;
+  scenario.grain_materials = {{{1}, other}};
+  Bench bench(pack({soft, stiff}, {0.3, 0.3, 0.5}), scenario);
+  const auto rows = bench.finish_stage();
+  const Model& model = bench.simulation.model();
+  const double k = model.penalty_stiffness[0], other_k = model.penalty_stiffness[1];
+  CHECK(other_k * model.element_size[1] == Approx(100 * k * model.element_size[0]));
+  // One behind the other: the soft block, the wall's penalty and the contact's; the stiff one adds a hundredth of that.
+  const double compliance = 0.2 / 5000 + 1 / k + (k + other_k) / (2 * k * other_k) + 0.3 / 500000 * 0.04 / 0.09;
+  const double force = 0.5 * (1 - std::exp(-0.002)) / compliance * 0.04;
+  CHECK(rows.back().wall_stress[4] * 0.09 == Approx(force).epsilon(0.02)); // its section grows by 0.3 %; nodal areas
+  CHECK(rows.back().wall_stress[5] == Approx(rows.back().wall_stress[4]).epsilon(0.02));
+  for (const HistoryRow& row : rows) CHECK(std::abs(row.energy_residual) < 0.01 * rows.back().external_work);
+}
+
 TEST_CASE("a packing is compacted to a mean stress and cycles between two, meeting each within 2 % of the range") {
   WallLoading loading = loading_of(LoadingPath::cycles, 3000);
   loading.lowest_mean_stress = 1;

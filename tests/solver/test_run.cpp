@@ -406,6 +406,29 @@ TEST_CASE("a branch may have bonds of another law as long as none is damaged") {
   CHECK(branch("run.D0.405.checkpoint.h5", "--set material.youngs_modulus=4000").exit_code == 2);
 }
 
+TEST_CASE("grains of another material are named by numbers that the packing has, each once") {
+  const Folder folder;
+  prepare(folder, 2);
+  const auto check = [&](const std::string& grains) {
+    write_text(folder / "scenario.toml", replaced(scenario_text, "[output]",
+                                                  "[[grain_material]]\ngrains = " + grains +
+                                                      "\ndensity = 1e-9\nyoungs_modulus = 500\npoissons_ratio = 0.2\n"
+                                                      "[grain_material.hardening]\nlaw = 'elastic'\n[output]"));
+    return mpfem_command("check " + (folder / "scenario.toml"));
+  };
+  CHECK(check("[0, 7]").exit_code == 0);
+  for (const auto& [grains, expected] :
+       std::vector<std::pair<std::string, std::string>>{{"[8]", "found grain 8, allowed 0 … 7"},
+                                                        {"[1, 1]", "found 1 twice"},
+                                                        {"[]", "no grain"},
+                                                        {"[0.5]", "whole"}}) {
+    const Outcome outcome = check(grains);
+    INFO(grains << ": " << outcome.messages);
+    CHECK(outcome.exit_code == 2);
+    CHECK_THAT(outcome.messages, Catch::Contains(expected) && Catch::Contains("grain_material"));
+  }
+}
+
 TEST_CASE("keys of loadings are checked like all others") {
   const Folder folder;
   prepare(folder, 2);

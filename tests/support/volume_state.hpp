@@ -46,7 +46,7 @@ inline std::vector<std::vector<std::int32_t>> tet_neighbours(const Model& model)
 /// At the model's present positions, whatever its element: the nodal pressures of averaged tets, and of plain tets what
 /// they would be.
 inline VolumeState volume_state(const Model& model, const std::vector<std::vector<std::int32_t>>& neighbours) {
-  const double bulk = model.material.moduli.bulk;
+  const double bulk = model.material_of(0).moduli.bulk;
   VolumeState result;
   const auto nodes = static_cast<std::size_t>(model.nodes());
   std::vector<double> volume(nodes, 0.0), reference(nodes, 0.0), pressure(nodes);
