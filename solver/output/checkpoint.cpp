@@ -294,8 +294,7 @@ void read_checkpoint(const std::string& path, Simulation& simulation, RunRecord&
   if (file.has(check::run_stage_values)) {
     const auto name = file.read(check::run_stage_name), end = file.read(check::run_stage_end);
     const auto values = file.read(check::run_stage_values);
-    const auto rms = file.has(check::run_stage_hold_rms) ? file.read(check::run_stage_hold_rms)
-                                                         : std::vector<double>(name.size(), 0.0);
+    const auto rms = file.read(check::run_stage_hold_rms);
     if (end.size() != name.size() || values.size() != 3 * name.size() || rms.size() != name.size()) throw damaged();
     for (std::size_t i = 0; i < name.size(); ++i)
       record.stages.push_back({name[i], end[i], values[3 * i], values[3 * i + 1], values[3 * i + 2], rms[i]});

@@ -321,16 +321,14 @@ void Simulation::evaluate_forces() {
   std::array<double, 6> wall_force{};
   for (const WallSums& sums : wall_sums_)
     for (std::size_t side = 0; side < 6; ++side) wall_force[side] += sums.force[side];
-  double stress = 0;
   for (std::size_t side = 0; side < 6; ++side) {
     state_.external_work += 0.5 * (wall_force[side] + state_.last_wall_force[side]) * state_.last_wall_move[side];
     force[side] += wall_force[side];
-    const std::size_t b = (side / 2 + 1) % 3, c = (side / 2 + 2) % 3;
-    stress += force[side] / ((walls_.high[b] - walls_.low[b]) * (walls_.high[c] - walls_.low[c])) / 6.0;
   }
   state_.last_wall_force = force;
   state_.last_wall_move = {};
-  state_.mean_stress = stress;
+  state_.mean_stress = 0;
+  for (const double stress : wall_stress()) state_.mean_stress += stress / 6.0;
   if (pace_ && state_.step % PaceControl::steps_between_looks == 0 && !stage_complete()) regulate_pace();
   if (loading_ && !stage_complete()) loading_->update(state_.loading, observe_loading());
 }

@@ -1,18 +1,11 @@
 #!/bin/sh
-# measure.sh BIN PACKING FOLDER: every measurement of the study into a file of its own in FOLDER. What is there is not
-# measured again, so that an interrupted call goes on where it stood.
+# measure.sh BIN PACKING FOLDER: every measurement of the study into a file of its own in FOLDER (studies/common/measure.sh).
 set -eu
 bin=$1
 packing=$2
 folder=$3
-measure() {
-  file=$folder/$1
-  shift
-  [ -e "$file" ] && return
-  echo "contact-surface $*" >&2
-  "$bin/contact-surface" "$@" > "$file.partial"
-  mv "$file.partial" "$file"
-}
+program=contact-surface
+. studies/common/measure.sh
 # Orientations: seeds 1 to 20 are 40 turned spheres, so 40 contacts with a wall and 20 between spheres.
 measure rotations-tet4-anp-exact-5.csv rotations tet4-anp exact 5 1 20
 measure rotations-tet4-exact-5.csv rotations tet4 exact 5 1 20

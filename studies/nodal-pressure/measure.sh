@@ -1,18 +1,11 @@
 #!/bin/sh
-# measure.sh BIN PACKING FOLDER: every measurement of the study into a file of its own in FOLDER. What is there is not
-# measured again, so that an interrupted call goes on where it stood.
+# measure.sh BIN PACKING FOLDER: every measurement of the study into a file of its own in FOLDER (studies/common/measure.sh).
 set -eu
 bin=$1
 packing=$2
 folder=$3
-measure() {
-  file=$folder/$1
-  shift
-  [ -e "$file" ] && return
-  echo "nodal-pressure $*" >&2
-  "$bin/nodal-pressure" "$@" > "$file.partial"
-  mv "$file.partial" "$file"
-}
+program=nodal-pressure
+. studies/common/measure.sh
 measure frequencies.csv frequencies
 for mode in spheroidal breathing torsional; do
   measure vibration-tet4-anp-5-$mode.csv vibration tet4-anp 5 $mode 30000 2000 0
