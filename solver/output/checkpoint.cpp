@@ -20,15 +20,23 @@ namespace {
 namespace check = schema::checkpoint;
 
 std::vector<std::int64_t> integers(const RunState& s) {
-  return {
-      s.step,     s.stage,       s.rows_in_stage, s.snapshots_passed,  s.steps_since_estimate, s.controlled_by_contact,
-      s.searches, s.stage_ended, s.absent_axes,   s.checkpoints_passed};
+  return {s.step,
+          s.stage,
+          s.rows_in_stage,
+          s.snapshots_passed,
+          s.steps_since_estimate,
+          s.controlled_by_contact,
+          s.searches,
+          s.stage_ended,
+          s.absent_axes,
+          s.checkpoints_passed,
+          s.estimates_since_spectrum};
 }
 
 void set_integers(RunState& s, const std::vector<std::int64_t>& v) {
   s.step = v[0], s.stage = v[1], s.rows_in_stage = v[2], s.snapshots_passed = v[3], s.steps_since_estimate = v[4],
   s.controlled_by_contact = v[5], s.searches = v[6], s.stage_ended = v[7], s.absent_axes = v[8],
-  s.checkpoints_passed = v[9];
+  s.checkpoints_passed = v[9], s.estimates_since_spectrum = v[10];
 }
 
 /// Calls f(double&) for every number of state and record, always in the same order.
@@ -78,6 +86,7 @@ void for_each_array(F&& f) {
   f(check::node_position), f(check::node_velocity), f(check::node_force);
   for (const auto& component : deviator_components) f(component);
   f(check::tet_flow_stress), f(check::tet_plastic_strain), f(check::tet_length);
+  f(check::grain_step), f(check::grain_step_of_tets);
   f(check::grain_travel), f(check::grain_travel_at_search), f(check::contact_point_wake), f(check::contact_point_sure);
   f(check::contact_pair_first), f(check::contact_pair_second), f(check::contact_pair_point_offset);
   f(check::contact_point_node), f(check::contact_point_facet_offset), f(check::contact_candidate_facet);
@@ -193,6 +202,8 @@ void write_checkpoint(const std::string& path, const Simulation& simulation, con
   arrays.write(check::tet_flow_stress, of_tets(model, [](const TetBlock& b) { return b.flow_stress; }));
   arrays.write(check::tet_plastic_strain, of_tets(model, [](const TetBlock& b) { return b.plastic_strain; }));
   arrays.write(check::tet_length, of_tets(model, [](const TetBlock& b) { return b.length; }));
+  arrays.write(check::grain_step, simulation.grain_steps().whole);
+  arrays.write(check::grain_step_of_tets, simulation.grain_steps().of_tets);
   arrays.write(check::grain_travel, contact.travel);
   arrays.write(check::grain_travel_at_search, contact.travel_at_search);
   arrays.write(check::contact_point_wake, contact.point_wake);
@@ -339,6 +350,7 @@ void read_checkpoint(const std::string& path, Simulation& simulation, RunRecord&
   k.point_facet = file.read(check::contact_candidate_facet);
   index_pairs(k, model.grains);
   const auto grains = static_cast<std::size_t>(model.grains);
+  simulation.grain_steps() = {take(check::grain_step, grains), take(check::grain_step_of_tets, grains)};
   contact.travel = take(check::grain_travel, grains);
   contact.travel_at_search = take(check::grain_travel_at_search, grains);
   contact.point_facet = take(check::contact_point_facet, points);

@@ -36,9 +36,10 @@ struct RunState {
   std::int64_t steps_since_estimate = 0;  ///< since the stable step was estimated
   std::int64_t controlled_by_contact = 0; ///< 1: contact lowers the step by more than 5 %
   std::int64_t searches = 0;
-  std::int64_t stage_ended = 0;        ///< 1: the stage has reached what ends it
-  std::int64_t absent_axes = 0;        ///< axes whose walls are away, as bits 1 (x), 2 (y), 4 (z)
-  std::int64_t checkpoints_passed = 0; ///< of output.checkpoint_relative_densities
+  std::int64_t stage_ended = 0;              ///< 1: the stage has reached what ends it
+  std::int64_t absent_axes = 0;              ///< axes whose walls are away, as bits 1 (x), 2 (y), 4 (z)
+  std::int64_t checkpoints_passed = 0;       ///< of output.checkpoint_relative_densities
+  std::int64_t estimates_since_spectrum = 0; ///< of the stable step, since the frequencies of whole grains were found
   // times
   double time = 0;        ///< s
   double stage_time = 0;  ///< s, since the stage began, by the stage's clock (solver/run/pace.hpp)
@@ -66,6 +67,12 @@ struct RunState {
   std::array<double, 6> last_wall_move{};  ///< mm inward, in the last step
   LoadingState loading;                    ///< of the stage, where its walls are driven or held by stresses
   PaceState pace;                          ///< of the stage, where it chooses its speed
+};
+
+/// Stable steps when the frequencies of whole grains were last found, s, [grains].
+struct GrainSteps {
+  std::vector<double> whole;   ///< of the grain as a whole
+  std::vector<double> of_tets; ///< of its worst tet
 };
 
 /// How a stage ended.
@@ -102,6 +109,8 @@ public:
   const Contact& contact() const { return contact_; }
   RunState& state() { return state_; }
   const RunState& state() const { return state_; }
+  GrainSteps& grain_steps() { return grain_steps_; }
+  const GrainSteps& grain_steps() const { return grain_steps_; }
   Profile& profile() { return profile_; }
   const Profile& profile() const { return profile_; }
 
@@ -153,7 +162,8 @@ private:
   std::array<double, 6> wall_stress() const;
   void regulate_pace();
   double next_step() const;
-  void estimate_stable_step();
+  /// `anew`: with the frequencies of whole grains, whenever they were last found.
+  void estimate_stable_step(bool anew = false);
   double damping_rate() const;
   [[noreturn]] void report_bad_grain(int grain) const;
   void refuse_overlap(int grain);
@@ -181,6 +191,7 @@ private:
   std::vector<AdvanceSums> advance_sums_;
   std::vector<ElementSums> element_sums_;
   std::vector<StableStep> stable_steps_;
+  GrainSteps grain_steps_;
   std::vector<double> stiffness_rate_;
 };
 

@@ -177,6 +177,8 @@ NumericsParameters read_numerics(TableReader table) {
   NumericsParameters numerics;
   numerics.time_step_factor =
       table.number_or("time_step_factor", numerics.time_step_factor, {.low = 0, .high = 2, .low_open = true});
+  numerics.step_estimate =
+      table.choice_or("step_estimate", "grain", {"grain", "tet"}) == "grain" ? StepEstimate::grain : StepEstimate::tet;
   numerics.bulk_viscosity_linear =
       table.number_or("bulk_viscosity_linear", numerics.bulk_viscosity_linear, Range::between(0, 1));
   numerics.bulk_viscosity_quadratic =

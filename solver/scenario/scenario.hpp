@@ -76,10 +76,17 @@ enum class ElementType {
 /// Name of an element in scenarios and on the command line.
 const char* element_name(ElementType element);
 
+/// Whose largest frequency sets the stable step.
+enum class StepEstimate {
+  grain, ///< that of each grain as a whole, found by iteration
+  tet,   ///< that of the worst tet by itself, a proven bound, some quarter shorter
+};
+
 struct NumericsParameters {
   ElementType element = ElementType::tet4;
   double own_pressure = 0;       ///< tet4_anp: share of each tet's own pressure, [0, 1]; 1 is tet4
   double time_step_factor = 0.9; ///< safety factor on the stable step, (0, 2]; beyond 1 nothing is proven
+  StepEstimate step_estimate = StepEstimate::grain;
   double bulk_viscosity_linear = 0.06;
   double bulk_viscosity_quadratic = 1.2;
   double mass_scaling = 1;      ///< uniform factor on the density

@@ -182,6 +182,8 @@ TEST_CASE("nodes at the edge between three bonded grains hold to both neighbours
   move(grains[2], {0.403, 0.404, 0.401});
   Scenario scenario = bonded_scenario(table_1(0.5), holding_scenario(2e-6).stages);
   scenario.grain_velocity = {{3000, 0, 1000}, {-3000, 0, 1000}, {0, 0, -2000}};
+  // The ledger's error in this impact is of second order in the step: 1.1 % at a factor of 0.9, 0.24 % at half of it.
+  scenario.numerics.time_step_factor = 0.45;
   ThreadTeam team(1);
   Simulation simulation(build_model(pack(grains, {0.8, 0.8, 0.8}), scenario, "test"), scenario, team);
   const double initial = simulation.state().initial_energy;
@@ -192,7 +194,7 @@ TEST_CASE("nodes at the edge between three bonded grains hold to both neighbours
     simulation.advance();
   }
   simulation.evaluate_forces();
-  CHECK(worst < 0.01);
+  CHECK(worst < 0.004);
   const auto pairs = pair_contacts(simulation.model(), simulation.contact());
   REQUIRE(pairs.size() == 3);
   for (const PairContact& pair : pairs) CHECK(pair.bonds.bonds > 10);

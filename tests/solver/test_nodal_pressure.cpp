@@ -2,11 +2,11 @@
 
 #include <catch2/catch.hpp>
 
-#include <Eigen/Dense>
 #include <fmt/format.h>
 
 #include "solver/run/simulation.hpp"
 #include "tests/support/free_sphere.hpp"
+#include "tests/support/frequencies.hpp"
 #include "tests/support/meshes.hpp"
 #include "tests/support/tolerances.hpp"
 #include "tests/support/volume_state.hpp"
@@ -22,41 +22,6 @@ Scenario vibrating_scenario(ElementType element) {
   scenario.numerics.bulk_viscosity_linear = 0;
   scenario.numerics.bulk_viscosity_quadratic = 0;
   return scenario;
-}
-
-/// Angular frequencies squared (1/s^2) of all modes of a free elastic grain, ascending: eigenvalues of its stiffness, taken
-/// from the forces of small moves of every coordinate, with its lumped masses.
-Eigen::VectorXd squared_frequencies(const GrainMesh& mesh, ElementType element) {
-  const Scenario scenario = vibrating_scenario(element);
-  Model model = build_model(pack({mesh}, {1, 1, 1}), scenario, "test");
-  const auto nodes = static_cast<std::size_t>(model.nodes());
-  const auto size = static_cast<Eigen::Index>(3 * nodes);
-  const std::vector<TetBlock> fresh = model.block;
-  const double move = 1e-7, step = 1e-9; // mm: 1e-6 of a radius
-  Eigen::MatrixXd stiffness(size, size);
-  const auto forces_at = [&](std::size_t n, std::size_t axis, double by) {
-    model.block = fresh;
-    model.position[4 * n + axis] += by;
-    model.velocity[4 * n + axis] = by / step;
-    if (!element_forces(model, 0, step).admissible) throw std::runtime_error("not admissible");
-    model.position[4 * n + axis] -= by;
-    model.velocity[4 * n + axis] = 0;
-    Eigen::VectorXd force(size);
-    for (std::size_t m = 0; m < nodes; ++m)
-      for (std::size_t a = 0; a < 3; ++a) force[static_cast<Eigen::Index>(3 * m + a)] = model.force[4 * m + a];
-    return force;
-  };
-  for (std::size_t n = 0; n < nodes; ++n)
-    for (std::size_t axis = 0; axis < 3; ++axis)
-      stiffness.col(static_cast<Eigen::Index>(3 * n + axis)) =
-          (forces_at(n, axis, -move) - forces_at(n, axis, move)) / (2 * move);
-  // The step turns and strains by the half-step configuration: symmetric but for terms of the order of the move.
-  const double asymmetry = (stiffness - stiffness.transpose()).norm() / stiffness.norm();
-  CHECK(asymmetry < 1e-5);
-  Eigen::VectorXd root(size);
-  for (Eigen::Index i = 0; i < size; ++i) root[i] = std::sqrt(model.inverse_mass[static_cast<std::size_t>(i / 3)]);
-  const Eigen::MatrixXd scaled = root.asDiagonal() * (0.5 * (stiffness + stiffness.transpose())) * root.asDiagonal();
-  return Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(scaled, Eigen::EigenvaluesOnly).eigenvalues();
 }
 
 } // namespace
@@ -79,8 +44,10 @@ TEST_CASE(
 TEST_CASE("averaged pressure has six rigid modes and no weak one: the next are those of the elastic sphere") {
   const double radius = 0.1;
   const GrainMesh mesh = ball_mesh(6, radius);
-  const Eigen::VectorXd averaged = squared_frequencies(mesh, ElementType::tet4_anp),
-                        plain = squared_frequencies(mesh, ElementType::tet4);
+  const auto frequencies = [&mesh](ElementType element) {
+    return squared_frequencies(build_model(pack({mesh}, {1, 1, 1}), vibrating_scenario(element), "test"));
+  };
+  const Eigen::VectorXd averaged = frequencies(ElementType::tet4_anp), plain = frequencies(ElementType::tet4);
   const double torsional = sphere_frequency(SphereMode::torsional, 2, radius, 5000, 0.3, 1.55e-9),
                ellipsoidal = sphere_frequency(SphereMode::spheroidal, 2, radius, 5000, 0.3, 1.55e-9);
   for (int i = 0; i < 6; ++i) CHECK(std::abs(averaged[i]) < 1e-4 * torsional * torsional);
