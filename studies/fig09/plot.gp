@@ -1,6 +1,7 @@
-# gnuplot -c plot.gp png|svg load-density.csv IMAGE
+# gnuplot -c plot.gp png|svg FOLDER IMAGE
 call 'studies/common/style.gp' ARG1
-data = ARG2
+folder = ARG2
+data = folder.'/load-density.csv'
 set output ARG3
 set xlabel 'relative density D_r'
 set ylabel 'mean stress p / MPa'
@@ -16,4 +17,5 @@ do for [m in meshes] {
 }
 set key title 'element size' left
 plot for [i = 1:words(present)] data skip 1 \
-  using 2:(strcol(1) eq word(present, i) ? column(3) : NaN) with lines linetype i title label(word(present, i))
+  using 2:(strcol(1) eq word(present, i) ? column(3) : NaN) with lines linetype i title label(word(present, i)), \
+  for [i = 1:several()] folder.'/at-densities.spread.csv' skip 1 using 3:5:6 with yerrorbars linetype 5 pointsize 1.2 title spread_title()
