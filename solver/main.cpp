@@ -100,9 +100,9 @@ CLI::App* add_bench(CLI::App& app, Arguments& arguments, BenchOptions& options, 
   bench->add_option("--grains", options.grains, "Grains of the built-in packing, about")
       ->check(CLI::Range(1, 10'000'000))
       ->capture_default_str();
-  bench->add_option("--element", options.element, "Element of the built-in packing: tet4, tet4-anp")
-      ->transform(CLI::CheckedTransformer(
-          std::map<std::string, ElementType>{{"tet4", ElementType::tet4}, {"tet4-anp", ElementType::tet4_anp}}));
+  bench->add_option("--element", options.element, "Element of the built-in packing: tet4, tet4-anp, tet4-patch")
+      ->transform(CLI::CheckedTransformer(std::map<std::string, ElementType>{
+          {"tet4", ElementType::tet4}, {"tet4-anp", ElementType::tet4_anp}, {"tet4-patch", ElementType::tet4_patch}}));
   bench->add_flag("!--no-bonds", options.bonds, "Built-in packing without bonds");
   bench->add_option("--steps", options.steps, "Steps to measure")
       ->check(CLI::Range(5, 1'000'000))

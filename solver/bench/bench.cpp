@@ -46,6 +46,7 @@ Scenario built_in_scenario(const BenchOptions& options) {
     scenario.bond->fracture_energy = 0.5;
   }
   scenario.numerics.element = options.element;
+  scenario.numerics.own_pressure = usual_own_pressure(options.element);
   Stage stage;
   stage.name = "compaction";
   stage.isotropic_compaction.emplace();

@@ -7,6 +7,7 @@
 #include "solver/kernels/rows.hpp"
 #include "solver/physics/tet4.hpp"
 #include "solver/physics/tet4_anp.hpp"
+#include "solver/physics/tet4_patch.hpp"
 
 namespace mpfem {
 
@@ -52,6 +53,7 @@ S lane_weights(int lanes) {
 /// Mean stress of a tet from its own volume.
 struct OwnPressure {
   ElasticModuli moduli;
+  void enter(std::int32_t) {}
   S operator()(const TetBlock&, const S& volume_ratio) const { return mean_stress(moduli, volume_ratio); }
 };
 
@@ -74,6 +76,7 @@ struct AveragedPressure {
   const double* nodal; ///< MPa, of the grain's nodes
   double own = 0;      ///< share of the tet's own mean stress
   ElasticModuli moduli{};
+  void enter(std::int32_t) {}
   S operator()(const TetBlock& block, const S& volume_ratio) const {
     const S mean = mean_of_nodes(load_numbers<W>(nodal, block.node[0]), load_numbers<W>(nodal, block.node[1]),
                                  load_numbers<W>(nodal, block.node[2]), load_numbers<W>(nodal, block.node[3]));
@@ -93,10 +96,63 @@ AveragedPressure average_pressure(const Model& model, int grain, double* mean) {
   return {mean, model.own_pressure, moduli};
 }
 
+/// Volume of patch `patch` of a grain, mm^3: its tets are those of consecutive blocks.
+double patch_volume(const Model& model, int grain, std::int32_t patch) {
+  static_assert(patch_tets % W == 0);
+  const auto g = static_cast<std::size_t>(grain);
+  const double* position = model.position.data() + 4 * model.node_offset[g];
+  const std::int32_t first = model.block_offset[g] + patch * (patch_tets / W),
+                     end = std::min(first + patch_tets / W, model.block_offset[g + 1]);
+  S volume(0.0);
+  for (std::int32_t b = first; b < end; ++b) {
+    const S det = current_geometry(model.block[static_cast<std::size_t>(b)], position).det;
+    const int lanes = model.tets_in_block(grain, b);
+    volume += lanes < W ? lane_weights(lanes) * det : det;
+  }
+  return sum(volume) / 6.0;
+}
+
+/// Mean stress of a tet as that of its patch, with a share of its own.
+struct PatchPressure {
+  const Model& model;
+  int grain;
+  ElasticModuli moduli;
+  S mean{0.0};
+  /// Before the tets of block `b`.
+  void enter(std::int32_t b) {
+    constexpr std::int32_t blocks = patch_tets / W;
+    const auto g = static_cast<std::size_t>(grain);
+    const std::int32_t within = b - model.block_offset[g];
+    if (within % blocks != 0) return;
+    const std::int32_t patch = within / blocks;
+    mean = S(patch_mean_stress(moduli, patch_volume(model, grain, patch),
+                               model.inverse_patch_volume[static_cast<std::size_t>(model.patch_offset[g] + patch)]));
+  }
+  S operator()(const TetBlock&, const S& volume_ratio) const {
+    if (model.own_pressure == 0) return mean;
+    return S(1 - model.own_pressure) * mean + S(model.own_pressure) * mean_stress(moduli, volume_ratio);
+  }
+};
+
+/// f(pressure) with what gives the tets of a grain their mean stress, for its present positions. `nodal` [nodes of the grain] is
+/// written where nodes take part, and kept as long as f needs it.
+template <class F>
+auto with_pressure(const Model& model, int grain, double* nodal, F&& f) {
+  const ElasticModuli moduli = model.material_of(grain).moduli;
+  switch (model.element) {
+  case ElementType::tet4_anp:
+    return f(average_pressure(model, grain, nodal));
+  case ElementType::tet4_patch:
+    return f(PatchPressure{model, grain, moduli});
+  default:
+    return f(OwnPressure{moduli});
+  }
+}
+
 // flatten: everything below is inlined here. Called as functions, packs go through memory: 1.2 times the time.
 template <class Law, class Pressure>
 [[gnu::flatten]] ElementSums element_pass(Model& model, int grain, double time_step, const Law& law,
-                                          const Pressure& pressure) {
+                                          Pressure pressure) {
   const auto g = static_cast<std::size_t>(grain);
   const std::int32_t first_node = model.node_offset[g];
   const double* position = model.position.data() + 4 * first_node;
@@ -111,6 +167,7 @@ template <class Law, class Pressure>
   const std::int32_t end = model.block_offset[g + 1];
   for (std::int32_t b = model.block_offset[g]; b < end; ++b) {
     TetBlock& block = model.block[static_cast<std::size_t>(b)];
+    pressure.enter(b);
     Vector3<S> edge[3], edge_velocity[3];
     load_edges<W, 3>(position, block.node, edge);
     load_edges<W, 3>(velocity, block.node, edge_velocity);
@@ -142,10 +199,12 @@ template <class Law, class Pressure>
 ElementSums element_forces(Model& model, int grain, double time_step) {
   return std::visit(
       [&](const auto& law) {
-        if (model.element == ElementType::tet4)
-          return element_pass(model, grain, time_step, law, OwnPressure{model.material_of(grain).moduli});
-        double* nodal = model.nodal_mean.data() + model.node_offset[static_cast<std::size_t>(grain)];
-        return element_pass(model, grain, time_step, law, average_pressure(model, grain, nodal));
+        double* nodal = model.nodal_mean.empty()
+                            ? nullptr
+                            : model.nodal_mean.data() + model.node_offset[static_cast<std::size_t>(grain)];
+        return with_pressure(model, grain, nodal, [&](const auto& pressure) {
+          return element_pass(model, grain, time_step, law, pressure);
+        });
       },
       model.material_of(grain).flow);
 }
@@ -154,7 +213,7 @@ double elastic_energy(const Model& model, int grain) {
   const auto g = static_cast<std::size_t>(grain);
   const double* position = model.position.data() + 4 * model.node_offset[g];
   const ElasticModuli moduli = model.material_of(grain).moduli;
-  // The part of the volumetric energy that belongs to single tets; the rest belongs to nodes.
+  // The part of the volumetric energy that belongs to single tets; the rest belongs to nodes or patches.
   const double own = model.element == ElementType::tet4 ? 1.0 : model.own_pressure;
   S energy(0.0);
   for (std::int32_t b = model.block_offset[g]; b < model.block_offset[g + 1]; ++b) {
@@ -172,6 +231,11 @@ double elastic_energy(const Model& model, int grain) {
     for (std::size_t n = 0; n < volume.size(); ++n)
       total += (1 - own) * nodal_volumetric_energy(moduli, volume[n], model.inverse_nodal_volume[first + n]);
   }
+  if (model.element == ElementType::tet4_patch)
+    for (std::int32_t patch = 0; patch < model.patch_offset[g + 1] - model.patch_offset[g]; ++patch)
+      total += (1 - own) * patch_volumetric_energy(
+                               moduli, patch_volume(model, grain, patch),
+                               model.inverse_patch_volume[static_cast<std::size_t>(model.patch_offset[g] + patch)]);
   return total;
 }
 
@@ -245,26 +309,22 @@ TetFields tet_fields(const Model& model) {
   for (int grain = 0; grain < model.grains; ++grain) {
     const auto g = static_cast<std::size_t>(grain);
     const double* position = model.position.data() + 4 * model.node_offset[g];
-    std::vector<double> nodal;
-    AveragedPressure averaged{nullptr};
-    if (model.element == ElementType::tet4_anp) {
-      nodal.resize(static_cast<std::size_t>(model.node_offset[g + 1] - model.node_offset[g]));
-      averaged = average_pressure(model, grain, nodal.data());
-    }
-    for (std::int32_t b = model.block_offset[g]; b < model.block_offset[g + 1]; ++b) {
-      const TetBlock& block = model.block[static_cast<std::size_t>(b)];
-      const S q = von_mises(load_deviator(block));
-      const S ratio = current_volume_ratio(block, position);
-      const S mean =
-          averaged.nodal != nullptr ? averaged(block, ratio) : mean_stress(model.material_of(grain).moduli, ratio);
-      for (int lane = 0; lane < model.tets_in_block(grain, b); ++lane) {
-        const auto tet = static_cast<std::size_t>(model.tet_offset[g] + (b - model.block_offset[g]) * W + lane);
-        const auto file = static_cast<std::size_t>(model.file_tet[tet]);
-        fields.von_mises[file] = static_cast<float>(q[lane]);
-        fields.pressure[file] = static_cast<float>(-mean[lane]);
-        fields.plastic_strain[file] = static_cast<float>(block.plastic_strain[lane]);
+    std::vector<double> nodal(static_cast<std::size_t>(model.node_offset[g + 1] - model.node_offset[g]));
+    with_pressure(model, grain, nodal.data(), [&](auto pressure) {
+      for (std::int32_t b = model.block_offset[g]; b < model.block_offset[g + 1]; ++b) {
+        const TetBlock& block = model.block[static_cast<std::size_t>(b)];
+        pressure.enter(b);
+        const S q = von_mises(load_deviator(block));
+        const S mean = pressure(block, current_volume_ratio(block, position));
+        for (int lane = 0; lane < model.tets_in_block(grain, b); ++lane) {
+          const auto tet = static_cast<std::size_t>(model.tet_offset[g] + (b - model.block_offset[g]) * W + lane);
+          const auto file = static_cast<std::size_t>(model.file_tet[tet]);
+          fields.von_mises[file] = static_cast<float>(q[lane]);
+          fields.pressure[file] = static_cast<float>(-mean[lane]);
+          fields.plastic_strain[file] = static_cast<float>(block.plastic_strain[lane]);
+        }
       }
-    }
+    });
   }
   return fields;
 }

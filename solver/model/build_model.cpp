@@ -2,14 +2,17 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <numeric>
+#include <span>
 #include <tuple>
 
 #include <fmt/format.h>
 
 #include "common/errors.hpp"
 #include "common/hash.hpp"
+#include "solver/physics/tet4_patch.hpp"
 
 namespace mpfem {
 
@@ -41,6 +44,33 @@ std::uint64_t morton_key(const Vector3<double>& x, const Vector3<double>& low, d
     for (int bit = 0; bit < 10; ++bit) key |= ((cell >> bit) & 1U) << (3 * bit + axis);
   }
   return key;
+}
+
+/// Orders tets so that every eight that follow each other lie together: halves of whole eights across the longest side of the box
+/// of their centres, and halves of these, down to eights. Only the last has fewer.
+void order_in_patches(std::span<Index> tets, const std::function<const Vector3<double>&(Index)>& centre) {
+  const auto count = static_cast<Index>(tets.size());
+  if (count <= patch_tets) {
+    std::sort(tets.begin(), tets.end());
+    return;
+  }
+  using Component = double Vector3<double>::*;
+  Component longest = nullptr;
+  double length = -1;
+  for (const Component component : {&Vector3<double>::x, &Vector3<double>::y, &Vector3<double>::z}) {
+    const auto [least, most] = std::minmax_element(
+        tets.begin(), tets.end(), [&](Index a, Index b) { return centre(a).*component < centre(b).*component; });
+    if (centre(*most).*component - centre(*least).*component > length) {
+      length = centre(*most).*component - centre(*least).*component;
+      longest = component;
+    }
+  }
+  const auto half = at((count + patch_tets - 1) / patch_tets / 2 * patch_tets);
+  std::nth_element(tets.begin(), tets.begin() + static_cast<std::ptrdiff_t>(half), tets.end(), [&](Index a, Index b) {
+    return std::pair(centre(a).*longest, a) < std::pair(centre(b).*longest, b);
+  });
+  order_in_patches(tets.first(half), centre);
+  order_in_patches(tets.subspan(half), centre);
 }
 
 struct Face {
@@ -231,8 +261,8 @@ SurfaceView Model::surface() const {
 std::size_t Model::memory() const {
   const auto bytes = [](const auto& v) { return v.size() * sizeof(v[0]); };
   return bytes(position) + bytes(velocity) + bytes(force) + bytes(normal) + bytes(inverse_mass) +
-         bytes(reference_area) + bytes(block) + bytes(inverse_nodal_volume) + bytes(nodal_mean) + bytes(facet) +
-         bytes(file_node) + bytes(file_tet);
+         bytes(reference_area) + bytes(block) + bytes(inverse_nodal_volume) + bytes(nodal_mean) +
+         bytes(inverse_patch_volume) + bytes(facet) + bytes(file_node) + bytes(file_tet);
 }
 
 Material make_material(const MaterialParameters& parameters, double mass_scaling) {
@@ -344,20 +374,21 @@ Model build_model(const MeshedPacking& packing, const Scenario& scenario, const 
     model.penalty_stiffness.push_back(
         scenario.contact.stiffness.value_or(scenario.contact.stiffness_factor * material.moduli.youngs() / h));
 
-    // 2. Tets along the same curve, in blocks.
-    std::vector<std::pair<std::uint64_t, Index>> tet_order;
+    // 2. Tets in patches, in blocks.
+    std::vector<Vector3<double>> centre(at(t1 - t0), Vector3<double>{0, 0, 0});
+    std::vector<Index> tet_order(at(t1 - t0));
     for (Index t = t0; t < t1; ++t) {
-      Vector3<double> centre{0, 0, 0};
-      for (std::size_t i = 0; i < 4; ++i) centre = centre + 0.25 * point(packing.node, packing.tet[4 * at(t) + i]);
-      tet_order.emplace_back(morton_key(centre, low, size), t);
+      for (std::size_t i = 0; i < 4; ++i)
+        centre[at(t - t0)] = centre[at(t - t0)] + 0.25 * point(packing.node, packing.tet[4 * at(t) + i]);
+      tet_order[at(t - t0)] = t;
     }
-    std::sort(tet_order.begin(), tet_order.end());
+    order_in_patches(tet_order, [&](Index t) -> const Vector3<double>& { return centre[at(t - t0)]; });
     double volume = 0;
     for (Index i = 0; i < t1 - t0; i += TetBlock::lanes) {
       TetBlock block{};
       for (int lane = 0; lane < TetBlock::lanes; ++lane) {
         const Index position = std::min(i + lane, t1 - t0 - 1);
-        const Index t = tet_order[at(position)].second;
+        const Index t = tet_order[at(position)];
         for (int c = 0; c < 4; ++c)
           block.node[c][lane] = new_index[at(packing.tet[4 * at(t) + static_cast<std::size_t>(c)])] - n0;
         const double tet_v = tet_volume(packing, t);
@@ -392,6 +423,18 @@ Model build_model(const MeshedPacking& packing, const Scenario& scenario, const 
       for (Index n = model.node_offset[at(g)]; n < model.node_offset[at(g) + 1]; ++n)
         model.inverse_nodal_volume.push_back(model.inverse_mass[at(n)] * model.material_of(g).density);
     model.nodal_mean.assign(nodes, 0.0);
+  }
+  if (model.element == ElementType::tet4_patch) {
+    model.patch_offset.assign(1, 0);
+    for (int g = 0; g < model.grains; ++g) {
+      const Index first = model.tet_offset[at(g)], end = model.tet_offset[at(g) + 1];
+      for (Index t = first; t < end; t += patch_tets) {
+        double volume = 0;
+        for (Index i = t; i < std::min(t + patch_tets, end); ++i) volume += tet_volume(packing, model.file_tet[at(i)]);
+        model.inverse_patch_volume.push_back(1.0 / volume);
+      }
+      model.patch_offset.push_back(static_cast<Index>(model.inverse_patch_volume.size()));
+    }
   }
   refuse_shared_places(model, name);
   find_refinement(model);

@@ -43,7 +43,7 @@ struct Model {
   std::vector<Material> material;           ///< [materials]
   std::vector<std::int32_t> grain_material; ///< [grains], into `material`
   ElementType element = ElementType::tet4;
-  double own_pressure = 0; ///< tet4_anp: share of each tet's own pressure
+  double own_pressure = 0; ///< tet4_anp, tet4_patch: share of each tet's own pressure
   BulkViscosity viscosity{};
 
   std::vector<std::int32_t> node_offset;        ///< [grains + 1]
@@ -65,6 +65,9 @@ struct Model {
   std::vector<TetBlock> block;
   std::vector<double> inverse_nodal_volume; ///< [nodes], 1/mm^3, of the reference state; tet4_anp only
   std::vector<double> nodal_mean;           ///< [nodes], MPa: scratch of the element pass; tet4_anp only
+  std::vector<std::int32_t> patch_offset;   ///< [grains + 1]; tet4_patch only
+  std::vector<double>
+      inverse_patch_volume; ///< [patches], 1/mm^3, of the reference state: eight tets that follow each other
 
   std::vector<double> reference_volume;  ///< [grains], mm^3
   std::vector<double> mass;              ///< [grains], tonne (scaled)

@@ -70,11 +70,14 @@ struct BondParameters {
 
 /// Linear tetrahedra with one Gauss point.
 enum class ElementType {
-  tet4,     ///< pressure of every tet from its own volume: locks in plastic flow
-  tet4_anp, ///< average nodal pressure: pressure from the volumes around the nodes (Bonet and Burton 1998)
+  tet4,       ///< pressure of every tet from its own volume: locks in plastic flow
+  tet4_anp,   ///< average nodal pressure: pressure from the volumes around the nodes (Bonet and Burton 1998)
+  tet4_patch, ///< F-bar patches: pressure from the volume of eight tets together (de Souza Neto et al. 2005)
 };
 /// Name of an element in scenarios and on the command line.
 const char* element_name(ElementType element);
+/// Share of each tet's own pressure with which an element is used where the scenario says nothing.
+double usual_own_pressure(ElementType element);
 
 /// Whose largest frequency sets the stable step.
 enum class StepEstimate {
@@ -84,7 +87,7 @@ enum class StepEstimate {
 
 struct NumericsParameters {
   ElementType element = ElementType::tet4;
-  double own_pressure = 0;       ///< tet4_anp: share of each tet's own pressure, [0, 1]; 1 is tet4
+  double own_pressure = 0;       ///< tet4_anp, tet4_patch: share of each tet's own pressure, [0, 1]; 1 is tet4
   double time_step_factor = 0.9; ///< safety factor on the stable step, (0, 2]; beyond 1 nothing is proven
   StepEstimate step_estimate = StepEstimate::grain;
   double bulk_viscosity_linear = 0.06;

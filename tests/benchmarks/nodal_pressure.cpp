@@ -7,7 +7,7 @@
 //   nodal-pressure cycles ELEMENT PACKING.h5 CYCLES     a packing of Table 1 compacted to 60 MPa, then cycles of 1 to 60 MPa
 //   nodal-pressure flattening ELEMENT R/h               one elasto-plastic sphere between walls, to half of its height
 //
-// ELEMENT: tet4, tet4-anp. R/h: radius over nominal element size.
+// ELEMENT: tet4, tet4-anp, tet4-patch. R/h: radius over nominal element size.
 
 #include <algorithm>
 #include <complex>
@@ -29,7 +29,9 @@ using namespace mpfem::test;
 constexpr double radius = 0.1, youngs_modulus = 5000, poissons_ratio = 0.3, density = 1.55e-9;
 
 ElementType element_of(const std::string& name) {
-  return name == "tet4-anp" ? ElementType::tet4_anp : ElementType::tet4;
+  return name == "tet4-anp"     ? ElementType::tet4_anp
+         : name == "tet4-patch" ? ElementType::tet4_patch
+                                : ElementType::tet4;
 }
 
 struct ModeName {
@@ -88,6 +90,7 @@ void vibration(const std::string& element, double size_ratio, const std::string&
                double viscosity) {
   Scenario scenario = holding_scenario(1);
   scenario.numerics.element = element_of(element);
+  scenario.numerics.own_pressure = usual_own_pressure(scenario.numerics.element);
   scenario.numerics.bulk_viscosity_linear *= viscosity;
   scenario.numerics.bulk_viscosity_quadratic *= viscosity;
   ThreadTeam team(1);
@@ -161,6 +164,7 @@ void cycles(const std::string& element, const std::string& file, int count) {
   Scenario scenario = holding_scenario(1, HardeningLaw::power);
   scenario.walls = true;
   scenario.numerics.element = element_of(element);
+  scenario.numerics.own_pressure = usual_own_pressure(scenario.numerics.element);
   scenario.stages.clear();
   Stage stage;
   stage.name = "compaction";

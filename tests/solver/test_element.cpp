@@ -1,9 +1,12 @@
 // The element pass on whole grains.
 
+#include <map>
+
 #include <catch2/catch.hpp>
 
 #include "solver/kernels/element_forces.hpp"
 #include "solver/kernels/integrate.hpp"
+#include "solver/physics/tet4_patch.hpp"
 #include "solver/run/simulation.hpp"
 #include "tests/support/meshes.hpp"
 #include "tests/support/tolerances.hpp"
@@ -166,13 +169,16 @@ TEST_CASE("a freely spinning grain keeps its energy and angular momentum over ma
     CHECK(std::abs(end[a] - start[a]) < 1e-9 * (std::abs(start[0]) + std::abs(start[2])));
 }
 
-TEST_CASE("averaged pressure is the gradient of its energy, with a share of the tets' own too") {
-  const double own = GENERATE(0.0, 0.3);
+TEST_CASE("the pressure of nodes or of patches is the gradient of its energy, with a share of the tets' own too") {
+  const auto [element, own] =
+      GENERATE(std::pair(ElementType::tet4_anp, 0.0), std::pair(ElementType::tet4_anp, 0.3),
+               std::pair(ElementType::tet4_patch, 0.0), std::pair(ElementType::tet4_patch, 0.03));
+  CAPTURE(element_name(element), own);
   // Without a deviator (a fresh grain, moved in no step) forces come from the pressure alone: compare with differences of
   // the energy over small moves of single coordinates.
   GrainMesh mesh = ball_mesh(3, 1.0);
   for (auto& x : mesh.node) x[0] *= 1 + 0.02 * x[1], x[2] *= 1 - 0.03 * x[0];
-  Model model = single_grain(mesh, HardeningLaw::elastic, ElementType::tet4_anp);
+  Model model = single_grain(mesh, HardeningLaw::elastic, element);
   model.own_pressure = own;
   // Away from the reference state: volumes change by some per cent, differently everywhere.
   for (std::size_t n = 0; n < static_cast<std::size_t>(model.nodes()); ++n) {
@@ -197,11 +203,11 @@ TEST_CASE("averaged pressure is the gradient of its energy, with a share of the 
     }
 }
 
-TEST_CASE("averaged pressure does not lock in isochoric flow, and plain tets do") {
+TEST_CASE("pressures of nodes and of patches do not lock in isochoric flow, and plain tets do") {
   // The nodes of a cube follow a smooth field without change of volume. Between the nodes plain tets cannot follow it
-  // without changing theirs: their volumetric energy is spurious, that of averaged pressure is smaller by far.
-  double volumetric[2] = {};
-  for (const ElementType element : {ElementType::tet4, ElementType::tet4_anp}) {
+  // without changing theirs: their volumetric energy is spurious, that of shared pressures is smaller by far.
+  std::map<ElementType, double> volumetric;
+  for (const ElementType element : {ElementType::tet4, ElementType::tet4_anp, ElementType::tet4_patch}) {
     Model model = single_grain(cube_mesh(6), HardeningLaw::elastic, element);
     for (std::size_t n = 0; n < static_cast<std::size_t>(model.nodes()); ++n) {
       double* x = &model.position[4 * n];
@@ -211,10 +217,43 @@ TEST_CASE("averaged pressure does not lock in isochoric flow, and plain tets do"
       x[0] += -c * M_PI_2 * cx * sy, x[1] += c * M_PI_2 * sx * cy;
     }
     REQUIRE(element_forces(model, 0, 1e-9).admissible);
-    volumetric[element == ElementType::tet4 ? 0 : 1] = elastic_energy(model, 0);
+    volumetric[element] = elastic_energy(model, 0);
   }
-  CAPTURE(volumetric[0], volumetric[1]);
-  CHECK(volumetric[1] < 0.1 * volumetric[0]);
+  CAPTURE(volumetric[ElementType::tet4], volumetric[ElementType::tet4_anp], volumetric[ElementType::tet4_patch]);
+  CHECK(volumetric[ElementType::tet4_anp] < 0.1 * volumetric[ElementType::tet4]);
+  // Of this mesh eight tets are more constraints than the nodes, which have six each.
+  CHECK(volumetric[ElementType::tet4_patch] < 0.2 * volumetric[ElementType::tet4]);
+}
+
+TEST_CASE("patches are eight tets that lie together, and the last of a grain what is left") {
+  const GrainMesh mesh = ball_mesh(5, 1.0);
+  const Model model = single_grain(mesh, HardeningLaw::elastic, ElementType::tet4_patch);
+  const auto tets = static_cast<std::size_t>(model.tets());
+  REQUIRE(model.inverse_patch_volume.size() == (tets + patch_tets - 1) / patch_tets);
+  double total = 0;
+  for (const double inverse : model.inverse_patch_volume) total += 1 / inverse;
+  CHECK(total == Approx(model.reference_volume[0]).epsilon(1e-12));
+  // The centres of a patch spread about theirs no further than eight tets that fill a cube of their volume do, with some
+  // allowance for shape: a root mean square of half its edge for points spread evenly.
+  double worst = 0;
+  for (std::size_t patch = 0; patch < model.inverse_patch_volume.size(); ++patch) {
+    std::vector<std::array<double, 3>> centres;
+    std::array<double, 3> middle{};
+    for (std::size_t t = patch_tets * patch; t < std::min<std::size_t>(patch_tets * (patch + 1), tets); ++t) {
+      std::array<double, 3> centre{};
+      for (const std::int32_t node : mesh.tet[static_cast<std::size_t>(model.file_tet[t])])
+        for (std::size_t a = 0; a < 3; ++a) centre[a] += mesh.node[static_cast<std::size_t>(node)][a] / 4;
+      centres.push_back(centre);
+    }
+    for (const auto& centre : centres)
+      for (std::size_t a = 0; a < 3; ++a) middle[a] += centre[a] / static_cast<double>(centres.size());
+    double square = 0;
+    for (const auto& centre : centres)
+      for (std::size_t a = 0; a < 3; ++a)
+        square += (centre[a] - middle[a]) * (centre[a] - middle[a]) / static_cast<double>(centres.size());
+    worst = std::max(worst, std::sqrt(square) * std::cbrt(model.inverse_patch_volume[patch]));
+  }
+  CHECK(worst < 1.0);
 }
 
 TEST_CASE("the step estimate bounds the eigenfrequency of a single tet and is not far from it") {

@@ -1,4 +1,4 @@
-// Average nodal pressure has no weak modes: spectrum and free vibration of one elastic grain, against Lamb's sphere.
+// Pressures averaged around nodes or over patches have no weak modes: spectrum and free vibration of one elastic grain, against Lamb's sphere.
 
 #include <catch2/catch.hpp>
 
@@ -41,13 +41,15 @@ TEST_CASE(
 
 // The lowest elastic modes of a sphere of nu = 0.3 are the five torsional ones with l = 2 (2.5011 c_s/R) and the five
 // ellipsoidal ones (2.6462 c_s/R). A weak mode would stand among or below them.
-TEST_CASE("averaged pressure has six rigid modes and no weak one: the next are those of the elastic sphere") {
+TEST_CASE("shared pressures have six rigid modes and no weak one: the next are those of the elastic sphere") {
+  const ElementType element = GENERATE(ElementType::tet4_anp, ElementType::tet4_patch);
+  CAPTURE(element_name(element));
   const double radius = 0.1;
   const GrainMesh mesh = ball_mesh(6, radius);
-  const auto frequencies = [&mesh](ElementType element) {
-    return squared_frequencies(build_model(pack({mesh}, {1, 1, 1}), vibrating_scenario(element), "test"));
+  const auto frequencies = [&mesh](ElementType type) {
+    return squared_frequencies(build_model(pack({mesh}, {1, 1, 1}), vibrating_scenario(type), "test"));
   };
-  const Eigen::VectorXd averaged = frequencies(ElementType::tet4_anp), plain = frequencies(ElementType::tet4);
+  const Eigen::VectorXd averaged = frequencies(element), plain = frequencies(ElementType::tet4);
   const double torsional = sphere_frequency(SphereMode::torsional, 2, radius, 5000, 0.3, 1.55e-9),
                ellipsoidal = sphere_frequency(SphereMode::spheroidal, 2, radius, 5000, 0.3, 1.55e-9);
   for (int i = 0; i < 6; ++i) CHECK(std::abs(averaged[i]) < 1e-4 * torsional * torsional);
@@ -60,7 +62,7 @@ TEST_CASE("averaged pressure has six rigid modes and no weak one: the next are t
     CHECK(std::sqrt(averaged[i]) < 1.1 * ellipsoidal);
   }
   CHECK(std::sqrt(averaged[16]) > 1.1 * ellipsoidal);
-  // Never stiffer than plain tets, mode by mode (Jensen's inequality and the minimum-maximum principle), nor much softer.
+  // Never stiffer than plain tets, mode by mode (Cauchy's inequality and the minimum-maximum principle), nor much softer.
   double ratio = 1;
   for (Eigen::Index i = 6; i < averaged.size(); ++i) {
     CHECK(averaged[i] <= plain[i] * (1 + 1e-6));
@@ -71,8 +73,10 @@ TEST_CASE("averaged pressure has six rigid modes and no weak one: the next are t
 }
 
 TEST_CASE(
-    "a freely vibrating grain with averaged pressure keeps its energy, and its pressure does not begin to oscillate") {
-  const Scenario scenario = vibrating_scenario(ElementType::tet4_anp);
+    "a freely vibrating grain with shared pressures keeps its energy, and its pressure does not begin to oscillate") {
+  const ElementType element = GENERATE(ElementType::tet4_anp, ElementType::tet4_patch);
+  CAPTURE(element_name(element));
+  const Scenario scenario = vibrating_scenario(element);
   GrainMesh mesh = ball_mesh(5, 0.1);
   rotate(mesh, {0.6, 0, 0.8}, 0.7);
   move(mesh, {0.5, 0.5, 0.5});

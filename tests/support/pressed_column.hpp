@@ -53,6 +53,7 @@ public:
     scenario_ = holding_scenario(1, setup.law);
     scenario_.walls = true;
     scenario_.numerics.element = setup.element;
+    scenario_.numerics.own_pressure = usual_own_pressure(setup.element);
     scenario_.contact.stiffness_factor = setup.stiffness_factor;
     scenario_.stages.clear();
     double before = height;
