@@ -1,4 +1,4 @@
-# gnuplot -c plot-convergence.gp png|svg locking|packing runs.csv values.csv references.csv IMAGE: values over tets, both elements, and the reference
+# gnuplot -c plot-convergence.gp png|svg locking|packing runs.csv values.csv references.csv IMAGE: values over tets, all elements, and the reference
 call 'studies/common/style.gp' ARG1
 what = ARG2
 runs = ARG3
@@ -10,7 +10,7 @@ rows(scene, quantity, element) = sprintf("< awk -F, 'NR == FNR { if ($2 == \"%s\
 known(scene, quantity, column) = real(system(sprintf("awk -F, '$1 == \"%s\" && $2 == \"%s\" { x = $%d } END { print x + 0 }' '%s'", scene, quantity, column, references)))
 set logscale x
 set format x '10^{%L}'
-names = 'tet4 tet4-anp'
+names = 'tet4 tet4-anp tet4-patch'
 if (what eq 'locking') {
   scenes = 'flattened flattened confined confined'
   quantities = 'force-0.042 force-0.135 axial-stress-0.7 axial-stress-0.92'
@@ -37,7 +37,7 @@ do for [p = 1:4] {
   set xlabel p > 2 ? 'tets' : '' offset 0, 0.3
   unset object
   if (r > 0) { set object 1 rect from graph 0, first r - u to graph 1, first r + u fillcolor rgb '#dddddd' fillstyle solid noborder behind }
-  plot for [i = 1:2] rows(s, q, word(names, i)) using 1:(f * $2) with linespoints linetype i pointtype 7 pointsize 1.3 title (p == 2 ? word(names, i) : ''), \
+  plot for [i = 1:3] rows(s, q, word(names, i)) using 1:(f * $2) with linespoints linetype i pointtype 7 pointsize 1.3 title (p == 2 ? word(names, i) : ''), \
        (r > 0 ? r : NaN) with lines linetype 5 linewidth 1 dashtype 2 title (p == 2 ? 'reference' : '')
 }
 unset multiplot

@@ -27,14 +27,14 @@ set ytics (0.1, 0.2, 0.5, 1, 2, 5, 10, 20, 50, 100)
 set style rect fillcolor rgb '#eeeeee' fillstyle solid noborder
 if (doubt > bottom) { set object 1 rect from graph 0, first bottom to graph 1, first doubt behind }
 of(e, l) = sprintf('$4 == "%s" && $3 == "%s"', e, l)
-names = 'tet4 tet4-anp'
+names = 'tet4 tet4-anp tet4-patch'
 plot \
-  for [i = 1:2] sorted(of(word(names, i), 'mesh')) using 12:18 with linespoints linetype i pointtype 7 pointsize 1.5 title word(names, i), \
-  for [i = 1:2] sorted(of(word(names, i), 'mesh')) using 12:18:(strcol(5)) with labels offset character (i == 1 ? 1.8 : -1.8), character (i == 1 ? 0.7 : -0.7) font ',15' textcolor linetype i, \
-  for [i = 1:2] chosen(of(word(names, i), 'penalty')) using 12:18 with points linetype i pointtype 8 pointsize 1.7 title (many(of(word(names, i), 'penalty')) ? word(names, i) . ', other K' : ''), \
-  for [i = 1:2] chosen(of(word(names, i), 'penalty')) using 12:18:(strcol(6)) with labels offset character 1.4, character -0.6 font ',13' textcolor linetype i, \
-  chosen(of('tet4-anp', 'speed')) using 12:18 with points linetype 3 pointtype 12 pointsize 1.7 title (many(of('tet4-anp', 'speed')) ? 'tet4-anp, other speed' : ''), \
-  chosen(of('tet4-anp', 'speed')) using 12:18:('×' . strcol(7)) with labels offset character -1.6, character 0.6 font ',13' textcolor linetype 3, \
+  for [i = 1:3] sorted(of(word(names, i), 'mesh')) using 12:18 with linespoints linetype i pointtype 7 pointsize 1.5 title word(names, i), \
+  for [i = 1:3] sorted(of(word(names, i), 'mesh')) using 12:18:(strcol(5)) with labels offset character (i == 1 ? 1.8 : -1.8), character (i == 1 ? 0.7 : i == 2 ? 0.1 : -0.8) font ',15' textcolor linetype i, \
+  for [i = 1:3] chosen(of(word(names, i), 'penalty')) using 12:18 with points linetype i pointtype 8 pointsize 1.7 title (many(of(word(names, i), 'penalty')) ? word(names, i) . ', other K' : ''), \
+  for [i = 1:3] chosen(of(word(names, i), 'penalty')) using 12:18:(strcol(6)) with labels offset character 1.4, character -0.6 font ',13' textcolor linetype i, \
+  chosen(of('tet4-anp', 'speed')) using 12:18 with points linetype 4 pointtype 12 pointsize 1.7 title (many(of('tet4-anp', 'speed')) ? 'tet4-anp, other speed' : ''), \
+  chosen(of('tet4-anp', 'speed')) using 12:18:('×' . strcol(7)) with labels offset character -1.6, character 0.6 font ',13' textcolor linetype 4, \
   chosen(of('tet4-anp', 'mass')) using 12:18 with points linetype 4 pointtype 4 pointsize 1.5 title (many(of('tet4-anp', 'mass')) ? 'tet4-anp, other mass' : ''), \
   chosen(of('tet4-anp', 'mass')) using 12:18:('×' . strcol(8)) with labels offset character -1.8, character -0.5 font ',13' textcolor linetype 4, \
   sorted('$17 == 1') using 12:18 with steps linetype 5 linewidth 1.2 dashtype 2, \

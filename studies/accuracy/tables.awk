@@ -1,13 +1,16 @@
 # awk -f ../common/verdict.awk -f tables.awk -v table=NAME points.csv [values.csv references.csv]: tables of the page, in Markdown.
 #
 #   choice      cheapest settings for 10, 3 and 1 % of error, scene by scene: each element at default settings, and of all cases
-#   meshes      error of both elements over meshes, scene by scene
+#   meshes      error of all elements over meshes, scene by scene
 #   levers      what each lever does to error and work, against the default of the same mesh
-#   equal       at which mesh and work the averaged element has the error of plain tets
+#   equal       at which mesh and work the other elements have the error of plain tets
 #   locking     values of the sphere over meshes, and what they tend to
 #   packing     values of the packings, likewise
 
-BEGIN { FS = "," }
+BEGIN {
+  FS = ","
+  elements = split("tet4 tet4-anp tet4-patch", type, " ")
+}
 FNR == 1 { ++file; split("", column); read_header(); next }
 file == 1 {
   group = $need("scene") SUBSEP $need("measure")
@@ -77,21 +80,26 @@ function cheapest(group, which, most,   i, j, found, good) {
   }
   return found
 }
-function choice(   g, t, i, cell, mark, wish, marks, which, e) {
-  print "| scene and measure | error | `tet4`, default | `tet4-anp`, default | cheapest of all cases |"
-  print "|---|---|---|---|---|"
+function choice(   g, t, i, cell, mark, marks, e) {
+  line = "| scene and measure | error"
+  rule = "|---|---"
+  for (e = 1; e <= elements; ++e) {
+    line = line " | `" type[e] "`, default"
+    rule = rule "|---"
+  }
+  print line " | cheapest of all cases |"
+  print rule "|---|"
   marks = split("0.10 0.03 0.01", mark, " ")
-  split("tet4 tet4-anp", which, " ")
   for (g = 1; g <= groups; ++g) {
     split(group_of[g], part, SUBSEP)
     for (t = 1; t <= marks; ++t) {
       cell = ""
       if (mark[t] < doubt[group_of[g]]) {
-        printf "| %s | %d %% | the reference is sure to %s only | | |\n", t == 1 ? title(part[1], part[2]) : "", 100 * mark[t] + 0.5, percent(doubt[group_of[g]])
+        printf "| %s | %d %% | the reference is sure to %s only | | | |\n", t == 1 ? title(part[1], part[2]) : "", 100 * mark[t] + 0.5, percent(doubt[group_of[g]])
         break
       }
-      for (e = 1; e <= 2; ++e) {
-        i = cheapest(group_of[g], which[e], mark[t])
+      for (e = 1; e <= elements; ++e) {
+        i = cheapest(group_of[g], type[e], mark[t])
         cell = cell " | " (i ? sprintf(unit(part[1]), fineness[group_of[g], i]) ", " thousands(tets[group_of[g], i]) " tets, " seconds(work[group_of[g], i]) : "finer than run")
       }
       i = cheapest(group_of[g], "", mark[t])
@@ -100,24 +108,37 @@ function choice(   g, t, i, cell, mark, wish, marks, which, e) {
   }
 }
 
-function meshes(   g, i, j, part) {
-  print "| scene and measure | mesh | tets | `tet4`: error | work | `tet4-anp`: error | work |"
-  print "|---|---|---|---|---|---|---|"
+function meshes(   g, i, j, e, n, part, rows, seen, at, line, rule, first) {
+  line = "| scene and measure | mesh | tets"
+  rule = "|---|---|---"
+  for (e = 1; e <= elements; ++e) {
+    line = line " | `" type[e] "`: error | work"
+    rule = rule "|---|---"
+  }
+  print line " |"
+  print rule "|"
   for (g = 1; g <= groups; ++g) {
     split(group_of[g], part, SUBSEP)
-    first = 1
+    rows = 0
+    split("", seen)
+    split("", at)
     for (i = 1; i <= cases[group_of[g]]; ++i) {
       if (lever[group_of[g], i] != "mesh") continue
-      other = 0
-      for (j = 1; j <= cases[group_of[g]]; ++j)
-        if (lever[group_of[g], j] == "mesh" && fineness[group_of[g], j] == fineness[group_of[g], i] && element[group_of[g], j] != element[group_of[g], i]) other = j
-      if (element[group_of[g], i] == "tet4-anp" && other) continue
-      plain = element[group_of[g], i] == "tet4" ? i : other
-      averaged = element[group_of[g], i] == "tet4" ? other : i
-      printf "| %s | %s | %s | %s | %s | %s | %s |\n", first ? title(part[1], part[2]) : "", sprintf(unit(part[1]), fineness[group_of[g], i]), \
-             thousands(tets[group_of[g], i]), plain ? signed(bias[group_of[g], plain]) : "", plain ? seconds(work[group_of[g], plain]) : "", \
-             averaged ? signed(bias[group_of[g], averaged]) : "", averaged ? seconds(work[group_of[g], averaged]) : ""
-      first = 0
+      n = fineness[group_of[g], i]
+      if (!(n in seen)) {
+        seen[n] = 1
+        mesh[++rows] = n
+        count[rows] = tets[group_of[g], i]
+      }
+      at[n, element[group_of[g], i]] = i
+    }
+    for (j = 1; j <= rows; ++j) {
+      printf "| %s | %s | %s", j == 1 ? title(part[1], part[2]) : "", sprintf(unit(part[1]), mesh[j]), thousands(count[j])
+      for (e = 1; e <= elements; ++e) {
+        i = at[mesh[j], type[e]]
+        printf " | %s | %s", i ? signed(bias[group_of[g], i]) : "", i ? seconds(work[group_of[g], i]) : ""
+      }
+      print " |"
     }
   }
 }
@@ -153,14 +174,15 @@ function levers(   g, i, d, part, key, k, many, what) {
   }
 }
 
-# Work and tets at which the averaged element, at default settings, has a given error: log-log between its meshes, and a
-# little beyond the finest. Sets equal_tets, equal_work, and equal_mark: '<' where its coarsest mesh is better already, '~' beyond
-# its finest, '>' where that would be more than 1.5 times as fine.
-function averaged_at(group, wish,   i, n, at, t, low, high) {
+# Work and tets at which an element, at default settings, has a given error: log-log between its meshes, and a little beyond
+# the finest. Sets equal_tets, equal_work, and equal_mark: '<' where its coarsest mesh is better already, '~' beyond its finest, '>'
+# where that would be more than 1.5 times as fine.
+function equal_at(group, which, wish,   i, n, at, t, low, high) {
   n = 0
   for (i = 1; i <= cases[group]; ++i) # from coarse to fine, as cases.csv has them
-    if (lever[group, i] == "mesh" && element[group, i] == "tet4-anp") at[++n] = i
-  equal_mark = ""
+    if (lever[group, i] == "mesh" && element[group, i] == which) at[++n] = i
+  equal_mark = n < 2 ? ">" : ""
+  if (n < 2) return
   if (error[group, at[1]] <= wish) {
     equal_mark = "<"
     equal_tets = tets[group, at[1]]
@@ -170,26 +192,42 @@ function averaged_at(group, wish,   i, n, at, t, low, high) {
   for (i = 2; i < n && error[group, at[i]] > wish; ++i) continue
   low = at[i - 1]
   high = at[i]
-  if (n < 2 || error[group, low] <= error[group, high]) { equal_mark = ">"; return }
+  if (error[group, low] <= error[group, high]) { equal_mark = ">"; return }
   t = log(wish / error[group, low]) / log(error[group, high] / error[group, low])
   equal_tets = exp(log(tets[group, low]) + t * log(tets[group, high] / tets[group, low]))
   equal_work = exp(log(work[group, low]) + t * log(work[group, high] / work[group, low]))
   if (t > 1) equal_mark = equal_tets > 1.5 * tets[group, high] ? ">" : "~"
 }
-function equal(   g, i, part) {
-  print "| scene and measure | `tet4`: mesh | tets | work | error | `tet4-anp` with this error: tets | work | tets over tets | work over work |"
-  print "|---|---|---|---|---|---|---|---|---|"
+function equal(   g, i, e, part, first, cell, any, less) {
+  cell = "| scene and measure | `tet4`: mesh | tets | work | error"
+  any = "|---|---|---|---|---"
+  for (e = 2; e <= elements; ++e) {
+    cell = cell " | `" type[e] "`: tets | work | times less work"
+    any = any "|---|---|---"
+  }
+  print cell " |"
+  print any "|"
   for (g = 1; g <= groups; ++g) {
     split(group_of[g], part, SUBSEP)
     first = 1
     for (i = 1; i <= cases[group_of[g]]; ++i) {
       if (lever[group_of[g], i] != "mesh" || element[group_of[g], i] != "tet4" || error[group_of[g], i] < doubt[group_of[g]]) continue
-      averaged_at(group_of[g], error[group_of[g], i])
-      if (equal_mark == ">") continue
-      printf "| %s | %s | %s | %s | %s | %s%s | %s%s | %s%s | %s%s |\n", first ? title(part[1], part[2]) : "", sprintf(unit(part[1]), fineness[group_of[g], i]), thousands(tets[group_of[g], i]), \
-             seconds(work[group_of[g], i]), percent(error[group_of[g], i]), equal_mark == "<" ? "fewer than " : equal_mark == "~" ? "about " : "", thousands(int(equal_tets + 0.5)), \
-             equal_mark == "<" ? "less than " : "", seconds(equal_work), equal_mark == "<" ? "> " : "", ratio(tets[group_of[g], i] / equal_tets), \
-             equal_mark == "<" ? "> " : "", ratio(work[group_of[g], i] / equal_work)
+      cell = ""
+      any = 0
+      for (e = 2; e <= elements; ++e) {
+        equal_at(group_of[g], type[e], error[group_of[g], i])
+        if (equal_mark == ">") {
+          cell = cell " | | |"
+          continue
+        }
+        any = 1
+        less = equal_mark == "<"
+        cell = cell sprintf(" | %s%s | %s%s | %s%s", less ? "fewer than " : equal_mark == "~" ? "about " : "", thousands(int(equal_tets + 0.5)), \
+                            less ? "less than " : "", seconds(equal_work), less ? "> " : "", ratio(work[group_of[g], i] / equal_work))
+      }
+      if (!any) continue
+      printf "| %s | %s | %s | %s | %s%s |\n", first ? title(part[1], part[2]) : "", sprintf(unit(part[1]), fineness[group_of[g], i]), thousands(tets[group_of[g], i]), \
+             seconds(work[group_of[g], i]), percent(error[group_of[g], i]), cell
       first = 0
     }
   }

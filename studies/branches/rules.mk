@@ -12,7 +12,7 @@
 # as the paper has them.
 ELEMENT ?= tet4-anp
 ifeq ($(filter $(ELEMENT),tet4 tet4-anp),)
-  $(error ELEMENT=$(ELEMENT): allowed are tet4 and tet4-anp)
+  $(error ELEMENT=$(ELEMENT): allowed are tet4, tet4-anp and tet4-patch)
 endif
 
 # ------------------------------------------------------------------------------------------------ the two tables

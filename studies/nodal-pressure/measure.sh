@@ -14,7 +14,7 @@ done
 for mode in spheroidal breathing; do
   measure vibration-tet4-anp-8-$mode.csv vibration tet4-anp 8 $mode 10000 2000 0
 done
-for element in tet4-anp tet4; do
+for element in tet4-anp tet4-patch tet4; do
   measure vibration-$element-4-noise.csv vibration $element 4 noise 100000 2000 0
   measure flattening-$element-5.csv flattening $element 5
   measure flattening-$element-7.csv flattening $element 7
