@@ -1,10 +1,11 @@
 #!/bin/sh
-# keep.sh MESH FIGURE...: copies the small results of figures from out/MESH to studies/results/MESH, and sets the verdicts
-# of all figures kept for that mesh side by side in studies/results/MESH/verdicts.md, with what their runs took
-# (out/MESH/times.csv). Large tables stay behind.
+# keep.sh MESH MPFEM FIGURE...: copies the small results of figures from out/MESH to studies/results/MESH, with what their runs took
+# (out/MESH/times.csv) and from what they came (provenance.txt: program, packing, settings of every run). The verdicts of all
+# figures kept for that mesh go to verdicts.md there, those of all meshes side by side to docs/verdicts.md. Large tables stay behind.
 set -eu
 mesh=$1
-shift
+mpfem=$2
+shift 2
 kept=studies/results/$mesh
 for figure in "$@"; do
   [ -e "out/$mesh/$figure/verdict.json" ] || { echo "keep.sh: out/$mesh/$figure has no verdict.json: left out" >&2 && continue; }
@@ -25,7 +26,7 @@ done
     *) reference=expected ;; # a study of its own
     esac
     printf '\n## %s\n\n| statement | %s | here | verdict |\n|---|---|---|---|\n' "$(basename "$folder")" "$reference"
-    awk -v format=markdown -f studies/common/report.awk "$folder/verdict.json"
+    awk -v format=markdown -f studies/common/fields.awk -f studies/common/report.awk "$folder/verdict.json"
   done
   cp "out/$mesh/times.csv" "$kept/times.csv"
   printf '\n## What the runs took\n\nA run that several studies use counts for the first of them.\n\n'
@@ -34,3 +35,24 @@ done
   awk -F, 'NR > 1 { printf "| %s | %d | %d | %s | %s | %s |\n", $1, $2, $3, $4, $5, $6 }' "$kept/times.csv"
 } >"$kept/verdicts.md.partial"
 mv "$kept/verdicts.md.partial" "$kept/verdicts.md"
+{
+  "$mpfem" --version
+  echo 'settings of packings and runs; a number of 64 hexadecimal digits is the SHA-256 of the file before it'
+  for settings in out/packings/*/*.settings "out/$mesh"/*/run.settings "out/$mesh"/*/*/run.settings; do
+    [ -e "$settings" ] && printf '%s: %s\n' "${settings%.settings}" "$(cat "$settings")"
+  done
+} >"$kept/provenance.txt.partial"
+mv "$kept/provenance.txt.partial" "$kept/provenance.txt"
+{
+  cat <<'END'
+# Verdicts
+
+Every statement of Ku, Zhao, Mollon and Zhao that a figure of theirs makes, beside what was found here with each mesh: `coarse` is
+the paper's packing of 329 grains at its coarsest mesh (0.03 mm), `medium` the same at 0.015 mm, `smoke` 25 grains. How each is
+judged is in the notes of studies/results/MESH/figNN/verdict.json, why it differs in the README of each study.
+`make -f Makefile.studies keep MESH=NAME` writes this page.
+
+END
+  awk -f studies/common/fields.awk -f studies/common/verdicts.awk -v meshes='coarse medium smoke' studies/results/*/fig*/verdict.json
+} >docs/verdicts.md.partial
+mv docs/verdicts.md.partial docs/verdicts.md

@@ -1,24 +1,5 @@
-# verdict.json (one statement a line, as studies/common/verdict.awk writes it) -> rows of an HTML table, or of a Markdown
+# awk -f fields.awk -f report.awk: verdict.json -> rows of an HTML table, or of a Markdown
 # one with -v format=markdown.
-function field(name,   start, rest, text, c) {
-  start = index($0, "\"" name "\": ")
-  if (!start) return ""
-  rest = substr($0, start + length(name) + 4)
-  if (substr(rest, 1, 1) != "\"") {
-    sub(/[,}].*$/, "", rest)
-    return rest
-  }
-  text = ""
-  for (start = 2; (c = substr(rest, start, 1)) != "\"" && c != ""; ++start) {
-    if (c == "\\") c = substr(rest, ++start, 1)
-    text = text c
-  }
-  return text
-}
-function cell(text) {
-  gsub(/\|/, "\\|", text)
-  return text
-}
 function html(text) {
   gsub(/&/, "\\&amp;", text)
   gsub(/</, "\\&lt;", text)

@@ -43,7 +43,7 @@ for figure in "$@"; do
     printf '"><figcaption>%s</figcaption></figure>\n' "$picture"
   done
   printf '</div>\n<table>\n<tr><th>statement</th><th>paper</th><th>here</th><th>verdict</th><th>note</th></tr>\n'
-  awk -f studies/common/report.awk "$folder/verdict.json"
+  awk -f studies/common/fields.awk -f studies/common/report.awk "$folder/verdict.json"
   printf '</table>\n<p>Numbers:'
   for table in "$folder"/*.csv; do
     [ -e "$table" ] && printf ' <a href="../%s/%s">%s</a>' "$figure" "$(basename "$table")" "$(basename "$table")"

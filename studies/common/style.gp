@@ -10,9 +10,9 @@ set border 3 linewidth 1.2
 set tics nomirror out
 set grid linecolor rgb '#dddddd' linetype 1
 set key left top Left reverse samplen 2 spacing 1.2 noautotitle
-# With SEEDS: `gnuplot -e 'packings = N'`. Error bars are drawn `for [i = 1:several()]`, never without.
-several() = exists('packings') ? 1 : 0
-spread_title() = sprintf('mean and standard deviation of %d packings', packings)
+# With SEEDS: `gnuplot -e 'packings = N'`. Error bars are drawn `for [i = 1:several]`, never without.
+several = exists('packings') ? 1 : 0
+spread_title = several ? sprintf('mean and standard deviation of %d packings', packings) : ''
 # Colours that stay apart for colour-blind readers (Okabe and Ito).
 set linetype 1 linecolor rgb '#0072b2' linewidth 2 pointtype 7
 set linetype 2 linecolor rgb '#d55e00' linewidth 2 pointtype 5

@@ -18,4 +18,4 @@ do for [m in meshes] {
 set key title 'element size' left
 plot for [i = 1:words(present)] data skip 1 \
   using 2:(strcol(1) eq word(present, i) ? column(3) : NaN) with lines linetype i title label(word(present, i)), \
-  for [i = 1:several()] folder.'/at-densities.spread.csv' skip 1 using 3:5:6 with yerrorbars linetype 5 pointsize 1.2 title spread_title()
+  for [i = 1:several] folder.'/at-densities.spread.csv' skip 1 using 3:5:6 with yerrorbars linetype 5 pointsize 1.2 title spread_title

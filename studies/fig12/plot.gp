@@ -29,6 +29,6 @@ if (picture eq 'loading') {
        beyond(x, F_min_x, F_max_x, F_min_y, F_max_y) with lines linetype 2 dashtype 2 linewidth 1, \
        fit('-energy-law') skip 1 using 1:2 with lines linetype 2, \
        folder.'/modulus-energy-law.csv' skip 1 using 4:7:($6/$2) with yerrorbars linetype 2 pointsize 1.5 title 'softening law energy', \
-       for [i = 1:several()] folder.'/modulus.spread.csv' skip 1 using 3:5:6 with yerrorbars linetype 5 pointtype 6 pointsize 1.5 title spread_title(), \
-       for [i = 1:several()] folder.'/modulus-energy-law.spread.csv' skip 1 using 3:5:6 with yerrorbars linetype 4 pointtype 6 pointsize 1.5 notitle
+       for [i = 1:several] folder.'/modulus.spread.csv' skip 1 using 3:5:6 with yerrorbars linetype 5 pointtype 6 pointsize 1.5 title spread_title, \
+       for [i = 1:several] folder.'/modulus-energy-law.spread.csv' skip 1 using 3:5:6 with yerrorbars linetype 4 pointtype 6 pointsize 1.5 notitle
 }

@@ -18,8 +18,8 @@ if (picture eq 'strength-density') {
        fit('-energy-law', 'density') skip 1 using 1:2 with lines linetype 2, \
        '' skip 1 using 1:3 with lines linetype 2 dashtype 2 linewidth 1, \
        table('-energy-law') skip 1 using 4:5:6 with yerrorbars linetype 2 pointsize 1.5 title 'softening law energy', \
-       for [i = 1:several()] folder.'/strength.spread.csv' skip 1 using 3:7:8 with yerrorbars linetype 5 pointtype 6 pointsize 1.5 title spread_title(), \
-       for [i = 1:several()] folder.'/strength-energy-law.spread.csv' skip 1 using 3:7:8 with yerrorbars linetype 4 pointtype 6 pointsize 1.5 notitle
+       for [i = 1:several] folder.'/strength.spread.csv' skip 1 using 3:7:8 with yerrorbars linetype 5 pointtype 6 pointsize 1.5 title spread_title, \
+       for [i = 1:several] folder.'/strength-energy-law.spread.csv' skip 1 using 3:7:8 with yerrorbars linetype 4 pointtype 6 pointsize 1.5 notitle
 } else {
   set xlabel 'contact-area ratio'
   set logscale x
@@ -30,6 +30,6 @@ if (picture eq 'strength-density') {
        table('') skip 1 using 12:5:6 with yerrorbars linetype 3 pointsize 1.5 title 'after unloading', \
        fit('-energy-law', 'area') skip 1 using 1:2 with lines linetype 2, \
        table('-energy-law') skip 1 using 11:5:6 with yerrorbars linetype 2 pointsize 1.5 title 'at D_r^{max}, law energy', \
-       for [i = 1:several()] folder.'/strength.spread.csv' skip 1 using 5:7:8 with yerrorbars linetype 5 pointtype 6 pointsize 1.5 title spread_title(), \
-       for [i = 1:several()] folder.'/strength-energy-law.spread.csv' skip 1 using 5:7:8 with yerrorbars linetype 4 pointtype 6 pointsize 1.5 notitle
+       for [i = 1:several] folder.'/strength.spread.csv' skip 1 using 5:7:8 with yerrorbars linetype 5 pointtype 6 pointsize 1.5 title spread_title, \
+       for [i = 1:several] folder.'/strength-energy-law.spread.csv' skip 1 using 5:7:8 with yerrorbars linetype 4 pointtype 6 pointsize 1.5 notitle
 }
