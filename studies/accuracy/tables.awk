@@ -80,15 +80,17 @@ function cheapest(group, which, most,   i, j, found, good) {
   }
   return found
 }
+# The head of a table: what stands first, a heading for each element from number `from` on, what stands last.
+function heads(first, from, each, last,   e, line) {
+  line = first
+  for (e = from; e <= elements; ++e) line = line " | `" type[e] "`" each
+  line = line last " |"
+  print line
+  gsub(/[^|]+/, "---", line)
+  print line
+}
 function choice(   g, t, i, cell, mark, marks, e) {
-  line = "| scene and measure | error"
-  rule = "|---|---"
-  for (e = 1; e <= elements; ++e) {
-    line = line " | `" type[e] "`, default"
-    rule = rule "|---"
-  }
-  print line " | cheapest of all cases |"
-  print rule "|---|"
+  heads("| scene and measure | error", 1, ", default", " | cheapest of all cases")
   marks = split("0.10 0.03 0.01", mark, " ")
   for (g = 1; g <= groups; ++g) {
     split(group_of[g], part, SUBSEP)
@@ -108,15 +110,8 @@ function choice(   g, t, i, cell, mark, marks, e) {
   }
 }
 
-function meshes(   g, i, j, e, n, part, rows, seen, at, line, rule, first) {
-  line = "| scene and measure | mesh | tets"
-  rule = "|---|---|---"
-  for (e = 1; e <= elements; ++e) {
-    line = line " | `" type[e] "`: error | work"
-    rule = rule "|---|---"
-  }
-  print line " |"
-  print rule "|"
+function meshes(   g, i, j, e, n, part, rows, seen, at) {
+  heads("| scene and measure | mesh | tets", 1, ": error | work", "")
   for (g = 1; g <= groups; ++g) {
     split(group_of[g], part, SUBSEP)
     rows = 0
@@ -199,14 +194,7 @@ function equal_at(group, which, wish,   i, n, at, t, low, high) {
   if (t > 1) equal_mark = equal_tets > 1.5 * tets[group, high] ? ">" : "~"
 }
 function equal(   g, i, e, part, first, cell, any, less) {
-  cell = "| scene and measure | `tet4`: mesh | tets | work | error"
-  any = "|---|---|---|---|---"
-  for (e = 2; e <= elements; ++e) {
-    cell = cell " | `" type[e] "`: tets | work | times less work"
-    any = any "|---|---|---"
-  }
-  print cell " |"
-  print any "|"
+  heads("| scene and measure | `tet4`: mesh | tets | work | error", 2, ": tets | work | times less work", "")
   for (g = 1; g <= groups; ++g) {
     split(group_of[g], part, SUBSEP)
     first = 1
