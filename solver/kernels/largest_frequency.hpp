@@ -18,8 +18,8 @@ struct LargestFrequency {
 /// Largest eigenvalue of M^-1 (K + 2/dt C) + D of a grain: K its elastic stiffness in the present shape, C its bulk viscosity,
 /// D = `nodal_stiffness_rate` (1/s^2, [nodes of the model]) a bound of contact as a diagonal matrix. With lagged
 /// viscous forces central differences are stable where it is at most 4/dt^2, and `step` (s) may be any dt not longer than the one that
-/// is asked for: viscosity is overestimated then. The elastic stiffness is that of plain tets, which average nodal pressure
-/// does not exceed. `strain_rate` (1/s) bounds the volumetric rate for quadratic viscosity.
+/// is asked for: viscosity is overestimated then. The elastic stiffness is that of plain tets, which shared pressures
+/// do not exceed. `strain_rate` (1/s) bounds the volumetric rate for quadratic viscosity.
 LargestFrequency largest_frequency(const Model& model, int grain, std::span<const double> nodal_stiffness_rate,
                                    double step, double strain_rate);
 

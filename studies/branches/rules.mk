@@ -11,7 +11,7 @@
 # Averaged nodal pressure halves the error of plain tets at the same mesh (docs/numerics.md). fig08 and fig09 keep plain tets,
 # as the paper has them.
 ELEMENT ?= tet4-anp
-ifeq ($(filter $(ELEMENT),tet4 tet4-anp),)
+ifeq ($(filter $(ELEMENT),tet4 tet4-anp tet4-patch),)
   $(error ELEMENT=$(ELEMENT): allowed are tet4, tet4-anp and tet4-patch)
 endif
 

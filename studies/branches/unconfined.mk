@@ -8,7 +8,7 @@ $(foreach f,10 11 12 13 14 15 16,$(out)/fig$(f)):
 
 # $(call picture_rules,FIGURE,PICTURE,DATA): OUT/PICTURE.png and .svg by studies/FIGURE/plot.gp, which is given the picture's name.
 define picture_rules
-$($(1))/$(2).png $($(1))/$(2).svg: $($(1))/$(2).%: studies/$(1)/plot.gp studies/common/style.gp $(3) $(if $(filter $(1),$(with_spread)),$(call spread_of,$(1)))
+$($(1))/$(2).png $($(1))/$(2).svg: $($(1))/$(2).%: studies/$(1)/plot.gp studies/common/style.gp $(3) $(call spread_of,$(1))
 	$(gnuplot) $(call spread_option,$(1)) -c $$< $$* $(2) $$(@D) $$@.partial
 	mv $$@.partial $$@
 endef

@@ -39,7 +39,8 @@ mv "$kept/verdicts.md.partial" "$kept/verdicts.md"
   "$mpfem" --version
   echo 'settings of packings and runs; a number of 64 hexadecimal digits is the SHA-256 of the file before it'
   for settings in out/packings/*/*.settings "out/$mesh"/*/run.settings "out/$mesh"/*/*/run.settings; do
-    [ -e "$settings" ] && printf '%s: %s\n' "${settings%.settings}" "$(cat "$settings")"
+    [ -e "$settings" ] || continue
+    printf '%s: %s\n' "${settings%.settings}" "$(cat "$settings")"
   done
 } >"$kept/provenance.txt.partial"
 mv "$kept/provenance.txt.partial" "$kept/provenance.txt"
