@@ -103,6 +103,9 @@ CLI::App* add_bench(CLI::App& app, Arguments& arguments, BenchOptions& options, 
   bench->add_option("--element", options.element, "Element of the built-in packing: tet4, tet4-anp, tet4-patch")
       ->transform(CLI::CheckedTransformer(std::map<std::string, ElementType>{
           {"tet4", ElementType::tet4}, {"tet4-anp", ElementType::tet4_anp}, {"tet4-patch", ElementType::tet4_patch}}));
+  bench->add_option("--precision", options.precision, "Of its tets: double, mixed (strains and stresses in single)")
+      ->transform(CLI::CheckedTransformer(
+          std::map<std::string, Precision>{{"double", Precision::full}, {"mixed", Precision::mixed}}));
   bench->add_flag("!--no-bonds", options.bonds, "Built-in packing without bonds");
   bench->add_option("--steps", options.steps, "Steps to measure")
       ->check(CLI::Range(5, 1'000'000))

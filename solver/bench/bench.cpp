@@ -47,6 +47,7 @@ Scenario built_in_scenario(const BenchOptions& options) {
   }
   scenario.numerics.element = options.element;
   scenario.numerics.own_pressure = usual_own_pressure(options.element);
+  scenario.numerics.precision = options.precision;
   Stage stage;
   stage.name = "compaction";
   stage.isotropic_compaction.emplace();
@@ -62,11 +63,15 @@ double median(std::vector<double> values) {
 /// Grains that have been strained before, as those of a compact have.
 void strain_before_hand(Model& model) {
   const auto* law = std::get_if<PowerLaw>(&model.material_of(0).flow);
-  for (TetBlock& b : model.block)
-    for (int lane = 0; lane < TetBlock::lanes; ++lane) {
-      b.plastic_strain[lane] = strain_before;
-      b.flow_stress[lane] = law->yield_stress + law->coefficient * std::pow(strain_before, law->exponent);
-    }
+  const double flow_stress = law->yield_stress + law->coefficient * std::pow(strain_before, law->exponent);
+  std::visit(
+      [&](auto& blocks) {
+        for (auto& block : blocks) {
+          std::fill(std::begin(block.plastic_strain), std::end(block.plastic_strain), strain_before);
+          std::fill(std::begin(block.flow_stress), std::end(block.flow_stress), flow_stress);
+        }
+      },
+      model.blocks);
 }
 
 /// Walls and grains approach by one affine motion from the start on.
@@ -158,14 +163,22 @@ ElementCost measure_elements(Model& model, double step, ThreadTeam& team) {
   for (int i = 0; i < 200; ++i) pass();
   ElementCost cost;
   cost.nanoseconds = 1e9 * median_time(31, pass) / model.tets();
-  std::vector<double> before;
-  for (const TetBlock& b : model.block)
-    before.insert(before.end(), std::begin(b.plastic_strain), std::end(b.plastic_strain));
+  const auto strains = [&] {
+    std::vector<double> all;
+    std::visit(
+        [&](const auto& blocks) {
+          for (const auto& block : blocks)
+            all.insert(all.end(), std::begin(block.plastic_strain), std::end(block.plastic_strain));
+        },
+        model.blocks);
+    return all;
+  };
+  const std::vector<double> before = strains();
   pass();
-  std::size_t i = 0, moved = 0;
-  for (const TetBlock& b : model.block)
-    for (const double strain : b.plastic_strain) moved += strain > before[i++] ? 1U : 0U;
-  cost.hardening = static_cast<double>(moved) / static_cast<double>(i);
+  const std::vector<double> after = strains();
+  std::size_t moved = 0;
+  for (std::size_t i = 0; i < before.size(); ++i) moved += after[i] > before[i] ? 1U : 0U;
+  cost.hardening = static_cast<double>(moved) / static_cast<double>(before.size());
   return cost;
 }
 
@@ -256,7 +269,12 @@ void run_bench(const BenchOptions& options) {
   const double operations = operations_per_tet();
   say("measuring the machine");
   const double triad = measure_triad(team), fma = measure_fma(team);
-  const double bytes = static_cast<double>(2 * sizeof(TetBlock) - sizeof(TetBlock::node)) / TetBlock::lanes;
+  const double bytes = with_tet_numbers(simulation.model(), [](auto number) {
+    using Block = TetBlock<decltype(number)>;
+    return static_cast<double>(2 * sizeof(Block) - sizeof(Block::node)) / Block::lanes;
+  });
+  const int lanes = with_tet_numbers(simulation.model(), [](auto number) { return TetBlock<decltype(number)>::lanes; });
+  const char* precision = scenario.numerics.precision == Precision::mixed ? "mixed" : "double";
   const auto part = [&](Part p) { return cost.part[static_cast<std::size_t>(p)]; };
 
   if (options.json) {
@@ -265,7 +283,8 @@ void run_bench(const BenchOptions& options) {
                          {"version", fmt::format("\"{}\"", version())},
                          {"element", fmt::format("\"{}\"", element_name(scenario.numerics.element))},
                          {"threads", std::to_string(options.threads)},
-                         {"lanes", std::to_string(native_lanes)},
+                         {"precision", fmt::format("\"{}\"", precision)},
+                         {"lanes", std::to_string(lanes)},
                          {"tets", std::to_string(simulation.model().tets())},
                          {"grains", std::to_string(simulation.model().grains)},
                          {"relative_density", number(row.relative_density)},
@@ -300,10 +319,10 @@ void run_bench(const BenchOptions& options) {
   }
   fmt::print("machine        {} threads, packs of {} doubles: triad {:.1f} GB/s, fused multiply-add {:.1f} GFlop/s\n",
              options.threads, native_lanes, triad, fma);
-  fmt::print(
-      "scene          {} {} tets in {} grains, D_r {:.3f}, {:.0f} contact points of {} candidates, {:.0f} bonds\n",
-      simulation.model().tets(), element_name(scenario.numerics.element), simulation.model().grains,
-      row.relative_density, points, contact.candidates.point_node.size(), row.bonds);
+  fmt::print("scene          {} {} tets ({} precision, packs of {}) in {} grains, D_r {:.3f}, {:.0f} contact points of "
+             "{} candidates, {:.0f} bonds\n",
+             simulation.model().tets(), element_name(scenario.numerics.element), precision, lanes,
+             simulation.model().grains, row.relative_density, points, contact.candidates.point_node.size(), row.bonds);
   fmt::print("memory         {:.0f} B a tet, {:.2f} GB at most, all in\n\n", memory / tets, 1e-9 * memory);
   fmt::print("element pass alone, {:.0f} % of the tets hardening: {:.2f} ns per tet-step\n", 100 * elements.hardening,
              elements.nanoseconds);

@@ -14,6 +14,7 @@ struct BenchOptions {
   std::int64_t tets = 200'000;
   int grains = 329;
   ElementType element = ElementType::tet4;
+  Precision precision = Precision::full;
   bool bonds = true;
   int steps = 150;                  ///< measured after the packing has begun to flow
   std::optional<Scenario> scenario; ///< instead of the built-in packing

@@ -416,17 +416,21 @@ void contact_stiffness_rate(const Model& model, const Contact& contact, int grai
   const std::int32_t first = model.node_offset[g];
   std::fill(rate.begin() + first, rate.begin() + model.node_offset[g + 1], 0.0);
   const auto add = [&](std::int32_t node, double stiffness) {
-    rate[at(node)] += 2.0 * stiffness * model.inverse_mass[at(node)];
+    rate[at(node)] += stiffness * model.inverse_mass[at(node)];
   };
-  // Weights of a point beneath an opened bond may lie outside the facet: their magnitudes bound what they add.
+  const auto share = [](const ContactForce& point) {
+    return (1.0 + std::abs(point.weight(0)) + std::abs(point.weight(1)) + std::abs(point.weight(2))) * point.stiffness;
+  };
+  // Weights of a point beneath an opened bond may lie outside the facet: their magnitudes bound what they add. With W the sum of
+  // the magnitudes (1 inside), k (u - sum w_c u_c)^2 <= k (1 + W) (u^2 + sum |w_c| u_c^2).
   for (std::int32_t pair = candidates.outgoing_offset[g]; pair < candidates.outgoing_offset[g + 1]; ++pair)
     for (const auto points : {contact.active_points(pair), contact.pulling_bonds(pair)})
-      for (const ContactForce& point : points) add(point.node, point.stiffness);
+      for (const ContactForce& point : points) add(point.node, share(point));
   for (std::int32_t i = candidates.incoming_offset[g]; i < candidates.incoming_offset[g + 1]; ++i) {
     const std::int32_t pair = candidates.incoming_pair[at(i)];
     for (const auto points : {contact.active_points(pair), contact.pulling_bonds(pair)})
       for (const ContactForce& point : points)
-        for (int c = 0; c < 3; ++c) add(point.facet_node[c], std::abs(point.weight(c)) * point.stiffness);
+        for (int c = 0; c < 3; ++c) add(point.facet_node[c], std::abs(point.weight(c)) * share(point));
   }
 }
 

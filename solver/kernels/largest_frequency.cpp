@@ -12,9 +12,6 @@ namespace mpfem {
 
 namespace {
 
-constexpr int W = TetBlock::lanes;
-using S = Pack<W>;
-
 /// Part of the eigenvalue that its residual may be, where the iterations end: 1 % of the step.
 constexpr double tolerance = 0.02;
 constexpr int most_iterations = 80, iterations_between_looks = 4;
@@ -29,12 +26,15 @@ struct LinearResponse {
 };
 
 /// Adds (K + 2/dt C) x to `product`, both rows of a grain's nodes (mm, N).
+template <class Real>
 [[gnu::flatten]] void add_product(const Model& model, int grain, const LinearResponse& response, const double* x,
                                   double* product) {
+  constexpr int W = TetBlock<Real>::lanes;
+  using S = Pack<W, Real>;
   const auto g = static_cast<std::size_t>(grain);
   const double* position = model.position.data() + 4 * model.node_offset[g];
   for (std::int32_t b = model.block_offset[g]; b < model.block_offset[g + 1]; ++b) {
-    const TetBlock& block = model.block[static_cast<std::size_t>(b)];
+    const TetBlock<Real>& block = model.block<Real>(b);
     Vector3<S> edge[3], displacement[3], force[3];
     load_edges<W, 3>(position, block.node, edge);
     load_edges<W, 3>(x, block.node, displacement);
@@ -48,7 +48,8 @@ struct LinearResponse {
     const Deviator<S> zero{S(0.0), S(0.0), S(0.0), S(0.0), S(0.0)};
     const Deviator<S> deviator = elastic_predictor(response.moduli, zero, strain);
     S sixth(1.0 / 6.0);
-    for (int lane = model.tets_in_block(grain, b); lane < W; ++lane) sixth.v[lane] = 0; // nothing from unused lanes
+    for (int lane = model.tets_in_block<Real>(grain, b); lane < W; ++lane)
+      sixth.v[lane] = 0; // nothing from unused lanes
     for (int i = 0; i < 3; ++i) force[i] = sixth * traction(deviator, mean, geometry.area[i]);
     add_balanced<W>(product, block.node, force);
   }
@@ -86,7 +87,8 @@ LargestFrequency largest_frequency(const Model& model, int grain, std::span<cons
   while (true) {
     for (std::size_t n = 0; n < nodes; ++n)
       for (std::size_t c = 0; c < 4; ++c) x[4 * n + c] = root[n] * now[4 * n + c], next[4 * n + c] = 0;
-    add_product(model, grain, response, x.data(), next.data());
+    with_tet_numbers(
+        model, [&](auto number) { add_product<decltype(number)>(model, grain, response, x.data(), next.data()); });
     double alpha = 0;
     for (std::size_t n = 0; n < nodes; ++n)
       for (std::size_t c = 0; c < 4; ++c) {

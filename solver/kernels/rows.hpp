@@ -3,6 +3,7 @@
 // (about twice as fast on AVX2 machines), and forces are added back row by row, so that no colouring is needed.
 
 #include <cstdint>
+#include <type_traits>
 
 #include "solver/physics/tensor.hpp"
 
@@ -60,6 +61,116 @@ inline void add_balanced4(double* rows, const std::int32_t* const (&index)[4], c
   for (int k = 0; k < 4; ++k) add_row(rows, index[0][k], -total[k]);
 }
 
+/// Rows of W = 4, 8 or 16 cells' nodes 1 … N relative to node 0 as floats; the differences are taken in doubles. A lane of 128 bits
+/// holds four cells, so that one transpose serves all of them.
+template <int W>
+using Floats = typename NativeVector<W, float>::Numbers;
+inline Floats<4> narrow(Row row) {
+  return __builtin_convertvector(row, Floats<4>);
+}
+inline Row widen(Floats<4> values) {
+  return __builtin_convertvector(values, Row);
+}
+template <int W>
+Floats<W> join(const Floats<4> (&part)[W / 4]) {
+  if constexpr (W == 4) {
+    return part[0];
+  } else if constexpr (W == 8) {
+    return __builtin_shufflevector(part[0], part[1], 0, 1, 2, 3, 4, 5, 6, 7);
+  } else {
+    return __builtin_shufflevector(join<8>({part[0], part[1]}), join<8>({part[2], part[3]}), 0, 1, 2, 3, 4, 5, 6, 7, 8,
+                                   9, 10, 11, 12, 13, 14, 15);
+  }
+}
+template <int W>
+Floats<4> part_of(Floats<W> whole, int part) {
+  if constexpr (W == 4) {
+    return whole;
+  } else if constexpr (W == 8) {
+    return part == 0 ? __builtin_shufflevector(whole, whole, 0, 1, 2, 3)
+                     : __builtin_shufflevector(whole, whole, 4, 5, 6, 7);
+  } else {
+    const Floats<8> half = part < 2 ? __builtin_shufflevector(whole, whole, 0, 1, 2, 3, 4, 5, 6, 7)
+                                    : __builtin_shufflevector(whole, whole, 8, 9, 10, 11, 12, 13, 14, 15);
+    return part_of<8>(half, part % 2);
+  }
+}
+/// In every four numbers: a0 b0 a1 b1; a2 b2 a3 b3; a0 a1 b0 b1; a2 a3 b2 b3.
+template <int W>
+Floats<W> interleave_low(Floats<W> a, Floats<W> b) {
+  if constexpr (W == 4)
+    return __builtin_shufflevector(a, b, 0, 4, 1, 5);
+  else if constexpr (W == 8)
+    return __builtin_shufflevector(a, b, 0, 8, 1, 9, 4, 12, 5, 13);
+  else
+    return __builtin_shufflevector(a, b, 0, 16, 1, 17, 4, 20, 5, 21, 8, 24, 9, 25, 12, 28, 13, 29);
+}
+template <int W>
+Floats<W> interleave_high(Floats<W> a, Floats<W> b) {
+  if constexpr (W == 4)
+    return __builtin_shufflevector(a, b, 2, 6, 3, 7);
+  else if constexpr (W == 8)
+    return __builtin_shufflevector(a, b, 2, 10, 3, 11, 6, 14, 7, 15);
+  else
+    return __builtin_shufflevector(a, b, 2, 18, 3, 19, 6, 22, 7, 23, 10, 26, 11, 27, 14, 30, 15, 31);
+}
+template <int W>
+Floats<W> low_halves(Floats<W> a, Floats<W> b) {
+  if constexpr (W == 4)
+    return __builtin_shufflevector(a, b, 0, 1, 4, 5);
+  else if constexpr (W == 8)
+    return __builtin_shufflevector(a, b, 0, 1, 8, 9, 4, 5, 12, 13);
+  else
+    return __builtin_shufflevector(a, b, 0, 1, 16, 17, 4, 5, 20, 21, 8, 9, 24, 25, 12, 13, 28, 29);
+}
+template <int W>
+Floats<W> high_halves(Floats<W> a, Floats<W> b) {
+  if constexpr (W == 4)
+    return __builtin_shufflevector(a, b, 2, 3, 6, 7);
+  else if constexpr (W == 8)
+    return __builtin_shufflevector(a, b, 2, 3, 10, 11, 6, 7, 14, 15);
+  else
+    return __builtin_shufflevector(a, b, 2, 3, 18, 19, 6, 7, 22, 23, 10, 11, 26, 27, 14, 15, 30, 31);
+}
+
+template <int W, int N>
+void float_edges(const double* rows, const std::int32_t (&index)[N + 1][W], Vector3<Pack<W, float>> (&edge)[N]) {
+  Row base[W];
+  for (int cell = 0; cell < W; ++cell) base[cell] = row(rows, index[0][cell]);
+  for (int i = 0; i < N; ++i) {
+    Floats<W> of[4]; // (x, y, z, spare) of cells 0, 4, …; of cells 1, 5, …; and so on
+    for (int k = 0; k < 4; ++k) {
+      Floats<4> part[W / 4];
+      for (int p = 0; p < W / 4; ++p) part[p] = narrow(row(rows, index[i + 1][4 * p + k]) - base[4 * p + k]);
+      of[k] = join<W>(part);
+    }
+    const Floats<W> xy01 = interleave_low<W>(of[0], of[1]), xy23 = interleave_low<W>(of[2], of[3]);
+    const Floats<W> z01 = interleave_high<W>(of[0], of[1]), z23 = interleave_high<W>(of[2], of[3]);
+    edge[i] = {low_halves<W>(xy01, xy23), high_halves<W>(xy01, xy23), low_halves<W>(z01, z23)};
+  }
+}
+
+/// Adds to W tets' nodes 1, 2, 3 the vectors f and to node 0 minus their sum, which is taken in doubles: momentum is kept exactly.
+template <int W>
+void add_balanced_floats(double* rows, const std::int32_t (&index)[4][W], const Vector3<Pack<W, float>> (&f)[3]) {
+  Row total[W] = {};
+  const Floats<W> zero = {};
+  for (int i = 0; i < 3; ++i) {
+    const Floats<W> xy01 = interleave_low<W>(f[i].x.v, f[i].y.v), xy23 = interleave_high<W>(f[i].x.v, f[i].y.v);
+    const Floats<W> z01 = interleave_low<W>(f[i].z.v, zero), z23 = interleave_high<W>(f[i].z.v, zero);
+    const Floats<W> of[4] = {low_halves<W>(xy01, z01), high_halves<W>(xy01, z01), low_halves<W>(xy23, z23),
+                             high_halves<W>(xy23, z23)};
+    for (int p = 0; p < W / 4; ++p)
+      for (int k = 0; k < 4; ++k) {
+        const int cell = 4 * p + k;
+        const Row value = widen(part_of<W>(of[k], p));
+        add_row(rows, index[i + 1][cell], value);
+        total[cell] += value;
+      }
+  }
+  for (int cell = 0; cell < W; ++cell) add_row(rows, index[0][cell], -total[cell]);
+}
+
 inline void add4(double* rows, const std::int32_t* index, int lanes, Row x, Row y, Row z) {
   const Row zero = {0, 0, 0, 0};
   const Row xy_low = __builtin_shufflevector(x, y, 0, 4, 2, 6), xy_high = __builtin_shufflevector(x, y, 1, 5, 3, 7);
@@ -73,17 +184,19 @@ inline void add4(double* rows, const std::int32_t* index, int lanes, Row x, Row 
 } // namespace detail
 
 /// One number of each of W nodes.
-template <int W>
-Pack<W> load_numbers(const double* numbers, const std::int32_t (&index)[W]) {
-  Pack<W> result(0.0);
-  for (int k = 0; k < W; ++k) result.v[k] = numbers[index[k]];
+template <class Real, int W>
+Pack<W, Real> load_numbers(const double* numbers, const std::int32_t (&index)[W]) {
+  Pack<W, Real> result(0.0);
+  for (int k = 0; k < W; ++k) result.v[k] = static_cast<Real>(numbers[index[k]]);
   return result;
 }
 
 /// Edges of W cells (tets: N = 3, facets: N = 2): nodes 1 … N relative to node 0. `index[i]` holds the W cells' node i.
-template <int W, int N>
-void load_edges(const double* rows, const std::int32_t (&index)[N + 1][W], Vector3<Pack<W>> (&edge)[N]) {
-  if constexpr (W % 4 == 0) {
+template <int W, int N, class Real>
+void load_edges(const double* rows, const std::int32_t (&index)[N + 1][W], Vector3<Pack<W, Real>> (&edge)[N]) {
+  if constexpr (std::is_same_v<Real, float>) {
+    detail::float_edges<W, N>(rows, index, edge);
+  } else if constexpr (W % 4 == 0) {
     Row e[W / 4][N][3];
     for (int part = 0; part < W / 4; ++part) {
       const std::int32_t* node[N + 1];
@@ -112,9 +225,11 @@ void load_edges(const double* rows, const std::int32_t (&index)[N + 1][W], Vecto
 }
 
 /// Adds to the W tets' nodes 1, 2, 3 the vectors f, one tet after another, and to node 0 minus their sum.
-template <int W>
-void add_balanced(double* rows, const std::int32_t (&index)[4][W], const Vector3<Pack<W>> (&f)[3]) {
-  if constexpr (W == 4) {
+template <int W, class Real>
+void add_balanced(double* rows, const std::int32_t (&index)[4][W], const Vector3<Pack<W, Real>> (&f)[3]) {
+  if constexpr (std::is_same_v<Real, float>) {
+    detail::add_balanced_floats<W>(rows, index, f);
+  } else if constexpr (W == 4) {
     detail::add_balanced4(
         rows, {index[0], index[1], index[2], index[3]},
         {{f[0].x.v, f[0].y.v, f[0].z.v}, {f[1].x.v, f[1].y.v, f[1].z.v}, {f[2].x.v, f[2].y.v, f[2].z.v}});

@@ -261,7 +261,7 @@ SurfaceView Model::surface() const {
 std::size_t Model::memory() const {
   const auto bytes = [](const auto& v) { return v.size() * sizeof(v[0]); };
   return bytes(position) + bytes(velocity) + bytes(force) + bytes(normal) + bytes(inverse_mass) +
-         bytes(reference_area) + bytes(block) + bytes(inverse_nodal_volume) + bytes(nodal_mean) +
+         bytes(reference_area) + std::visit(bytes, blocks) + bytes(inverse_nodal_volume) + bytes(nodal_mean) +
          bytes(inverse_patch_volume) + bytes(facet) + bytes(file_node) + bytes(file_tet);
 }
 
@@ -286,6 +286,62 @@ static void choose_materials(const Scenario& scenario, const std::string& name, 
   }
 }
 
+std::array<std::int32_t, 4> Model::nodes_of_tet(int grain, std::int32_t tet) const {
+  return with_tet_numbers(*this, [&](auto number) {
+    constexpr int lanes = TetBlock<decltype(number)>::lanes;
+    const auto& node = block<decltype(number)>(block_offset[static_cast<std::size_t>(grain)] + tet / lanes).node;
+    const int lane = tet % lanes;
+    return std::array<std::int32_t, 4>{node[0][lane], node[1][lane], node[2][lane], node[3][lane]};
+  });
+}
+
+namespace {
+
+/// First block of each grain, and the number of all.
+std::vector<Index> block_offsets(const Model& model, int lanes) {
+  std::vector<Index> offset(1, 0);
+  for (std::size_t g = 0; g < static_cast<std::size_t>(model.grains); ++g)
+    offset.push_back(offset[g] + (model.tet_offset[g + 1] - model.tet_offset[g] + lanes - 1) / lanes);
+  return offset;
+}
+
+/// The tets of all grains in the order of model.file_tet, and model.block_offset. `new_index` maps nodes of the file to the model's.
+template <class Real>
+std::vector<TetBlock<Real>> make_blocks(const MeshedPacking& packing, const std::vector<Index>& new_index,
+                                        Model& model) {
+  constexpr int lanes = TetBlock<Real>::lanes;
+  model.block_offset = block_offsets(model, lanes);
+  std::vector<TetBlock<Real>> blocks(at(model.block_offset.back()));
+  for (int g = 0; g < model.grains; ++g) {
+    const Index n0 = model.node_offset[at(g)], t0 = model.tet_offset[at(g)], t1 = model.tet_offset[at(g) + 1];
+    const double flow_stress =
+        std::visit([](const auto& law) { return law.initial_flow_stress(); }, model.material_of(g).flow);
+    for (Index b = model.block_offset[at(g)]; b < model.block_offset[at(g) + 1]; ++b)
+      for (int lane = 0; lane < lanes; ++lane) {
+        TetBlock<Real>& block = blocks[at(b)];
+        const Index t = model.file_tet[at(std::min(t0 + lanes * (b - model.block_offset[at(g)]) + lane, t1 - 1))];
+        for (int c = 0; c < 4; ++c)
+          block.node[c][lane] = new_index[at(packing.tet[4 * at(t) + static_cast<std::size_t>(c)])] - n0;
+        block.inverse_volume[lane] = static_cast<Real>(1.0 / tet_volume(packing, t));
+        block.flow_stress[lane] = static_cast<Real>(flow_stress);
+      }
+  }
+  return blocks;
+}
+
+/// Eighth powers of lengths (the step's estimate) and inverse sixth ones must be floats.
+void refuse_sizes_beyond_floats(const Model& model, const std::string& name) {
+  constexpr double least = 1e-4, most = 1e4; // mm
+  for (std::size_t g = 0; g < model.element_size.size(); ++g)
+    if (!(model.element_size[g] > least && model.element_size[g] < most))
+      throw InputError(
+          fmt::format("{}: the elements of grain {} have a size of {:.3g} mm; element.precision = 'mixed' takes "
+                      "{:g} … {:g} mm, 'double' any",
+                      name, g, model.element_size[g], least, most));
+}
+
+} // namespace
+
 Model build_model(const MeshedPacking& packing, const Scenario& scenario, const std::string& name) {
   check_packing(packing, name);
   Model model;
@@ -306,7 +362,6 @@ Model build_model(const MeshedPacking& packing, const Scenario& scenario, const 
   const std::size_t tets = packing.tet.size() / 4;
   model.file_node.resize(nodes);
   model.file_tet.resize(tets);
-  model.block_offset.assign(1, 0);
   model.facet_offset.assign(1, 0);
   model.position.assign(4 * nodes, 0.0);
   model.velocity.assign(4 * nodes, 0.0);
@@ -314,20 +369,12 @@ Model build_model(const MeshedPacking& packing, const Scenario& scenario, const 
   model.normal.assign(4 * nodes, 0.0);
   model.inverse_mass.assign(nodes, 0.0);
   model.reference_area.assign(nodes, 0.0);
-  // Grown step by step, the blocks would be in memory twice.
-  std::size_t blocks = 0;
-  for (std::size_t g = 0; g < static_cast<std::size_t>(model.grains); ++g)
-    blocks += at(model.tet_offset[g + 1] - model.tet_offset[g] + TetBlock::lanes - 1) / TetBlock::lanes;
-  model.block.reserve(blocks);
-
   std::vector<Index> new_index(nodes); // file node -> model node
   for (int g = 0; g < model.grains; ++g) {
     const auto gs = static_cast<std::size_t>(g);
     const Index n0 = model.node_offset[gs], n1 = model.node_offset[gs + 1];
     const Index t0 = model.tet_offset[gs], t1 = model.tet_offset[gs + 1];
     const Material& material = model.material_of(g);
-    const double initial_flow_stress =
-        std::visit([](const auto& law) { return law.initial_flow_stress(); }, material.flow);
 
     // 1. Surface, then nodes: surface nodes first, each group along a Morton curve.
     const auto faces = boundary_faces(packing.tet, t0, t1, fmt::format("{}: grain {}", name, g));
@@ -384,26 +431,14 @@ Model build_model(const MeshedPacking& packing, const Scenario& scenario, const 
     }
     order_in_patches(tet_order, [&](Index t) -> const Vector3<double>& { return centre[at(t - t0)]; });
     double volume = 0;
-    for (Index i = 0; i < t1 - t0; i += TetBlock::lanes) {
-      TetBlock block{};
-      for (int lane = 0; lane < TetBlock::lanes; ++lane) {
-        const Index position = std::min(i + lane, t1 - t0 - 1);
-        const Index t = tet_order[at(position)];
-        for (int c = 0; c < 4; ++c)
-          block.node[c][lane] = new_index[at(packing.tet[4 * at(t) + static_cast<std::size_t>(c)])] - n0;
-        const double tet_v = tet_volume(packing, t);
-        block.inverse_volume[lane] = 1.0 / tet_v;
-        block.flow_stress[lane] = initial_flow_stress;
-        if (i + lane < t1 - t0) {
-          model.file_tet[at(t0 + i + lane)] = t;
-          volume += tet_v;
-          for (int c = 0; c < 4; ++c) // mass here; inverted below
-            model.inverse_mass[at(n0 + block.node[c][lane])] += 0.25 * material.density * tet_v;
-        }
-      }
-      model.block.push_back(block);
+    for (Index i = 0; i < t1 - t0; ++i) {
+      const Index t = tet_order[at(i)];
+      const double tet_v = tet_volume(packing, t);
+      model.file_tet[at(t0 + i)] = t;
+      volume += tet_v;
+      for (std::size_t c = 0; c < 4; ++c) // mass here; inverted below
+        model.inverse_mass[at(new_index[at(packing.tet[4 * at(t) + c])])] += 0.25 * material.density * tet_v;
     }
-    model.block_offset.push_back(static_cast<Index>(model.block.size()));
     model.reference_volume.push_back(volume);
     model.mass.push_back(volume * material.density);
     for (Index n = n0; n < n1; ++n) {
@@ -412,6 +447,12 @@ Model build_model(const MeshedPacking& packing, const Scenario& scenario, const 
         throw InputError(fmt::format("{}: node {} belongs to no tetrahedron", name, model.file_node[at(n)]));
       m = 1.0 / m;
     }
+  }
+  if (scenario.numerics.precision == Precision::mixed) {
+    refuse_sizes_beyond_floats(model, name);
+    model.blocks = make_blocks<float>(packing, new_index, model);
+  } else {
+    model.blocks = make_blocks<double>(packing, new_index, model);
   }
   model.spatial_order = spatial_order(model);
   model.element = scenario.numerics.element;

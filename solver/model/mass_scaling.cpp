@@ -16,8 +16,6 @@ Vector3<double> position(const Model& model, std::int32_t node) {
 
 void scale_masses(Model& model, double step, bool lighten) {
   const auto nodes = static_cast<std::size_t>(model.nodes());
-  const double damped = 2.0 * damped_step_factor(model.viscosity.linear);
-  const double largest_rate = (damped / step) * (damped / step);
   model.mass_factor.assign(nodes, lighten ? 0.0 : 1.0);
   model.largest_added_mass = -1;
   double added = 0, total = 0;
@@ -25,6 +23,8 @@ void scale_masses(Model& model, double step, bool lighten) {
     const auto g = static_cast<std::size_t>(grain);
     const std::int32_t first = model.node_offset[g], surface_end = first + model.surface_node_count[g];
     const Material& material = model.material_of(grain);
+    const double damping = model.viscosity.linear * material.moduli.dilatational() / material.moduli.bulk;
+    const double largest_rate = std::pow(2.0 * damped_step_factor(damping) / step, 2);
     // What contact adds to the frequency squared as a rule, as in raise_to_expected_rate.
     const auto contact_rate = [&](std::int32_t node) {
       const auto n = static_cast<std::size_t>(node);
@@ -32,24 +32,21 @@ void scale_masses(Model& model, double step, bool lighten) {
                                       model.reference_area[n] * model.inverse_mass[n]
                                 : 0.0;
     };
-    for (std::int32_t b = model.block_offset[g]; b < model.block_offset[g + 1]; ++b) {
-      const TetBlock& block = model.block[static_cast<std::size_t>(b)];
-      for (int lane = 0; lane < model.tets_in_block(grain, b); ++lane) {
-        std::int32_t corner[4];
-        double contact = 0;
-        for (int c = 0; c < 4; ++c) {
-          corner[c] = first + block.node[c][lane];
-          contact = std::max(contact, contact_rate(corner[c]));
-        }
-        const auto x0 = position(model, corner[0]);
-        const auto geometry = tet_geometry(position(model, corner[1]) - x0, position(model, corner[2]) - x0,
-                                           position(model, corner[3]) - x0);
-        const double factor =
-            (largest_frequency_squared(material.moduli, material.density, geometry) + contact) / largest_rate;
-        for (const std::int32_t node : corner) {
-          double& largest = model.mass_factor[static_cast<std::size_t>(node)];
-          largest = std::max(largest, factor);
-        }
+    for (std::int32_t tet = 0; tet < model.tet_offset[g + 1] - model.tet_offset[g]; ++tet) {
+      std::array<std::int32_t, 4> corner = model.nodes_of_tet(grain, tet);
+      double contact = 0;
+      for (std::int32_t& node : corner) {
+        node += first;
+        contact = std::max(contact, contact_rate(node));
+      }
+      const auto x0 = position(model, corner[0]);
+      const auto geometry = tet_geometry(position(model, corner[1]) - x0, position(model, corner[2]) - x0,
+                                         position(model, corner[3]) - x0);
+      const double factor =
+          (largest_frequency_squared(material.moduli, material.density, geometry) + contact) / largest_rate;
+      for (const std::int32_t node : corner) {
+        double& largest = model.mass_factor[static_cast<std::size_t>(node)];
+        largest = std::max(largest, factor);
       }
     }
     double mass = 0;

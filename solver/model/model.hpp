@@ -17,16 +17,20 @@
 namespace mpfem {
 
 /// One pack of tetrahedra: connectivity and state side by side, so that an element pass streams through memory once.
-/// 88 bytes a tet. The last block of a grain repeats its last tet in unused lanes.
+/// 88 bytes a tet in doubles, 52 in floats. The last block of a grain repeats its last tet in unused lanes.
+template <class Real>
 struct alignas(64) TetBlock {
-  static constexpr int lanes = native_lanes;
-  std::int32_t node[4][lanes];  ///< relative to the grain's first node
-  double inverse_volume[lanes]; ///< 1/mm^3, of the reference volume
-  double deviator[5][lanes];    ///< Cauchy deviator xx, yy, xy, yz, zx, MPa
-  double flow_stress[lanes];    ///< MPa
-  double plastic_strain[lanes];
-  double length[lanes]; ///< c_d times the undamped critical step 2/omega_e, mm; set at each step estimate
+  static constexpr int lanes = native_lanes_of<Real>;
+  std::int32_t node[4][lanes]; ///< relative to the grain's first node
+  Real inverse_volume[lanes];  ///< 1/mm^3, of the reference volume
+  Real deviator[5][lanes];     ///< Cauchy deviator xx, yy, xy, yz, zx, MPa
+  Real flow_stress[lanes];     ///< MPa
+  Real plastic_strain[lanes];
+  Real length[lanes]; ///< c_d times the undamped critical step 2/omega_e, mm; set at each step estimate
 };
+
+/// In double precision, or in single where the scenario's precision is mixed.
+using TetBlocks = std::variant<std::vector<TetBlock<double>>, std::vector<TetBlock<float>>>;
 
 using FlowLaw = std::variant<ElasticLaw, PowerLaw, TotalStrainLaw, TableLaw>;
 
@@ -62,7 +66,7 @@ struct Model {
   AlignedVector<double> normal;       ///< unit outward normal of surface nodes and, fourth, tributary area mm^2
   std::vector<double> reference_area; ///< [nodes]: tributary area of surface nodes at the start, mm^2
   AlignedVector<double> inverse_mass; ///< [nodes], 1/tonne
-  std::vector<TetBlock> block;
+  TetBlocks blocks;
   std::vector<double> inverse_nodal_volume; ///< [nodes], 1/mm^3, of the reference state; tet4_anp only
   std::vector<double> nodal_mean;           ///< [nodes], MPa: scratch of the element pass; tet4_anp only
   std::vector<std::int32_t> patch_offset;   ///< [grains + 1]; tet4_patch only
@@ -89,11 +93,24 @@ struct Model {
   std::int32_t tets() const { return tet_offset.back(); }
   std::int32_t facets() const { return facet_offset.back(); }
   const Material& material_of(int grain) const { return material[std::size_t(grain_material[std::size_t(grain)])]; }
-  int tets_in_block(int grain, int block_index) const {
-    const int left = tet_offset[std::size_t(grain) + 1] - tet_offset[std::size_t(grain)] -
-                     TetBlock::lanes * (block_index - block_offset[std::size_t(grain)]);
-    return left < TetBlock::lanes ? left : TetBlock::lanes;
+  /// Block `index` of a model whose tets are in numbers of type Real.
+  template <class Real>
+  TetBlock<Real>& block(std::int32_t index) {
+    return (*std::get_if<std::vector<TetBlock<Real>>>(&blocks))[static_cast<std::size_t>(index)];
   }
+  template <class Real>
+  const TetBlock<Real>& block(std::int32_t index) const {
+    return (*std::get_if<std::vector<TetBlock<Real>>>(&blocks))[static_cast<std::size_t>(index)];
+  }
+  template <class Real>
+  int tets_in_block(int grain, int block_index) const {
+    constexpr int lanes = TetBlock<Real>::lanes;
+    const int left = tet_offset[std::size_t(grain) + 1] - tet_offset[std::size_t(grain)] -
+                     lanes * (block_index - block_offset[std::size_t(grain)]);
+    return left < lanes ? left : lanes;
+  }
+  /// Nodes of tet `tet` of a grain, both counted from the grain's first.
+  std::array<std::int32_t, 4> nodes_of_tet(int grain, std::int32_t tet) const;
   /// How much stiffer than its grain's mean the penalty of a surface node is: K = factor E / h with the h around the node.
   /// 1 where the scenario gives K itself.
   double local_stiffness(std::size_t node) const {
@@ -104,6 +121,12 @@ struct Model {
   /// Bytes of all arrays.
   std::size_t memory() const;
 };
+
+/// f(double{}) or f(float{}), as the numbers of the model's tets are.
+template <class F>
+auto with_tet_numbers(const Model& model, F&& f) {
+  return std::holds_alternative<std::vector<TetBlock<double>>>(model.blocks) ? f(double{}) : f(float{});
+}
 
 /// A meshed packing, as read from its file.
 struct MeshedPacking {

@@ -65,13 +65,16 @@ void for_each_number(State& s, Record& r, F&& f) {
 /// Calls f(block, lane, tet) for every tet of the model.
 template <class ModelType, class F>
 void for_each_tet(ModelType& model, F&& f) {
-  for (int grain = 0; grain < model.grains; ++grain) {
-    const auto g = static_cast<std::size_t>(grain);
-    for (std::int32_t b = model.block_offset[g]; b < model.block_offset[g + 1]; ++b)
-      for (int lane = 0; lane < model.tets_in_block(grain, b); ++lane)
-        f(model.block[static_cast<std::size_t>(b)], lane,
-          static_cast<std::size_t>(model.tet_offset[g] + (b - model.block_offset[g]) * TetBlock::lanes + lane));
-  }
+  with_tet_numbers(model, [&](auto number) {
+    using Real = decltype(number);
+    for (int grain = 0; grain < model.grains; ++grain) {
+      const auto g = static_cast<std::size_t>(grain);
+      for (std::int32_t b = model.block_offset[g]; b < model.block_offset[g + 1]; ++b)
+        for (int lane = 0; lane < model.template tets_in_block<Real>(grain, b); ++lane)
+          f(model.template block<Real>(b), lane,
+            static_cast<std::size_t>(model.tet_offset[g] + (b - model.block_offset[g]) * TetBlock<Real>::lanes + lane));
+    }
+  });
 }
 
 /// Of a tet's deviator, in the order of TetBlock. One array each: a copy of all five would be the most that a run holds.
@@ -86,7 +89,7 @@ void for_each_array(F&& f) {
   f(check::node_position), f(check::node_velocity), f(check::node_force);
   for (const auto& component : deviator_components) f(component);
   f(check::tet_flow_stress), f(check::tet_plastic_strain), f(check::tet_length);
-  f(check::grain_step), f(check::grain_step_of_tets);
+  f(check::grain_step), f(check::grain_step_contact), f(check::grain_step_growth);
   f(check::grain_travel), f(check::grain_travel_at_search), f(check::contact_point_wake), f(check::contact_point_sure);
   f(check::contact_pair_first), f(check::contact_pair_second), f(check::contact_pair_point_offset);
   f(check::contact_point_node), f(check::contact_point_facet_offset), f(check::contact_candidate_facet);
@@ -126,11 +129,17 @@ private:
   std::uint64_t hash_ = hash_seed;
 };
 
+/// Of the order of nodes and tets, in which arrays stand in a checkpoint.
+std::uint64_t numbering_hash(const Model& model) {
+  return hash_values(std::span<const std::int32_t>(model.file_tet),
+                     hash_values(std::span<const std::int32_t>(model.file_node)));
+}
+
 /// One number of every tet, in block order; `values(block)` gives its lanes.
 template <class Values>
 std::vector<double> of_tets(const Model& model, Values&& values) {
   std::vector<double> result(static_cast<std::size_t>(model.tets()));
-  for_each_tet(model, [&](const TetBlock& block, int lane, std::size_t tet) { result[tet] = values(block)[lane]; });
+  for_each_tet(model, [&](const auto& block, int lane, std::size_t tet) { result[tet] = values(block)[lane]; });
   return result;
 }
 
@@ -145,17 +154,20 @@ bool has_damaged_bond(const schema::FileReader& file) {
 
 /// Unused lanes of a grain's last block repeat its last tet.
 void fill_unused_lanes(Model& model) {
-  for (int grain = 0; grain < model.grains; ++grain) {
-    const std::int32_t last = model.block_offset[static_cast<std::size_t>(grain) + 1] - 1;
-    TetBlock& block = model.block[static_cast<std::size_t>(last)];
-    const int used = model.tets_in_block(grain, last);
-    for (int lane = used; lane < TetBlock::lanes; ++lane) {
-      for (auto& component : block.deviator) component[lane] = component[used - 1];
-      block.flow_stress[lane] = block.flow_stress[used - 1];
-      block.plastic_strain[lane] = block.plastic_strain[used - 1];
-      block.length[lane] = block.length[used - 1];
+  with_tet_numbers(model, [&](auto number) {
+    using Real = decltype(number);
+    for (int grain = 0; grain < model.grains; ++grain) {
+      const std::int32_t last = model.block_offset[static_cast<std::size_t>(grain) + 1] - 1;
+      TetBlock<Real>& block = model.block<Real>(last);
+      const int used = model.tets_in_block<Real>(grain, last);
+      for (int lane = used; lane < TetBlock<Real>::lanes; ++lane) {
+        for (auto& component : block.deviator) component[lane] = component[used - 1];
+        block.flow_stress[lane] = block.flow_stress[used - 1];
+        block.plastic_strain[lane] = block.plastic_strain[used - 1];
+        block.length[lane] = block.length[used - 1];
+      }
     }
-  }
+  });
 }
 
 } // namespace
@@ -168,7 +180,8 @@ void write_checkpoint(const std::string& path, const Simulation& simulation, con
   schema::FileWriter file(path, schema::FileKind::checkpoint, fmt::format("mpfem {}", version()));
   file.write_scalar(check::scenario, scenario_text);
   file.write_scalar(check::packing_hash, hash_text(model.mesh_hash));
-  file.write_scalar(check::lanes, std::int32_t{TetBlock::lanes});
+  file.write_scalar(check::numbering_hash, hash_text(numbering_hash(model)));
+  file.write_scalar(check::lanes, std::int32_t{native_lanes});
   const auto write_texts = [&file](const auto& dataset, const std::vector<std::string>& texts) {
     file.write(dataset, std::span<const std::string>(texts), texts.size());
   };
@@ -198,12 +211,13 @@ void write_checkpoint(const std::string& path, const Simulation& simulation, con
   arrays.write(check::node_velocity, model.velocity, nodes);
   arrays.write(check::node_force, model.force, nodes);
   for (std::size_t c = 0; c < deviator_components.size(); ++c)
-    arrays.write(deviator_components[c], of_tets(model, [c](const TetBlock& b) { return b.deviator[c]; }));
-  arrays.write(check::tet_flow_stress, of_tets(model, [](const TetBlock& b) { return b.flow_stress; }));
-  arrays.write(check::tet_plastic_strain, of_tets(model, [](const TetBlock& b) { return b.plastic_strain; }));
-  arrays.write(check::tet_length, of_tets(model, [](const TetBlock& b) { return b.length; }));
+    arrays.write(deviator_components[c], of_tets(model, [c](const auto& b) { return b.deviator[c]; }));
+  arrays.write(check::tet_flow_stress, of_tets(model, [](const auto& b) { return b.flow_stress; }));
+  arrays.write(check::tet_plastic_strain, of_tets(model, [](const auto& b) { return b.plastic_strain; }));
+  arrays.write(check::tet_length, of_tets(model, [](const auto& b) { return b.length; }));
   arrays.write(check::grain_step, simulation.grain_steps().whole);
-  arrays.write(check::grain_step_of_tets, simulation.grain_steps().of_tets);
+  arrays.write(check::grain_step_contact, simulation.grain_steps().contact);
+  arrays.write(check::grain_step_growth, simulation.grain_steps().growth);
   arrays.write(check::grain_travel, contact.travel);
   arrays.write(check::grain_travel_at_search, contact.travel_at_search);
   arrays.write(check::contact_point_wake, contact.point_wake);
@@ -257,11 +271,15 @@ void read_checkpoint(const std::string& path, Simulation& simulation, RunRecord&
   if (!any_scenario && file.read_scalar(check::scenario) != scenario_text)
     throw InputError(
         fmt::format("{}: the checkpoint belongs to another scenario; run without --resume to begin anew", path));
-  if (file.read_scalar(check::lanes) != TetBlock::lanes)
+  if (file.read_scalar(check::lanes) != native_lanes)
     throw InputError(
         fmt::format("{}: the checkpoint was written by a build with {} lanes, this one has {}: nodes and tets "
                     "would not go on bitwise",
-                    path, file.read_scalar(check::lanes), TetBlock::lanes));
+                    path, file.read_scalar(check::lanes), native_lanes));
+
+  if (file.read_scalar(check::numbering_hash) != hash_text(numbering_hash(model)))
+    throw InputError(fmt::format(
+        "{}: the checkpoint was written by a version of mpfem that numbers nodes and tets otherwise", path));
 
   // A branch goes on with the same matter: its stresses and strains mean nothing in another material.
   if (any_scenario) {
@@ -329,13 +347,16 @@ void read_checkpoint(const std::string& path, Simulation& simulation, RunRecord&
   take_nodes(check::node_force, model.force);
   const auto take_tets = [&](const auto& dataset, const auto& place) {
     const auto values = take(dataset, tets);
-    for_each_tet(model, [&](TetBlock& block, int lane, std::size_t tet) { place(block)[lane] = values[tet]; });
+    for_each_tet(model, [&](auto& block, int lane, std::size_t tet) {
+      auto& number = place(block)[lane];
+      number = static_cast<std::remove_reference_t<decltype(number)>>(values[tet]);
+    });
   };
   for (std::size_t c = 0; c < deviator_components.size(); ++c)
-    take_tets(deviator_components[c], [c](TetBlock& b) { return b.deviator[c]; });
-  take_tets(check::tet_flow_stress, [](TetBlock& b) { return b.flow_stress; });
-  take_tets(check::tet_plastic_strain, [](TetBlock& b) { return b.plastic_strain; });
-  take_tets(check::tet_length, [](TetBlock& b) { return b.length; });
+    take_tets(deviator_components[c], [c](auto& b) { return b.deviator[c]; });
+  take_tets(check::tet_flow_stress, [](auto& b) { return b.flow_stress; });
+  take_tets(check::tet_plastic_strain, [](auto& b) { return b.plastic_strain; });
+  take_tets(check::tet_length, [](auto& b) { return b.length; });
   fill_unused_lanes(model);
 
   Contact& contact = simulation.contact();
@@ -350,7 +371,8 @@ void read_checkpoint(const std::string& path, Simulation& simulation, RunRecord&
   k.point_facet = file.read(check::contact_candidate_facet);
   index_pairs(k, model.grains);
   const auto grains = static_cast<std::size_t>(model.grains);
-  simulation.grain_steps() = {take(check::grain_step, grains), take(check::grain_step_of_tets, grains)};
+  simulation.grain_steps() = {take(check::grain_step, grains), take(check::grain_step_contact, grains),
+                              take(check::grain_step_growth, grains)};
   contact.travel = take(check::grain_travel, grains);
   contact.travel_at_search = take(check::grain_travel_at_search, grains);
   contact.point_facet = take(check::contact_point_facet, points);

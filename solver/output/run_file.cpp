@@ -176,11 +176,10 @@ void write_run_file(const std::string& path, const Model& model, const std::vect
   for (int grain = 0; grain < model.grains; ++grain) {
     const auto g = static_cast<std::size_t>(grain);
     for (std::int32_t t = model.tet_offset[g]; t < model.tet_offset[g + 1]; ++t) {
-      const std::int32_t local = t - model.tet_offset[g];
-      const TetBlock& block = model.block[static_cast<std::size_t>(model.block_offset[g] + local / TetBlock::lanes)];
+      const auto corner = model.nodes_of_tet(grain, t - model.tet_offset[g]);
       for (std::size_t c = 0; c < 4; ++c)
         tet[4 * static_cast<std::size_t>(model.file_tet[static_cast<std::size_t>(t)]) + c] =
-            model.file_node[static_cast<std::size_t>(model.node_offset[g] + block.node[c][local % TetBlock::lanes])];
+            model.file_node[static_cast<std::size_t>(model.node_offset[g] + corner[c])];
     }
   }
   file.write(run::mesh_tet, std::span<const std::int32_t>(tet), static_cast<std::size_t>(model.tets()));

@@ -20,16 +20,31 @@ inline ElasticModuli elastic_moduli(double youngs_modulus, double poissons_ratio
   return {youngs_modulus / (3.0 * (1.0 - 2.0 * poissons_ratio)), youngs_modulus / (2.0 * (1.0 + poissons_ratio))};
 }
 
-/// ln J. Within a tenth of J = 1, where solids under pressure are, by its series
-///   ln J = 2 artanh z = 2 z (1 + z^2/3 + z^4/5 + …),   z = (J - 1)/(J + 1),   |z| < 0.0527,
-/// whose first term left out is below 1e-19 of the first: a quarter of the time of the general logarithm.
+namespace detail {
+
+/// True where J is within a tenth of 1, as solids under pressure are: there z = (J - 1)/(J + 1) is below 0.0527, and
+/// series in it resolve ln J to the last digit.
+template <class S>
+bool near_reference(const S& volume_ratio) {
+  const S distance = volume_ratio - S(1.0);
+  return !any(!(max(distance, -distance) < S(0.1)));
+}
+
+/// t of   artanh z = z (1 + w t),   w = z^2:   1/3 + w/5 + w^2/7 + …; the first term left out is below 1e-19 of ln J.
+template <class S>
+S artanh_tail(const S& w) {
+  const S series = S(1.0 / 7) + w * (S(1.0 / 9) + w * (S(1.0 / 11) + w * S(1.0 / 13)));
+  return S(1.0 / 3) + w * (S(1.0 / 5) + w * series);
+}
+
+} // namespace detail
+
+/// ln J = 2 artanh z; its series takes a quarter of the time of the general logarithm.
 template <class S>
 S log_of_volume_ratio(const S& volume_ratio) {
-  const S distance = volume_ratio - S(1.0);
-  if (any(!(max(distance, -distance) < S(0.1)))) return log(volume_ratio);
-  const S z = distance / (volume_ratio + S(1.0)), w = z * z;
-  const S series = S(1.0 / 7) + w * (S(1.0 / 9) + w * (S(1.0 / 11) + w * S(1.0 / 13)));
-  return S(2.0) * z * (S(1.0) + w * (S(1.0 / 3) + w * (S(1.0 / 5) + w * series)));
+  if (!detail::near_reference(volume_ratio)) return log(volume_ratio);
+  const S z = (volume_ratio - S(1.0)) / (volume_ratio + S(1.0)), w = z * z;
+  return S(2.0) * z * (S(1.0) + w * detail::artanh_tail(w));
 }
 
 /// Cauchy mean stress (tension positive, MPa) at the volume ratio J.
@@ -38,10 +53,14 @@ S mean_stress(const ElasticModuli& moduli, const S& volume_ratio) {
   return S(moduli.bulk) * log_of_volume_ratio(volume_ratio);
 }
 
-/// Energy per reference volume (MPa) whose derivative with respect to J is K ln J.
+/// Energy per reference volume (MPa) whose derivative with respect to J is K ln J:   K (J ln J - J + 1). Near J = 1, where its
+/// terms cancel, by the series of the logarithm,   K 2 w (1 + z (1 + z) t) / (1 - z).
 template <class S>
 S volumetric_energy(const ElasticModuli& moduli, const S& volume_ratio) {
-  return S(moduli.bulk) * (volume_ratio * log(volume_ratio) - volume_ratio + S(1.0));
+  const S bulk(moduli.bulk);
+  if (!detail::near_reference(volume_ratio)) return bulk * (volume_ratio * log(volume_ratio) - volume_ratio + S(1.0));
+  const S z = (volume_ratio - S(1.0)) / (volume_ratio + S(1.0)), w = z * z;
+  return bulk * S(2.0) * w * (S(1.0) + z * (S(1.0) + z) * detail::artanh_tail(w)) / (S(1.0) - z);
 }
 
 /// Elastic distortion energy per current volume (MPa), s:s/(4G).

@@ -44,8 +44,9 @@ struct PowerLaw {
     const S first = excess * inverse; // relative increment r = d eps_p / eps_p, explicit
     // 1. Small relative increments, nearly always: with (1 + r)^m by its binomial series the equation is
     //    r + b2 r^2 + b3 r^3 + … = first. Its inverted series gives r to the fourth power, one Newton step the rest to
-    //    rounding. Comparison is false for 0/0, so fresh points take the other way.
-    if (!any(!(first < S(0.02)))) {
+    //    rounding. Comparison is false for 0/0, so fresh points take the other way, as do those whose strain was too
+    //    small to be told from 0 (small exponents in floats): r of it would be none for ever.
+    if (!any(!((first < S(0.02)) & (old.plastic_strain > S(0.0))))) {
       const S a = slope_strain * inverse;
       const S b2 = c2() * a, b3 = c3() * b2, b4 = c4() * b3, square = b2 * b2;
       S r = first *
@@ -61,7 +62,7 @@ struct PowerLaw {
     //    3G ((y/k)^(1/m) - eps_p,n) + y - (q_trial - sigma_y) = 0 is convex with slope >= 1; started above the root.
     const S distance = trial - S(yield_stress);
     const S bound = old.plastic_strain + excess / S(three_shear);
-    const S tiny(1e-300);
+    const S tiny(Resolution<S>::tiny);
     S y = min(max(distance, tiny), S(coefficient) * exp(S(exponent) * log(max(bound, tiny))));
     y = max(y, tiny);
     for (int iteration = 0; iteration < 12; ++iteration) {
@@ -69,12 +70,16 @@ struct PowerLaw {
       const S residual = S(three_shear) * (strain - old.plastic_strain) + y - distance;
       const S step = residual / (S(three_shear / exponent) * strain / y + S(1.0));
       y = max(y - step, tiny);
-      if (!any(max(step, -step) > S(1e-15) * y)) break;
+      if (!any(max(step, -step) > S(Resolution<S>::settled) * y)) break;
     }
+    // The strain, from either side of the equation: the difference of stresses is rounded to the last digit of these, the curve to
+    // that of the strain over m. Early on a curve with small m the strain may be less than any digit of the stress.
+    const S on_curve = exp(log(y * S(1.0 / coefficient)) * S(1.0 / exponent));
+    const S strain = select(S(three_shear) * on_curve < S(exponent) * y, max(on_curve, old.plastic_strain),
+                            old.plastic_strain + (distance - y) * S(1.0 / three_shear));
     // Points without excess (other lanes of a pack) keep their state exactly.
     const auto loaded = excess > S(0.0);
-    return {select(loaded, y + S(yield_stress), old.flow_stress),
-            select(loaded, old.plastic_strain + (distance - y) * S(1.0 / three_shear), old.plastic_strain)};
+    return {select(loaded, y + S(yield_stress), old.flow_stress), select(loaded, strain, old.plastic_strain)};
   }
 
 private:
@@ -111,7 +116,7 @@ struct TotalStrainLaw {
       const S slope = S(three_shear) * (S(1.0 / exponent) * strain / stress - S(1.0 / youngs_modulus)) + S(1.0);
       const S step = residual / slope;
       stress = max(stress - step, old.flow_stress);
-      if (!any(max(step, -step) > S(1e-15) * stress)) break;
+      if (!any(max(step, -step) > S(Resolution<S>::settled) * stress)) break;
     }
     const auto loaded = trial > old.flow_stress;
     return {select(loaded, stress, old.flow_stress),

@@ -1,11 +1,11 @@
 #pragma once
 // A pack of scalars that computes lane by lane, so that each law of physics is written once and serves as plain double
-// and as SIMD. `select` stands for `if`. Built on the compiler's vector types; but for one test,
+// and as SIMD, of doubles or floats. `select` stands for `if`. Built on the compiler's vector types; but for one test,
 // no instruction set is named here.
 
 #include <cmath>
 #include <cstdint>
-#include <type_traits>
+#include <utility>
 
 #include <Eigen/Core>
 
@@ -15,58 +15,77 @@
 
 namespace mpfem {
 
-/// Lanes of a native pack of doubles on the machine that the program is built for.
+/// Bytes of a native pack on the machine that the program is built for, and lanes of one of doubles or floats.
 #if defined(__AVX512F__)
-inline constexpr int native_lanes = 8;
+inline constexpr int native_bytes = 64;
 #elif defined(__AVX__)
-inline constexpr int native_lanes = 4;
+inline constexpr int native_bytes = 32;
 #else
-inline constexpr int native_lanes = 2;
+inline constexpr int native_bytes = 16;
 #endif
+template <class Real>
+inline constexpr int native_lanes_of = native_bytes / int{sizeof(Real)};
+inline constexpr int native_lanes = native_lanes_of<double>;
 
-/// The compiler's vector types. Written out per width: gcc drops the attribute where the width is a template parameter.
-template <int W>
+/// The compiler's vector types. Written out one by one: gcc drops the attribute where the width is a template parameter.
+template <int W, class Real>
 struct NativeVector;
 template <>
-struct NativeVector<2> {
+struct NativeVector<2, double> {
   typedef double Numbers __attribute__((vector_size(16)));
   typedef std::int64_t Truths __attribute__((vector_size(16)));
 };
 template <>
-struct NativeVector<4> {
+struct NativeVector<4, double> {
   typedef double Numbers __attribute__((vector_size(32)));
   typedef std::int64_t Truths __attribute__((vector_size(32)));
 };
 template <>
-struct NativeVector<8> {
+struct NativeVector<8, double> {
   typedef double Numbers __attribute__((vector_size(64)));
   typedef std::int64_t Truths __attribute__((vector_size(64)));
 };
+template <>
+struct NativeVector<4, float> {
+  typedef float Numbers __attribute__((vector_size(16)));
+  typedef std::int32_t Truths __attribute__((vector_size(16)));
+};
+template <>
+struct NativeVector<8, float> {
+  typedef float Numbers __attribute__((vector_size(32)));
+  typedef std::int32_t Truths __attribute__((vector_size(32)));
+};
+template <>
+struct NativeVector<16, float> {
+  typedef float Numbers __attribute__((vector_size(64)));
+  typedef std::int32_t Truths __attribute__((vector_size(64)));
+};
 
-/// Lane-wise truth values of a Pack<W>.
-template <int W>
+/// Lane-wise truth values of a Pack<W, Real>.
+template <int W, class Real = double>
 struct Mask {
-  using Native = typename NativeVector<W>::Truths;
+  using Native = typename NativeVector<W, Real>::Truths;
   Native v;
   friend Mask operator&(Mask a, Mask b) { return {a.v & b.v}; }
   friend Mask operator|(Mask a, Mask b) { return {a.v | b.v}; }
   Mask operator!() const { return {~v}; }
 };
 
-template <int W>
+template <int W, class Real = double>
 struct Pack {
-  using Native = typename NativeVector<W>::Numbers;
+  using Native = typename NativeVector<W, Real>::Numbers;
+  using Truths = Mask<W, Real>;
   static constexpr int lanes = W;
   Native v;
 
   Pack() = default;
   Pack(Native native) : v(native) {}
-  Pack(double scalar) : v(Native{} + scalar) {}
+  Pack(double scalar) : v(Native{} + static_cast<Real>(scalar)) {}
 
-  double operator[](int lane) const { return v[lane]; }
+  Real operator[](int lane) const { return v[lane]; }
 
-  static Pack load(const double* aligned) { return *reinterpret_cast<const Native*>(aligned); }
-  void store(double* aligned) const { *reinterpret_cast<Native*>(aligned) = v; }
+  static Pack load(const Real* aligned) { return *reinterpret_cast<const Native*>(aligned); }
+  void store(Real* aligned) const { *reinterpret_cast<Native*>(aligned) = v; }
 
   friend Pack operator+(Pack a, Pack b) { return a.v + b.v; }
   friend Pack operator-(Pack a, Pack b) { return a.v - b.v; }
@@ -85,71 +104,93 @@ struct Pack {
     v *= b.v;
     return *this;
   }
-  friend Mask<W> operator<(Pack a, Pack b) { return {a.v < b.v}; }
-  friend Mask<W> operator>(Pack a, Pack b) { return {a.v > b.v}; }
-  friend Mask<W> operator<=(Pack a, Pack b) { return {a.v <= b.v}; }
-  friend Mask<W> operator>=(Pack a, Pack b) { return {a.v >= b.v}; }
+  friend Truths operator<(Pack a, Pack b) { return {a.v < b.v}; }
+  friend Truths operator>(Pack a, Pack b) { return {a.v > b.v}; }
+  friend Truths operator<=(Pack a, Pack b) { return {a.v <= b.v}; }
+  friend Truths operator>=(Pack a, Pack b) { return {a.v >= b.v}; }
 };
 
 using NativePack = Pack<native_lanes>;
 
+/// What a scalar resolves: `tiny` keeps divisors and logarithms from zero; a number that changes by less than `settled`
+/// of itself no longer changes in iterations.
+template <class S>
+struct Resolution {
+  static constexpr double tiny = 1e-300, settled = 1e-15;
+};
 template <int W>
-Pack<W> select(Mask<W> mask, Pack<W> yes, Pack<W> no) {
+struct Resolution<Pack<W, float>> {
+  static constexpr double tiny = 1e-37, settled = 5e-7;
+};
+
+template <int W, class Real>
+Pack<W, Real> select(Mask<W, Real> mask, Pack<W, Real> yes, Pack<W, Real> no) {
   return mask.v ? yes.v : no.v;
 }
-template <int W>
-Pack<W> max(Pack<W> a, Pack<W> b) {
+template <int W, class Real>
+Pack<W, Real> max(Pack<W, Real> a, Pack<W, Real> b) {
   return a.v > b.v ? a.v : b.v;
 }
-template <int W>
-Pack<W> min(Pack<W> a, Pack<W> b) {
+template <int W, class Real>
+Pack<W, Real> min(Pack<W, Real> a, Pack<W, Real> b) {
   return a.v < b.v ? a.v : b.v;
 }
-template <int W>
-bool any(Mask<W> mask) {
-#if defined(__AVX__)
-  if constexpr (W == 4) return _mm256_movemask_pd(reinterpret_cast<__m256d>(mask.v)) != 0; // one instruction for ten
+template <int W, class Real>
+bool any(Mask<W, Real> mask) {
+#if defined(__AVX__) // one instruction for ten
+  if constexpr (sizeof(mask.v) == 32) {
+    if constexpr (W == 4) return _mm256_movemask_pd(reinterpret_cast<__m256d>(mask.v)) != 0;
+    return _mm256_movemask_ps(reinterpret_cast<__m256>(mask.v)) != 0;
+  }
 #endif
   std::int64_t bits = 0;
   for (int i = 0; i < W; ++i) bits |= mask.v[i];
   return bits != 0;
 }
-template <int W>
-Pack<W> sqrt(Pack<W> a) {
-  Pack<W> root;
+template <int W, class Real>
+Pack<W, Real> sqrt(Pack<W, Real> a) {
+  Pack<W, Real> root;
   for (int i = 0; i < W; ++i) root.v[i] = std::sqrt(a.v[i]);
   return root;
 }
 // exp and log are Eigen's vectorised ones (errors of a few units in the last place).
-template <int W>
-Pack<W> exp(Pack<W> a) {
-  Pack<W> result;
-  Eigen::Map<Eigen::Array<double, W, 1>, Eigen::Aligned16>(reinterpret_cast<double*>(&result.v)) =
-      Eigen::Map<const Eigen::Array<double, W, 1>, Eigen::Aligned16>(reinterpret_cast<const double*>(&a.v)).exp();
+namespace detail {
+template <int W, class Real>
+auto as_array(const Pack<W, Real>& a) {
+  return Eigen::Map<const Eigen::Array<Real, W, 1>, Eigen::Aligned16>(reinterpret_cast<const Real*>(&a.v));
+}
+template <int W, class Real>
+auto as_array(Pack<W, Real>& a) {
+  return Eigen::Map<Eigen::Array<Real, W, 1>, Eigen::Aligned16>(reinterpret_cast<Real*>(&a.v));
+}
+} // namespace detail
+template <int W, class Real>
+Pack<W, Real> exp(Pack<W, Real> a) {
+  Pack<W, Real> result;
+  detail::as_array(result) = detail::as_array(std::as_const(a)).exp();
   return result;
 }
-template <int W>
-Pack<W> log(Pack<W> a) {
-  Pack<W> result;
-  Eigen::Map<Eigen::Array<double, W, 1>, Eigen::Aligned16>(reinterpret_cast<double*>(&result.v)) =
-      Eigen::Map<const Eigen::Array<double, W, 1>, Eigen::Aligned16>(reinterpret_cast<const double*>(&a.v)).log();
+template <int W, class Real>
+Pack<W, Real> log(Pack<W, Real> a) {
+  Pack<W, Real> result;
+  detail::as_array(result) = detail::as_array(std::as_const(a)).log();
   return result;
 }
-template <int W>
-double sum(Pack<W> a) {
+template <int W, class Real>
+double sum(Pack<W, Real> a) {
   double total = 0;
   for (int i = 0; i < W; ++i) total += a.v[i];
   return total;
 }
-template <int W>
-double largest(Pack<W> a) {
-  double value = a.v[0];
+template <int W, class Real>
+double largest(Pack<W, Real> a) {
+  Real value = a.v[0];
   for (int i = 1; i < W; ++i) value = a.v[i] > value ? a.v[i] : value;
   return value;
 }
-template <int W>
-double smallest(Pack<W> a) {
-  double value = a.v[0];
+template <int W, class Real>
+double smallest(Pack<W, Real> a) {
+  Real value = a.v[0];
   for (int i = 1; i < W; ++i) value = a.v[i] < value ? a.v[i] : value;
   return value;
 }

@@ -27,7 +27,7 @@ ReturnedStress<S> radial_return(const Law& law, double shear, const Deviator<S>&
     if (!any(yielding)) return {trial, old, S(0.0)};
     const S q = select(yielding, sqrt(q_squared), old.flow_stress);
     const HardeningState<S> end = law.end_of_increment(q, old, 3.0 * shear);
-    const S factor = select(yielding, end.flow_stress / max(q, S(1e-300)), S(1.0));
+    const S factor = select(yielding, end.flow_stress / max(q, S(Resolution<S>::tiny)), S(1.0));
     const S increment = select(yielding, end.plastic_strain - old.plastic_strain, S(0.0));
     // Mean of the flow stresses at both ends: second order in the increment.
     return {{factor * trial.xx, factor * trial.yy, factor * trial.xy, factor * trial.yz, factor * trial.zx},

@@ -25,26 +25,31 @@ void PaceControl::update(PaceState& s, const PaceObservation& seen) const {
   double wall_stress = 0, stress = 0;
   const double weight = seen.elapsed / (transit_ + seen.elapsed);
   for (std::size_t axis = 0; axis < 3; ++axis) {
-    wall_stress = std::max(wall_stress, seen.wall_stress[axis]);
+    wall_stress = std::max(wall_stress, std::abs(seen.wall_stress[axis])); // grips may pull
     s.imbalance[axis] += (seen.imbalance[axis] - s.imbalance[axis]) * weight;
     s.dynamic[axis] += (seen.dynamic[axis] - s.dynamic[axis]) * weight;
     stress = std::max({stress, std::abs(s.imbalance[axis]), std::abs(s.dynamic[axis])});
   }
-  if (!(wall_stress > tolerances_.loose_stress)) return;
+  const double response = seen.elapsed / (transits_to_respond * transit_);
+  const double braked = std::max(1.0, s.pace * std::exp(-hardest_braking * response));
+  if (!(wall_stress > tolerances_.loose_stress)) { // nothing to judge by
+    if (seen.stopping) s.pace = std::min(s.pace, braked);
+    return;
+  }
   stress /= wall_stress;
   const double internal = seen.elastic_energy + seen.plastic_dissipation - s.dissipation_at_start;
-  const double kinetic = seen.kinetic_energy / std::max(internal, 1e-3 * seen.kinetic_energy);
+  // In the form v- v+ it may be a little below zero where the motion rings.
+  const double kinetic_energy = std::max(seen.kinetic_energy, 0.0);
+  const double kinetic = kinetic_energy > 0 ? kinetic_energy / std::max(internal, 1e-3 * kinetic_energy) : 0.0;
   s.largest_kinetic = std::max(s.largest_kinetic, kinetic);
   s.largest_stress = std::max(s.largest_stress, stress);
   s.time_loaded += seen.elapsed;
   const double load =
       std::max(std::sqrt(kinetic / tolerances_.kinetic_tolerance), stress / tolerances_.stress_tolerance);
   if (load > 1) s.time_beyond += seen.elapsed;
-  const double response = seen.elapsed / (transits_to_respond * transit_);
   const double rate = std::clamp(aim - load, -hardest_braking, strongest_acceleration);
   const double wanted = s.pace * std::exp(rate * response);
-  const double most = seen.stopping ? std::max(1.0, s.pace * std::exp(-hardest_braking * response))
-                                    : tolerances_.fastest_speed / wall_speed_;
+  const double most = seen.stopping ? braked : tolerances_.fastest_speed / wall_speed_;
   s.pace = std::clamp(wanted, tolerances_.slowest_speed / wall_speed_, most);
   if (wanted < s.pace && load > 1) s.at_slowest = 1;
   s.slowest = std::min(s.slowest, s.pace);

@@ -19,9 +19,11 @@ namespace {
 // and the root of the volume, by less than 2 e = 4 %: well within the 10 % that time_step_factor leaves.
 constexpr double strain_between_estimates = 0.02;
 constexpr int steps_between_estimates = 50;
-/// The frequencies of whole grains are found at every so many estimates: some twenty products with the stiffness, a fiftieth of
-/// the time between. Meanwhile a grain's step shortens as that of its worst tet does, and does not lengthen.
+/// The frequencies of all whole grains are found at every so many estimates: some twenty products with the stiffness each. In between
+/// a grain's frequency squared is taken to grow as that of the tet which grows most, and by what contact has come to its
+/// nodes; and where that would shorten the packing's step, it is found anew, unless it has grown by less than this.
 constexpr int estimates_between_spectra = 10;
+constexpr double growth_worth_a_spectrum = 1.01;
 
 /// A packing may start with nodes inside a neighbour by rounding, not by more.
 constexpr double overlap_tolerance = 1e-6; // of h
@@ -48,7 +50,7 @@ Simulation::Simulation(Model model, const Scenario& scenario, ThreadTeam& team, 
   advance_sums_.resize(grains);
   element_sums_.resize(grains);
   stable_steps_.resize(grains);
-  grain_steps_ = {std::vector<double>(grains), std::vector<double>(grains)};
+  grain_steps_ = {std::vector<double>(grains), std::vector<double>(grains), std::vector<double>(grains)};
   stiffness_rate_.resize(static_cast<std::size_t>(model_.nodes()));
   walls_.present = scenario.walls;
   state_.absent_axes = scenario.walls ? 0 : 7;
@@ -206,6 +208,7 @@ void Simulation::begin_branch() {
   state_.checkpoints_passed = 0;
   renew_candidates(model_, margin_, team_, contact_);
   estimate_stable_step(true);
+  state_.steps_since_estimate = steps_between_estimates - 1; // nothing touches yet: once more after the first step
   begin_stage();
   rebase_ledger_ = true;
 }
@@ -257,30 +260,49 @@ void Simulation::estimate_stable_step(bool anew) {
   const bool whole_grains = scenario_.numerics.step_estimate == StepEstimate::grain;
   anew = anew || ++state_.estimates_since_spectrum >= estimates_between_spectra;
   if (anew) state_.estimates_since_spectrum = 0;
+  // |tr e| <= sqrt(3) |e|
+  const double rate = std::sqrt(3.0) * state_.strain_rate;
+  const auto find_whole = [&](int grain) {
+    const auto g = static_cast<std::size_t>(grain);
+    const StableStep& of_tets = stable_steps_[g];
+    const double squared = largest_frequency(model_, grain, stiffness_rate_, of_tets.step, rate).squared;
+    grain_steps_.whole[g] = 2.0 / std::sqrt(squared);
+    grain_steps_.contact[g] = of_tets.largest_contact;
+    grain_steps_.growth[g] = 1;
+    return std::max(of_tets.step, grain_steps_.whole[g]);
+  };
+  std::vector<double> steps(stable_steps_.size());
+  std::vector<char> fresh(steps.size(), whole_grains && !anew ? 0 : 1);
   team_.for_each(model_.grains, [&](int grain, int) {
     const auto g = static_cast<std::size_t>(grain);
     contact_stiffness_rate(model_, contact_, grain, stiffness_rate_);
     wall_stiffness_rate(model_, walls_, bounds_[g], grain, stiffness_rate_);
     raise_to_expected_rate(model_, contact_, grain, stiffness_rate_);
-    // |tr e| <= sqrt(3) |e|
-    const double rate = std::sqrt(3.0) * state_.strain_rate;
-    stable_steps_[g] = mpfem::stable_step(model_, grain, stiffness_rate_, rate);
+    const StableStep of_tets = stable_steps_[g] = mpfem::stable_step(model_, grain, stiffness_rate_, rate);
+    steps[g] = of_tets.step;
     if (!whole_grains) return;
-    const double of_tets = stable_steps_[g].step;
-    double &whole = grain_steps_.whole[g], &of_tets_then = grain_steps_.of_tets[g];
     if (anew) {
-      whole = 2.0 / std::sqrt(largest_frequency(model_, grain, stiffness_rate_, of_tets, rate).squared);
-      of_tets_then = of_tets;
+      steps[g] = find_whole(grain);
+      return;
     }
-    stable_steps_[g].step = std::max(of_tets, whole * std::min(1.0, of_tets / of_tets_then));
+    const double then = 4.0 / (grain_steps_.whole[g] * grain_steps_.whole[g]);
+    grain_steps_.growth[g] *= of_tets.growth;
+    const double now = then * grain_steps_.growth[g] + std::max(of_tets.largest_contact - grain_steps_.contact[g], 0.0);
+    steps[g] = std::max(of_tets.step, 2.0 / std::sqrt(now));
+    fresh[g] = now < growth_worth_a_spectrum * then ? 1 : 0;
   });
-  double step = std::numeric_limits<double>::infinity(), no_contact = step;
-  for (const StableStep& grain : stable_steps_) {
-    step = std::min(step, grain.step);
-    no_contact = std::min(no_contact, grain.step_no_contact);
+  // The grain that sets the step is to have set it by its frequency, not by a bound of what that has become.
+  std::size_t shortest = 0;
+  while (true) {
+    shortest = static_cast<std::size_t>(std::min_element(steps.begin(), steps.end()) - steps.begin());
+    if (fresh[shortest]) break;
+    steps[shortest] = find_whole(static_cast<int>(shortest));
+    fresh[shortest] = 1;
   }
+  const double step = steps[shortest];
+  const StableStep& of_tets = stable_steps_[shortest];
   state_.stable_step = scenario_.numerics.time_step_factor * step;
-  state_.controlled_by_contact = step < 0.95 * no_contact ? 1 : 0;
+  state_.controlled_by_contact = of_tets.step < 0.95 * of_tets.step_no_contact ? 1 : 0;
   state_.steps_since_estimate = 0;
   state_.strain_since_estimate = 0;
   profile_.add_serial(Part::step_estimate, Profile::since(start));
@@ -391,7 +413,8 @@ void Simulation::regulate_pace() {
   for (std::size_t axis = 0; axis < 3; ++axis) seen.wall_stress[axis] = 0.5 * (stress[2 * axis] + stress[2 * axis + 1]);
   constexpr double near_the_end = 0.85; // cycles have an end only after all of them, and turn gently by themselves
   seen.stopping = stage_fraction_done() > near_the_end && !(stage().loading && stage().loading->cycles > 0);
-  pace_->update(state_.pace, seen);
+  regulated_ = state_.pace;
+  pace_->update(*regulated_, seen);
   profile_.add_serial(Part::integration, Profile::since(start));
 }
 
@@ -427,7 +450,9 @@ StageResult Simulation::stage_result() {
 }
 
 void Simulation::advance() {
-  const Plan plan = plan_step();
+  const Plan plan = plan_step(); // as the grips' forces were made for
+  if (regulated_) state_.pace = *regulated_;
+  regulated_.reset();
   const double step = plan.step;
   for (std::size_t axis = 0; axis < 3; ++axis) {
     state_.last_wall_move[2 * axis] = walls_.present ? plan.walls.low[axis] - walls_.low[axis] : 0.0;

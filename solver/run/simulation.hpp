@@ -69,10 +69,11 @@ struct RunState {
   PaceState pace;                          ///< of the stage, where it chooses its speed
 };
 
-/// Stable steps when the frequencies of whole grains were last found, s, [grains].
+/// Grains when the largest frequency of each as a whole was last found, and how much that may have grown since, [grains].
 struct GrainSteps {
-  std::vector<double> whole;   ///< of the grain as a whole
-  std::vector<double> of_tets; ///< of its worst tet
+  std::vector<double> whole;   ///< s, stable step
+  std::vector<double> contact; ///< 1/s^2, largest of the nodes' shares of contact in the frequency squared
+  std::vector<double> growth;  ///< factor by which single tets' frequencies squared have grown since, at most
 };
 
 /// How a stage ended.
@@ -192,6 +193,7 @@ private:
   std::vector<ElementSums> element_sums_;
   std::vector<StableStep> stable_steps_;
   GrainSteps grain_steps_;
+  std::optional<PaceState> regulated_; ///< takes over when the step has been made that is planned at the old pace
   std::vector<double> stiffness_rate_;
 };
 

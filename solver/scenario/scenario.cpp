@@ -171,6 +171,8 @@ void read_element(TableReader table, NumericsParameters& numerics) {
                                                             : std::vector<std::string>{},
                       "type = '" + type + "'");
   numerics.own_pressure = table.number_or("own_pressure", usual_own_pressure(numerics.element), Range::between(0, 1));
+  numerics.precision =
+      table.choice_or("precision", "double", {"double", "mixed"}) == "mixed" ? Precision::mixed : Precision::full;
   table.finish();
 }
 

@@ -79,6 +79,12 @@ const char* element_name(ElementType element);
 /// Share of each tet's own pressure with which an element is used where the scenario says nothing.
 double usual_own_pressure(ElementType element);
 
+/// Numbers in which the element pass works.
+enum class Precision {
+  full,  ///< doubles
+  mixed, ///< floats for strains, stresses and histories of tets; doubles for all of nodes, contact, walls, time and energies' sums
+};
+
 /// Whose largest frequency sets the stable step.
 enum class StepEstimate {
   grain, ///< that of each grain as a whole, found by iteration
@@ -87,7 +93,8 @@ enum class StepEstimate {
 
 struct NumericsParameters {
   ElementType element = ElementType::tet4;
-  double own_pressure = 0;       ///< tet4_anp, tet4_patch: share of each tet's own pressure, [0, 1]; 1 is tet4
+  double own_pressure = 0; ///< tet4_anp, tet4_patch: share of each tet's own pressure, [0, 1]; 1 is tet4
+  Precision precision = Precision::full;
   double time_step_factor = 0.9; ///< safety factor on the stable step, (0, 2]; beyond 1 nothing is proven
   StepEstimate step_estimate = StepEstimate::grain;
   double bulk_viscosity_linear = 0.06;

@@ -2,7 +2,8 @@
 # its scene: force (hertz, flattened, pair), axial-stress (confined), pull-off, mean-stress, recovery, modulus (small, full).
 #
 # error: mean of |value/reference - 1| over the quantities of the measure; bias: the same with signs; uncertainty: that of the
-# references, likewise. work: steps x tets x ns of the element per tet-step (cost.csv), in seconds of one core.
+# references, likewise. work: steps x tets x ns of the element per tet-step (cost.csv), in seconds of one core; in mixed precision
+# (lever "precision") times the row "mixed" of cost.csv.
 # on_front: no cheaper case of the scene and measure has a smaller error, where errors below the reference's uncertainty are
 # equal to it.
 
@@ -16,6 +17,7 @@ file == 3 {
   of_scene[name] = $need("scene")
   settings[name] = $1 OFS $2 OFS $3 OFS $4 OFS $5 OFS $6 OFS $7 OFS $8
   element[name] = $need("element")
+  factor[name] = $need("lever") == "precision" ? ns["mixed"] : 1
   tets[name] = $need("tets")
   steps[name] = $need("steps")
   steps_all[name] = $need("steps_all")
@@ -45,7 +47,7 @@ END {
     split(key, part, SUBSEP)
     name = part[1]
     later = part[2] == "recovery" || part[2] == "modulus"
-    work[key] = (later ? steps_all[name] : steps[name]) * tets[name] * ns[element[name]] * 1e-9
+    work[key] = (later ? steps_all[name] : steps[name]) * tets[name] * ns[element[name]] * factor[name] * 1e-9
     spent[key] = later ? seconds_all[name] : seconds[name]
     error[key] /= count[key]
     bias[key] /= count[key]

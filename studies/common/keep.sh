@@ -10,6 +10,7 @@ kept=studies/results/$mesh
 for figure in "$@"; do
   [ -e "out/$mesh/$figure/verdict.json" ] || { echo "keep.sh: out/$mesh/$figure has no verdict.json: left out" >&2 && continue; }
   mkdir -p "$kept/$figure"
+  rm -f "$kept/$figure"/*.png "$kept/$figure"/*.json "$kept/$figure"/*.csv # of other settings
   find "out/$mesh/$figure" -maxdepth 1 -type f \
     \( -name '*.png' -size -720k -o -name '*.json' -o -name '*.csv' -size -100k \) -exec cp {} "$kept/$figure/" \;
 done

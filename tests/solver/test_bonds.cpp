@@ -153,12 +153,16 @@ TEST_CASE("a broken bond stays broken, or bonds again on the next contact, as th
 TEST_CASE("normal-only bonds do not resist sliding") {
   BondParameters bond = table_1(0.5);
   bond.normal_only = true;
-  const Scenario scenario = bonded_scenario(
-      bond, {grip("press", -6e-4, 500), grip("slide", 0, 2000, {0.03, 0, 0}), grip("pull", 3e-3, 1000)});
-  const Record record = run_stages(two_cubes(4), scenario);
-  CHECK(record.last[1].damage_dissipation == 0); // a bond that resisted sliding would have broken long before 0.03 mm
-  CHECK(record.last[2].damage_dissipation > 0);
-  CHECK(record.worst_residual < 0.01);
+  // A bond that resisted would be half spent after 0.01 mm. Edges slide past each other with more: nodes beyond the last facet snap.
+  Scenario scenario = bonded_scenario(
+      bond, {grip("press", -6e-4, 500), grip("slide", 0, 2000, {0.01, 0, 0}), grip("pull", 3e-3, 1000)});
+  for (const double factor : {0.9, 0.7, 0.5}) {
+    scenario.numerics.time_step_factor = factor;
+    const Record record = run_stages(two_cubes(4), scenario);
+    CHECK(record.last[1].damage_dissipation == 0);
+    CHECK(record.last[2].damage_dissipation > 0);
+    CHECK(record.worst_residual < 0.01);
+  }
 }
 
 TEST_CASE("a scenario without bonds carries no bond state") {

@@ -81,6 +81,7 @@ TEST_CASE("an oblique collision of two elastic grains keeps momentum, angular mo
   scenario.grain_velocity = {{5e3, 0, 0}, {-5e3, 0, 1e3}}; // 5 m/s each
   scenario.numerics.bulk_viscosity_linear = 0;
   scenario.numerics.bulk_viscosity_quadratic = 0;
+  scenario.numerics.step_estimate = StepEstimate::tet; // whose steps the errors of second order below belong to
   ThreadTeam team(1);
   Simulation simulation(build_model(pack({first, second}, {1, 1, 1}), scenario, "test"), scenario, team);
   const Totals start = totals(simulation.model());

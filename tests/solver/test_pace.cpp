@@ -98,6 +98,30 @@ TEST_CASE("walls that are about to stop are not hurried") {
   CHECK(state.pace == 1);
 }
 
+TEST_CASE("walls that are about to stop are slowed down where nothing presses on them any more") {
+  const PaceControl control(tolerances(), 1000, transit);
+  PaceState state{.pace = 3};
+  for (int look = 0; look < 40; ++look) {
+    PaceObservation now = seen(state.pace, 1e-9);
+    now.wall_stress.fill(0.1);
+    now.stopping = true;
+    control.update(state, now);
+  }
+  CHECK(state.pace == 1);
+}
+
+TEST_CASE("grips that pull bear load as walls that press do") {
+  const PaceControl control(tolerances(), 1000, transit);
+  PaceState state;
+  for (int look = 0; look < 1000; ++look) {
+    PaceObservation now = seen(state.pace, 0.09);
+    now.wall_stress = {0, 0, -10};
+    control.update(state, now);
+  }
+  CHECK(state.pace < 0.4);
+  CHECK(state.time_loaded > 0);
+}
+
 TEST_CASE("the pace keeps to its bounds, and says when the slowest is not slow enough") {
   const PaceControl control(tolerances(), 1000, transit);
   PaceState hot, calm;

@@ -224,6 +224,12 @@ TEST_CASE("a run with bonds, unloading and grips is bitwise the same on one, two
   CHECK(file.read(schema::run::history_damage_dissipation).back() > 0);
 }
 
+TEST_CASE("a run in mixed precision is bitwise the same on one, two and four threads, and when it is resumed") {
+  const std::string mixed = replaced(bonded_text, "type = \"tet4-anp\"", "type = \"tet4-anp\"\nprecision = \"mixed\"");
+  check_threads(mixed, 4);
+  check_resuming(mixed, 4);
+}
+
 TEST_CASE("a run through every loading is bitwise the same on one, two and four threads") {
   check_threads(loading_text, 3);
 }
@@ -700,7 +706,8 @@ TEST_CASE("a branch may change how it is computed, but not the matter") {
   const std::string further = replaced(scenario_text, "relative_density = 0.62", "relative_density = 0.64");
   write_text(folder / "second.toml",
              replaced(further, "[output]",
-                      "[contact]\nsearch_margin = 1\nstiffness_factor = 12\n[numerics]\nmass_scaling = 4\n[output]"));
+                      "[contact]\nsearch_margin = 1\nstiffness_factor = 12\n[numerics]\nmass_scaling = 4\n"
+                      "[element]\nprecision = \"mixed\"\n[output]"));
   REQUIRE(mpfem_command(fmt::format("run {} -o {}{}", folder / "second.toml", folder / "second.h5", from)).exit_code ==
           0);
   const schema::FileReader file(folder / "second.h5", schema::FileKind::run);

@@ -100,6 +100,47 @@ TEST_CASE("a grain is stable just below the step of its largest frequency and no
   }
 }
 
+TEST_CASE("single tets are stable at their own step whatever share of their motion viscosity damps") {
+  // The stiffest motion of a regular tet is a change of volume, which bulk viscosity damps by more than b1.
+  GrainMesh mesh{{{0.05, 0.05, 0.05}, {0.05, -0.05, -0.05}, {-0.05, 0.05, -0.05}, {-0.05, -0.05, 0.05}},
+                 {{0, 2, 1, 3}}};
+  for (const double poissons_ratio : {0.0, 0.3, 0.45})
+    for (const double viscosity : {0.0, 0.06, 0.3}) {
+      Scenario scenario = holding_scenario(1);
+      scenario.material.poissons_ratio = poissons_ratio;
+      scenario.numerics.element = ElementType::tet4;
+      scenario.numerics.bulk_viscosity_linear = viscosity;
+      scenario.numerics.bulk_viscosity_quadratic = 0;
+      Model model = build_model(pack({mesh}, {1, 1, 1}), scenario, "test");
+      const double step = stable_step(model, 0, {}, 0).step;
+      CAPTURE(poissons_ratio, viscosity);
+      // Below the limit, at which it would be infinite, the velocity of a mode swings up to 1/sqrt(1 - 0.98^2) = 5 times as far.
+      CHECK(growth(model, 0.98 * step) < 26);
+      CHECK(growth(model, 1.02 * step) > 1e6);
+    }
+}
+
+TEST_CASE("frequencies of a grain grow by no more than those of the tet that grows most") {
+  // Pressed flat by a third in small moves, with the estimates of a run between: the sliver, which sets the step of single tets,
+  // strains like the rest, but others come to set that of the whole.
+  Model model = free_grain(ball_with_sliver(), ElementType::tet4, 0.06);
+  StableStep of_tets = stable_step(model, 0, {}, 0);
+  const double first = largest_frequency(model, 0, no_contact(model), of_tets.step, 0).squared;
+  double grown = 1;
+  for (int move = 0; move < 20; ++move) {
+    for (std::size_t n = 0; n < model.position.size(); n += 4) {
+      model.position[n + 2] *= 0.98;
+      model.position[n] *= 1 + 0.3 * model.position[n]; // the one side more than the other
+    }
+    of_tets = stable_step(model, 0, {}, 0);
+    grown *= of_tets.growth;
+    const double now = largest_frequency(model, 0, no_contact(model), of_tets.step, 0).squared;
+    CAPTURE(move, now / first, grown);
+    CHECK(now < 1.02 * first * grown); // 2 %: what either value may be above the eigenvalue
+  }
+  CHECK(grown > 1.5);
+}
+
 TEST_CASE("a sliver does not shorten the step of a grain as it does by itself") {
   Model model = free_grain(ball_with_sliver(), ElementType::tet4, 0.06);
   const double of_tets = stable_step(model, 0, {}, 0).step;

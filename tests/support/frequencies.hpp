@@ -18,11 +18,11 @@ namespace mpfem::test {
 inline Eigen::VectorXd squared_frequencies(Model model, const std::vector<double>& added = {}) {
   const auto nodes = static_cast<std::size_t>(model.nodes());
   const auto size = static_cast<Eigen::Index>(3 * nodes);
-  const std::vector<TetBlock> fresh = model.block;
+  const TetBlocks fresh = model.blocks;
   const double move = 1e-7, step = 1e-9; // mm: 1e-6 of a radius
   Eigen::MatrixXd stiffness(size, size);
   const auto forces_at = [&](std::size_t n, std::size_t axis, double by) {
-    model.block = fresh;
+    model.blocks = fresh;
     model.position[4 * n + axis] += by;
     model.velocity[4 * n + axis] = by / step;
     if (!element_forces(model, 0, step).admissible) throw std::runtime_error("not admissible");

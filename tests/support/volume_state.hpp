@@ -30,13 +30,12 @@ inline std::vector<std::vector<std::int32_t>> tet_neighbours(const Model& model)
   std::vector<std::set<std::int32_t>> ring(static_cast<std::size_t>(model.nodes()));
   for (int grain = 0; grain < model.grains; ++grain) {
     const auto g = static_cast<std::size_t>(grain);
-    for (std::int32_t b = model.block_offset[g]; b < model.block_offset[g + 1]; ++b)
-      for (int lane = 0; lane < model.tets_in_block(grain, b); ++lane)
-        for (int c = 0; c < 4; ++c)
-          for (int d = 0; d < 4; ++d)
-            if (c != d)
-              ring[static_cast<std::size_t>(model.node_offset[g] + model.block[std::size_t(b)].node[c][lane])].insert(
-                  model.node_offset[g] + model.block[std::size_t(b)].node[d][lane]);
+    for (std::int32_t tet = 0; tet < model.tet_offset[g + 1] - model.tet_offset[g]; ++tet) {
+      const auto node = model.nodes_of_tet(grain, tet);
+      for (const auto c : node)
+        for (const auto d : node)
+          if (c != d) ring[static_cast<std::size_t>(model.node_offset[g] + c)].insert(model.node_offset[g] + d);
+    }
   }
   std::vector<std::vector<std::int32_t>> result;
   for (const auto& around : ring) result.emplace_back(around.begin(), around.end());
@@ -57,28 +56,30 @@ inline VolumeState volume_state(const Model& model, const std::vector<std::vecto
   std::vector<Tet> tets;
   for (int grain = 0; grain < model.grains; ++grain) {
     const auto g = static_cast<std::size_t>(grain);
-    for (std::int32_t b = model.block_offset[g]; b < model.block_offset[g + 1]; ++b) {
-      const TetBlock& block = model.block[static_cast<std::size_t>(b)];
-      for (int lane = 0; lane < model.tets_in_block(grain, b); ++lane) {
-        Tet tet{};
-        Vector3<double> x[4];
-        for (int c = 0; c < 4; ++c) {
-          tet.node[c] = model.node_offset[g] + block.node[c][lane];
-          const double* at = &model.position[4 * static_cast<std::size_t>(tet.node[c])];
-          x[c] = {at[0], at[1], at[2]};
-        }
-        const double now = dot(cross(x[1] - x[0], x[2] - x[0]), x[3] - x[0]) / 6;
-        tet.reference = 1 / block.inverse_volume[lane];
-        tet.ratio = now / tet.reference;
-        for (const auto n : tet.node) {
-          volume[static_cast<std::size_t>(n)] += now / 4;
-          reference[static_cast<std::size_t>(n)] += tet.reference / 4;
-        }
-        result.volume += now, result.reference_volume += tet.reference;
-        result.tet_lowest = std::min(result.tet_lowest, tet.ratio);
-        result.tet_highest = std::max(result.tet_highest, tet.ratio);
-        tets.push_back(tet);
+    for (std::int32_t t = 0; t < model.tet_offset[g + 1] - model.tet_offset[g]; ++t) {
+      const auto node = model.nodes_of_tet(grain, t);
+      Tet tet{};
+      Vector3<double> x[4];
+      for (std::size_t c = 0; c < 4; ++c) {
+        tet.node[c] = model.node_offset[g] + node[c];
+        const double* at = &model.position[4 * static_cast<std::size_t>(tet.node[c])];
+        x[c] = {at[0], at[1], at[2]};
       }
+      const double now = dot(cross(x[1] - x[0], x[2] - x[0]), x[3] - x[0]) / 6;
+      tet.reference = with_tet_numbers(model, [&](auto number) {
+        using Block = TetBlock<decltype(number)>;
+        return 1.0 /
+               model.block<decltype(number)>(model.block_offset[g] + t / Block::lanes).inverse_volume[t % Block::lanes];
+      });
+      tet.ratio = now / tet.reference;
+      for (const auto n : tet.node) {
+        volume[static_cast<std::size_t>(n)] += now / 4;
+        reference[static_cast<std::size_t>(n)] += tet.reference / 4;
+      }
+      result.volume += now, result.reference_volume += tet.reference;
+      result.tet_lowest = std::min(result.tet_lowest, tet.ratio);
+      result.tet_highest = std::max(result.tet_highest, tet.ratio);
+      tets.push_back(tet);
     }
   }
   for (std::size_t n = 0; n < nodes; ++n) {
