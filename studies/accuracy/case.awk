@@ -28,7 +28,8 @@ NR == 1 || /^#/ || !($9 in wanted) { next }
     exit 1
   }
   options = "element.type=" $4 " contact.stiffness_factor=" $6
-  if ($3 == "precision") options = options " element.precision=mixed"
+  # With the step that the cases beside it were run with.
+  if ($3 == "precision") options = options " element.precision=mixed numerics.step_estimate=tet"
   recovery = "-"
   if (scene in contact_radius) {
     options = options sprintf(" numerics.mass_scaling_step=%.4g", 4e-7 * contact_radius[scene] / $5 * sqrt($8))
