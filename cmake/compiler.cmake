@@ -27,7 +27,8 @@ endif()
 if(MPFEM_SANITIZE)
   # -O2: the vector types cost a factor of fifty where nothing is inlined.
   target_compile_options(mpfem_options INTERFACE -O2 -fsanitize=${MPFEM_SANITIZE}
-                                                 -fno-omit-frame-pointer -fno-sanitize-recover=all)
+                                                 -fno-omit-frame-pointer -fno-sanitize-recover=all
+                                                 -DMPFEM_FLATTEN=)
   target_link_options(mpfem_options INTERFACE -fsanitize=${MPFEM_SANITIZE})
 endif()
 set(CMAKE_CXX_FLAGS_RELEASE "-O3 -DNDEBUG")

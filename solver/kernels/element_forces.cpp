@@ -73,7 +73,7 @@ struct OwnPressure {
 
 /// Volumes around the nodes of a grain, a quarter of every tet's, into `volume` [nodes of the grain].
 template <class Real>
-[[gnu::flatten]] void nodal_volumes(const Model& model, int grain, double* volume) {
+MPFEM_FLATTEN void nodal_volumes(const Model& model, int grain, double* volume) {
   using S = TetPack<Real>;
   const auto g = static_cast<std::size_t>(grain);
   const double* position = model.position.data() + 4 * model.node_offset[g];
@@ -189,8 +189,7 @@ auto with_pressure(const Model& model, int grain, double* nodal, F&& f) {
 
 // flatten: everything below is inlined here. Called as functions, packs go through memory: 1.2 times the time.
 template <class Real, class Law, class Pressure>
-[[gnu::flatten]] ElementSums element_pass(Model& model, int grain, double time_step, const Law& law,
-                                          Pressure pressure) {
+MPFEM_FLATTEN ElementSums element_pass(Model& model, int grain, double time_step, const Law& law, Pressure pressure) {
   using S = TetPack<Real>;
   constexpr int W = TetBlock<Real>::lanes;
   const auto g = static_cast<std::size_t>(grain);
@@ -202,7 +201,8 @@ template <class Real, class Law, class Pressure>
 
   const Material& material = model.material_of(grain);
   const TetConstants constants{material.moduli, model.viscosity, material.wave_speed, material.density, time_step};
-  S plastic_work(0.0), viscous_work(0.0), largest_strain(0.0), smallest_ratio(1.0), check(0.0);
+  LongSum<S> plastic_work, viscous_work;
+  S largest_strain(0.0), smallest_ratio(1.0), check(0.0);
 
   const std::int32_t end = model.block_offset[g + 1];
   for (std::int32_t b = model.block_offset[g]; b < end; ++b) {
@@ -224,14 +224,15 @@ template <class Real, class Law, class Pressure>
       update.volume *= weight;
     }
     add_balanced<W>(force, block.node, update.force);
-    plastic_work += update.volume * update.plastic_work;
-    viscous_work += update.volume * update.viscous_work;
+    plastic_work.add(update.volume * update.plastic_work);
+    viscous_work.add(update.volume * update.viscous_work);
     largest_strain = max(largest_strain, update.strain_increment_square);
     smallest_ratio = min(smallest_ratio, update.volume_ratio);
     check += update.mean; // becomes NaN or infinite where anything above is
   }
-  const bool admissible = smallest(smallest_ratio) > 0 && std::isfinite(sum(check)) && std::isfinite(sum(plastic_work));
-  return {sum(plastic_work), sum(viscous_work), std::sqrt(largest(largest_strain)), admissible};
+  const bool admissible =
+      smallest(smallest_ratio) > 0 && std::isfinite(sum(check)) && std::isfinite(plastic_work.value());
+  return {plastic_work.value(), viscous_work.value(), std::sqrt(largest(largest_strain)), admissible};
 }
 
 template <class Real>
@@ -242,15 +243,15 @@ double elastic_energy_in(const Model& model, int grain) {
   const ElasticModuli moduli = model.material_of(grain).moduli;
   // The part of the volumetric energy that belongs to single tets; the rest belongs to nodes or patches.
   const double own = model.element == ElementType::tet4 ? 1.0 : model.own_pressure;
-  S energy(0.0);
+  LongSum<S> energy;
   for (std::int32_t b = model.block_offset[g]; b < model.block_offset[g + 1]; ++b) {
     const TetBlock<Real>& block = model.block<Real>(b);
     const S ratio = current_volume_ratio(block, position);
     S density = ratio * distortion_energy(moduli, load_deviator(block));
     if (own > 0) density += S(own) * volumetric_energy(moduli, ratio);
-    energy += lane_weights<Real>(0, model.tets_in_block<Real>(grain, b)) / S::load(block.inverse_volume) * density;
+    energy.add(lane_weights<Real>(0, model.tets_in_block<Real>(grain, b)) / S::load(block.inverse_volume) * density);
   }
-  double total = sum(energy);
+  double total = energy.value();
   if (model.element == ElementType::tet4_anp) {
     const auto first = static_cast<std::size_t>(model.node_offset[g]);
     std::vector<double> volume(static_cast<std::size_t>(model.node_offset[g + 1]) - first);
@@ -271,12 +272,12 @@ double current_volume_in(const Model& model, int grain) {
   using S = TetPack<Real>;
   const auto g = static_cast<std::size_t>(grain);
   const double* position = model.position.data() + 4 * model.node_offset[g];
-  S volume(0.0);
+  LongSum<S> volume;
   for (std::int32_t b = model.block_offset[g]; b < model.block_offset[g + 1]; ++b) {
     const TetBlock<Real>& block = model.block<Real>(b);
-    volume += lane_weights<Real>(0, model.tets_in_block<Real>(grain, b)) * current_geometry(block, position).det;
+    volume.add(lane_weights<Real>(0, model.tets_in_block<Real>(grain, b)) * current_geometry(block, position).det);
   }
-  return sum(volume) / 6.0;
+  return volume.value() / 6.0;
 }
 
 template <class Real>
@@ -295,8 +296,8 @@ BadTet find_bad_tet_in(const Model& model, int grain) {
 }
 
 template <class Real>
-[[gnu::flatten]] StableStep stable_step_in(Model& model, int grain, std::span<const double> nodal_stiffness_rate,
-                                           double strain_rate) {
+MPFEM_FLATTEN StableStep stable_step_in(Model& model, int grain, std::span<const double> nodal_stiffness_rate,
+                                        double strain_rate) {
   using S = TetPack<Real>;
   constexpr int W = TetBlock<Real>::lanes;
   const auto g = static_cast<std::size_t>(grain);
@@ -305,7 +306,7 @@ template <class Real>
   const Material& material = model.material_of(grain);
   const double damping_of_volume = material.moduli.dilatational() / material.moduli.bulk;
   S smallest_step(std::numeric_limits<double>::infinity()), smallest_no_contact = smallest_step;
-  S largest_contact(0.0), growth(1.0);
+  S growth(1.0);
   for (std::int32_t b = model.block_offset[g]; b < model.block_offset[g + 1]; ++b) {
     TetBlock<Real>& block = model.block<Real>(b);
     const auto geometry = current_geometry(block, position);
@@ -336,11 +337,10 @@ template <class Real>
     const S quadratic =
         S(model.viscosity.quadratic * model.viscosity.quadratic * strain_rate / material.wave_speed) * length;
     const S damped = S(2.0) * damped_step_factor(S(damping_of_volume) * (S(model.viscosity.linear) + quadratic));
-    largest_contact = max(largest_contact, contact);
     smallest_step = min(smallest_step, damped / sqrt(element + contact));
     smallest_no_contact = min(smallest_no_contact, damped / sqrt(element));
   }
-  return {smallest(smallest_step), smallest(smallest_no_contact), largest(largest_contact), largest(growth)};
+  return {smallest(smallest_step), smallest(smallest_no_contact), largest(growth)};
 }
 
 template <class Real>

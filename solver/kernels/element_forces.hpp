@@ -38,7 +38,6 @@ BadTet find_bad_tet(const Model& model, int grain);
 struct StableStep {
   double step;            ///< s
   double step_no_contact; ///< s, of the elements alone
-  double largest_contact; ///< 1/s^2, largest of `nodal_stiffness_rate` at its nodes
   double growth; ///< largest factor by which a tet's frequency squared has grown since the call before, at least 1
 };
 StableStep stable_step(Model& model, int grain, std::span<const double> nodal_stiffness_rate, double strain_rate);

@@ -27,8 +27,8 @@ struct LinearResponse {
 
 /// Adds (K + 2/dt C) x to `product`, both rows of a grain's nodes (mm, N).
 template <class Real>
-[[gnu::flatten]] void add_product(const Model& model, int grain, const LinearResponse& response, const double* x,
-                                  double* product) {
+MPFEM_FLATTEN void add_product(const Model& model, int grain, const LinearResponse& response, const double* x,
+                               double* product) {
   constexpr int W = TetBlock<Real>::lanes;
   using S = Pack<W, Real>;
   const auto g = static_cast<std::size_t>(grain);

@@ -9,7 +9,7 @@
 namespace mpfem {
 
 // flatten: packs passed to functions go through memory.
-[[gnu::flatten]] Bounds update_surface(Model& model, int grain) {
+MPFEM_FLATTEN Bounds update_surface(Model& model, int grain) {
   constexpr int W = native_lanes;
   const auto g = static_cast<std::size_t>(grain);
   const double* position = model.position.data();

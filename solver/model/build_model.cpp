@@ -330,14 +330,19 @@ std::vector<TetBlock<Real>> make_blocks(const MeshedPacking& packing, const std:
 }
 
 /// Eighth powers of lengths (the step's estimate) and inverse sixth ones must be floats.
-void refuse_sizes_beyond_floats(const Model& model, const std::string& name) {
+void refuse_sizes_beyond_floats(const MeshedPacking& packing, const std::string& name) {
   constexpr double least = 1e-4, most = 1e4; // mm
-  for (std::size_t g = 0; g < model.element_size.size(); ++g)
-    if (!(model.element_size[g] > least && model.element_size[g] < most))
+  for (std::size_t t = 0; t < packing.tet.size() / 4; ++t) {
+    double longest = 0;
+    const auto x0 = point(packing.node, packing.tet[4 * t]);
+    for (std::size_t c = 1; c < 4; ++c)
+      longest = std::max(longest, norm(point(packing.node, packing.tet[4 * t + c]) - x0));
+    if (!(longest > least && longest < most))
       throw InputError(
-          fmt::format("{}: the elements of grain {} have a size of {:.3g} mm; element.precision = 'mixed' takes "
-                      "{:g} … {:g} mm, 'double' any",
-                      name, g, model.element_size[g], least, most));
+          fmt::format("{}: tet {} has an edge of {:.3g} mm; element.precision = 'mixed' takes {:g} … {:g} mm, "
+                      "'double' any",
+                      name, t, longest, least, most));
+  }
 }
 
 } // namespace
@@ -449,7 +454,7 @@ Model build_model(const MeshedPacking& packing, const Scenario& scenario, const 
     }
   }
   if (scenario.numerics.precision == Precision::mixed) {
-    refuse_sizes_beyond_floats(model, name);
+    refuse_sizes_beyond_floats(packing, name);
     model.blocks = make_blocks<float>(packing, new_index, model);
   } else {
     model.blocks = make_blocks<double>(packing, new_index, model);

@@ -44,8 +44,8 @@ template <class State, class Record, class F>
 void for_each_number(State& s, Record& r, F&& f) {
   for (auto* value :
        {&s.time, &s.stage_time, &s.stable_step, &s.last_step, &s.strain_since_estimate, &s.strain_rate,
-        &s.initial_energy, &s.plastic_dissipation, &s.viscous_dissipation, &s.damping_dissipation, &s.external_work,
-        &s.grip_work_ahead, &s.damping_force, &s.mean_stress, &s.stage_mean_stress, &r.wall_time})
+        &s.spectrum_rate, &s.initial_energy, &s.plastic_dissipation, &s.viscous_dissipation, &s.damping_dissipation,
+        &s.external_work, &s.grip_work_ahead, &s.damping_force, &s.mean_stress, &s.stage_mean_stress, &r.wall_time})
     f(*value);
   for (auto* values : {&s.initial_lengths, &s.stage_low, &s.stage_high, &s.low, &s.high})
     for (auto& value : *values) f(value);
@@ -89,7 +89,7 @@ void for_each_array(F&& f) {
   f(check::node_position), f(check::node_velocity), f(check::node_force);
   for (const auto& component : deviator_components) f(component);
   f(check::tet_flow_stress), f(check::tet_plastic_strain), f(check::tet_length);
-  f(check::grain_step), f(check::grain_step_contact), f(check::grain_step_growth);
+  f(check::grain_step), f(check::grain_step_growth), f(check::node_step_contact);
   f(check::grain_travel), f(check::grain_travel_at_search), f(check::contact_point_wake), f(check::contact_point_sure);
   f(check::contact_pair_first), f(check::contact_pair_second), f(check::contact_pair_point_offset);
   f(check::contact_point_node), f(check::contact_point_facet_offset), f(check::contact_candidate_facet);
@@ -216,8 +216,8 @@ void write_checkpoint(const std::string& path, const Simulation& simulation, con
   arrays.write(check::tet_plastic_strain, of_tets(model, [](const auto& b) { return b.plastic_strain; }));
   arrays.write(check::tet_length, of_tets(model, [](const auto& b) { return b.length; }));
   arrays.write(check::grain_step, simulation.grain_steps().whole);
-  arrays.write(check::grain_step_contact, simulation.grain_steps().contact);
   arrays.write(check::grain_step_growth, simulation.grain_steps().growth);
+  arrays.write(check::node_step_contact, simulation.grain_steps().contact);
   arrays.write(check::grain_travel, contact.travel);
   arrays.write(check::grain_travel_at_search, contact.travel_at_search);
   arrays.write(check::contact_point_wake, contact.point_wake);
@@ -262,12 +262,15 @@ void read_checkpoint(const std::string& path, Simulation& simulation, RunRecord&
   const auto damaged = [&path] {
     return InputError(fmt::format("{}: the checkpoint is damaged: its numbers do not match its checksum", path));
   };
-  if (file.read_scalar(check::checksum) != hash_text(checksum(file))) throw damaged();
   const bool bonded = file.has(check::bond_facet);
 
   Model& model = simulation.model();
   if (file.read_scalar(check::packing_hash) != hash_text(model.mesh_hash))
     throw InputError(fmt::format("{}: the checkpoint belongs to another packing than the scenario's", path));
+  // Arrays stand in the order of nodes and tets, which versions may choose otherwise.
+  if (!file.has(check::numbering_hash) || file.read_scalar(check::numbering_hash) != hash_text(numbering_hash(model)))
+    throw InputError(fmt::format("{}: the checkpoint was written by a version of mpfem", path));
+  if (file.read_scalar(check::checksum) != hash_text(checksum(file))) throw damaged();
   if (!any_scenario && file.read_scalar(check::scenario) != scenario_text)
     throw InputError(
         fmt::format("{}: the checkpoint belongs to another scenario; run without --resume to begin anew", path));
@@ -276,10 +279,6 @@ void read_checkpoint(const std::string& path, Simulation& simulation, RunRecord&
         fmt::format("{}: the checkpoint was written by a build with {} lanes, this one has {}: nodes and tets "
                     "would not go on bitwise",
                     path, file.read_scalar(check::lanes), native_lanes));
-
-  if (file.read_scalar(check::numbering_hash) != hash_text(numbering_hash(model)))
-    throw InputError(fmt::format(
-        "{}: the checkpoint was written by a version of mpfem that numbers nodes and tets otherwise", path));
 
   // A branch goes on with the same matter: its stresses and strains mean nothing in another material.
   if (any_scenario) {
@@ -371,8 +370,8 @@ void read_checkpoint(const std::string& path, Simulation& simulation, RunRecord&
   k.point_facet = file.read(check::contact_candidate_facet);
   index_pairs(k, model.grains);
   const auto grains = static_cast<std::size_t>(model.grains);
-  simulation.grain_steps() = {take(check::grain_step, grains), take(check::grain_step_contact, grains),
-                              take(check::grain_step_growth, grains)};
+  simulation.grain_steps() = {take(check::grain_step, grains), take(check::grain_step_growth, grains),
+                              take(check::node_step_contact, nodes)};
   contact.travel = take(check::grain_travel, grains);
   contact.travel_at_search = take(check::grain_travel_at_search, grains);
   contact.point_facet = take(check::contact_point_facet, points);

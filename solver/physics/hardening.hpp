@@ -45,8 +45,8 @@ struct PowerLaw {
     // 1. Small relative increments, nearly always: with (1 + r)^m by its binomial series the equation is
     //    r + b2 r^2 + b3 r^3 + … = first. Its inverted series gives r to the fourth power, one Newton step the rest to
     //    rounding. Comparison is false for 0/0, so fresh points take the other way, as do those whose strain was too
-    //    small to be told from 0 (small exponents in floats): r of it would be none for ever.
-    if (!any(!((first < S(0.02)) & (old.plastic_strain > S(0.0))))) {
+    //    small for the number type (small exponents in floats): exp() ends near 1e-38, and r of that would be wrong for ever.
+    if (!any(!((first < S(0.02)) & (old.plastic_strain > S(Resolution<S>::tiny))))) {
       const S a = slope_strain * inverse;
       const S b2 = c2() * a, b3 = c3() * b2, b4 = c4() * b3, square = b2 * b2;
       S r = first *

@@ -13,6 +13,12 @@
 #include <immintrin.h>
 #endif
 
+/// Before functions whose calls are all to be inlined: packs passed to functions go through memory. Builds with sanitizers do
+/// without (cmake/compiler.cmake): inlined and instrumented, the element pass takes gcc longer than all else together.
+#ifndef MPFEM_FLATTEN
+#define MPFEM_FLATTEN [[gnu::flatten]]
+#endif
+
 namespace mpfem {
 
 /// Bytes of a native pack on the machine that the program is built for, and lanes of one of doubles or floats.
@@ -194,6 +200,26 @@ double smallest(Pack<W, Real> a) {
   for (int i = 1; i < W; ++i) value = a.v[i] < value ? a.v[i] : value;
   return value;
 }
+
+/// A sum of many packs that is good to the rounding of its terms, in floats too: these are put into a double now and then.
+template <class S>
+class LongSum {
+public:
+  void add(const S& term) {
+    part_ += term;
+    if constexpr (sizeof(term.v[0]) < sizeof(double)) {
+      if (++terms_ % 16 != 0) return;
+      total_ += sum(part_);
+      part_ = S(0.0);
+    }
+  }
+  double value() const { return total_ + sum(part_); }
+
+private:
+  S part_{0.0};
+  double total_ = 0;
+  int terms_ = 0;
+};
 
 // The same vocabulary for one plain double.
 inline double select(bool mask, double yes, double no) {

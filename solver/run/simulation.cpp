@@ -28,6 +28,14 @@ constexpr double growth_worth_a_spectrum = 1.01;
 /// A packing may start with nodes inside a neighbour by rounding, not by more.
 constexpr double overlap_tolerance = 1e-6; // of h
 
+/// Share of the critical damping that quadratic bulk viscosity may reach in a volume change at `rate` (1/s).
+double largest_quadratic_damping(const Model& model, double rate) {
+  const double size = *std::max_element(model.element_size.begin(), model.element_size.end());
+  double slowest = std::numeric_limits<double>::infinity();
+  for (const Material& material : model.material) slowest = std::min(slowest, material.wave_speed);
+  return model.viscosity.quadratic * model.viscosity.quadratic * rate * size / slowest;
+}
+
 double smooth_fade(double value, double full) {
   if (full <= 0) return value > 0 ? 0.0 : 1.0;
   const double s = std::clamp(value / full, 0.0, 1.0);
@@ -50,7 +58,8 @@ Simulation::Simulation(Model model, const Scenario& scenario, ThreadTeam& team, 
   advance_sums_.resize(grains);
   element_sums_.resize(grains);
   stable_steps_.resize(grains);
-  grain_steps_ = {std::vector<double>(grains), std::vector<double>(grains), std::vector<double>(grains)};
+  grain_steps_ = {std::vector<double>(grains), std::vector<double>(grains),
+                  std::vector<double>(static_cast<std::size_t>(model_.nodes()))};
   stiffness_rate_.resize(static_cast<std::size_t>(model_.nodes()));
   walls_.present = scenario.walls;
   state_.absent_axes = scenario.walls ? 0 : 7;
@@ -259,15 +268,18 @@ void Simulation::estimate_stable_step(bool anew) {
   const auto start = Profile::Clock::now();
   const bool whole_grains = scenario_.numerics.step_estimate == StepEstimate::grain;
   anew = anew || ++state_.estimates_since_spectrum >= estimates_between_spectra;
-  if (anew) state_.estimates_since_spectrum = 0;
   // |tr e| <= sqrt(3) |e|
   const double rate = std::sqrt(3.0) * state_.strain_rate;
+  // In an impact quadratic viscosity grows within one estimate.
+  anew = anew || (rate > 2 * state_.spectrum_rate && largest_quadratic_damping(model_, rate) > 0.01);
+  if (anew) state_.estimates_since_spectrum = 0, state_.spectrum_rate = rate;
   const auto find_whole = [&](int grain) {
     const auto g = static_cast<std::size_t>(grain);
     const StableStep& of_tets = stable_steps_[g];
     const double squared = largest_frequency(model_, grain, stiffness_rate_, of_tets.step, rate).squared;
     grain_steps_.whole[g] = 2.0 / std::sqrt(squared);
-    grain_steps_.contact[g] = of_tets.largest_contact;
+    std::copy(stiffness_rate_.begin() + model_.node_offset[g], stiffness_rate_.begin() + model_.node_offset[g + 1],
+              grain_steps_.contact.begin() + model_.node_offset[g]);
     grain_steps_.growth[g] = 1;
     return std::max(of_tets.step, grain_steps_.whole[g]);
   };
@@ -287,7 +299,11 @@ void Simulation::estimate_stable_step(bool anew) {
     }
     const double then = 4.0 / (grain_steps_.whole[g] * grain_steps_.whole[g]);
     grain_steps_.growth[g] *= of_tets.growth;
-    const double now = then * grain_steps_.growth[g] + std::max(of_tets.largest_contact - grain_steps_.contact[g], 0.0);
+    double contact = 0;
+    for (auto n = static_cast<std::size_t>(model_.node_offset[g]);
+         n < static_cast<std::size_t>(model_.node_offset[g + 1]); ++n)
+      contact = std::max(contact, stiffness_rate_[n] - grain_steps_.contact[n]);
+    const double now = then * grain_steps_.growth[g] + contact;
     steps[g] = std::max(of_tets.step, 2.0 / std::sqrt(now));
     fresh[g] = now < growth_worth_a_spectrum * then ? 1 : 0;
   });

@@ -46,7 +46,8 @@ struct RunState {
   double stable_step = 0; ///< s, estimate times safety factor
   double last_step = 0;   ///< s, the step that led to the present positions; 0 at the start
   double strain_since_estimate = 0;
-  double strain_rate = 0; ///< 1/s, largest in the last step
+  double strain_rate = 0;   ///< 1/s, largest in the last step
+  double spectrum_rate = 0; ///< 1/s, volumetric, when the frequencies of whole grains were last found
   // energies, mJ
   double initial_energy = 0;
   double plastic_dissipation = 0;
@@ -69,11 +70,11 @@ struct RunState {
   PaceState pace;                          ///< of the stage, where it chooses its speed
 };
 
-/// Grains when the largest frequency of each as a whole was last found, and how much that may have grown since, [grains].
+/// Grains when the largest frequency of each as a whole was last found, and how much that may have grown since; [grains] but for one.
 struct GrainSteps {
   std::vector<double> whole;   ///< s, stable step
-  std::vector<double> contact; ///< 1/s^2, largest of the nodes' shares of contact in the frequency squared
   std::vector<double> growth;  ///< factor by which single tets' frequencies squared have grown since, at most
+  std::vector<double> contact; ///< 1/s^2, [nodes]: share of contact in the frequency squared, then
 };
 
 /// How a stage ended.

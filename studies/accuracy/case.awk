@@ -28,7 +28,7 @@ NR == 1 || /^#/ || !($9 in wanted) { next }
     exit 1
   }
   options = "element.type=" $4 " contact.stiffness_factor=" $6
-  # With the step that the cases beside it were run with.
+  # With the step that the cases beside it were run with; both go when these are run anew.
   if ($3 == "precision") options = options " element.precision=mixed numerics.step_estimate=tet"
   recovery = "-"
   if (scene in contact_radius) {

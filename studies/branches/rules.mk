@@ -69,7 +69,7 @@ $(foreach b,$(branch_names),$(call check_branch,$(b)))
 # A run works in work/ and is moved out when it is complete; a rerun goes on from its own checkpoint, unless an input is newer.
 # $(call run_recipe,SCENARIO,OPTIONS)
 define run_recipe
-for input in $^; do [ $(@D)/work/run.checkpoint.h5 -nt $$input ] || [ $(@D)/work/run.h5 -nt $$input ] || rm -f $(@D)/work/run.*; done
+for input in $^; do [ $(@D)/work/run.checkpoint.h5 -nt $$input ] || [ $(@D)/work/run.h5 -nt $$input ] || rm -f $(@D)/work/run.*h5*; done
 $(RUN) $(BIN)/mpfem run $(1) -o $(@D)/work/run.h5 --set packing=$(mesh) $(2) --resume $(threads) > $(@D)/work/log.txt 2>&1 || \
   { code=$$?; tail -n 3 $(@D)/work/log.txt >&2; [ $$code != 5 ] || echo 'The same make command goes on where this run stopped.' >&2; exit $$code; }
 mv $(@D)/work/run.h5 $@
