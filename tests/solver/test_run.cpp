@@ -228,6 +228,10 @@ TEST_CASE("a run in mixed precision is bitwise the same on one, two and four thr
   const std::string mixed = replaced(bonded_text, "type = \"tet4-anp\"", "type = \"tet4-anp\"\nprecision = \"mixed\"");
   check_threads(mixed, 4);
   check_resuming(mixed, 4);
+  const Folder folder;
+  prepare(folder, 3, mixed);
+  CHECK_THAT(mpfem_command(fmt::format("check {}", folder / "scenario.toml")).output,
+             Catch::Contains("tet4-anp, mixed precision"));
 }
 
 TEST_CASE("a run through every loading is bitwise the same on one, two and four threads") {
