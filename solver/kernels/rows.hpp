@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <type_traits>
+#include <utility>
 
 #include "solver/physics/tensor.hpp"
 
@@ -95,42 +96,14 @@ Floats<4> part_of(Floats<W> whole, int part) {
     return part_of<8>(half, part % 2);
   }
 }
-/// In every four numbers: a0 b0 a1 b1; a2 b2 a3 b3; a0 a1 b0 b1; a2 a3 b2 b3.
-template <int W>
-Floats<W> interleave_low(Floats<W> a, Floats<W> b) {
-  if constexpr (W == 4)
-    return __builtin_shufflevector(a, b, 0, 4, 1, 5);
-  else if constexpr (W == 8)
-    return __builtin_shufflevector(a, b, 0, 8, 1, 9, 4, 12, 5, 13);
-  else
-    return __builtin_shufflevector(a, b, 0, 16, 1, 17, 4, 20, 5, 21, 8, 24, 9, 25, 12, 28, 13, 29);
-}
-template <int W>
-Floats<W> interleave_high(Floats<W> a, Floats<W> b) {
-  if constexpr (W == 4)
-    return __builtin_shufflevector(a, b, 2, 6, 3, 7);
-  else if constexpr (W == 8)
-    return __builtin_shufflevector(a, b, 2, 10, 3, 11, 6, 14, 7, 15);
-  else
-    return __builtin_shufflevector(a, b, 2, 18, 3, 19, 6, 22, 7, 23, 10, 26, 11, 27, 14, 30, 15, 31);
-}
-template <int W>
-Floats<W> low_halves(Floats<W> a, Floats<W> b) {
-  if constexpr (W == 4)
-    return __builtin_shufflevector(a, b, 0, 1, 4, 5);
-  else if constexpr (W == 8)
-    return __builtin_shufflevector(a, b, 0, 1, 8, 9, 4, 5, 12, 13);
-  else
-    return __builtin_shufflevector(a, b, 0, 1, 16, 17, 4, 5, 20, 21, 8, 9, 24, 25, 12, 13, 28, 29);
-}
-template <int W>
-Floats<W> high_halves(Floats<W> a, Floats<W> b) {
-  if constexpr (W == 4)
-    return __builtin_shufflevector(a, b, 2, 3, 6, 7);
-  else if constexpr (W == 8)
-    return __builtin_shufflevector(a, b, 2, 3, 10, 11, 6, 7, 14, 15);
-  else
-    return __builtin_shufflevector(a, b, 2, 3, 18, 19, 6, 7, 22, 23, 10, 11, 26, 27, 14, 15, 30, 31);
+/// Of every four numbers of a (0 … 3) and the same four of b (4 … 7) those that Take names, in its order.
+template <int W, int... Take>
+Floats<W> of_fours(Floats<W> a, Floats<W> b) {
+  constexpr int take[] = {Take...};
+  return [&]<int... I>(std::integer_sequence<int, I...>)->Floats<W> {
+    return __builtin_shufflevector(a, b, (take[I % 4] / 4 * W + I / 4 * 4 + take[I % 4] % 4)...);
+  }
+  (std::make_integer_sequence<int, W>());
 }
 
 template <int W, int N>
@@ -144,9 +117,10 @@ void float_edges(const double* rows, const std::int32_t (&index)[N + 1][W], Vect
       for (int p = 0; p < W / 4; ++p) part[p] = narrow(row(rows, index[i + 1][4 * p + k]) - base[4 * p + k]);
       of[k] = join<W>(part);
     }
-    const Floats<W> xy01 = interleave_low<W>(of[0], of[1]), xy23 = interleave_low<W>(of[2], of[3]);
-    const Floats<W> z01 = interleave_high<W>(of[0], of[1]), z23 = interleave_high<W>(of[2], of[3]);
-    edge[i] = {low_halves<W>(xy01, xy23), high_halves<W>(xy01, xy23), low_halves<W>(z01, z23)};
+    const Floats<W> xy01 = of_fours<W, 0, 4, 1, 5>(of[0], of[1]), xy23 = of_fours<W, 0, 4, 1, 5>(of[2], of[3]);
+    const Floats<W> z01 = of_fours<W, 2, 6, 3, 7>(of[0], of[1]), z23 = of_fours<W, 2, 6, 3, 7>(of[2], of[3]);
+    edge[i] = {of_fours<W, 0, 1, 4, 5>(xy01, xy23), of_fours<W, 2, 3, 6, 7>(xy01, xy23),
+               of_fours<W, 0, 1, 4, 5>(z01, z23)};
   }
 }
 
@@ -156,10 +130,11 @@ void add_balanced_floats(double* rows, const std::int32_t (&index)[4][W], const 
   Row total[W] = {};
   const Floats<W> zero = {};
   for (int i = 0; i < 3; ++i) {
-    const Floats<W> xy01 = interleave_low<W>(f[i].x.v, f[i].y.v), xy23 = interleave_high<W>(f[i].x.v, f[i].y.v);
-    const Floats<W> z01 = interleave_low<W>(f[i].z.v, zero), z23 = interleave_high<W>(f[i].z.v, zero);
-    const Floats<W> of[4] = {low_halves<W>(xy01, z01), high_halves<W>(xy01, z01), low_halves<W>(xy23, z23),
-                             high_halves<W>(xy23, z23)};
+    const Floats<W> xy01 = of_fours<W, 0, 4, 1, 5>(f[i].x.v, f[i].y.v),
+                    xy23 = of_fours<W, 2, 6, 3, 7>(f[i].x.v, f[i].y.v);
+    const Floats<W> z01 = of_fours<W, 0, 4, 1, 5>(f[i].z.v, zero), z23 = of_fours<W, 2, 6, 3, 7>(f[i].z.v, zero);
+    const Floats<W> of[4] = {of_fours<W, 0, 1, 4, 5>(xy01, z01), of_fours<W, 2, 3, 6, 7>(xy01, z01),
+                             of_fours<W, 0, 1, 4, 5>(xy23, z23), of_fours<W, 2, 3, 6, 7>(xy23, z23)};
     for (int p = 0; p < W / 4; ++p)
       for (int k = 0; k < 4; ++k) {
         const int cell = 4 * p + k;
