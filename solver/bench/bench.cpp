@@ -274,7 +274,7 @@ void run_bench(const BenchOptions& options) {
     return static_cast<double>(2 * sizeof(Block) - sizeof(Block::node)) / Block::lanes;
   });
   const int lanes = with_tet_numbers(simulation.model(), [](auto number) { return TetBlock<decltype(number)>::lanes; });
-  const char* precision = scenario.numerics.precision == Precision::mixed ? "mixed" : "double";
+  const char* precision = precision_name(scenario.numerics.precision);
   const auto part = [&](Part p) { return cost.part[static_cast<std::size_t>(p)]; };
 
   if (options.json) {

@@ -8,7 +8,6 @@
 
 namespace mpfem {
 
-// flatten: packs passed to functions go through memory.
 MPFEM_FLATTEN Bounds update_surface(Model& model, int grain) {
   constexpr int W = native_lanes;
   const auto g = static_cast<std::size_t>(grain);

@@ -5,7 +5,6 @@
 
 #include <cmath>
 #include <cstdint>
-#include <utility>
 
 #include <Eigen/Core>
 
@@ -162,10 +161,6 @@ Pack<W, Real> sqrt(Pack<W, Real> a) {
 // exp and log are Eigen's vectorised ones (errors of a few units in the last place).
 namespace detail {
 template <int W, class Real>
-auto as_array(const Pack<W, Real>& a) {
-  return Eigen::Map<const Eigen::Array<Real, W, 1>, Eigen::Aligned16>(reinterpret_cast<const Real*>(&a.v));
-}
-template <int W, class Real>
 auto as_array(Pack<W, Real>& a) {
   return Eigen::Map<Eigen::Array<Real, W, 1>, Eigen::Aligned16>(reinterpret_cast<Real*>(&a.v));
 }
@@ -173,13 +168,13 @@ auto as_array(Pack<W, Real>& a) {
 template <int W, class Real>
 Pack<W, Real> exp(Pack<W, Real> a) {
   Pack<W, Real> result;
-  detail::as_array(result) = detail::as_array(std::as_const(a)).exp();
+  detail::as_array(result) = detail::as_array(a).exp();
   return result;
 }
 template <int W, class Real>
 Pack<W, Real> log(Pack<W, Real> a) {
   Pack<W, Real> result;
-  detail::as_array(result) = detail::as_array(std::as_const(a)).log();
+  detail::as_array(result) = detail::as_array(a).log();
   return result;
 }
 template <int W, class Real>

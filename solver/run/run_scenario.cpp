@@ -538,7 +538,7 @@ void check_scenario(const Scenario& scenario, int threads) {
   fmt::print("packing        {}: {} grains, {} tets, {} nodes, {} facets\n", scenario.packing_file, model.grains,
              model.tets(), model.nodes(), model.facets());
   fmt::print("elements       {}, {} precision\n", element_name(scenario.numerics.element),
-             scenario.numerics.precision == Precision::mixed ? "mixed" : "double");
+             precision_name(scenario.numerics.precision));
   fmt::print("relative density at the start  {:.4f}\n", simulation.relative_density());
   fmt::print("memory         {:.1f} MB of model data ({:.0f} B a tet)\n", 1e-6 * static_cast<double>(model.memory()),
              static_cast<double>(model.memory()) / model.tets());

@@ -171,8 +171,8 @@ void read_element(TableReader table, NumericsParameters& numerics) {
                                                             : std::vector<std::string>{},
                       "type = '" + type + "'");
   numerics.own_pressure = table.number_or("own_pressure", usual_own_pressure(numerics.element), Range::between(0, 1));
-  numerics.precision =
-      table.choice_or("precision", "double", {"double", "mixed"}) == "mixed" ? Precision::mixed : Precision::full;
+  const std::string precision = table.choice_or("precision", precision_name(numerics.precision), {"double", "mixed"});
+  if (precision == precision_name(Precision::mixed)) numerics.precision = Precision::mixed;
   table.finish();
 }
 
@@ -452,6 +452,10 @@ const char* element_name(ElementType element) {
     return "tet4-patch";
   }
   return "";
+}
+
+const char* precision_name(Precision precision) {
+  return precision == Precision::mixed ? "mixed" : "double";
 }
 
 BondParameters read_bond(TableReader table) {

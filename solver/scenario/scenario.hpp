@@ -85,6 +85,9 @@ enum class Precision {
   mixed, ///< floats for strains, stresses and histories of tets; doubles for all of nodes, contact, walls, time and energies' sums
 };
 
+/// Name of a precision in scenarios and on the command line.
+const char* precision_name(Precision precision);
+
 /// Whose largest frequency sets the stable step.
 enum class StepEstimate {
   grain, ///< that of each grain as a whole, found by iteration
