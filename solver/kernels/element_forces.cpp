@@ -42,6 +42,17 @@ TetGeometry<TetPack<Real>> current_geometry(const TetBlock<Real>& block, const d
   return tet_geometry(edge[0], edge[1], edge[2]);
 }
 
+/// Asks memory for the block that lies some after block `b`, if the model has it. The first pass over the tets of a grain takes a fifth
+/// of every block, which caches do not foresee: nodal volumes waited for it through half of their time.
+template <class Real>
+void ask_ahead(const Model& model, std::int32_t b) {
+  constexpr std::int32_t blocks_ahead = 8;
+  constexpr std::size_t line = 64;
+  if (b + blocks_ahead >= model.block_offset.back()) return;
+  const char* bytes = reinterpret_cast<const char*>(&model.block<Real>(b + blocks_ahead));
+  for (std::size_t i = 0; i < sizeof(TetBlock<Real>); i += line) __builtin_prefetch(bytes + i);
+}
+
 template <class Real>
 TetPack<Real> volume_ratio(const TetBlock<Real>& block, const TetGeometry<TetPack<Real>>& geometry) {
   using S = TetPack<Real>;
@@ -79,6 +90,7 @@ MPFEM_FLATTEN void nodal_volumes(const Model& model, int grain, double* volume) 
   const double* position = model.position.data() + 4 * model.node_offset[g];
   std::fill(volume, volume + (model.node_offset[g + 1] - model.node_offset[g]), 0.0);
   for (std::int32_t b = model.block_offset[g]; b < model.block_offset[g + 1]; ++b) {
+    ask_ahead<Real>(model, b);
     const TetBlock<Real>& block = model.block<Real>(b);
     const S quarter = S(1.0 / 24.0) * current_geometry(block, position).det;
     const int lanes = model.tets_in_block<Real>(grain, b);
