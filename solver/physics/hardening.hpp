@@ -40,13 +40,17 @@ struct PowerLaw {
     const S hardening = old.flow_stress - S(yield_stress); // y = k eps_p^m
     const S slope_strain = S(exponent) * hardening;        // H' eps_p
     const S elastic = S(three_shear) * old.plastic_strain; // 3G eps_p
-    const S inverse = S(1.0) / (elastic + slope_strain);
+    const S tiny(Resolution<S>::tiny);
+    const S inverse = S(1.0) / max(elastic + slope_strain, tiny);
     const S first = excess * inverse; // relative increment r = d eps_p / eps_p, explicit
+    // Other lanes of a pack keep their state and have no say in how these are returned: of the packs that yield while a packing jams
+    // most have fresh points too, and took ten times as long.
+    const auto loaded = excess > S(0.0);
     // 1. Small relative increments, nearly always: with (1 + r)^m by its binomial series the equation is
     //    r + b2 r^2 + b3 r^3 + … = first. Its inverted series gives r to the fourth power, one Newton step the rest to
-    //    rounding. Comparison is false for 0/0, so fresh points take the other way, as do those whose strain was too
-    //    small for the number type (small exponents in floats): exp() ends near 1e-38, and r of that would be wrong for ever.
-    if (!any(!((first < S(0.02)) & (old.plastic_strain > S(Resolution<S>::tiny))))) {
+    //    rounding. Fresh points take the other way, as do those whose strain was too small for the number type (small
+    //    exponents in floats): exp() ends near 1e-38, and r of that would be wrong for ever.
+    if (!any(loaded & !((first < S(0.02)) & (old.plastic_strain > tiny)))) {
       const S a = slope_strain * inverse;
       const S b2 = c2() * a, b3 = c3() * b2, b4 = c4() * b3, square = b2 * b2;
       S r = first *
@@ -62,7 +66,6 @@ struct PowerLaw {
     //    3G ((y/k)^(1/m) - eps_p,n) + y - (q_trial - sigma_y) = 0 is convex with slope >= 1; started above the root.
     const S distance = trial - S(yield_stress);
     const S bound = old.plastic_strain + excess / S(three_shear);
-    const S tiny(Resolution<S>::tiny);
     S y = min(max(distance, tiny), S(coefficient) * exp(S(exponent) * log(max(bound, tiny))));
     y = max(y, tiny);
     for (int iteration = 0; iteration < 12; ++iteration) {
@@ -70,15 +73,13 @@ struct PowerLaw {
       const S residual = S(three_shear) * (strain - old.plastic_strain) + y - distance;
       const S step = residual / (S(three_shear / exponent) * strain / y + S(1.0));
       y = max(y - step, tiny);
-      if (!any(max(step, -step) > S(Resolution<S>::settled) * y)) break;
+      if (!any(loaded & (max(step, -step) > S(Resolution<S>::settled) * y))) break;
     }
     // The strain, from either side of the equation: the difference of stresses is rounded to the last digit of these, the curve to
     // that of the strain over m. Early on a curve with small m the strain may be less than any digit of the stress.
     const S on_curve = exp(log(y * S(1.0 / coefficient)) * S(1.0 / exponent));
     const S strain = select(S(three_shear) * on_curve < S(exponent) * y, max(on_curve, old.plastic_strain),
                             old.plastic_strain + (distance - y) * S(1.0 / three_shear));
-    // Points without excess (other lanes of a pack) keep their state exactly.
-    const auto loaded = excess > S(0.0);
     return {select(loaded, y + S(yield_stress), old.flow_stress), select(loaded, strain, old.plastic_strain)};
   }
 
@@ -108,6 +109,7 @@ struct TotalStrainLaw {
   HardeningState<S> end_of_increment(const S& trial, const HardeningState<S>& old, double three_shear) const {
     // Newton on sigma from above: 3G ((sigma/n)^(1/p) - sigma/E - eps_p,n) + sigma - q_trial = 0. For sigma above the
     // initial flow stress the left side is convex and increasing (its slope there is 3G/E (1/p - 1) + 1 > 0).
+    const auto loaded = trial > old.flow_stress;
     S stress = trial;
     for (int iteration = 0; iteration < 40; ++iteration) {
       const S strain = exp(log(stress * S(1.0 / coefficient)) * S(1.0 / exponent));
@@ -116,9 +118,8 @@ struct TotalStrainLaw {
       const S slope = S(three_shear) * (S(1.0 / exponent) * strain / stress - S(1.0 / youngs_modulus)) + S(1.0);
       const S step = residual / slope;
       stress = max(stress - step, old.flow_stress);
-      if (!any(max(step, -step) > S(Resolution<S>::settled) * stress)) break;
+      if (!any(loaded & (max(step, -step) > S(Resolution<S>::settled) * stress))) break;
     }
-    const auto loaded = trial > old.flow_stress;
     return {select(loaded, stress, old.flow_stress),
             select(loaded, old.plastic_strain + (trial - stress) * S(1.0 / three_shear), old.plastic_strain)};
   }

@@ -20,8 +20,11 @@
 
 namespace mpfem {
 
-/// Bytes of a native pack on the machine that the program is built for, and lanes of one of doubles or floats.
-#if defined(__AVX512F__)
+/// Bytes of a native pack on the machine that the program is built for, and lanes of one of doubles or floats. A scalar build, for
+/// comparison, has packs of one double; kernels of floats work on fours at least.
+#if defined(MPFEM_SCALAR)
+inline constexpr int native_bytes = 8;
+#elif defined(__AVX512F__)
 inline constexpr int native_bytes = 64;
 #elif defined(__AVX__)
 inline constexpr int native_bytes = 32;
@@ -29,12 +32,17 @@ inline constexpr int native_bytes = 32;
 inline constexpr int native_bytes = 16;
 #endif
 template <class Real>
-inline constexpr int native_lanes_of = native_bytes / int{sizeof(Real)};
+inline constexpr int native_lanes_of = sizeof(Real) == 4 && native_bytes < 16 ? 4 : native_bytes / int{sizeof(Real)};
 inline constexpr int native_lanes = native_lanes_of<double>;
 
 /// The compiler's vector types. Written out one by one: gcc drops the attribute where the width is a template parameter.
 template <int W, class Real>
 struct NativeVector;
+template <>
+struct NativeVector<1, double> {
+  typedef double Numbers __attribute__((vector_size(8)));
+  typedef std::int64_t Truths __attribute__((vector_size(8)));
+};
 template <>
 struct NativeVector<2, double> {
   typedef double Numbers __attribute__((vector_size(16)));

@@ -75,9 +75,16 @@ std::string parts_folder(const std::string& run_file) {
   return stem(run_file) + ".parts";
 }
 
-std::string added_mass_text(const Model& model) {
-  return fmt::format("mass scaled for the step: {:+.3g} % of the packing's, at most {:+.3g} % of a grain's",
-                     100 * model.added_mass, 100 * model.largest_added_mass);
+/// What mass scaling does; empty where there is none.
+std::string mass_scaling_text(const Scenario& scenario, const Model& model) {
+  std::string text;
+  if (const double factor = scenario.numerics.mass_scaling; factor != 1)
+    text = fmt::format("all masses times {:g}: steps {:.3g} times as long, inertia as at {:.3g} times the speed",
+                       factor, std::sqrt(factor), std::sqrt(factor));
+  if (model.added_mass != 0)
+    text += fmt::format("{}mass scaled for the step: {:+.3g} % of the packing's, at most {:+.3g} % of a grain's",
+                        text.empty() ? "" : "; ", 100 * model.added_mass, 100 * model.largest_added_mass);
+  return text;
 }
 
 /// "ended by axial strain 0.15; stresses held within 0.05 MPa (0.6 %)"
@@ -134,7 +141,8 @@ public:
     begin();
     if (!options_.quiet && !already_complete_) {
       for (const std::string& warning : warnings) fmt::print(stderr, "mpfem: warning: {}\n", warning);
-      if (simulation_.model().added_mass != 0) fmt::print(stderr, "mpfem: {}\n", added_mass_text(simulation_.model()));
+      if (const std::string text = mass_scaling_text(scenario_, simulation_.model()); !text.empty())
+        fmt::print(stderr, "mpfem: {}\n", text);
     }
     const RunState& state = simulation_.state();
     check_programme(scenario_, state.stage, state.stage_low, state.stage_high, simulation_.model(), state.stable_step);
@@ -259,7 +267,21 @@ private:
   void report_stage_end() {
     const StageResult result = simulation_.stage_result();
     record_.stages.push_back(result);
-    if (!options_.quiet) fmt::print(stderr, "mpfem: stage '{}' {}\n", result.name, stage_end_text(result));
+    if (!options_.quiet)
+      fmt::print(stderr, "mpfem: stage '{}' {}{}\n", result.name, stage_end_text(result), damping_text());
+  }
+
+  /// What mass-proportional damping took in the stage that ends, beside the energy that it must leave alone.
+  std::string damping_text() const {
+    if (simulation_.stage().damping.rate == 0) return {};
+    const auto stage = static_cast<double>(simulation_.state().stage);
+    double before = 0, elastic = 0;
+    for (const HistoryRow& row : record_.history) {
+      if (row.stage < stage) before = row.damping_dissipation;
+      if (row.stage == stage) elastic = std::max(elastic, row.elastic_energy);
+    }
+    const double taken = record_.history.back().damping_dissipation - before;
+    return elastic > 0 ? fmt::format("; damping took {:.2g} % of the elastic energy", 100 * taken / elastic) : "";
   }
 
   double next_row_time() const {
@@ -545,7 +567,8 @@ void check_scenario(const Scenario& scenario, int threads) {
   fmt::print("stable step    {:.4g} s, set by {}\n", simulation.state().stable_step,
              simulation.state().controlled_by_contact ? "contact" : "elements");
 
-  if (model.added_mass != 0) fmt::print("masses         {}\n", added_mass_text(model));
+  if (const std::string text = mass_scaling_text(scenario, model); !text.empty())
+    fmt::print("masses         {}\n", text);
   const auto warnings = check_bonds(model, scenario);
   if (scenario.bond) {
     const BondResolution r = bond_resolution(model, scenario);

@@ -170,6 +170,28 @@ TEST_CASE("the table law follows its points and stays constant beyond the last")
   CHECK(within(point.stress_xx(), 60, 1e-9));
 }
 
+TEST_CASE("points that do not yield have no say in how others of their pack are returned, and keep their state") {
+  using S = NativePack;
+  const PowerLaw law{25, 125, 0.3};
+  for (const double strain : {1e-6, 1e-3, 0.1}) {
+    const double flow = 25 + 125 * std::pow(strain, 0.3);
+    const HardeningState<S> all{S(flow), S(strain)};
+    const S trial = all.flow_stress + S(1e-3 * strain * 5000); // a small increment: no iterations
+    const HardeningState<S> expected = law.end_of_increment(trial, all, 3 * moduli.shear);
+    HardeningState<S> mixed = all;
+    S mixed_trial = trial;
+    for (int lane = 1; lane < S::lanes; ++lane)
+      mixed.plastic_strain.v[lane] = 0, mixed.flow_stress.v[lane] = mixed_trial.v[lane] = 25;
+    const HardeningState<S> end = law.end_of_increment(mixed_trial, mixed, 3 * moduli.shear);
+    CHECK(end.flow_stress[0] == expected.flow_stress[0]);
+    CHECK(end.plastic_strain[0] == expected.plastic_strain[0]);
+    for (int lane = 1; lane < S::lanes; ++lane) {
+      CHECK(end.flow_stress[lane] == 25);
+      CHECK(end.plastic_strain[lane] == 0);
+    }
+  }
+}
+
 TEST_CASE("every lane of a pack gives the scalar answer") {
   std::mt19937 random(2);
   std::uniform_real_distribution<double> uniform(-1, 1);

@@ -380,6 +380,16 @@ dissipation_ratio = 2
   CHECK(schema::validate(folder / "run.h5").empty());
 }
 
+TEST_CASE("a run says what mass scaling does and what damping takes") {
+  const Folder folder;
+  prepare(folder, 3);
+  const Outcome outcome = mpfem_command(
+      fmt::format("run {} -o {} --set numerics.mass_scaling=4", folder / "scenario.toml", folder / "run.h5"));
+  CHECK(outcome.exit_code == 0);
+  CHECK_THAT(outcome.messages, Catch::Contains("all masses times 4: steps 2 times as long") &&
+                                   Catch::Contains("ended by relative density 0.62; damping took"));
+}
+
 TEST_CASE("a step too large for the motion to be stable exits with 3, says so, and keeps what was computed") {
   const Folder folder;
   prepare(folder, 4);
