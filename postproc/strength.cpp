@@ -22,15 +22,24 @@ std::size_t largest_row(const std::vector<double>& values) {
   return static_cast<std::size_t>(std::max_element(values.begin(), values.end()) - values.begin());
 }
 
+/// Slopes are taken over a fortieth of the strain at the peak to either side, whatever rows fall there: while walls start, rows lie
+/// so close that the slope between neighbours is noise over nothing.
 std::optional<DamageOnset> damage_onset(const StageCurve& c, const std::vector<double>& stress, std::size_t peak) {
-  const Smoothed damage = smoothed(c.damage_dissipation), strain = smoothed(c.axial_strain);
+  const Smoothed damage = smoothed(c.damage_dissipation);
+  const double reach = (c.axial_strain[peak] - c.axial_strain.front()) / 40;
   std::optional<std::size_t> steepest;
   double slope = 0;
-  for (std::size_t row = 0; row <= peak; ++row)
-    if (strain.slope[row] > 0 && damage.slope[row] > slope * strain.slope[row]) {
-      slope = damage.slope[row] / strain.slope[row];
+  for (std::size_t row = 0; row <= peak; ++row) {
+    std::size_t low = row, high = row;
+    while (low > 0 && c.axial_strain[row] - c.axial_strain[low] < reach) --low;
+    while (high < peak && c.axial_strain[high] - c.axial_strain[row] < reach) ++high;
+    const double strain = c.axial_strain[high] - c.axial_strain[low];
+    if (strain < 2 * reach) continue; // at either end
+    if (const double here = (damage.value[high] - damage.value[low]) / strain; here > slope) {
+      slope = here;
       steepest = row;
     }
+  }
   if (!steepest) return {};
   const double grown = damage.value[*steepest] - c.damage_dissipation.front();
   DamageOnset onset;

@@ -30,8 +30,8 @@ END {
             spread("locked_in_over_scale") <= 1.25, "taken as agreement: within a factor 1.25; what the paper divided by is not given as a formula (here E R^3, R the mean radius)")
   statement("Less elastic energy is released by stiffer grains", "falls with E", ends("released_over_scale", "%.4g") " over E R^3", \
             falling("released_over_scale"), "in mJ: " ends("released", "%.3g") (falling("released") ? ", falling" : ", not falling throughout"))
-  statement("Less is dissipated by damage with stiffer grains", "falls with E", ends("damage_over_scale", "%.4g") " over E R^3", \
-            falling("damage_over_scale"), "in mJ: " ends("damage", "%.3g") (falling("damage") ? ", falling" : ", not falling throughout"))
+  statement("Less is dissipated by damage in the unloading of stiffer grains", "falls with E", ends("damage_in_unloading", "%.3g") " mJ", \
+            falling("damage_in_unloading"), "since the compaction began: " ends("damage", "%.3g") " mJ" (falling("damage") ? ", falling" : ", not falling throughout") "; over E R^3 " ends("damage_over_scale", "%.3g"))
   least = 0
   for (i = 1; i <= n; ++i) {
     ratio = value["released", i] / value["damage", i]

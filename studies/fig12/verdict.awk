@@ -16,7 +16,8 @@ function judge(law, name,   s, e) {
             sprintf("a = %s, R^2 = %.3f of ln(E_p/E)", interval(s, "a", "%.2f"), fit_r2[s]), fit_r2[s] >= 0.9, "taken as agreement: R^2 of at least 0.9; the paper's R^2 is not in its text")
   statement("The fitted curve does not pass through E_p = E at zero porosity" name, "does not", \
             sprintf("E_p/E = %.3f [%.3f, %.3f] at P = 0", e, exp(fit_low[s, "b"]), exp(fit_high[s, "b"])), \
-            exp(fit_low[s, "b"]) > 1 || exp(fit_high[s, "b"]) < 1, "how far off the paper's is cannot be read from its text")
+            exp(fit_low[s, "b"]) > 1 || exp(fit_high[s, "b"]) < 1 ? 1 : exp(fit_high[s, "b"]) - exp(fit_low[s, "b"]) > 0.1 ? -1 : 0, \
+            "not judged where the interval holds 1 and is wider than 0.1; how far off the paper's is cannot be read from its text")
 }
 END {
   if (failed) exit 1

@@ -4,7 +4,7 @@ $need("modulus") != "" { modulus[table, ++moduli[table]] = $need("modulus") }
 table < 3 && $need("strength") != "" {
   n = ++rows[table]
   strength[table, n] = $need("strength")
-  if (n > 1 && $need("strength") <= strength[table, n - 1]) not_rising[table] = 1
+  if (n > 1 && $need("strength") < 0.99 * strength[table, n - 1]) not_rising[table] = 1 # differences below 1 % count as none
 }
 function judge(law, name,   e, g, i) {
   e = fit_of("inverse-exponential", "fracture_energy", "modulus", law)

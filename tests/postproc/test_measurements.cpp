@@ -247,6 +247,28 @@ TEST_CASE("the onset of damage is where its growth begins") {
   CHECK(within(m.details["peak_MPa"].get<double>(), 20, 0.01)); // a sharp corner, cut by the parabola
 }
 
+TEST_CASE("the onset of damage is found where walls start slowly and damage is noisy") {
+  const Folder folder;
+  const auto stress = [](double e) { return e < 0.02 ? 1000 * e : 20 - 500 * (e - 0.02); };
+  const auto damage = [](double e) { return e < 0.015 ? 0.02 * e : 0.02 * 0.015 + 2 * (e - 0.015); };
+  for (unsigned seed = 1; seed <= 5; ++seed) {
+    auto rows = reloading(400, 0.03, stress, damage, 0, seed);
+    Noise noise(seed);
+    // The first tenth of the strain as at constant acceleration from rest, and 0.5 % of what is dissipated as noise.
+    for (std::size_t i = 0; i < 40; ++i) {
+      rows[i].axial_strain = rows[40].axial_strain * std::pow(static_cast<double>(i) / 40, 2);
+      rows[i].axial_stress = stress(rows[i].axial_strain);
+      rows[i].damage = damage(rows[i].axial_strain);
+    }
+    for (Row& row : rows) row.damage += 5e-5 * noise();
+    StrengthRule rule;
+    rule.criterion = StrengthCriterion::damage_onset;
+    INFO(seed);
+    CHECK(within(strength(curve_of(folder, rows), rule).value, 15,
+                 0.05)); // the steepest of many noisy slopes is a little too steep
+  }
+}
+
 TEST_CASE("a stress that never falls is no peak, and the strength says so") {
   const Folder folder;
   const auto rows = reloading(
