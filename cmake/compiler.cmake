@@ -24,6 +24,9 @@ if(MPFEM_PORTABLE)
 else()
   target_compile_options(mpfem_options INTERFACE -march=native)
 endif()
+if(MPFEM_SCALAR)
+  target_compile_options(mpfem_options INTERFACE -DMPFEM_SCALAR -fno-tree-vectorize)
+endif()
 if(MPFEM_SANITIZE)
   # -O2: the vector types cost a factor of fifty where nothing is inlined.
   target_compile_options(mpfem_options INTERFACE -O2 -fsanitize=${MPFEM_SANITIZE}

@@ -56,9 +56,13 @@ tet4, bonds|$mpfem|
 tet4|$mpfem|--no-bonds
 tet4-anp, bonds|$mpfem|--element tet4-anp
 tet4-anp|$mpfem|--element tet4-anp --no-bonds
+tet4-patch, bonds|$mpfem|--element tet4-patch
+tet4, bonds, mixed|$mpfem|--precision mixed
+tet4-anp, bonds, mixed|$mpfem|--element tet4-anp --precision mixed
+tet4-patch, bonds, mixed|$mpfem|--element tet4-patch --precision mixed
 EOF
 
-for grains in 20 80 329 1000; do echo "$grains grains|$mpfem|--grains $grains --tets $((600 * grains))"; done |
+for grains in 20 80 329 1000 2000; do echo "$grains grains|$mpfem|--grains $grains --tets $((600 * grains))"; done |
   table 'Number of grains, 600 tets each'
 
 {
