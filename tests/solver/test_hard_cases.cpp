@@ -74,7 +74,7 @@ EnergyCheck check_of(const Model& model) {
 } // namespace
 
 TEST_CASE("the energy check compares the residual with the largest term so far, and knows what is no number") {
-  EnergyCheck check(1e6); // negligible: 1e-6 mJ
+  EnergyCheck check(10); // negligible: 1e-6 mJ
   HistoryRow row{};
   row.external_work = 1e-7;
   row.energy_residual = -1e-7;
