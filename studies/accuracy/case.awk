@@ -1,6 +1,6 @@
 # awk -f case.awk -v sets='default large' cases.csv: the cases as words for make, CASE|SCENE|MESH|SCENARIO|OPTIONS|RECOVERY,
 # blanks in options as ';'. MESH is KIND-FINENESS as mesh.sh reads it, OPTIONS are KEY=VALUE words of the scenario, RECOVERY those
-# of recovery.toml, which the small packing goes on with ('-': no such run).
+# of recovery.toml, which packings go on with ('-': no such run).
 #
 # Masses of hemispheres follow the step that they are made for, 4e-7 s/mm times the element size (studies/fig04): mass_factor
 # times the mass is a step longer by the root of it.
@@ -28,8 +28,7 @@ NR == 1 || /^#/ || !($9 in wanted) { next }
     exit 1
   }
   options = "element.type=" $4 " contact.stiffness_factor=" $6
-  # With the step that the cases beside it were run with; both go when these are run anew.
-  if ($3 == "precision") options = options " element.precision=mixed numerics.step_estimate=tet"
+  if ($3 == "precision") options = options " element.precision=mixed"
   recovery = "-"
   if (scene in contact_radius) {
     options = options sprintf(" numerics.mass_scaling_step=%.4g", 4e-7 * contact_radius[scene] / $5 * sqrt($8))
@@ -42,9 +41,10 @@ NR == 1 || /^#/ || !($9 in wanted) { next }
   if (scene == "hertz") options = options speed(0, 2000)
   if (scene == "flattened") options = options speed(0, 4000)
   if (scene == "confined") options = options speed(0, 4000) speed(1, 4000)
-  if (scene == "small") recovery = options speed(1, 1000) speed(3, 1000)
-  if (scene == "small" || scene == "full")
+  if (scene == "small" || scene == "full") {
+    recovery = options speed(1, 1000) speed(3, 1000)
     options = options speed(0, 4000) " output.snapshot_relative_densities=[] output.snapshot_at_stage_end=false"
+  }
   gsub(/ /, ";", options)
   gsub(/ /, ";", recovery)
   print $1 "|" scene "|" (scene in kind ? kind[scene] : scene) "-" $5 "|" scenario[scene] "|" options "|" recovery

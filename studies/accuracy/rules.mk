@@ -6,7 +6,8 @@
 
 accuracy := out/accuracy
 accuracy_page := docs/speed-against-error
-# default: some 30 minutes of processor time. 'default large' adds the finer meshes.
+# default: some 30 minutes of processor time. paper adds finer meshes of 329 grains up to the paper's (an hour and a half); large
+# all others.
 ACCURACY_SETS ?= default
 .PHONY: accuracy
 
@@ -33,11 +34,11 @@ $(accuracy)/meshes/%.h5: studies/accuracy/mesh.sh | $(accuracy)/meshes $(BIN)/pa
 	mv $(@D)/new-$*.h5 $@
 
 # ------------------------------------------------------------------------------------------------ runs
-# Short and of one thread, so -j pays. $(call accuracy_run,NAME,SCENARIO,OPTIONS)
+# Short and of one thread unless THREADS says otherwise, so -j pays. $(call accuracy_run,NAME,SCENARIO,OPTIONS)
 define accuracy_run
 for input in $^; do [ $(@D)/new-$(1).checkpoint.h5 -nt $$input ] || rm -f $(@D)/new-$(1).checkpoint.h5 $(@D)/$(1).seconds; done
 $(RUN) sh studies/accuracy/run.sh $(@D)/$(1).seconds $(BIN)/mpfem run $(2) -o $(@D)/new-$(1).h5 --set packing=$(firstword $(filter $(accuracy)/meshes/%,$^)) \
-  $(3) --threads 1 --quiet --resume > $(@D)/$(1).log 2>&1 || \
+  $(3) --threads $(or $(THREADS),1) --quiet --resume > $(@D)/$(1).log 2>&1 || \
   { code=$$?; tail -n 3 $(@D)/$(1).log >&2; [ $$code != 5 ] || echo 'The same make command goes on where this run stopped.' >&2; exit $$code; }
 endef
 
@@ -120,6 +121,8 @@ $(eval $(call accuracy_picture,mean-stress,small,mean-stress,Compaction of 25 gr
 $(eval $(call accuracy_picture,recovery,small,recovery,Unloading of 25 grains: elastic recovery,element size / mm))
 $(eval $(call accuracy_picture,modulus,small,modulus,Reloading of 25 grains: Young modulus of the compact,element size / mm))
 $(eval $(call accuracy_picture,full,full,mean-stress,Compaction of 329 grains: mean stress,element size / mm))
+$(eval $(call accuracy_picture,full-recovery,full,recovery,Unloading of 329 grains: elastic recovery,element size / mm))
+$(eval $(call accuracy_picture,full-modulus,full,modulus,Reloading of 329 grains: Young modulus of the compact,element size / mm))
 
 $(foreach p,locking packing,$(accuracy_page)/$(p).png $(accuracy_page)/$(p).svg): studies/accuracy/plot-convergence.gp studies/common/style.gp $(accuracy)/runs.csv $(accuracy)/values.csv $(accuracy)/references.csv | $(accuracy_page)
 	$(gnuplot) -c $< $(patsubst .%,%,$(suffix $@)) $(basename $(@F)) $(filter %.csv,$^) $@.partial

@@ -10,4 +10,4 @@ BEGIN {
     close(file)
   }
 }
-!/^#/ && FNR > 1 && !($1 in asked) && $2 != "tets" && $2 != "steps"
+!/^#/ && FNR > 1 && !($1 in asked) && $2 != "tets" && $2 != "steps" && $2 != "steps_all"

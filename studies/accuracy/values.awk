@@ -5,8 +5,8 @@
 #   confined    axial stress in MPa at relative densities of 0.70, 0.80 and 0.92
 #   pair        force over E R^2 at an approach of the flat faces of 0.02, 0.04, 0.06 and 0.08 R
 #   pull-off    the same at 0.01 R, and the largest tension
-#   small, full mean stress in MPa at relative densities of 0.70, 0.80 and 0.92; small also elastic recovery and Young's modulus
-#               of the compact in MPa, the slope of axial stress over axial strain from 0.004 to 0.010
+#   small, full mean stress in MPa at relative densities of 0.70, 0.80 and 0.92; elastic recovery and Young's modulus of the
+#               compact in MPa, the slope of axial stress over axial strain from 0.004 to 0.010
 #
 # E = 5000 MPa, R = 0.1 mm in all.
 
