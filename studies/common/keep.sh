@@ -2,7 +2,7 @@
 # keep.sh MESH MPFEM FIGURE...: copies the small results of figures from out/MESH to studies/results/MESH, with what their runs took
 # (out/MESH/times.csv) and from what they came (provenance.txt: program, packing, settings of every run). The verdicts of all
 # figures kept for that mesh go to verdicts.md there, those of all meshes side by side to docs/verdicts.md. Of tables above 100 kB every
-N-th row is kept, as NAME.every-N.csv.
+# N-th row is kept, as NAME.every-N.csv.
 set -eu
 mesh=$1
 mpfem=$2
