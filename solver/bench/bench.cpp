@@ -261,6 +261,11 @@ void run_bench(const BenchOptions& options) {
   for (std::size_t g = 0; g < before.size(); ++g) travel = std::max(travel, contact.travel[g] - before[g]);
   const double steps_per_search = travel > 0 ? 0.9 * contact.margin / (2 * travel) : 1e300;
   const double search = per_tet(search_time) / std::max(steps_per_search, 1.0);
+  // Output over the steps between two rows of the history, and checkpoints over the time between two.
+  const double steps_per_row =
+      simulation.stage_duration() / (state.stable_step * static_cast<double>(scenario.output.history_rows));
+  const double output = per_tet(row_time) / std::max(steps_per_row, 1.0) +
+                        cost.whole * checkpoint_time / std::max(scenario.output.checkpoint_interval, 1.0);
   const double memory = peak_memory();
 
   // 4. The element pass alone.
@@ -276,6 +281,9 @@ void run_bench(const BenchOptions& options) {
   const int lanes = with_tet_numbers(simulation.model(), [](auto number) { return TetBlock<decltype(number)>::lanes; });
   const char* precision = precision_name(scenario.numerics.precision);
   const auto part = [&](Part p) { return cost.part[static_cast<std::size_t>(p)]; };
+  // Of a node: rows of position and velocity read and written, force and inverse mass read.
+  const double integration_bytes = 5 * 4 * sizeof(double) + sizeof(double);
+  const double integration_speed = integration_bytes * simulation.model().nodes() / (tets * part(Part::integration));
 
   if (options.json) {
     const auto number = [](double value) { return fmt::format("{:.6g}", value); };
@@ -305,9 +313,11 @@ void run_bench(const BenchOptions& options) {
                          {"search_ms", number(1e3 * search_time)},
                          {"steps_per_search", number(steps_per_search)},
                          {"integration_ns_per_tet_step", number(part(Part::integration))},
+                         {"integration_GB_per_s", number(integration_speed)},
                          {"surface_ns_per_tet_step", number(part(Part::surface))},
                          {"step_estimate_ns_per_tet_step", number(part(Part::step_estimate))},
                          {"whole_step_ns_per_tet_step", number(cost.whole)},
+                         {"output_ns_per_tet_step", number(output)},
                          {"history_row_ns_per_tet", number(per_tet(row_time))},
                          {"checkpoint_ns_per_tet", number(per_tet(checkpoint_time))},
                          {"checkpoint_bytes_per_tet", number(checkpoint_bytes / tets)},
@@ -343,7 +353,10 @@ void run_bench(const BenchOptions& options) {
   line("waiting and rest", cost.whole - accounted, false);
   line("total", cost.whole, false);
   line("contact search, amortised", search, true);
-  fmt::print("\nsearch {:.2f} ms, lasts {:.0f} steps; history row {:.2f} ms; checkpoint {:.2f} s, {:.0f} B a tet\n",
+  line("output, amortised", output, false);
+  fmt::print("\nintegration moves {:.0f} B a node: {:.1f} GB/s, {:.0f} % of the triad\n", integration_bytes,
+             integration_speed, 100 * integration_speed / triad);
+  fmt::print("search {:.2f} ms, lasts {:.0f} steps; history row {:.2f} ms; checkpoint {:.2f} s, {:.0f} B a tet\n",
              1e3 * search_time, steps_per_search, 1e3 * row_time, checkpoint_time, checkpoint_bytes / tets);
 }
 
