@@ -271,7 +271,8 @@ private:
       fmt::print(stderr, "mpfem: stage '{}' {}{}\n", result.name, stage_end_text(result), damping_text());
   }
 
-  /// What mass-proportional damping took in the stage that ends, beside the energy that it must leave alone.
+  /// What mass-proportional damping took in the stage that ends, beside the energy that it must leave alone. It gives where it
+  /// drags grains along with the walls.
   std::string damping_text() const {
     if (simulation_.stage().damping.rate == 0) return {};
     const auto stage = static_cast<double>(simulation_.state().stage);
@@ -281,7 +282,9 @@ private:
       if (row.stage == stage) elastic = std::max(elastic, row.elastic_energy);
     }
     const double taken = record_.history.back().damping_dissipation - before;
-    return elastic > 0 ? fmt::format("; damping took {:.2g} % of the elastic energy", 100 * taken / elastic) : "";
+    if (!(elastic > 0)) return {};
+    return fmt::format("; damping {} {:.2g} % of the elastic energy", taken < 0 ? "gave" : "took",
+                       100 * std::abs(taken) / elastic);
   }
 
   double next_row_time() const {
