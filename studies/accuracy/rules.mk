@@ -6,7 +6,7 @@
 
 accuracy := out/accuracy
 accuracy_page := docs/speed-against-error
-# default: some 30 minutes of processor time. paper adds finer meshes of 329 grains up to the paper's (an hour and a half); large
+# default: some 40 minutes of processor time. paper adds finer meshes of 329 grains up to the paper's (an hour); large
 # all others.
 ACCURACY_SETS ?= default
 .PHONY: accuracy

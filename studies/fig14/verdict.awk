@@ -23,7 +23,7 @@ function judge(name,   i, b, a, text, shares, spreads, contrast, first) {
   for (i = 1; i <= n; ++i)
     if (law[i] == name) {
       text = text sprintf("%sD_max %s: %.4f to %.4f, dissipation times %.2f", (first ? "; " : ""), density[i], before[i], after[i], dissipated[i])
-      if (dissipated[i] < 2) spreads = 0
+      if (after[i] <= before[i] || dissipated[i] <= 1) spreads = 0
       a = bonded[1 + n + i] ? broken[1 + n + i] / bonded[1 + n + i] : 0
       b = bonded[1 + i] ? broken[1 + i] / bonded[1 + i] : 0
       shares = shares sprintf("%sD_max %s: %.0f to %.0f %%", (first ? "; " : ""), density[i], 100 * b, 100 * a)
@@ -31,7 +31,7 @@ function judge(name,   i, b, a, text, shares, spreads, contrast, first) {
       first = 1
     }
   statement("Damage grows while the sample fails: mean damage of all bonds, and what they have dissipated, before and after (softening law " name ")", "damage at the peak", \
-            text, spreads, "taken as agreement: what bonds have dissipated at least doubles during the test; the mean damage may fall since bonds that form in the test count as well")
+            text, spreads, "both have to grow; the mean may fall since bonds that form in the test count as well")
   statement("Damage stands out as bands from top to bottom: bonded length with D > " threshold(name) " before and after (softening law " name ")", "shear-like bands", \
             shares, (contrast ? -1 : 0), \
             contrast ? "opened and other bonds stand side by side, as bands need; whether they are bands is for the eye, on more grains than MESH=smoke has" : \
