@@ -17,10 +17,9 @@
 #include "common/version.hpp"
 #include "solver/bench/dense_packing.hpp"
 #include "solver/bench/machine.hpp"
+#include "solver/bench/work.hpp"
 #include "solver/model/bond_resolution.hpp"
 #include "solver/output/checkpoint.hpp"
-#include "solver/physics/counted.hpp"
-#include "solver/physics/tet4.hpp"
 #include "solver/run/simulation.hpp"
 
 namespace mpfem {
@@ -126,21 +125,13 @@ double median_time(int repetitions, const Body& body) {
   return median(seconds);
 }
 
-/// Operations of one tet in one step while it hardens.
-double operations_per_tet() {
-  const ElasticModuli moduli = elastic_moduli(5000, 0.3);
-  const PowerLaw law{25, 125, 0.3};
-  const Counted zero(0.0);
-  const Vector3<Counted> edge[3] = {{1.0, zero, zero}, {zero, 1.0, zero}, {zero, zero, 1.0}};
-  const Vector3<Counted> velocity[3] = {{1.0, zero, zero}, {zero, -1.0, zero}, {zero, zero, zero}};
-  // On the yield surface at a plastic strain of 0.5, and moving on by 1e-4.
-  const double flow = 25 + 125 * std::pow(0.5, 0.3);
-  const TetState<Counted> state{{flow / std::sqrt(3.0), -flow / std::sqrt(3.0), zero, zero, zero}, {flow, 0.5}};
-  Counted::operations = 0;
-  update_tet(law, TetConstants{moduli, {0.06, 1.2}, 2e6, 1.55e-9, 1e-4}, edge, velocity, state, Counted(6.0),
-             Counted(1.0), [&](const Counted& ratio) { return mean_stress(moduli, ratio); });
-  return static_cast<double>(Counted::operations);
-}
+/// Work over the time that it took.
+struct Rate {
+  Rate(const Work& work, double nanoseconds)
+      : bytes(work.bytes / nanoseconds), operations(work.operations / nanoseconds) {}
+  double bytes;      ///< GB/s
+  double operations; ///< GFlop/s
+};
 
 /// The element pass alone, over all grains, while nearly all tets harden: grains shear at the rate of the warm-up.
 struct ElementCost {
@@ -242,6 +233,8 @@ void run_bench(const BenchOptions& options) {
   const Contact& contact = simulation.contact();
   const double tets = simulation.model().tets();
   const double points = std::accumulate(contact.active.begin(), contact.active.end(), 0.0);
+  const Work contact_work = work_of_contact(contact),
+             search_work = work_of_search(simulation.model(), contact.candidates);
   const auto per_tet = [&](double seconds) { return 1e9 * seconds / tets; };
   const HistoryRow row = simulation.observe();
   const double row_time = median_time(3, [&] { simulation.observe(); });
@@ -271,19 +264,15 @@ void run_bench(const BenchOptions& options) {
   // 4. The element pass alone.
   say("measuring the element pass");
   const ElementCost elements = measure_elements(simulation.model(), simulation.state().stable_step, team);
-  const double operations = operations_per_tet();
   say("measuring the machine");
   const double triad = measure_triad(team), fma = measure_fma(team);
-  const double bytes = with_tet_numbers(simulation.model(), [](auto number) {
-    using Block = TetBlock<decltype(number)>;
-    return static_cast<double>(2 * sizeof(Block) - sizeof(Block::node)) / Block::lanes;
-  });
+  const Work tet = work_of_tet(simulation.model()), integration = work_of_integration(simulation.model());
   const int lanes = with_tet_numbers(simulation.model(), [](auto number) { return TetBlock<decltype(number)>::lanes; });
   const char* precision = precision_name(scenario.numerics.precision);
   const auto part = [&](Part p) { return cost.part[static_cast<std::size_t>(p)]; };
-  // Of a node: rows of position and velocity read and written, force and inverse mass read.
-  const double integration_bytes = 5 * 4 * sizeof(double) + sizeof(double);
-  const double integration_speed = integration_bytes * simulation.model().nodes() / (tets * part(Part::integration));
+  const Rate element_rate(tet, elements.nanoseconds), contact_rate(contact_work, tets * part(Part::contact)),
+      search_rate(search_work, 1e9 * search_time), integration_rate(integration, tets * part(Part::integration));
+  const double checkpoint_speed = 1e-9 * checkpoint_bytes / checkpoint_time;
 
   if (options.json) {
     const auto number = [](double value) { return fmt::format("{:.6g}", value); };
@@ -302,24 +291,31 @@ void run_bench(const BenchOptions& options) {
                          {"steps", std::to_string(options.steps)},
                          {"element_pass_ns_per_tet_step", number(elements.nanoseconds)},
                          {"element_pass_hardening_fraction", number(elements.hardening)},
-                         {"element_pass_GB_per_s", number(bytes / elements.nanoseconds)},
-                         {"element_pass_GFlop_per_s", number(operations / elements.nanoseconds)},
-                         {"flop_per_tet_step", number(operations)},
-                         {"bytes_per_tet_step", number(bytes)},
+                         {"element_pass_GB_per_s", number(element_rate.bytes)},
+                         {"element_pass_GFlop_per_s", number(element_rate.operations)},
+                         {"flop_per_tet_step", number(tet.operations)},
+                         {"bytes_per_tet_step", number(tet.bytes)},
                          {"elements_ns_per_tet_step", number(part(Part::elements))},
                          {"contact_ns_per_tet_step", number(part(Part::contact))},
                          {"contact_ns_per_point", number(points > 0 ? part(Part::contact) * tets / points : 0.0)},
+                         {"contact_GB_per_s", number(contact_rate.bytes)},
+                         {"contact_GFlop_per_s", number(contact_rate.operations)},
                          {"search_ns_per_tet_step", number(search)},
+                         {"search_ns_per_point_step", number(points > 0 ? search * tets / points : 0.0)},
+                         {"search_GB_per_s", number(search_rate.bytes)},
+                         {"search_GFlop_per_s", number(search_rate.operations)},
                          {"search_ms", number(1e3 * search_time)},
                          {"steps_per_search", number(steps_per_search)},
                          {"integration_ns_per_tet_step", number(part(Part::integration))},
-                         {"integration_GB_per_s", number(integration_speed)},
+                         {"integration_GB_per_s", number(integration_rate.bytes)},
+                         {"integration_GFlop_per_s", number(integration_rate.operations)},
                          {"surface_ns_per_tet_step", number(part(Part::surface))},
                          {"step_estimate_ns_per_tet_step", number(part(Part::step_estimate))},
                          {"whole_step_ns_per_tet_step", number(cost.whole)},
                          {"output_ns_per_tet_step", number(output)},
                          {"history_row_ns_per_tet", number(per_tet(row_time))},
                          {"checkpoint_ns_per_tet", number(per_tet(checkpoint_time))},
+                         {"checkpoint_GB_per_s", number(checkpoint_speed)},
                          {"checkpoint_bytes_per_tet", number(checkpoint_bytes / tets)},
                          {"memory_bytes_per_tet", number(memory / tets)},
                          {"triad_GB_per_s", number(triad)},
@@ -334,12 +330,8 @@ void run_bench(const BenchOptions& options) {
              simulation.model().tets(), element_name(scenario.numerics.element), precision, lanes,
              simulation.model().grains, row.relative_density, points, contact.candidates.point_node.size(), row.bonds);
   fmt::print("memory         {:.0f} B a tet, {:.2f} GB at most, all in\n\n", memory / tets, 1e-9 * memory);
-  fmt::print("element pass alone, {:.0f} % of the tets hardening: {:.2f} ns per tet-step\n", 100 * elements.hardening,
+  fmt::print("element pass alone, {:.0f} % of the tets hardening: {:.2f} ns per tet-step\n\n", 100 * elements.hardening,
              elements.nanoseconds);
-  fmt::print("  {:.0f} B:   {:6.1f} GB/s     {:3.0f} % of the triad\n", bytes, bytes / elements.nanoseconds,
-             100 * bytes / elements.nanoseconds / triad);
-  fmt::print("  {:.0f} flop: {:6.1f} GFlop/s  {:3.0f} % of the multiply-adds\n\n", operations,
-             operations / elements.nanoseconds, 100 * operations / elements.nanoseconds / fma);
   fmt::print("{:<28} {:>12} {:>8} {:>14}\n", "whole step", "ns/tet-step", "share", "ns/point-step");
   double accounted = 0;
   const auto line = [&](const char* name, double value, bool per_point) {
@@ -354,10 +346,23 @@ void run_bench(const BenchOptions& options) {
   line("total", cost.whole, false);
   line("contact search, amortised", search, true);
   line("output, amortised", output, false);
-  fmt::print("\nintegration moves {:.0f} B a node: {:.1f} GB/s, {:.0f} % of the triad\n", integration_bytes,
-             integration_speed, 100 * integration_speed / triad);
-  fmt::print("search {:.2f} ms, lasts {:.0f} steps; history row {:.2f} ms; checkpoint {:.2f} s, {:.0f} B a tet\n",
-             1e3 * search_time, steps_per_search, 1e3 * row_time, checkpoint_time, checkpoint_bytes / tets);
+  fmt::print("\n{:<28} {:>12} {:>13} {:>10} {:>13}\n", "at least moved and computed", "GB/s", "of the triad", "GFlop/s",
+             "of the fma");
+  const auto rate_line = [&](const char* name, const Rate& rate) {
+    fmt::print("{:<28} {:>12.1f} {:>11.0f} % {:>10.1f} {:>11.1f} %\n", name, rate.bytes, 100 * rate.bytes / triad,
+               rate.operations, 100 * rate.operations / fma);
+  };
+  rate_line("element pass alone", element_rate);
+  rate_line("contact forces", contact_rate);
+  rate_line("contact search", search_rate);
+  rate_line("integration", integration_rate);
+  fmt::print(
+      "a tet: {:.0f} B, {:.0f} operations; a contact point with all that hangs on it: {:.0f} B, {:.0f} operations\n\n",
+      tet.bytes, tet.operations, points > 0 ? contact_work.bytes / points : 0.0,
+      points > 0 ? contact_work.operations / points : 0.0);
+  fmt::print(
+      "search {:.2f} ms, lasts {:.0f} steps; history row {:.2f} ms; checkpoint {:.2f} s, {:.0f} B a tet, {:.2f} GB/s\n",
+      1e3 * search_time, steps_per_search, 1e3 * row_time, checkpoint_time, checkpoint_bytes / tets, checkpoint_speed);
 }
 
 } // namespace mpfem

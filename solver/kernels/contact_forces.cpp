@@ -40,7 +40,8 @@ Facet facet_geometry(const Model& model, std::int32_t facet) {
 
 /// True where a node is on the outer side of the facet's surface. `offset` is node minus closest point. Nodal normals, in
 /// memory of their own, are asked for where the closest point is on an edge or corner only.
-bool is_outside(const Model& model, const Vector3<double>& offset, const ClosestPoint& closest, const Facet& facet) {
+bool is_outside(const Model& model, const Vector3<double>& offset, const ClosestPoint<double>& closest,
+                const Facet& facet) {
   if (closest.inside) return dot(offset, facet_direction(facet.x)) >= 0;
   const Vector3<double> normal[3] = {row(model.normal, facet.node[0]), row(model.normal, facet.node[1]),
                                      row(model.normal, facet.node[2])};
@@ -306,7 +307,7 @@ ContactSums forces_of_points(Model& model, Contact& contact, int grain) {
         continue;
       }
       const Facet geometry = facet_geometry(model, facet);
-      const ClosestPoint closest = closest_point_on_triangle(node, geometry.x);
+      const ClosestPoint<double> closest = closest_point_on_triangle(node, geometry.x);
       const Vector3<double> offset = node - closest.point;
       const double distance = norm(offset);
       // 2. Outside: asleep until the grains could have met.

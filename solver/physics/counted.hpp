@@ -23,6 +23,8 @@ struct Counted {
   Counted operator-() const { return {-v}; } // a sign costs nothing in a fused multiply-add
   friend bool operator<(Counted a, Counted b) { return a.v < b.v; }
   friend bool operator>(Counted a, Counted b) { return a.v > b.v; }
+  friend bool operator<=(Counted a, Counted b) { return a.v <= b.v; }
+  friend bool operator>=(Counted a, Counted b) { return a.v >= b.v; }
 };
 inline Counted select(bool mask, Counted yes, Counted no) {
   return mask ? yes : no;

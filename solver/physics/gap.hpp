@@ -13,47 +13,50 @@
 namespace mpfem {
 
 /// Closest point of a triangle x0 x1 x2: (1 - weight1 - weight2) x0 + weight1 x1 + weight2 x2.
+template <class S>
 struct ClosestPoint {
-  Vector3<double> point;
-  double weight1, weight2;
+  Vector3<S> point;
+  S weight1, weight2;
   bool inside; ///< in the facet's interior, not on an edge or corner
 };
 
 /// Closest point of the triangle x0 x1 x2 to `p`, by the Voronoi regions of its corners, edges and face (Ericson,
-/// Real-Time Collision Detection, 2005, section 5.1.5). Plain doubles: the regions branch.
-inline ClosestPoint closest_point_on_triangle(const Vector3<double>& p, const Vector3<double> (&x)[3]) {
-  const auto result = [&x](double weight1, double weight2, bool inside = false) {
-    return ClosestPoint{x[0] + weight1 * (x[1] - x[0]) + weight2 * (x[2] - x[0]), weight1, weight2, inside};
+/// Real-Time Collision Detection, 2005, section 5.1.5). One point at a time, no packs: the regions branch.
+template <class S>
+ClosestPoint<S> closest_point_on_triangle(const Vector3<S>& p, const Vector3<S> (&x)[3]) {
+  const auto result = [&x](const S& weight1, const S& weight2, bool inside = false) {
+    return ClosestPoint<S>{x[0] + weight1 * (x[1] - x[0]) + weight2 * (x[2] - x[0]), weight1, weight2, inside};
   };
-  const Vector3<double> ab = x[1] - x[0], ac = x[2] - x[0], ap = p - x[0];
-  const double d1 = dot(ab, ap), d2 = dot(ac, ap);
+  const Vector3<S> ab = x[1] - x[0], ac = x[2] - x[0], ap = p - x[0];
+  const S d1 = dot(ab, ap), d2 = dot(ac, ap);
   if (d1 <= 0 && d2 <= 0) return result(0, 0);
-  const Vector3<double> bp = p - x[1];
-  const double d3 = dot(ab, bp), d4 = dot(ac, bp);
+  const Vector3<S> bp = p - x[1];
+  const S d3 = dot(ab, bp), d4 = dot(ac, bp);
   if (d3 >= 0 && d4 <= d3) return result(1, 0);
-  const double vc = d1 * d4 - d3 * d2;
+  const S vc = d1 * d4 - d3 * d2;
   if (vc <= 0 && d1 >= 0 && d3 <= 0) return result(d1 / (d1 - d3), 0);
-  const Vector3<double> cp = p - x[2];
-  const double d5 = dot(ab, cp), d6 = dot(ac, cp);
+  const Vector3<S> cp = p - x[2];
+  const S d5 = dot(ab, cp), d6 = dot(ac, cp);
   if (d6 >= 0 && d5 <= d6) return result(0, 1);
-  const double vb = d5 * d2 - d1 * d6;
+  const S vb = d5 * d2 - d1 * d6;
   if (vb <= 0 && d2 >= 0 && d6 <= 0) return result(0, d2 / (d2 - d6));
-  const double va = d3 * d6 - d5 * d4;
+  const S va = d3 * d6 - d5 * d4;
   if (va <= 0 && d4 - d3 >= 0 && d5 - d6 >= 0) {
-    const double weight = (d4 - d3) / ((d4 - d3) + (d5 - d6));
+    const S weight = (d4 - d3) / ((d4 - d3) + (d5 - d6));
     return result(1 - weight, weight);
   }
-  const double sum = va + vb + vc;
+  const S sum = va + vb + vc;
   return result(vb / sum, vc / sum, true);
 }
 
 // Outward direction at a closest point, not normalised: the facet's own normal in its interior, the interpolated nodal
 // normal on edges and corners. A node is inside the grain where (node - closest point) . direction < 0.
 
-inline Vector3<double> facet_direction(const Vector3<double> (&x)[3]) {
+template <class S>
+Vector3<S> facet_direction(const Vector3<S> (&x)[3]) {
   return cross(x[1] - x[0], x[2] - x[0]);
 }
-inline Vector3<double> edge_direction(const ClosestPoint& closest, const Vector3<double> (&nodal_normal)[3]) {
+inline Vector3<double> edge_direction(const ClosestPoint<double>& closest, const Vector3<double> (&nodal_normal)[3]) {
   return nodal_normal[0] + closest.weight1 * (nodal_normal[1] - nodal_normal[0]) +
          closest.weight2 * (nodal_normal[2] - nodal_normal[0]);
 }

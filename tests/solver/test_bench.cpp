@@ -3,6 +3,7 @@
 #include <catch2/catch.hpp>
 
 #include "solver/bench/dense_packing.hpp"
+#include "solver/bench/work.hpp"
 #include "solver/physics/counted.hpp"
 #include "solver/physics/tensor.hpp"
 #include "solver/run/simulation.hpp"
@@ -33,4 +34,41 @@ TEST_CASE("a counted number computes as a plain one and counts what it did") {
   Counted::operations = 0;
   CHECK(cross(a, b).z.v == -3.0);
   CHECK(Counted::operations == 9);
+}
+
+TEST_CASE("the work of contact is that of the points that touch, and of a search that of what it finds") {
+  Scenario scenario = holding_scenario(1e-9);
+  scenario.walls = false;
+  ThreadTeam team(1);
+  const DensePacking dense = make_dense_packing(2'000, 4, 1);
+  Simulation simulation(build_model(dense.packing, scenario, "dense"), scenario, team);
+  simulation.begin_stage();
+  simulation.evaluate_forces();
+  Contact contact = simulation.contact();
+  REQUIRE(contact.candidates.point_facet.size() > 0);
+  // A node above a facet's interior: differences 5 x 3, scalar products 6 x 5, areas 3 x 3, their sum 2, weights 2, the closest
+  // point 18; and the distance 9.
+  const Work search = work_of_search(simulation.model(), contact.candidates);
+  CHECK(search.operations == 85.0 * static_cast<double>(contact.candidates.point_facet.size()));
+  std::fill(contact.active.begin(), contact.active.end(), 0);
+  const Work apart = work_of_contact(contact);
+  CHECK(apart.operations == 0);
+  CHECK(apart.bytes == 8.0 * static_cast<double>(contact.candidates.point_node.size()));
+  contact.active[0] = 7;
+  const Work touching = work_of_contact(contact);
+  // The distance, the facet's area vector 15 and its product with the offset 5, stiffness 2, force 3, sum 3, energy 4 and
+  // depth 1, weights 2, reactions 3 x 6.
+  CHECK(touching.operations == 7.0 * (85 + 15 + 5 + 2 + 3 + 3 + 4 + 1 + 2 + 18));
+  CHECK(touching.bytes == apart.bytes + 7.0 * 548);
+}
+
+TEST_CASE("a tet that hardens takes some 500 operations and moves its history twice") {
+  Scenario scenario = holding_scenario(1e-9);
+  const Model model = build_model(make_dense_packing(2'000, 4, 1).packing, scenario, "dense");
+  const Work tet = work_of_tet(model);
+  CHECK(tet.operations > 400);
+  CHECK(tet.operations < 600);
+  // Eight stresses and strains and the reference volume twice, four node numbers once.
+  CHECK(tet.bytes > 2 * 8 * 8);
+  CHECK(tet.bytes < 2 * 8 * 12 + 4 * 4 + 1);
 }

@@ -41,7 +41,7 @@ TEST_CASE("the closest point of a triangle is the closest of a fine sampling") {
   for (int i = 0; i < 300; ++i) {
     const Vector3<double> x[3] = {random_point(), random_point(), random_point()};
     const Vector3<double> p = 1.5 * random_point();
-    const ClosestPoint found = closest_point_on_triangle(p, x);
+    const ClosestPoint<double> found = closest_point_on_triangle(p, x);
     const double distance = norm(p - found.point);
     double sampled = 1e9;
     const int n = 150;

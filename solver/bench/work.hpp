@@ -1,0 +1,32 @@
+#pragma once
+// What the parts of a step have to do at least, in operations and bytes, to set their times against the machine's limits.
+//
+// Operations are additions, multiplications, divisions and square roots, counted by letting the laws of physics compute
+// with Counted. Bytes are what must be read and written when nothing is left in a cache from one part to the next, and
+// nothing comes along that was not asked for: of records and rows, not of cache lines.
+
+#include "solver/kernels/contact_forces.hpp"
+#include "solver/model/model.hpp"
+
+namespace mpfem {
+
+struct Work {
+  double operations = 0;
+  double bytes = 0;
+};
+
+/// One tet in one step while it hardens, its blocks as the model holds them.
+Work work_of_tet(const Model& model);
+
+/// All points and bonds of one evaluation of contact forces, with their reactions. Operations: of the points that touch,
+/// inside a facet, alone; the bonds' own and the looks at points that prove open are left out.
+Work work_of_contact(const Contact& contact);
+
+/// One contact search: both surfaces of every pair of grains that has candidates read once, candidates written. Operations:
+/// the distances between the nodes and facets that are found alone.
+Work work_of_search(const Model& model, const ContactCandidates& candidates);
+
+/// The update of velocities and positions of all nodes.
+Work work_of_integration(const Model& model);
+
+} // namespace mpfem
