@@ -25,5 +25,6 @@ function(mpfem_add_test)
   catch_discover_tests(test-${test_NAME}
     TEST_PREFIX "${test_NAME}/"
     WORKING_DIRECTORY ${PROJECT_SOURCE_DIR}
-    PROPERTIES TIMEOUT ${test_TIMEOUT} LABELS "${labels}")
+    PROPERTIES TIMEOUT ${test_TIMEOUT} LABELS "${labels}"
+               ENVIRONMENT LSAN_OPTIONS=suppressions=${PROJECT_SOURCE_DIR}/cmake/leaks-of-others.txt)
 endfunction()

@@ -35,13 +35,15 @@ double operations_of_point() {
     // As forces_of_points() does it for a point without bond that touches,
     const ClosestPoint<Counted> closest = closest_point_on_triangle(node, facet);
     const Vector3<Counted> offset = node - closest.point;
-    const Counted distance = norm(offset), h = 1.0, energy = 0.0, pass_stiffness = 1.0, area = 1.0;
+    const Counted distance = norm(offset), h = 1.0, pass_stiffness = 1.0, area = 1.0;
+    Counted energy = 0.0, depth = 0.0;
     dot(offset, facet_direction(facet));
     const Counted k = pass_stiffness * Counted(1.0) * area;
     const Vector3<Counted> push = -(k * offset);
     Vector3<Counted> force[4] = {};
     force[0] = force[0] + push;
-    max(energy + Counted(0.5) * k * distance * distance, distance / h);
+    energy = energy + Counted(0.5) * k * distance * distance;
+    depth = max(depth, distance / h);
     // and contact_reactions() for the three nodes of its facet.
     const Counted weight[3] = {Counted(1.0) - closest.weight1 - closest.weight2, closest.weight1, closest.weight2};
     for (int c = 0; c < 3; ++c) force[c + 1] = force[c + 1] - weight[c] * push;
@@ -64,10 +66,14 @@ Work work_of_tet(const Model& model) {
     update_tet(law, TetConstants{moduli, {0.06, 1.2}, 2e6, 1.55e-9, 1e-4}, edge, velocity, state, Counted(6.0),
                Counted(1.0), [&](const Counted& ratio) { return mean_stress(moduli, ratio); });
   });
+  // A block read, deviator, flow stress and plastic strain written; positions and velocities of nodes read, forces written.
   work.bytes = with_tet_numbers(model, [](auto number) {
     using Block = TetBlock<decltype(number)>;
-    return static_cast<double>(2 * sizeof(Block) - sizeof(Block::node)) / Block::lanes;
+    return static_cast<double>(sizeof(Block) + sizeof(Block::deviator) + sizeof(Block::flow_stress) +
+                               sizeof(Block::plastic_strain)) /
+           Block::lanes;
   });
+  work.bytes += 3 * row_bytes * model.nodes() / model.tets();
   return work;
 }
 
@@ -77,13 +83,13 @@ Work work_of_contact(const Contact& contact) {
   // Of every candidate, when it is to be looked at again, and whether it has a bond.
   const double candidates = static_cast<double>(contact.candidates.point_node.size()) *
                             (sizeof(double) + (contact.bond.empty() ? 0 : sizeof(PointBond::facet) + sizeof(double)));
-  // A record of a force: written, and read for the reactions; forces of three nodes read and written by these.
-  const double record = 2 * sizeof(ContactForce) + 3 * 2 * row_bytes;
-  // Of a point: its node, facet and how long that is the closest; the node's position, force and area; the facet's nodes.
+  // A record of a force is written, and read for the reactions.
+  const double record = 2 * sizeof(ContactForce);
+  // Of a point: its node, facet and how long that is the closest; the node's position, force and area; the facet, its nodes'
+  // positions and forces. A bond lies on the same nodes as a rule, and adds its state.
   const double point =
-      2 * sizeof(std::int32_t) + sizeof(double) + 3 * row_bytes + sizeof(double) + facet_bytes + 3 * row_bytes + record;
-  // Of a bond that pulls: its state written; facet, the facet's nodes, the node's force.
-  const double bond = sizeof(PointBond) + facet_bytes + 3 * row_bytes + 2 * row_bytes + record;
+      2 * sizeof(std::int32_t) + sizeof(double) + 3 * row_bytes + sizeof(double) + facet_bytes + 9 * row_bytes + record;
+  const double bond = 2 * sizeof(PointBond) + record;
   return {points * operations_of_point(), candidates + points * point + bonds * bond};
 }
 
@@ -92,8 +98,8 @@ Work work_of_search(const Model& model, const ContactCandidates& candidates) {
   for (std::size_t pair = 0; pair < candidates.pair_first.size(); ++pair) {
     const auto first = static_cast<std::size_t>(candidates.pair_first[pair]),
                second = static_cast<std::size_t>(candidates.pair_second[pair]);
-    work.bytes += row_bytes * model.surface_node_count[first] +
-                  (facet_bytes + 3 * row_bytes) * (model.facet_offset[second + 1] - model.facet_offset[second]);
+    work.bytes += row_bytes * (model.surface_node_count[first] + model.surface_node_count[second]) +
+                  facet_bytes * (model.facet_offset[second + 1] - model.facet_offset[second]);
   }
   const auto found = static_cast<double>(candidates.point_facet.size());
   work.bytes += sizeof(std::int32_t) *

@@ -15,7 +15,7 @@ struct Work {
   double bytes = 0;
 };
 
-/// One tet in one step while it hardens, its blocks as the model holds them.
+/// One tet in one step while it hardens by the power law, its blocks as the model holds them. Averaged pressures are left out.
 Work work_of_tet(const Model& model);
 
 /// All points and bonds of one evaluation of contact forces, with their reactions. Operations: of the points that touch,

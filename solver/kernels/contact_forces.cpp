@@ -126,7 +126,8 @@ void keep_bonded_points(const ContactCandidates& old, const std::vector<PointBon
 } // namespace
 
 void renew_candidates(const Model& model, double margin, ThreadTeam& team, Contact& contact) {
-  ContactCandidates candidates = find_contact_candidates(model.surface(), margin, team);
+  // Nodes are looked for, contact points lie behind them: by twice as much at most, however their tets are stretched.
+  ContactCandidates candidates = find_contact_candidates(model.surface(), margin + 2 * model.largest_stand_out, team);
   if (contact.bonding) {
     std::vector<PointBond> bond;
     keep_bonded_points(contact.candidates, contact.bond, model.grains, candidates, bond);
@@ -165,8 +166,7 @@ double pass_stiffness(const Model& model, std::size_t first, std::size_t second)
 
 /// Adds a force to its node, and gives it back as it is.
 void act_on_node(Model& model, const ContactForce& record) {
-  double* force = model.force.data() + 4 * at(record.node);
-  for (int axis = 0; axis < 3; ++axis) force[axis] += record.force[axis];
+  for (std::size_t axis = 0; axis < 3; ++axis) model.push_contact_point(at(record.node), axis, record.force[axis]);
 }
 
 ContactForce bond_record(const BondPull& pull, double stiffness, std::int32_t node, const PointBond& bond,
@@ -197,6 +197,7 @@ public:
     __builtin_prefetch(&model_.position[4 * node]);
     __builtin_prefetch(&model_.force[4 * node], 1);
     __builtin_prefetch(&model_.reference_area[node]);
+    if (!model_.inner_node.empty()) __builtin_prefetch(&model_.position[4 * at(model_.inner_node[node])]);
     ask_for_facet(contact_.point_facet[at(point)]);
     if (const std::int32_t facet = bond_facet(point); facet != contact_.point_facet[at(point)]) ask_for_facet(facet);
   }
@@ -284,11 +285,11 @@ ContactSums forces_of_points(Model& model, Contact& contact, int grain) {
         // The mode in which damage begins depends on the gap; later on a bond needs none, and the gap may sleep.
         PointBond& bond = contact.bond[at(point)];
         if (bond.state.initiation > 0 && travel < contact.point_wake[at(point)]) {
-          pull(bond, node_index, row(model.position, node_index), contact.margin);
+          pull(bond, node_index, model.contact_point(at(node_index)), contact.margin);
           continue;
         }
       }
-      const Vector3<double> node = row(model.position, node_index);
+      const Vector3<double> node = model.contact_point(at(node_index));
       // 1. The closest facet. It stays the closest until both grains' travel could make up its lead on the second.
       std::int32_t& facet = contact.point_facet[at(point)];
       if (facet < 0 || travel >= contact.point_sure[at(point)]) {
@@ -426,7 +427,11 @@ void contact_stiffness_rate(const Model& model, const Contact& contact, int grai
   // the magnitudes (1 inside), k (u - sum w_c u_c)^2 <= k (1 + W) (u^2 + sum |w_c| u_c^2).
   for (std::int32_t pair = candidates.outgoing_offset[g]; pair < candidates.outgoing_offset[g + 1]; ++pair)
     for (const auto points : {contact.active_points(pair), contact.pulling_bonds(pair)})
-      for (const ContactForce& point : points) add(point.node, share(point));
+      for (const ContactForce& point : points) {
+        add(point.node, share(point));
+        if (!model.inner_node.empty())
+          add(model.inner_node[at(point.node)], model.inward[at(point.node)] * share(point));
+      }
   for (std::int32_t i = candidates.incoming_offset[g]; i < candidates.incoming_offset[g + 1]; ++i) {
     const std::int32_t pair = candidates.incoming_pair[at(i)];
     for (const auto points : {contact.active_points(pair), contact.pulling_bonds(pair)})

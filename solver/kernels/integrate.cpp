@@ -20,10 +20,10 @@ WallSums wall_forces(Model& model, const Walls& walls, const Bounds& bounds, int
     if (high ? bounds.high[axis] <= plane : bounds.low[axis] >= plane) continue;
     const double inward = high ? -1.0 : 1.0;
     for (std::size_t node = first; node < first + count; ++node) {
-      const double gap = inward * (model.position[4 * node + axis] - plane);
+      const double gap = inward * (model.contact_coordinate(node, axis) - plane);
       if (!(gap < 0)) continue;
       const double force = -gap * stiffness * model.local_stiffness(node) * model.reference_area[node];
-      model.force[4 * node + axis] += inward * force;
+      model.push_contact_point(node, axis, inward * force);
       sums.force[side] += force;
       sums.energy += -0.5 * force * gap;
       sums.axis_energy[axis] += -0.5 * force * gap;
@@ -46,9 +46,13 @@ void wall_stiffness_rate(const Model& model, const Walls& walls, const Bounds& b
     const double plane = high ? walls.high[axis] : walls.low[axis];
     if (high ? bounds.high[axis] <= plane : bounds.low[axis] >= plane) continue;
     for (std::size_t node = first; node < first + count; ++node)
-      if (const double x = model.position[4 * node + axis]; high ? x > plane : x < plane)
-        rate[node] += model.penalty_stiffness[g] * model.local_stiffness(node) * model.reference_area[node] *
-                      model.inverse_mass[node];
+      if (const double x = model.contact_coordinate(node, axis); high ? x > plane : x < plane) {
+        const double stiffness = model.penalty_stiffness[g] * model.local_stiffness(node) * model.reference_area[node];
+        rate[node] += stiffness * model.inverse_mass[node];
+        if (model.inner_node.empty()) continue;
+        const auto inner = static_cast<std::size_t>(model.inner_node[node]);
+        rate[inner] += model.inward[node] * stiffness * model.inverse_mass[inner];
+      }
   }
 }
 

@@ -12,6 +12,7 @@
 
 #include "common/errors.hpp"
 #include "common/hash.hpp"
+#include "solver/model/smooth_surface.hpp"
 #include "solver/physics/tet4_patch.hpp"
 
 namespace mpfem {
@@ -262,7 +263,8 @@ std::size_t Model::memory() const {
   const auto bytes = [](const auto& v) { return v.size() * sizeof(v[0]); };
   return bytes(position) + bytes(velocity) + bytes(force) + bytes(normal) + bytes(inverse_mass) +
          bytes(reference_area) + std::visit(bytes, blocks) + bytes(inverse_nodal_volume) + bytes(nodal_mean) +
-         bytes(inverse_patch_volume) + bytes(facet) + bytes(file_node) + bytes(file_tet);
+         bytes(inverse_patch_volume) + bytes(inner_node) + bytes(inward) + bytes(facet) + bytes(file_node) +
+         bytes(file_tet);
 }
 
 Material make_material(const MaterialParameters& parameters, double mass_scaling) {
@@ -484,6 +486,7 @@ Model build_model(const MeshedPacking& packing, const Scenario& scenario, const 
   }
   refuse_shared_places(model, name);
   find_refinement(model);
+  if (scenario.contact.surface == ContactSurface::smooth) find_smooth_surface(model);
   if (scenario.numerics.mass_scaling_step > 0)
     scale_masses(model, scenario.numerics.mass_scaling_step / scenario.numerics.time_step_factor,
                  scenario.numerics.mass_scaling_lighten);

@@ -83,6 +83,11 @@ struct Model {
   bool uniform_penalty = false;          ///< K was given, and is the same wherever the mesh is refined
   std::vector<double> refinement; ///< [nodes]: h of the grain over that of the surface node's facets; empty where
                                   ///< no grain is locally refined
+  std::vector<std::int32_t>
+      inner_node;               ///< [nodes]: towards which a surface node's contact point lies; empty where contact
+                                ///< takes the nodes themselves (solver/model/smooth_surface.hpp)
+  std::vector<double> inward;   ///< [nodes]: the inner node's share in the contact point
+  double largest_stand_out = 0; ///< mm, of a node from its contact point, at the start
 
   std::array<double, 3> box_low{}; ///< mm, at the start
   std::array<double, 3> box_high{};
@@ -115,6 +120,24 @@ struct Model {
   /// 1 where the scenario gives K itself.
   double local_stiffness(std::size_t node) const {
     return refinement.empty() || uniform_penalty ? 1.0 : refinement[node];
+  }
+  /// Where the gap of a surface node is measured, mm.
+  double contact_coordinate(std::size_t node, std::size_t axis) const {
+    const double x = position[4 * node + axis];
+    if (inner_node.empty()) return x;
+    return x + inward[node] * (position[4 * static_cast<std::size_t>(inner_node[node]) + axis] - x);
+  }
+  Vector3<double> contact_point(std::size_t node) const {
+    return {contact_coordinate(node, 0), contact_coordinate(node, 1), contact_coordinate(node, 2)};
+  }
+  /// Adds a force on a surface node's contact point, N.
+  void push_contact_point(std::size_t node, std::size_t axis, double f) {
+    if (inner_node.empty()) {
+      force[4 * node + axis] += f;
+      return;
+    }
+    force[4 * node + axis] += (1 - inward[node]) * f;
+    force[4 * static_cast<std::size_t>(inner_node[node]) + axis] += inward[node] * f;
   }
   double total_reference_volume() const;
   SurfaceView surface() const;

@@ -21,9 +21,10 @@ struct ClosestPoint {
 };
 
 /// Closest point of the triangle x0 x1 x2 to `p`, by the Voronoi regions of its corners, edges and face (Ericson,
-/// Real-Time Collision Detection, 2005, section 5.1.5). One point at a time, no packs: the regions branch.
+/// Real-Time Collision Detection, 2005, section 5.1.5). One point at a time, no packs: the regions branch. `inline`, since a
+/// template alone is not small enough for the compiler to inline it where it is hot.
 template <class S>
-ClosestPoint<S> closest_point_on_triangle(const Vector3<S>& p, const Vector3<S> (&x)[3]) {
+inline ClosestPoint<S> closest_point_on_triangle(const Vector3<S>& p, const Vector3<S> (&x)[3]) {
   const auto result = [&x](const S& weight1, const S& weight2, bool inside = false) {
     return ClosestPoint<S>{x[0] + weight1 * (x[1] - x[0]) + weight2 * (x[2] - x[0]), weight1, weight2, inside};
   };
@@ -53,7 +54,7 @@ ClosestPoint<S> closest_point_on_triangle(const Vector3<S>& p, const Vector3<S> 
 // normal on edges and corners. A node is inside the grain where (node - closest point) . direction < 0.
 
 template <class S>
-Vector3<S> facet_direction(const Vector3<S> (&x)[3]) {
+inline Vector3<S> facet_direction(const Vector3<S> (&x)[3]) {
   return cross(x[1] - x[0], x[2] - x[0]);
 }
 inline Vector3<double> edge_direction(const ClosestPoint<double>& closest, const Vector3<double> (&nodal_normal)[3]) {

@@ -155,6 +155,8 @@ ContactParameters read_contact(TableReader table) {
     contact.stiffness = table.number("stiffness", positive);
   }
   contact.search_margin = table.number_or("search_margin", contact.search_margin, Range::between(0.05, 2));
+  contact.surface = table.choice_or("surface", "facets", {"facets", "smooth"}) == "smooth" ? ContactSurface::smooth
+                                                                                           : ContactSurface::facets;
   table.finish();
   return contact;
 }

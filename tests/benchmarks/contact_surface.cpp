@@ -7,7 +7,8 @@
 //   contact-surface pressure ELEMENT R/h FACTOR PROFILE.csv       elasto-plastic pair, flattened; pressure node by node
 //   contact-surface packing ELEMENT PACKING.h5 FACTOR             a meshed packing compacted to a relative density of 0.9
 //
-// ELEMENT: tet4, tet4-anp. SCALING: exact (volume, as pack-gen makes grains) or inscribed (nodes on the sphere).
+// ELEMENT: tet4, tet4-anp. SCALING: exact (volume, as pack-gen makes grains), smooth (the same with
+// contact.surface = "smooth") or inscribed (nodes on the sphere).
 // R/h: radius over nominal element size. FACTOR: penalty K = FACTOR E/h.
 
 #include <cstdlib>
@@ -113,10 +114,11 @@ constexpr const char* state_columns =
 void rotations(const std::string& element, const std::string& scaling, double size_ratio, std::uint64_t first,
                std::uint64_t last) {
   fmt::print("element,scaling,size_ratio,seed,{}", state_columns);
-  const GrainMesh mesh = ball(size_ratio, scaling == "exact");
+  const GrainMesh mesh = ball(size_ratio, scaling != "inscribed");
   for (std::uint64_t seed = first; seed <= last; ++seed) {
     ColumnSetup setup;
     setup.element = element_of(element);
+    setup.surface = scaling == "smooth" ? ContactSurface::smooth : ContactSurface::facets;
     setup.approaches = {0.01 * radius, 0.02 * radius, 0.04 * radius};
     PressedColumn column({turned(mesh, 2 * seed), turned(mesh, 2 * seed + 1)}, setup);
     for (const double approach : setup.approaches) {

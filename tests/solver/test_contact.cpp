@@ -78,6 +78,7 @@ TEST_CASE("an oblique collision of two elastic grains keeps momentum, angular mo
   move(first, {0.5, 0.5, 0.5});
   move(second, {0.5 + 0.183, 0.5 + 0.04, 0.5});
   Scenario scenario = holding_scenario(4e-6);
+  scenario.contact.surface = GENERATE(ContactSurface::facets, ContactSurface::smooth);
   scenario.grain_velocity = {{5e3, 0, 0}, {-5e3, 0, 1e3}}; // 5 m/s each
   scenario.numerics.bulk_viscosity_linear = 0;
   scenario.numerics.bulk_viscosity_quadratic = 0;

@@ -634,6 +634,7 @@ TEST_CASE("every bad input is refused with one clear line and exit code 2") {
       {"packing.h5", "copies.h5", {"copies.h5", "grains 0 and 1", "same place"}},
       {"packing.h5", "flat.h5", {"flat.h5", "/box/lengths"}},
       {"[output]", "[contact]\nsearch_margin = 1e-6\n[output]", {"search_margin", "0.05"}},
+      {"[output]", "[contact]\nsurface = \"round\"\n[output]", {"surface", "round", "facets", "smooth"}},
       {"[output]", "[initial]\ngrain_velocity = [[1, 0, 0]]\n[output]", {"1 rows for 8 grains"}},
       {"damping_fade_stress = 5",
        "damping_fade_stress = 5\n[[stages]]\ntype = \"isotropic_compaction\"\nrelative_density = 0.61\nwall_speed = "
@@ -703,6 +704,10 @@ TEST_CASE("a packing that was unloaded is compacted again to less than before, f
                                                   folder / "again.toml", folder / "other.h5", from));
   CHECK(other.exit_code == 2);
   CHECK_THAT(other.messages, Catch::Contains("penalty"));
+  const Outcome smooth = mpfem_command(fmt::format("run {} -o {} --from {} --quiet --set contact.surface=smooth",
+                                                   folder / "again.toml", folder / "other.h5", from));
+  CHECK(smooth.exit_code == 2);
+  CHECK_THAT(smooth.messages, Catch::Contains("contact.surface"));
   // Unloading that has nothing to do ends where it began.
   write_text(folder / "idle.toml", replaced(scenario_text, "type = \"isotropic_compaction\"\nrelative_density = 0.62",
                                             "type = \"isotropic_unloading\"\nmean_stress = 0"));

@@ -13,7 +13,7 @@ namespace mpfem::test {
 
 inline constexpr double pair_radius = 0.1; // mm
 
-BondParameters table_1(double fracture_energy) {
+inline BondParameters table_1(double fracture_energy) {
   return {25, 18, fracture_energy, SofteningLaw::exponential, false, false};
 }
 

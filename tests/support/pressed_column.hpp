@@ -19,10 +19,11 @@ struct ColumnSetup {
   ElementType element = ElementType::tet4;
   HardeningLaw law = HardeningLaw::elastic; ///< Table 1 of Ku, Zhao, Mollon and Zhao
   double stiffness_factor = 10;             ///< K = factor E/h
-  std::vector<double> approaches;           ///< mm, nominal, of a sphere's centre towards each contact, growing
-  double wall_speed = 4000;                 ///< mm/s, of each wall
-  double rest = 1e-6;                       ///< s, of damping at every approach, walls at rest
-  bool listed_from_top = false; ///< grains stand in the packing from the top down instead of from the bottom up
+  ContactSurface surface = ContactSurface::facets;
+  std::vector<double> approaches; ///< mm, nominal, of a sphere's centre towards each contact, growing
+  double wall_speed = 4000;       ///< mm/s, of each wall
+  double rest = 1e-6;             ///< s, of damping at every approach, walls at rest
+  bool listed_from_top = false;   ///< grains stand in the packing from the top down instead of from the bottom up
 };
 
 /// What a column shows at rest. Approaches (mm) are those of a sphere's centre towards the contact; between two spheres,
@@ -55,6 +56,7 @@ public:
     scenario_.numerics.element = setup.element;
     scenario_.numerics.own_pressure = usual_own_pressure(setup.element);
     scenario_.contact.stiffness_factor = setup.stiffness_factor;
+    scenario_.contact.surface = setup.surface;
     scenario_.stages.clear();
     double before = height;
     for (const double approach : setup.approaches) {

@@ -1,0 +1,23 @@
+#pragma once
+// Contact of curved grains as their smooth surface has it.
+//
+// A convex grain that is meshed with its volume has its surface nodes outside its surface and the middles of its facets inside.
+// Facets meet the nodes of another grain on the average where the surface is, but the nodes, which are what is pressed back,
+// come too early: by the mean height s of the smooth surface above the facets around a node, 0.5 % of the radius with five elements to
+// it. So each surface node n has a contact point a little inside its grain, towards an inner node i of the same tet,
+//   x = (1 - a) x_n + a x_i,   a fixed in the mesh,   |x - x_n| = s at the start,
+// whose gap is measured, and whose force is shared by both nodes alike. A point that is a fixed mean of two nodes moves with the
+// material: penalty and bonds keep their exact potentials, momentum and angular momentum are kept, and as a contact
+// flattens s shrinks with the layer of tets alone, so that flattened grains overlap by it.
+//
+// With unit normals n at the corners, a surface that is quadratic over a facet stands above it by the sum over its edges of
+// w_i w_j (n_j - n_i).(x_j - x_i)/2; the mean of w_i w_j is 1/12.
+
+#include "solver/model/model.hpp"
+
+namespace mpfem {
+
+/// Sets model.inner_node and model.inward from the mesh as it is. Flat and concave places keep their nodes.
+void find_smooth_surface(Model& model);
+
+} // namespace mpfem
