@@ -29,6 +29,7 @@ NR == 1 || /^#/ || !($9 in wanted) { next }
   }
   options = "element.type=" $4 " contact.stiffness_factor=" $6
   if ($3 == "precision") options = options " element.precision=mixed"
+  if ($3 == "surface") options = options " contact.surface=smooth"
   recovery = "-"
   if (scene in contact_radius) {
     options = options sprintf(" numerics.mass_scaling_step=%.4g", 4e-7 * contact_radius[scene] / $5 * sqrt($8))

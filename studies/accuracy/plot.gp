@@ -37,6 +37,9 @@ plot \
   chosen(of('tet4-anp', 'speed')) using 12:18:('×' . strcol(7)) with labels offset character -1.6, character 0.6 font ',13' textcolor linetype 4, \
   chosen(of('tet4-anp', 'mass')) using 12:18 with points linetype 4 pointtype 4 pointsize 1.5 title (many(of('tet4-anp', 'mass')) ? 'tet4-anp, other mass' : ''), \
   chosen(of('tet4-anp', 'mass')) using 12:18:('×' . strcol(8)) with labels offset character -1.8, character -0.5 font ',13' textcolor linetype 4, \
+  sorted(of('tet4-anp', 'surface')) using 12:18 with linespoints linetype 6 dashtype 3 pointtype 2 pointsize 1.5 title (many(of('tet4-anp', 'surface')) ? 'tet4-anp, smooth surface' : ''), \
+  sorted(of('tet4-anp', 'surface')) using 12:18:(strcol(5)) with labels offset character -1.8, character 0.5 font ',13' textcolor linetype 6, \
+  chosen(of('tet4-anp', 'precision')) using 12:18 with points linetype 2 pointtype 1 pointsize 1.5 title (many(of('tet4-anp', 'precision')) ? 'tet4-anp, mixed precision' : ''), \
   sorted('$17 == 1') using 12:18 with steps linetype 5 linewidth 1.2 dashtype 2, \
   sorted('$17 == 1') using 12:18 with points linetype 5 linewidth 1.2 pointtype 6 pointsize 2.6 title 'on the front', \
   NaN with filledcurves fillcolor rgb '#dddddd' title (doubt > bottom ? 'reference unsure' : '')

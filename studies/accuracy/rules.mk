@@ -97,7 +97,7 @@ $(accuracy)/points.csv: studies/common/verdict.awk studies/accuracy/points.awk s
 	mv $@.partial $@
 
 # ------------------------------------------------------------------------------------------------ tables, pictures, page
-accuracy_tables := choice meshes levers equal locking packing
+accuracy_tables := choice meshes levers surface equal locking packing
 $(accuracy)/tables:
 	mkdir -p $@
 $(accuracy)/tables/%.md: studies/common/verdict.awk studies/accuracy/tables.awk $(accuracy)/points.csv $(accuracy)/values.csv $(accuracy)/references.csv | $(accuracy)/tables

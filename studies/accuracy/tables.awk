@@ -3,6 +3,7 @@
 #   choice      cheapest settings for 10, 3 and 1 % of error, scene by scene: each element at default settings, and of all cases
 #   meshes      error of all elements over meshes, scene by scene
 #   levers      what each lever does to error and work, against the default of the same mesh
+#   surface     contact by facets and by the smooth surface, over meshes
 #   equal       at which mesh and work the other elements have the error of plain tets
 #   locking     values of the sphere over meshes, and what they tend to
 #   packing     values of the packings, likewise
@@ -64,6 +65,7 @@ function settings(group, i,   text, part) {
   if (lever[group, i] == "speed") text = text ", " speed[group, i] " × speed"
   if (lever[group, i] == "mass") text = text ", " mass[group, i] " × mass"
   if (lever[group, i] == "precision") text = text ", mixed precision"
+  if (lever[group, i] == "surface") text = text ", smooth surface"
   return text " (" thousands(tets[group, i]) " tets, " seconds(work[group, i]) ")"
 }
 
@@ -154,7 +156,7 @@ function levers(   g, i, d, part, key, k, many, what) {
     split("", seen)
     rows = 0
     for (i = 1; i <= cases[group_of[g]]; ++i) {
-      if (lever[group_of[g], i] == "mesh") continue
+      if (lever[group_of[g], i] == "mesh" || lever[group_of[g], i] == "surface") continue
       d = default_of(group_of[g], i)
       if (!d) continue
       if (!(d in seen)) { seen[d] = 1; at[++rows] = d }
@@ -166,6 +168,20 @@ function levers(   g, i, d, part, key, k, many, what) {
       printf "| %s | %s, `%s` | %s", k == 1 ? title(part[1], part[2]) : "", sprintf(unit(part[1]), fineness[group_of[g], d]), element[group_of[g], d], signed(bias[group_of[g], d])
       for (i = 1; i <= many; ++i) printf " | %s", cell[d, what[i]]
       print " |"
+    }
+  }
+}
+
+function surface(   g, i, d, part, rows) {
+  print "| scene and measure | mesh, element | facets | smooth surface |"
+  print "|---|---|---|---|"
+  for (g = 1; g <= groups; ++g) {
+    split(group_of[g], part, SUBSEP)
+    rows = 0
+    for (i = 1; i <= cases[group_of[g]]; ++i) {
+      if (lever[group_of[g], i] != "surface") continue
+      d = default_of(group_of[g], i)
+      printf "| %s | %s, `%s` | %s | %s |\n", rows++ ? "" : title(part[1], part[2]), sprintf(unit(part[1]), fineness[group_of[g], i]), element[group_of[g], i], d ? signed(bias[group_of[g], d]) : "", signed(bias[group_of[g], i])
     }
   }
 }
@@ -270,6 +286,7 @@ END {
   if (table == "choice") choice()
   if (table == "meshes") meshes()
   if (table == "levers") levers()
+  if (table == "surface") surface()
   if (table == "equal") equal()
   if (table == "locking") values("flattened confined")
   if (table == "packing") values("small full")

@@ -19,3 +19,4 @@ set linetype 2 linecolor rgb '#d55e00' linewidth 2 pointtype 5
 set linetype 3 linecolor rgb '#009e73' linewidth 2 pointtype 9
 set linetype 4 linecolor rgb '#cc79a7' linewidth 2 pointtype 11
 set linetype 5 linecolor rgb '#000000' linewidth 2 pointtype 13
+set linetype 6 linecolor rgb '#56b4e9' linewidth 2 pointtype 2

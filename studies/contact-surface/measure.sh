@@ -13,6 +13,8 @@ measure rotations-tet4-anp-inscribed-5.csv rotations tet4-anp inscribed 5 1 20
 measure rotations-tet4-anp-exact-7.csv rotations tet4-anp exact 7 1 10
 measure rotations-tet4-anp-inscribed-7.csv rotations tet4-anp inscribed 7 1 6
 measure rotations-tet4-anp-exact-10.csv rotations tet4-anp exact 10 1 3
+measure rotations-tet4-anp-smooth-5.csv rotations tet4-anp smooth 5 1 20
+measure rotations-tet4-anp-smooth-7.csv rotations tet4-anp smooth 7 1 6
 measure geometry.csv geometry
 # Unequal meshes.
 measure unequal-4-4.csv unequal tet4-anp 4 4 1 4

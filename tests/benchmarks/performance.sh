@@ -1,15 +1,18 @@
 #!/usr/bin/env bash
-# The tables of docs/performance.md: tests/benchmarks/performance.sh [--large] [MPFEM [PORTABLE_MPFEM]] > tables.md
+# Tables of docs/performance.md from the built-in packing:
+#   tests/benchmarks/performance.sh [--large] [MPFEM [PORTABLE_MPFEM [SCALAR_MPFEM]]] > tables.md
 #
-# MPFEM is the executable to measure (build/bin/mpfem), PORTABLE_MPFEM that of ./bootstrap --portable build, which is
-# measured with each instruction set that this machine knows. Every case is measured three times, in turn with the others of its table, and the medians are printed: a shared
-# machine is noisy. --large adds packings of 1.6 and 12 million tets (12 GB of memory, a quarter of an hour).
+# MPFEM is the executable to measure (build/bin/mpfem), PORTABLE_MPFEM one of `cmake --preset portable`, which is measured
+# with each instruction set that this machine knows, SCALAR_MPFEM one of `cmake -DMPFEM_SCALAR=ON`. Every case is measured
+# three times, in turn with the others of its table, and the medians are printed: a shared machine is noisy. --large adds
+# packings of 1.6 and 12 million tets (2 GB of memory, a quarter of an hour). Features in a real packing: features.sh.
 set -euo pipefail
 
 large=
 if [[ ${1-} == --large ]]; then large=yes && shift; fi
 mpfem=${1:-build/bin/mpfem}
 portable=${2-}
+scalar=${3-}
 cores=$(nproc)
 readonly repetitions=3
 
@@ -40,7 +43,7 @@ table() {
     printf '| %s ' "${names[k]}"
     for key in tets element_pass_ns_per_tet_step whole_step_ns_per_tet_step contact_ns_per_tet_step search_ns_per_tet_step memory_bytes_per_tet; do
       for ((repetition = 1; repetition <= repetitions; ++repetition)); do value "$work/$k.$repetition.json" "$key"; done |
-        sort -g | sed -n "$(((repetitions + 1) / 2))p" | xargs printf '| %.4g '
+        sort -g | sed -n "$(((repetitions + 1) / 2))p" | xargs printf '| %.7g '
     done
     printf '|\n'
   done
@@ -62,18 +65,34 @@ tet4-anp, bonds, mixed|$mpfem|--element tet4-anp --precision mixed
 tet4-patch, bonds, mixed|$mpfem|--element tet4-patch --precision mixed
 EOF
 
+{
+  for ((t = 1; t <= cores; t *= 2)); do
+    for element in tet4 tet4-anp tet4-patch; do
+      for precision in double mixed; do
+        echo "$element, $precision, $t threads|$mpfem|--element $element --precision $precision --threads $t"
+      done
+    done
+  done
+} | table 'Precision'
+
 for grains in 20 80 329 1000 2000; do echo "$grains grains|$mpfem|--grains $grains --tets $((600 * grains))"; done |
   table 'Number of grains, 600 tets each'
 
 {
   for tets in 200000 330000; do echo "about 329 grains|$mpfem|--tets $tets"; done
-  if [[ $large ]]; then for tets in 1600000 12000000; do echo "about 329 grains|$mpfem|--tets $tets"; done; fi
+  if [[ $large ]]; then
+    for ((t = 1; t <= cores; t *= 2)); do
+      for element in tet4 tet4-anp; do echo "$element, $t threads|$mpfem|--tets 1600000 --element $element --threads $t"; done
+    done
+    echo "12 million|$mpfem|--tets 12000000 --steps 450"
+  fi
 } | table 'Mesh size'
 
-if [[ $portable ]]; then
+if [[ $portable || $scalar ]]; then
   {
     echo "built for this machine|$mpfem|--threads 1"
-    for level in v4 v3 v2; do
+    if [[ $scalar ]]; then echo "scalar|$scalar|--threads 1"; fi
+    for level in ${portable:+v4 v3 v2}; do
       # One that this machine does not know would measure the next plainer one a second time.
       [[ $level == v4 ]] && ! grep -qw avx512dq /proc/cpuinfo && continue
       [[ $level == v3 ]] && ! grep -qw avx2 /proc/cpuinfo && continue
