@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "common/errors.hpp"
+#include "solver/model/smooth_surface.hpp"
 #include "solver/physics/gap.hpp"
 
 namespace mpfem {
@@ -126,8 +127,8 @@ void keep_bonded_points(const ContactCandidates& old, const std::vector<PointBon
 } // namespace
 
 void renew_candidates(const Model& model, double margin, ThreadTeam& team, Contact& contact) {
-  // Nodes are looked for, contact points lie behind them: by twice as much at most, however their tets are stretched.
-  ContactCandidates candidates = find_contact_candidates(model.surface(), margin + 2 * model.largest_stand_out, team);
+  // Nodes are looked for; their contact points lie behind them, and travel counts from where they are now.
+  ContactCandidates candidates = find_contact_candidates(model.surface(), margin + largest_stand_out(model), team);
   if (contact.bonding) {
     std::vector<PointBond> bond;
     keep_bonded_points(contact.candidates, contact.bond, model.grains, candidates, bond);

@@ -84,10 +84,9 @@ struct Model {
   std::vector<double> refinement; ///< [nodes]: h of the grain over that of the surface node's facets; empty where
                                   ///< no grain is locally refined
   std::vector<std::int32_t>
-      inner_node;               ///< [nodes]: towards which a surface node's contact point lies; empty where contact
-                                ///< takes the nodes themselves (solver/model/smooth_surface.hpp)
-  std::vector<double> inward;   ///< [nodes]: the inner node's share in the contact point
-  double largest_stand_out = 0; ///< mm, of a node from its contact point, at the start
+      inner_node;             ///< [nodes]: towards which a surface node's contact point lies; empty where contact
+                              ///< takes the nodes themselves (solver/model/smooth_surface.hpp)
+  std::vector<double> inward; ///< [nodes]: the inner node's share in the contact point
 
   std::array<double, 3> box_low{}; ///< mm, at the start
   std::array<double, 3> box_high{};

@@ -63,7 +63,6 @@ void find_smooth_surface(Model& model) {
   model.inner_node.resize(nodes);
   for (std::size_t n = 0; n < nodes; ++n) model.inner_node[n] = static_cast<std::int32_t>(n);
   model.inward.assign(nodes, 0.0);
-  model.largest_stand_out = 0;
   std::vector<double> cosine(nodes, 0.0); // with the inward normal, of the way to the inner node
   for (int grain = 0; grain < model.grains; ++grain) {
     const auto g = static_cast<std::size_t>(grain);
@@ -85,9 +84,15 @@ void find_smooth_surface(Model& model) {
       if (cosine[n] < least_cosine) continue;
       const double way = norm(position(model, n) - position(model, static_cast<std::size_t>(model.inner_node[n])));
       model.inward[n] = std::min(height / (cosine[n] * way), largest_share);
-      model.largest_stand_out = std::max(model.largest_stand_out, model.inward[n] * way);
     }
   }
+}
+
+double largest_stand_out(const Model& model) {
+  double largest = 0;
+  for (std::size_t n = 0; n < model.inner_node.size(); ++n)
+    if (model.inward[n] > 0) largest = std::max(largest, norm(position(model, n) - model.contact_point(n)));
+  return largest;
 }
 
 } // namespace mpfem

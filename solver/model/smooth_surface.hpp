@@ -5,7 +5,7 @@
 // Facets meet the nodes of another grain on the average where the surface is, but the nodes, which are what is pressed back,
 // come too early: by the mean height s of the smooth surface above the facets around a node, 0.5 % of the radius with five elements to
 // it. So each surface node n has a contact point a little inside its grain, towards an inner node i of the same tet,
-//   x = (1 - a) x_n + a x_i,   a fixed in the mesh,   |x - x_n| = s at the start,
+//   x = (1 - a) x_n + a x_i,   a fixed in the mesh,   (x_n - x).n = s at the start,
 // whose gap is measured, and whose force is shared by both nodes alike. A point that is a fixed mean of two nodes moves with the
 // material: penalty and bonds keep their exact potentials, momentum and angular momentum are kept, and as a contact
 // flattens s shrinks with the layer of tets alone, so that flattened grains overlap by it.
@@ -17,7 +17,11 @@
 
 namespace mpfem {
 
-/// Sets model.inner_node and model.inward from the mesh as it is. Flat and concave places keep their nodes.
+/// Sets model.inner_node and model.inward from the mesh as it is. Concave places keep their nodes, and flat ones an element away
+/// from edges.
 void find_smooth_surface(Model& model);
+
+/// mm, of a node from its contact point, at present; 0 where contact takes the nodes themselves.
+double largest_stand_out(const Model& model);
 
 } // namespace mpfem

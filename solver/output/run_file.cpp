@@ -51,7 +51,7 @@ std::vector<float> contact_pressure(const Simulation& simulation) {
       double value = area > 0 ? force[node] / area : 0.0;
       for (std::size_t axis = 0; axis < 3; ++axis)
         if (simulation.walls().stand(axis)) {
-          const double x = model.position[4 * node + axis];
+          const double x = model.contact_coordinate(node, axis);
           value += model.penalty_stiffness[g] * model.local_stiffness(node) * model.reference_area[node] /
                    std::max(area, 1e-300) * (std::max(state.low[axis] - x, 0.0) + std::max(x - state.high[axis], 0.0));
         }

@@ -59,8 +59,8 @@ struct ContactParameters {
   std::optional<double> stiffness; ///< K itself, MPa/mm, where it is given instead (locally refined meshes)
   double search_margin = 0.3;      ///< candidates are kept for gaps up to this multiple of h
   ContactSurface surface = ContactSurface::facets;
-  bool forces_differ(const ContactParameters& other) const {
-    return stiffness_factor != other.stiffness_factor || stiffness != other.stiffness || surface != other.surface;
+  bool penalty_differs(const ContactParameters& other) const {
+    return stiffness_factor != other.stiffness_factor || stiffness != other.stiffness;
   }
 };
 

@@ -173,7 +173,7 @@ function levers(   g, i, d, part, key, k, many, what) {
 }
 
 function surface(   g, i, d, part, rows) {
-  print "| scene and measure | mesh, element | facets | smooth surface |"
+  print "| scene and measure | mesh, element | facets: error, with sign | smooth surface |"
   print "|---|---|---|---|"
   for (g = 1; g <= groups; ++g) {
     split(group_of[g], part, SUBSEP)
@@ -181,7 +181,7 @@ function surface(   g, i, d, part, rows) {
     for (i = 1; i <= cases[group_of[g]]; ++i) {
       if (lever[group_of[g], i] != "surface") continue
       d = default_of(group_of[g], i)
-      printf "| %s | %s, `%s` | %s | %s |\n", rows++ ? "" : title(part[1], part[2]), sprintf(unit(part[1]), fineness[group_of[g], i]), element[group_of[g], i], d ? signed(bias[group_of[g], d]) : "", signed(bias[group_of[g], i])
+      printf "| %s | %s, `%s` | %s | %s |\n", rows++ ? "" : title(part[1], part[2]), sprintf(unit(part[1]), fineness[group_of[g], i]), element[group_of[g], i], d ? percent(error[group_of[g], d]) " (" signed(bias[group_of[g], d]) ")" : "", percent(error[group_of[g], i]) " (" signed(bias[group_of[g], i]) ")"
     }
   }
 }

@@ -224,6 +224,35 @@ TEST_CASE("a run with bonds, unloading and grips is bitwise the same on one, two
   CHECK(file.read(schema::run::history_damage_dissipation).back() > 0);
 }
 
+TEST_CASE(
+    "a run with smooth contact surfaces is bitwise the same on one, two and four threads, and when it is resumed") {
+  const std::string smooth = replaced(bonded_text, "[output]", "[contact]\nsurface = \"smooth\"\n[output]");
+  check_threads(smooth, 4);
+  check_resuming(smooth, 4);
+  const Folder folder;
+  prepare(folder, 3, smooth);
+  CHECK_THAT(mpfem_command(fmt::format("check {}", folder / "scenario.toml")).output,
+             Catch::Contains("smooth surfaces"));
+}
+
+TEST_CASE("snapshots show the pressure that walls and grains exert, whichever surface the contact takes") {
+  // A gap read off nodes instead of contact points would show K times their height, a multiple of all stresses here.
+  double largest[2] = {};
+  for (const bool smooth : {false, true}) {
+    const Folder folder;
+    prepare(folder, 4,
+            smooth ? replaced(scenario_text, "[output]", "[contact]\nsurface = \"smooth\"\n[output]") : scenario_text);
+    REQUIRE(mpfem_command(fmt::format("run {} -o {} --quiet", folder / "scenario.toml", folder / "run.h5")).exit_code ==
+            0);
+    const schema::FileReader file(folder / "run.h5", schema::FileKind::run);
+    const auto pressure = file.read(schema::run::snapshots_contact_pressure, file.snapshots().back());
+    largest[smooth ? 1 : 0] = *std::max_element(pressure.begin(), pressure.end());
+  }
+  CAPTURE(largest[0], largest[1]);
+  CHECK(largest[1] > 0.2 * largest[0]);
+  CHECK(largest[1] < 1.5 * largest[0]);
+}
+
 TEST_CASE("a run in mixed precision is bitwise the same on one, two and four threads, and when it is resumed") {
   const std::string mixed = replaced(bonded_text, "type = \"tet4-anp\"", "type = \"tet4-anp\"\nprecision = \"mixed\"");
   check_threads(mixed, 4);

@@ -74,7 +74,7 @@ inline SurfacePressure wall_pressure(const Simulation& simulation, SurfacePressu
     for (auto n = static_cast<std::size_t>(model.node_offset[g]);
          n < static_cast<std::size_t>(model.node_offset[g + 1]); ++n)
       for (std::size_t axis = 0; axis < 3; ++axis) {
-        const double x = model.position[4 * n + axis], area = model.normal[4 * n + 3];
+        const double x = model.contact_coordinate(n, axis), area = model.normal[4 * n + 3];
         const double gap = std::max(state.low[axis] - x, x - state.high[axis]);
         if (!simulation.walls().stand(axis) || gap <= 0 || area <= 0) continue;
         surface.touching[n] = 1;
