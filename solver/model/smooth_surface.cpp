@@ -4,6 +4,8 @@
 #include <cstdint>
 #include <vector>
 
+#include "solver/kernels/surface.hpp"
+
 namespace mpfem {
 
 namespace {
@@ -17,48 +19,36 @@ Vector3<double> position(const Model& model, std::size_t node) {
   return {model.position[4 * node], model.position[4 * node + 1], model.position[4 * node + 2]};
 }
 
-/// Unit normals of surface nodes, mean of their facets' by area, and the height of the smooth surface above these facets, mm.
-struct NodalSurface {
-  std::vector<Vector3<double>> normal;
-  std::vector<double> height;
-};
+Vector3<double> normal(const Model& model, std::size_t node) {
+  return {model.normal[4 * node], model.normal[4 * node + 1], model.normal[4 * node + 2]};
+}
 
-NodalSurface nodal_surface(const Model& model) {
-  const auto nodes = static_cast<std::size_t>(model.nodes());
-  NodalSurface surface{std::vector<Vector3<double>>(nodes, {0, 0, 0}), std::vector<double>(nodes, 0.0)};
-  const auto for_each_facet = [&](const auto& visit) {
-    for (std::size_t f = 0; f < model.facet.size(); f += 3) {
-      const std::size_t node[3] = {static_cast<std::size_t>(model.facet[f]),
-                                   static_cast<std::size_t>(model.facet[f + 1]),
-                                   static_cast<std::size_t>(model.facet[f + 2])};
-      const Vector3<double> x[3] = {position(model, node[0]), position(model, node[1]), position(model, node[2])};
-      visit(node, x, cross(x[1] - x[0], x[2] - x[0]));
+/// Height of the smooth surface above the facets around each surface node, their mean by area, mm.
+std::vector<double> heights(const Model& model) {
+  std::vector<double> height(static_cast<std::size_t>(model.nodes()), 0.0);
+  for (std::size_t f = 0; f < model.facet.size(); f += 3) {
+    std::size_t node[3];
+    Vector3<double> x[3];
+    for (std::size_t c = 0; c < 3; ++c) {
+      node[c] = static_cast<std::size_t>(model.facet[f + c]);
+      x[c] = position(model, node[c]);
     }
-  };
-  for_each_facet([&](const auto& node, const auto&, const Vector3<double>& area) {
-    for (const std::size_t n : node) surface.normal[n] = surface.normal[n] + area;
-  });
-  for (Vector3<double>& normal : surface.normal)
-    if (const double size = norm(normal); size > 0) normal = (1.0 / size) * normal;
-  std::vector<double> weight(nodes, 0.0);
-  for_each_facet([&](const auto& node, const auto& x, const Vector3<double>& area) {
-    double height = 0;
+    double of_facet = 0;
     for (std::size_t i = 0; i < 3; ++i) {
       const std::size_t j = (i + 1) % 3;
-      height += dot(surface.normal[node[j]] - surface.normal[node[i]], x[j] - x[i]) / 24.0;
+      of_facet += dot(normal(model, node[j]) - normal(model, node[i]), x[j] - x[i]) / 24.0;
     }
-    const double size = norm(area);
-    for (const std::size_t n : node) surface.height[n] += size * height, weight[n] += size;
-  });
-  for (std::size_t n = 0; n < nodes; ++n)
-    if (weight[n] > 0) surface.height[n] /= weight[n];
-  return surface;
+    const double third = norm(cross(x[1] - x[0], x[2] - x[0])) / 6.0; // of its area, a node's share of it
+    for (const std::size_t n : node) height[n] += third * of_facet / model.reference_area[n];
+  }
+  return height;
 }
 
 } // namespace
 
 void find_smooth_surface(Model& model) {
-  const NodalSurface surface = nodal_surface(model);
+  for (int grain = 0; grain < model.grains; ++grain) update_surface(model, grain);
+  const std::vector<double> height = heights(model);
   const auto nodes = static_cast<std::size_t>(model.nodes());
   model.inner_node.resize(nodes);
   for (std::size_t n = 0; n < nodes; ++n) model.inner_node[n] = static_cast<std::int32_t>(n);
@@ -75,15 +65,14 @@ void find_smooth_surface(Model& model) {
           const std::size_t n = first + static_cast<std::size_t>(a), inner = first + static_cast<std::size_t>(b);
           if (n >= surface_end || n == inner) continue;
           const Vector3<double> way = position(model, n) - position(model, inner);
-          const double along = dot(way, surface.normal[n]) / norm(way);
+          const double along = dot(way, normal(model, n)) / norm(way);
           if (along > cosine[n]) cosine[n] = along, model.inner_node[n] = static_cast<std::int32_t>(inner);
         }
     }
     for (std::size_t n = first; n < surface_end; ++n) {
-      const double height = std::max(surface.height[n], 0.0);
       if (cosine[n] < least_cosine) continue;
       const double way = norm(position(model, n) - position(model, static_cast<std::size_t>(model.inner_node[n])));
-      model.inward[n] = std::min(height / (cosine[n] * way), largest_share);
+      model.inward[n] = std::clamp(height[n] / (cosine[n] * way), 0.0, largest_share);
     }
   }
 }

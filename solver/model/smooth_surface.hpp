@@ -17,7 +17,7 @@
 
 namespace mpfem {
 
-/// Sets model.inner_node and model.inward from the mesh as it is. Concave places keep their nodes, and flat ones an element away
+/// Sets model.inner_node and model.inward from the mesh as it is, and model.normal on the way. Concave places keep their nodes, and flat ones an element away
 /// from edges.
 void find_smooth_surface(Model& model);
 

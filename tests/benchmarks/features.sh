@@ -82,8 +82,8 @@ tet4-anp|bonds|--set element.type="tet4-anp"
 tet4-patch|bonds|--set element.type="tet4-patch"
 mixed precision|bonds|--set element.precision="mixed"'
 
-# value FILE KEY
-value() { awk -v key="\"$2\":" '$1 == key { sub(/,$/, "", $2); print $2 }' "$1"; }
+# shellcheck source=tests/benchmarks/medians.sh
+. "$(dirname "${BASH_SOURCE[0]}")/medians.sh"
 
 for ((repetition = 1; repetition <= repetitions; ++repetition)); do
   i=0
@@ -104,8 +104,7 @@ while IFS='|' read -r name _ _; do
   for part in whole_step elements contact surface step_estimate integration memory; do
     key=${part}_ns_per_tet_step
     [[ $part == memory ]] && key=memory_bytes_per_tet
-    for ((repetition = 1; repetition <= repetitions; ++repetition)); do value "$work/$i.$repetition.json" "$key"; done |
-      sort -g | sed -n "$(((repetitions + 1) / 2))p" | xargs printf '| %.3g '
+    printf '| %.3g ' "$(median "$key" "$work/$i".*.json)"
   done
   printf '|\n'
   i=$((i + 1))

@@ -19,8 +19,8 @@ readonly repetitions=3
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 
-# value FILE KEY
-value() { awk -v key="\"$2\":" '$1 == key { sub(/,$/, "", $2); print $2 }' "$1"; }
+# shellcheck source=tests/benchmarks/medians.sh
+. "$(dirname "${BASH_SOURCE[0]}")/medians.sh"
 
 # table TITLE; then cases on standard input: NAME | EXECUTABLE | OPTIONS
 table() {
@@ -41,9 +41,10 @@ table() {
   done
   for ((k = 0; k < i; ++k)); do
     printf '| %s ' "${names[k]}"
-    for key in tets element_pass_ns_per_tet_step whole_step_ns_per_tet_step contact_ns_per_tet_step search_ns_per_tet_step memory_bytes_per_tet; do
-      for ((repetition = 1; repetition <= repetitions; ++repetition)); do value "$work/$k.$repetition.json" "$key"; done |
-        sort -g | sed -n "$(((repetitions + 1) / 2))p" | xargs printf '| %.7g '
+    printf '| %d ' "$(value "$work/$k.1.json" tets)"
+    for key in element_pass_ns_per_tet_step whole_step_ns_per_tet_step contact_ns_per_tet_step search_ns_per_tet_step \
+      memory_bytes_per_tet; do
+      printf '| %.4g ' "$(median "$key" "$work/$k".*.json)"
     done
     printf '|\n'
   done

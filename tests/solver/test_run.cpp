@@ -224,15 +224,22 @@ TEST_CASE("a run with bonds, unloading and grips is bitwise the same on one, two
   CHECK(file.read(schema::run::history_damage_dissipation).back() > 0);
 }
 
+/// A scenario that is bitwise the same on any number of threads and when it is resumed, and whose plan says `what` it has.
+void check_variant(const std::string& text, const std::string& what) {
+  check_threads(text, 4);
+  check_resuming(text, 4);
+  const Folder folder;
+  prepare(folder, 3, text);
+  CHECK_THAT(mpfem_command(fmt::format("check {}", folder / "scenario.toml")).output, Catch::Contains(what));
+}
+
+std::string with_smooth_surface(const std::string& text) {
+  return replaced(text, "[output]", "[contact]\nsurface = \"smooth\"\n[output]");
+}
+
 TEST_CASE(
     "a run with smooth contact surfaces is bitwise the same on one, two and four threads, and when it is resumed") {
-  const std::string smooth = replaced(bonded_text, "[output]", "[contact]\nsurface = \"smooth\"\n[output]");
-  check_threads(smooth, 4);
-  check_resuming(smooth, 4);
-  const Folder folder;
-  prepare(folder, 3, smooth);
-  CHECK_THAT(mpfem_command(fmt::format("check {}", folder / "scenario.toml")).output,
-             Catch::Contains("smooth surfaces"));
+  check_variant(with_smooth_surface(bonded_text), "smooth surfaces");
 }
 
 TEST_CASE("snapshots show the pressure that walls and grains exert, whichever surface the contact takes") {
@@ -240,8 +247,7 @@ TEST_CASE("snapshots show the pressure that walls and grains exert, whichever su
   double largest[2] = {};
   for (const bool smooth : {false, true}) {
     const Folder folder;
-    prepare(folder, 4,
-            smooth ? replaced(scenario_text, "[output]", "[contact]\nsurface = \"smooth\"\n[output]") : scenario_text);
+    prepare(folder, 4, smooth ? with_smooth_surface(scenario_text) : scenario_text);
     REQUIRE(mpfem_command(fmt::format("run {} -o {} --quiet", folder / "scenario.toml", folder / "run.h5")).exit_code ==
             0);
     const schema::FileReader file(folder / "run.h5", schema::FileKind::run);
@@ -254,13 +260,8 @@ TEST_CASE("snapshots show the pressure that walls and grains exert, whichever su
 }
 
 TEST_CASE("a run in mixed precision is bitwise the same on one, two and four threads, and when it is resumed") {
-  const std::string mixed = replaced(bonded_text, "type = \"tet4-anp\"", "type = \"tet4-anp\"\nprecision = \"mixed\"");
-  check_threads(mixed, 4);
-  check_resuming(mixed, 4);
-  const Folder folder;
-  prepare(folder, 3, mixed);
-  CHECK_THAT(mpfem_command(fmt::format("check {}", folder / "scenario.toml")).output,
-             Catch::Contains("tet4-anp, mixed precision"));
+  check_variant(replaced(bonded_text, "type = \"tet4-anp\"", "type = \"tet4-anp\"\nprecision = \"mixed\""),
+                "tet4-anp, mixed precision");
 }
 
 TEST_CASE("a run through every loading is bitwise the same on one, two and four threads") {

@@ -1,6 +1,5 @@
 // Contact points behind the nodes of curved grains (solver/model/smooth_surface.hpp).
 
-#include <algorithm>
 #include <cmath>
 
 #include <catch2/catch.hpp>
