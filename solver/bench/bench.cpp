@@ -358,8 +358,7 @@ void run_bench(const BenchOptions& options) {
   rate_line("contact search", search_rate);
   rate_line("integration", integration_rate);
   fmt::print("a tet: {:.0f} B, {:.0f} operations; a contact point, its bond and its sleeping neighbours: {:.0f} B; its "
-             "penalty: "
-             "{:.0f} operations\n\n",
+             "penalty: {:.0f} operations\n\n",
              tet.bytes, tet.operations, points > 0 ? contact_work.bytes / points : 0.0,
              points > 0 ? contact_work.operations / points : 0.0);
   fmt::print(

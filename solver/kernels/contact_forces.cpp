@@ -165,7 +165,7 @@ double pass_stiffness(const Model& model, std::size_t first, std::size_t second)
   return a * b / (a + b);
 }
 
-/// Adds a force to its node, and gives it back as it is.
+/// Adds a force to its node's contact point.
 void act_on_node(Model& model, const ContactForce& record) {
   for (std::size_t axis = 0; axis < 3; ++axis) model.push_contact_point(at(record.node), axis, record.force[axis]);
 }
