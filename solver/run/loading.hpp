@@ -7,7 +7,7 @@
 // other (tau/P) behind a dashpot: a passive machine. Whatever is passive itself, as a packing is, cannot be made to
 // oscillate by it, however stiff or soft it is and however long its waves take, so no stiffness has to be known; P, I
 // and tau only decide how fast and how well damped the walls follow. They are set by the packing's own impedance (P: a
-// wall that swallows the waves that meet it), mass (I) and transit time (tau); see docs/numerics.md.
+// wall that is much easier to move than the packing), mass (I) and transit time (tau); see docs/numerics.md.
 
 #include <array>
 #include <optional>
@@ -64,6 +64,7 @@ struct Sample {
   double mass = 0;                ///< tonne, as scaled
   double solid_volume = 0;        ///< mm^3, of all grains at the start
   double constrained_modulus = 0; ///< MPa, K + 4 G/3 of the grains, the mean over their volumes
+  double contact_stiffness = 0;   ///< MPa/mm, the largest penalty of a grain
 };
 Sample sample_of(const Model& model);
 
@@ -141,10 +142,11 @@ private:
   double expected_duration_ = 0;
   std::array<double, 3> expected_scale_{1, 1, 1};
   // of the servo
-  double transit_ = 0;   ///< s, of a soft compact
-  double gain_ = 0;      ///< P, mm/s per MPa
-  double slow_gain_ = 0; ///< I, mm/s^2 per MPa
-  double path_rate_ = 0; ///< MPa/s, with which a path begins
+  double transit_ = 0;           ///< s, of a soft compact
+  double gain_ = 0;              ///< P, mm/s per MPa
+  double slow_gain_ = 0;         ///< I, mm/s^2 per MPa
+  double contact_stiffness_ = 0; ///< MPa/mm
+  double path_rate_ = 0;         ///< MPa/s, with which a path begins
 };
 
 } // namespace mpfem
