@@ -486,7 +486,7 @@ Model build_model(const MeshedPacking& packing, const Scenario& scenario, const 
   }
   refuse_shared_places(model, name);
   find_refinement(model);
-  if (scenario.contact.surface == ContactSurface::smooth) find_smooth_surface(model);
+  find_smooth_surface(model, smooth_grains(model, packing, scenario.contact.surface));
   if (scenario.numerics.mass_scaling_step > 0)
     scale_masses(model, scenario.numerics.mass_scaling_step / scenario.numerics.time_step_factor,
                  scenario.numerics.mass_scaling_lighten);

@@ -87,6 +87,7 @@ struct Model {
       inner_node;             ///< [nodes]: towards which a surface node's contact point lies; empty where contact
                               ///< takes the nodes themselves (solver/model/smooth_surface.hpp)
   std::vector<double> inward; ///< [nodes]: the inner node's share in the contact point
+  int smooth_grains = 0;      ///< number of grains that touch by their smooth surface
 
   std::array<double, 3> box_low{}; ///< mm, at the start
   std::array<double, 3> box_high{};
@@ -157,6 +158,8 @@ struct MeshedPacking {
   std::vector<std::int32_t> tet;               ///< [tets * 4]
   std::vector<std::int32_t> grain_node_offset; ///< [grains + 1]
   std::vector<std::int32_t> grain_tet_offset;  ///< [grains + 1]
+  std::vector<double> sphere_center; ///< [grains * 3], mm, of the spheres that were meshed; empty where unknown
+  std::vector<double> sphere_radius; ///< [grains], mm
   std::int64_t seed = -1;
 };
 

@@ -22,6 +22,8 @@ MeshedPacking read_packing(const std::string& path) {
   packing.tet = reader.read(schema::packing::mesh_tet);
   packing.grain_node_offset = reader.read(schema::packing::mesh_grain_node_offset);
   packing.grain_tet_offset = reader.read(schema::packing::mesh_grain_tet_offset);
+  packing.sphere_center = reader.read(schema::packing::spheres_center);
+  packing.sphere_radius = reader.read(schema::packing::spheres_radius);
   if (reader.has(schema::packing::packing_seed)) packing.seed = reader.read_scalar(schema::packing::packing_seed);
   return packing;
 }

@@ -1,7 +1,9 @@
 #include "solver/model/smooth_surface.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
+#include <numbers>
 #include <vector>
 
 #include "solver/kernels/surface.hpp"
@@ -44,9 +46,33 @@ std::vector<double> heights(const Model& model) {
   return height;
 }
 
+bool is_sphere_of_that_volume(const Model& model, std::size_t grain, const Vector3<double>& center, double radius) {
+  constexpr double same_volume = 1e-6; // rounding; a sphere with its nodes on it lacks 1e-3 and more
+  constexpr double round = 0.1;        // nodes of the coarsest useful mesh stand out by less
+  const double sphere = 4.0 / 3.0 * std::numbers::pi * radius * radius * radius;
+  if (std::abs(model.reference_volume[grain] - sphere) > same_volume * sphere) return false;
+  const auto first = static_cast<std::size_t>(model.node_offset[grain]);
+  for (std::size_t n = first; n < first + static_cast<std::size_t>(model.surface_node_count[grain]); ++n)
+    if (std::abs(norm(position(model, n) - center) - radius) > round * radius) return false;
+  return true;
+}
+
 } // namespace
 
-void find_smooth_surface(Model& model) {
+std::vector<bool> smooth_grains(const Model& model, const MeshedPacking& packing, ContactSurface surface) {
+  const auto grains = static_cast<std::size_t>(model.grains);
+  std::vector<bool> smooth(grains, surface == ContactSurface::smooth);
+  if (surface != ContactSurface::automatic || packing.sphere_radius.empty()) return smooth;
+  for (std::size_t g = 0; g < grains; ++g) {
+    const double* center = &packing.sphere_center[3 * g];
+    smooth[g] = is_sphere_of_that_volume(model, g, {center[0], center[1], center[2]}, packing.sphere_radius[g]);
+  }
+  return smooth;
+}
+
+void find_smooth_surface(Model& model, const std::vector<bool>& grains) {
+  model.smooth_grains = static_cast<int>(std::count(grains.begin(), grains.end(), true));
+  if (model.smooth_grains == 0) return;
   for (int grain = 0; grain < model.grains; ++grain) update_surface(model, grain);
   const std::vector<double> height = heights(model);
   const auto nodes = static_cast<std::size_t>(model.nodes());
@@ -56,6 +82,7 @@ void find_smooth_surface(Model& model) {
   std::vector<double> cosine(nodes, 0.0); // with the inward normal, of the way to the inner node
   for (int grain = 0; grain < model.grains; ++grain) {
     const auto g = static_cast<std::size_t>(grain);
+    if (!grains[g]) continue;
     const auto first = static_cast<std::size_t>(model.node_offset[g]),
                surface_end = first + static_cast<std::size_t>(model.surface_node_count[g]);
     for (std::int32_t t = 0; t < model.tet_offset[g + 1] - model.tet_offset[g]; ++t) {

@@ -13,13 +13,20 @@
 // With unit normals n at the corners, a surface that is quadratic over a facet stands above it by the sum over its edges of
 // w_i w_j (n_j - n_i).(x_j - x_i)/2; the mean of w_i w_j is 1/12.
 
+#include <vector>
+
 #include "solver/model/model.hpp"
 
 namespace mpfem {
 
-/// Sets model.inner_node and model.inward from the mesh as it is, and model.normal on the way. Concave places keep their nodes, and flat ones an element away
-/// from edges.
-void find_smooth_surface(Model& model);
+/// Which grains touch by their smooth surface, [grains]: all or none, or those that `surface` = automatic finds to be meshes of
+/// the packing's spheres with the spheres' volume. Only of these it is known that their nodes stand out of a curved surface: a
+/// cube has edges, and a sphere that is meshed with its nodes on it has none that stand out.
+std::vector<bool> smooth_grains(const Model& model, const MeshedPacking& packing, ContactSurface surface);
+
+/// Sets model.inner_node and model.inward of these grains ([grains]) from the mesh as it is, and model.normal on the way; nothing where there are none.
+/// Concave places keep their nodes, and flat ones an element away from edges.
+void find_smooth_surface(Model& model, const std::vector<bool>& grains);
 
 /// mm, of a node from its contact point, at present; 0 where contact takes the nodes themselves.
 double largest_stand_out(const Model& model);

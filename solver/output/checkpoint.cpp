@@ -181,6 +181,7 @@ void write_checkpoint(const std::string& path, const Simulation& simulation, con
   file.write_scalar(check::scenario, scenario_text);
   file.write_scalar(check::packing_hash, hash_text(model.mesh_hash));
   file.write_scalar(check::numbering_hash, hash_text(numbering_hash(model)));
+  if (model.smooth_grains > 0) file.write_scalar(check::smooth_grains, std::int32_t{model.smooth_grains});
   file.write_scalar(check::lanes, std::int32_t{native_lanes});
   const auto write_texts = [&file](const auto& dataset, const std::vector<std::string>& texts) {
     file.write(dataset, std::span<const std::string>(texts), texts.size());
@@ -280,6 +281,14 @@ void read_checkpoint(const std::string& path, Simulation& simulation, RunRecord&
                     "would not go on bitwise",
                     path, file.read_scalar(check::lanes), native_lanes));
 
+  // All contacts would open or close by the height of the smooth surface at once.
+  const int smooth_before = file.has(check::smooth_grains) ? file.read_scalar(check::smooth_grains) : 0;
+  if (smooth_before != model.smooth_grains)
+    throw InputError(
+        fmt::format("{}: in the checkpoint {} of {} grains touch by their smooth surface, in the scenario {}; "
+                    "allowed the same contact.surface",
+                    path, smooth_before, model.grains, model.smooth_grains));
+
   // A branch goes on with the same matter: its stresses and strains mean nothing in another material.
   if (any_scenario) {
     const std::string earlier = file.read_scalar(check::scenario);
@@ -292,10 +301,6 @@ void read_checkpoint(const std::string& path, Simulation& simulation, RunRecord&
     if (bonded && before.bond != now.bond && (!now.bond || has_damaged_bond(file)))
       throw InputError(fmt::format(
           "{}: the checkpoint has bonds of another law than the scenario's, allowed the same [bond]", path));
-    // All contacts would open or close by the height of the smooth surface at once.
-    if (before.contact.surface != now.contact.surface)
-      throw InputError(fmt::format(
-          "{}: the checkpoint's contact surface differs from the scenario's, allowed the same contact.surface", path));
     if (bonded && before.contact.penalty_differs(now.contact)) // a damaged bond's separations belong to its stiffness
       throw InputError(fmt::format(
           "{}: the checkpoint has bonds of another penalty than the scenario's, allowed the same contact.stiffness "

@@ -564,9 +564,11 @@ void check_scenario(const Scenario& scenario, int threads) {
              model.tets(), model.nodes(), model.facets());
   fmt::print("elements       {}, {} precision\n", element_name(scenario.numerics.element),
              precision_name(scenario.numerics.precision));
-  fmt::print("contact        by {}\n", scenario.contact.surface == ContactSurface::smooth
-                                           ? "the grains' smooth surfaces"
-                                           : "the facets of the grains' meshes");
+  fmt::print("contact        by {}\n",
+             model.smooth_grains == 0 ? "the facets of the grains' meshes"
+             : model.smooth_grains == model.grains
+                 ? "the grains' smooth surfaces"
+                 : fmt::format("the smooth surfaces of {} grains, facets of the others", model.smooth_grains));
   fmt::print("relative density at the start  {:.4f}\n", simulation.relative_density());
   fmt::print("memory         {:.1f} MB of model data ({:.0f} B a tet)\n", 1e-6 * static_cast<double>(model.memory()),
              static_cast<double>(model.memory()) / model.tets());

@@ -155,8 +155,10 @@ ContactParameters read_contact(TableReader table) {
     contact.stiffness = table.number("stiffness", positive);
   }
   contact.search_margin = table.number_or("search_margin", contact.search_margin, Range::between(0.05, 2));
-  contact.surface = table.choice_or("surface", "facets", {"facets", "smooth"}) == "smooth" ? ContactSurface::smooth
-                                                                                           : ContactSurface::facets;
+  const std::string surface = table.choice_or("surface", "automatic", {"automatic", "facets", "smooth"});
+  contact.surface = surface == "smooth"   ? ContactSurface::smooth
+                    : surface == "facets" ? ContactSurface::facets
+                                          : ContactSurface::automatic;
   table.finish();
   return contact;
 }

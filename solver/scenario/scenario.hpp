@@ -50,15 +50,16 @@ struct GrainMaterial {
 
 /// What a grain's contact nodes stand for.
 enum class ContactSurface {
-  facets, ///< the mesh as it is: nodes of a curved surface, meshed with its volume, stand out of it
-  smooth, ///< the curved surface of the same volume (solver/model/smooth_surface.hpp)
+  automatic, ///< smooth for grains that were meshed as spheres with their volume, facets for all others
+  facets,    ///< the mesh as it is: nodes of a curved surface, meshed with its volume, stand out of it
+  smooth,    ///< the curved surface of the same volume (solver/model/smooth_surface.hpp)
 };
 
 struct ContactParameters {
   double stiffness_factor = 10;    ///< penalty K = factor * E / h, h the mean facet edge of the grain
   std::optional<double> stiffness; ///< K itself, MPa/mm, where it is given instead (locally refined meshes)
   double search_margin = 0.3;      ///< candidates are kept for gaps up to this multiple of h
-  ContactSurface surface = ContactSurface::facets;
+  ContactSurface surface = ContactSurface::automatic;
   bool penalty_differs(const ContactParameters& other) const {
     return stiffness_factor != other.stiffness_factor || stiffness != other.stiffness;
   }

@@ -44,6 +44,7 @@ NR == 1 || /^#/ || !($9 in wanted) { next }
   if (scene == "confined") options = options speed(0, 4000) speed(1, 4000)
   if (scene == "small" || scene == "full") {
     recovery = options speed(1, 1000) speed(3, 1000)
+    if ($3 == "pace") options = options " stages.0.quasi_static.stress_tolerance=0.05" # of the compaction alone
     options = options speed(0, 4000) " output.snapshot_relative_densities=[] output.snapshot_at_stage_end=false"
   }
   gsub(/ /, ";", options)

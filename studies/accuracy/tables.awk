@@ -64,6 +64,7 @@ function settings(group, i,   text, part) {
   if (lever[group, i] == "penalty") text = text ", K = " penalty[group, i] " E/h"
   if (lever[group, i] == "speed") text = text ", " speed[group, i] " × speed"
   if (lever[group, i] == "mass") text = text ", " mass[group, i] " × mass"
+  if (lever[group, i] == "pace") text = text ", speed chosen"
   if (lever[group, i] == "precision") text = text ", mixed precision"
   if (lever[group, i] == "surface") text = text ", smooth surface"
   return text " (" thousands(tets[group, i]) " tets, " seconds(work[group, i]) ")"
@@ -147,9 +148,9 @@ function default_of(group, i,   j) {
   return 0
 }
 function levers(   g, i, d, part, key, k, many, what) {
-  print "| scene and measure | mesh, element | default | K = 1 | 3 | 30 | 100 E/h | ½ × speed | 2 × | 4 × | 4 × mass | 16 × | mixed precision |"
-  print "|---|---|---|---|---|---|---|---|---|---|---|---|---|"
-  many = split("penalty:1 penalty:3 penalty:30 penalty:100 speed:0.5 speed:2 speed:4 mass:4 mass:16 precision:mixed", what, " ")
+  print "| scene and measure | mesh, element | default | K = 1 | 3 | 30 | 100 E/h | ½ × speed | 2 × | 4 × | speed chosen | 4 × mass | 16 × | mixed precision |"
+  print "|---|---|---|---|---|---|---|---|---|---|---|---|---|---|"
+  many = split("penalty:1 penalty:3 penalty:30 penalty:100 speed:0.5 speed:2 speed:4 pace: mass:4 mass:16 precision:mixed", what, " ")
   for (g = 1; g <= groups; ++g) {
     split(group_of[g], part, SUBSEP)
     split("", cell)
@@ -160,7 +161,7 @@ function levers(   g, i, d, part, key, k, many, what) {
       d = default_of(group_of[g], i)
       if (!d) continue
       if (!(d in seen)) { seen[d] = 1; at[++rows] = d }
-      key = lever[group_of[g], i] ":" (lever[group_of[g], i] == "penalty" ? penalty[group_of[g], i] : lever[group_of[g], i] == "speed" ? speed[group_of[g], i] : lever[group_of[g], i] == "mass" ? mass[group_of[g], i] : "mixed")
+      key = lever[group_of[g], i] ":" (lever[group_of[g], i] == "penalty" ? penalty[group_of[g], i] : lever[group_of[g], i] == "speed" ? speed[group_of[g], i] : lever[group_of[g], i] == "mass" ? mass[group_of[g], i] : lever[group_of[g], i] == "precision" ? "mixed" : "")
       cell[d, key] = signed(bias[group_of[g], i]) sprintf(" (%.2g)", work[group_of[g], i] / work[group_of[g], d])
     }
     for (k = 1; k <= rows; ++k) {

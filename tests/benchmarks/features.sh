@@ -24,6 +24,8 @@ poissons_ratio = 0.3
 [material.hardening]
 $1
 $2
+[contact]
+surface = "facets"
 [element]
 type = "tet4"
 [output]

@@ -1,6 +1,8 @@
 // Contact points behind the nodes of curved grains (solver/model/smooth_surface.hpp).
 
+#include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include <catch2/catch.hpp>
 
@@ -34,6 +36,39 @@ TEST_CASE("where a grain is flat its contact points are its nodes") {
     CHECK(model.inward[n] < 1e-12);
   }
   CHECK(inside_faces == 6); // the middles
+}
+
+TEST_CASE("where a scenario does not say, meshes of spheres with their volume touch by smooth surfaces, and others by "
+          "facets") {
+  constexpr double radius = 0.1;
+  GrainMesh exact = ball_mesh(6, radius), on_nodes = exact, cube = cube_mesh(4);
+  GrainMesh alone = exact;
+  move(alone, {0.5, 0.5, 0.5});
+  const Model measured = build_model(pack({alone}, {1, 1, 1}), holding_scenario(1e-9), "test");
+  CHECK(measured.smooth_grains == 0); // no radius is known
+  CHECK(measured.inner_node.empty());
+  const double sphere = 4.0 / 3.0 * std::numbers::pi * radius * radius * radius;
+  scale(exact, std::cbrt(sphere / measured.reference_volume[0]));
+  scale(cube, 0.5 * std::cbrt(sphere)); // of that volume, too, but no sphere
+  double at = 0.2;
+  for (GrainMesh* grain : {&exact, &on_nodes, &cube}) move(*grain, {0.5, 0.5, at}), at += 0.3;
+  MeshedPacking packing = pack({exact, on_nodes, cube}, {1, 1, 1});
+  packing.sphere_center = {0.5, 0.5, 0.2, 0.5, 0.5, 0.5, 0.5, 0.5, 0.8};
+  packing.sphere_radius.assign(3, radius);
+  const Model model = build_model(packing, holding_scenario(1e-9), "test");
+  CHECK(model.smooth_grains == 1);
+  const auto largest = [&](std::size_t grain) {
+    return *std::max_element(model.inward.begin() + model.node_offset[grain],
+                             model.inward.begin() + model.node_offset[grain + 1]);
+  };
+  CHECK(largest(0) > 0.01);
+  CHECK(largest(1) == 0);
+  CHECK(largest(2) == 0);
+  // What a scenario says holds for every grain.
+  Scenario facets = holding_scenario(1e-9);
+  facets.contact.surface = ContactSurface::facets;
+  CHECK(build_model(packing, facets, "test").smooth_grains == 0);
+  CHECK(smooth_model(packing).smooth_grains == 3);
 }
 
 TEST_CASE("bonds of contact points behind the surface keep the ledger and take their fracture energy") {
