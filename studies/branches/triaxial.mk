@@ -77,7 +77,7 @@ $(fig19)/verdict.json: | $(fig19)
 
 # ------------------------------------------------------------------------------------------------ fig21: damage on the section
 fig21_energies := 0.5 0.1
-fig21_files := $(fig21_energies:%=$(fig21)/section-%.png) $(fig21)/sections.csv $(fig21)/verdict.json
+fig21_files := $(fig21_energies:%=$(fig21)/section-%.png) $(fig21_energies:%=$(fig21)/section-%.svg) $(fig21)/sections.csv $(fig21)/verdict.json
 fig21: $(fig21_files)
 damage_section := --axis x --position 0.5 --relative --field damage --range 0,0.5
 

@@ -117,7 +117,7 @@ $(eval $(call verdict_rule,fig13,$(fig13_tables) $(fig13)/fits.json $(fig13)/qua
 
 # ------------------------------------------------------------------------------------------------ fig14: damage at failure
 fig14_samples := $(foreach l,g0.3 energy-g0.3,$(addprefix $(l)-D,0.73 0.67 0.63))
-fig14_files := $(fig14_samples:%=$(fig14)/damage-%.png) $(fig14)/verdict.json
+fig14_files := $(fig14_samples:%=$(fig14)/damage-%.png) $(fig14_samples:%=$(fig14)/damage-%.svg) $(fig14)/verdict.json
 fig14: $(fig14_files)
 fig14_section := --axis x --position 0.5 --relative --field damage
 # With the law exponential every bond is damaged nearly all the way before the test, with energy hardly any.
