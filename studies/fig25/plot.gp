@@ -25,9 +25,8 @@ set yrange [0:12]
 set xlabel ''
 set ylabel ''
 set tics font ',14'
-set format x '%.4g'
-step = (STATS_max - STATS_min) / 3
-set xtics step
+set format x '%.3f'
+set xtics STATS_max - STATS_min < 0.009 ? 0.002 : 0.005
 set object 1 rectangle from graph -0.14,-0.12 to graph 1.02,1.04 behind fillcolor rgb 'white' fillstyle solid noborder
 replot
 unset multiplot
