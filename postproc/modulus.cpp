@@ -71,7 +71,7 @@ Choice window_by_rule(const StageCurve& c, const ModulusRule& rule, std::string&
   if (c.rows() < shortest_window)
     throw InputError(
         fmt::format("{}: stage {} has {} rows, needed for a modulus: {}", c.path, c.stage, c.rows(), shortest_window));
-  const std::vector<double> smooth = smoothed(c.axial_stress).value;
+  const std::vector<double> smooth = smoothed(c.axial_stress);
   const auto peak = static_cast<std::size_t>(std::max_element(smooth.begin(), smooth.end()) - smooth.begin());
   const auto begin = static_cast<std::size_t>(
       std::min_element(smooth.begin(), smooth.begin() + static_cast<std::ptrdiff_t>(peak) + 1) - smooth.begin());

@@ -2,13 +2,15 @@
 
 #include <algorithm>
 
+#include "postproc/statistics.hpp"
+
 namespace mpfem {
 
 std::size_t smoothing_half_rows(std::size_t rows) {
   return std::max<std::size_t>(3, (2 * rows + 50) / 100);
 }
 
-Smoothed smoothed(std::span<const double> values) {
+std::vector<double> smoothed(std::span<const double> values) {
   return local_parabolas(values, smoothing_half_rows(values.size()));
 }
 

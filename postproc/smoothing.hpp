@@ -1,7 +1,8 @@
 #pragma once
 // The one rule by which curves are smoothed against ringing before a peak is read from them.
 
-#include "postproc/statistics.hpp"
+#include <span>
+#include <vector>
 
 namespace mpfem {
 
@@ -9,6 +10,6 @@ namespace mpfem {
 std::size_t smoothing_half_rows(std::size_t rows);
 
 /// local_parabolas by that rule. Needs seven values or more.
-Smoothed smoothed(std::span<const double> values);
+std::vector<double> smoothed(std::span<const double> values);
 
 } // namespace mpfem

@@ -103,9 +103,9 @@ Line theil_sen_line(std::span<const double> x, std::span<const double> y) {
   return line;
 }
 
-Smoothed local_parabolas(std::span<const double> y, std::size_t half_rows) {
+std::vector<double> local_parabolas(std::span<const double> y, std::size_t half_rows) {
   const std::size_t n = y.size(), width = 2 * half_rows + 1;
-  Smoothed smoothed{std::vector<double>(n), std::vector<double>(n)};
+  std::vector<double> smoothed(n);
   // Rows as abscissa, scaled to -1 … 1: the same well-conditioned matrix for every window.
   Eigen::MatrixXd basis(static_cast<Eigen::Index>(width), 3);
   const auto position = [&](std::size_t row_in_window) {
@@ -119,8 +119,7 @@ Smoothed local_parabolas(std::span<const double> y, std::size_t half_rows) {
     const Eigen::Map<const Eigen::VectorXd> window(y.data() + first, static_cast<Eigen::Index>(width));
     const Eigen::Vector3d c = solve * window;
     const double at = position(row - first);
-    smoothed.value[row] = c[0] + at * (c[1] + at * c[2]);
-    smoothed.slope[row] = (c[1] + 2 * at * c[2]) / static_cast<double>(half_rows);
+    smoothed[row] = c[0] + at * (c[1] + at * c[2]);
   }
   return smoothed;
 }

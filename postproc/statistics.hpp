@@ -26,13 +26,10 @@ Line least_squares_line(std::span<const double> x, std::span<const double> y);
 /// follow each other (ringing) by sqrt((1 + r) / (1 - r)) with their lag-1 autocorrelation r. Needs two different x.
 Line theil_sen_line(std::span<const double> x, std::span<const double> y);
 
-/// Values and slopes per row of parabolas that are fitted around every row, to `half_rows` rows on either side (near the
-/// ends to as many rows, none beyond the end). A parabola, unlike a running mean, does not cut off peaks.
-struct Smoothed {
-  std::vector<double> value, slope;
-};
+/// Values at each row of parabolas that are fitted around it, to `half_rows` rows on either side (near the ends to as many
+/// rows, none beyond the end). A parabola, unlike a running mean, does not cut off peaks.
 /// Needs 2 * half_rows + 1 values or more, half_rows >= 1.
-Smoothed local_parabolas(std::span<const double> y, std::size_t half_rows);
+std::vector<double> local_parabolas(std::span<const double> y, std::size_t half_rows);
 
 double median(std::vector<double> values); ///< of at least one value
 

@@ -7,6 +7,7 @@
 
 #include "common/errors.hpp"
 #include "postproc/smoothing.hpp"
+#include "postproc/statistics.hpp"
 
 namespace mpfem {
 
@@ -25,7 +26,7 @@ std::size_t largest_row(const std::vector<double>& values) {
 /// Slopes are taken over a fortieth of the strain at the peak to either side, whatever rows fall there: while walls start, rows lie
 /// so close that the slope between neighbours is noise over nothing.
 std::optional<DamageOnset> damage_onset(const StageCurve& c, const std::vector<double>& stress, std::size_t peak) {
-  const Smoothed damage = smoothed(c.damage_dissipation);
+  const std::vector<double> damage = smoothed(c.damage_dissipation);
   const double reach = (c.axial_strain[peak] - c.axial_strain.front()) / 40;
   std::optional<std::size_t> steepest;
   double slope = 0;
@@ -35,13 +36,13 @@ std::optional<DamageOnset> damage_onset(const StageCurve& c, const std::vector<d
     while (high < peak && c.axial_strain[high] - c.axial_strain[row] < reach) ++high;
     const double strain = c.axial_strain[high] - c.axial_strain[low];
     if (strain < 2 * reach) continue; // at either end
-    if (const double here = (damage.value[high] - damage.value[low]) / strain; here > slope) {
+    if (const double here = (damage[high] - damage[low]) / strain; here > slope) {
       slope = here;
       steepest = row;
     }
   }
   if (!steepest) return {};
-  const double grown = damage.value[*steepest] - c.damage_dissipation.front();
+  const double grown = damage[*steepest] - c.damage_dissipation.front();
   DamageOnset onset;
   onset.strain = std::max(0.0, c.axial_strain[*steepest] - grown / slope);
   std::size_t row = 0;
@@ -70,7 +71,7 @@ Measurement strength(const StageCurve& c, const StrengthRule& rule) {
   if (c.rows() < 2 * half + 1)
     throw InputError(
         fmt::format("{}: stage {} has {} rows, needed for a strength: {}", c.path, c.stage, c.rows(), 2 * half + 1));
-  const std::vector<double> smooth = smoothed(raw).value;
+  const std::vector<double> smooth = smoothed(raw);
   const std::size_t peak = largest_row(smooth);
   if (!(smooth[peak] > 0) || peak == 0)
     throw InputError(
@@ -133,7 +134,7 @@ Measurement strength(const StageCurve& c, const StrengthRule& rule) {
 
   // Parabolas twice as wide show ringing whose period the narrow ones follow.
   const std::size_t wide = c.rows() > 4 * half ? 2 * half : half;
-  const std::vector<double> calm = local_parabolas(raw, wide).value;
+  const std::vector<double> calm = local_parabolas(raw, wide);
   const std::size_t first = row > wide ? row - wide : 0, last = std::min(row + wide, c.rows() - 1);
   double squares = 0;
   for (std::size_t i = first; i <= last; ++i) squares += (raw[i] - calm[i]) * (raw[i] - calm[i]);
