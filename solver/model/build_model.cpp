@@ -158,6 +158,12 @@ void check_packing(const MeshedPacking& packing, const std::string& name) {
     throw InputError(fmt::format("{}: /mesh/grain_node_offset and /mesh/grain_tet_offset do not divide {} nodes and {} "
                                  "tets into grains",
                                  name, nodes, tets));
+  if (!packing.sphere_radius.empty() && (packing.sphere_radius.size() + 1 != no.size() ||
+                                         packing.sphere_center.size() != 3 * packing.sphere_radius.size()))
+    throw InputError(
+        fmt::format("{}: /spheres/center and /spheres/radius hold {} and {} numbers, allowed three and one for "
+                    "each of {} grains",
+                    name, packing.sphere_center.size(), packing.sphere_radius.size(), no.size() - 1));
   for (std::size_t g = 0; g + 1 < no.size(); ++g) {
     if (to[g + 1] == to[g]) throw InputError(fmt::format("{}: grain {} has no tetrahedra", name, g));
     for (Index t = to[g]; t < to[g + 1]; ++t) {

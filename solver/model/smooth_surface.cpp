@@ -50,10 +50,10 @@ bool is_sphere_of_that_volume(const Model& model, std::size_t grain, const Vecto
   constexpr double same_volume = 1e-6; // rounding; a sphere with its nodes on it lacks 1e-3 and more
   constexpr double round = 0.1;        // nodes of the coarsest useful mesh stand out by less
   const double sphere = 4.0 / 3.0 * std::numbers::pi * radius * radius * radius;
-  if (std::abs(model.reference_volume[grain] - sphere) > same_volume * sphere) return false;
+  if (!(std::abs(model.reference_volume[grain] - sphere) <= same_volume * sphere)) return false; // nor NaN
   const auto first = static_cast<std::size_t>(model.node_offset[grain]);
   for (std::size_t n = first; n < first + static_cast<std::size_t>(model.surface_node_count[grain]); ++n)
-    if (std::abs(norm(position(model, n) - center) - radius) > round * radius) return false;
+    if (!(std::abs(norm(position(model, n) - center) - radius) <= round * radius)) return false;
   return true;
 }
 

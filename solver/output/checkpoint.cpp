@@ -181,7 +181,7 @@ void write_checkpoint(const std::string& path, const Simulation& simulation, con
   file.write_scalar(check::scenario, scenario_text);
   file.write_scalar(check::packing_hash, hash_text(model.mesh_hash));
   file.write_scalar(check::numbering_hash, hash_text(numbering_hash(model)));
-  if (model.smooth_grains > 0) file.write_scalar(check::smooth_grains, std::int32_t{model.smooth_grains});
+  file.write_scalar(check::smooth_grains, std::int32_t{model.smooth_grains});
   file.write_scalar(check::lanes, std::int32_t{native_lanes});
   const auto write_texts = [&file](const auto& dataset, const std::vector<std::string>& texts) {
     file.write(dataset, std::span<const std::string>(texts), texts.size());
@@ -257,6 +257,18 @@ void write_checkpoint(const std::string& path, const Simulation& simulation, con
   file.commit();
 }
 
+namespace {
+
+/// Grains that touch by their smooth surface in a checkpoint. Those of before the number was kept had all of them where the
+/// scenario said so, and none where it did not.
+int smooth_grains_before(const schema::FileReader& file, const Model& model) {
+  if (file.has(check::smooth_grains)) return file.read_scalar(check::smooth_grains);
+  const Scenario before = read_scenario(TomlDocument::from_text(file.read_scalar(check::scenario), "checkpoint"));
+  return before.contact.surface == ContactSurface::smooth ? model.grains : 0;
+}
+
+} // namespace
+
 void read_checkpoint(const std::string& path, Simulation& simulation, RunRecord& record,
                      const std::string& scenario_text, bool any_scenario) {
   const schema::FileReader file(path, schema::FileKind::checkpoint);
@@ -270,7 +282,8 @@ void read_checkpoint(const std::string& path, Simulation& simulation, RunRecord&
     throw InputError(fmt::format("{}: the checkpoint belongs to another packing than the scenario's", path));
   // Arrays stand in the order of nodes and tets, which versions may choose otherwise.
   if (!file.has(check::numbering_hash) || file.read_scalar(check::numbering_hash) != hash_text(numbering_hash(model)))
-    throw InputError(fmt::format("{}: the checkpoint was written by a version of mpfem", path));
+    throw InputError(
+        fmt::format("{}: the checkpoint was written by a version of mpfem that orders nodes and tets otherwise", path));
   if (file.read_scalar(check::checksum) != hash_text(checksum(file))) throw damaged();
   if (!any_scenario && file.read_scalar(check::scenario) != scenario_text)
     throw InputError(
@@ -282,12 +295,11 @@ void read_checkpoint(const std::string& path, Simulation& simulation, RunRecord&
                     path, file.read_scalar(check::lanes), native_lanes));
 
   // All contacts would open or close by the height of the smooth surface at once.
-  const int smooth_before = file.has(check::smooth_grains) ? file.read_scalar(check::smooth_grains) : 0;
-  if (smooth_before != model.smooth_grains)
-    throw InputError(
-        fmt::format("{}: in the checkpoint {} of {} grains touch by their smooth surface, in the scenario {}; "
-                    "allowed the same contact.surface",
-                    path, smooth_before, model.grains, model.smooth_grains));
+  if (const int before = smooth_grains_before(file, model); before != model.smooth_grains)
+    throw InputError(fmt::format(
+        "{}: in the checkpoint {} of {} grains touch by their smooth surface, in the scenario {}; allowed the same "
+        "contact.surface (earlier versions took facets where a scenario does not say)",
+        path, before, model.grains, model.smooth_grains));
 
   // A branch goes on with the same matter: its stresses and strains mean nothing in another material.
   if (any_scenario) {

@@ -219,6 +219,7 @@ void write_run_file(const std::string& path, const Model& model, const std::vect
   file.write_scalar(run::provenance_version, std::string(version()));
   file.write_scalar(run::provenance_scenario, provenance.scenario_text);
   file.write_scalar(run::provenance_packing_hash, hash_text(model.mesh_hash));
+  file.write_scalar(run::provenance_smooth_grains, std::int32_t{model.smooth_grains});
   file.write_scalar(run::provenance_seed, model.seed);
   file.write_scalar(run::provenance_host, physical_host());
   file.write_scalar(run::provenance_threads, std::int32_t{provenance.threads});

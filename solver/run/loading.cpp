@@ -18,7 +18,8 @@ constexpr double compact_modulus = 0.1;
 /// A held wall's admittance P over that of the packing's waves. At 1 it swallows waves and lags behind a packing that
 /// strains: stresses were off by 7.5 % at worst in triaxial tests at 2 m/s; at 8, with the mass below, by 0.5 %.
 constexpr double servo_admittance = 8.0;
-/// The free mass of a held wall over that of the packing behind it: critically damped on a packing of that modulus.
+/// The free mass of a held wall over that of the packing behind it. On a packing of that modulus the damping ratio is
+/// servo_admittance sqrt(servo_mass / 2) = 1.3, on one a tenth as stiff 0.4.
 constexpr double servo_mass = 0.05;
 /// tau over the transit time, and over the time step: the waves of single elements are not answered.
 constexpr double servo_delay = 0.02, servo_delay_steps = 20;
@@ -295,14 +296,16 @@ void LoadingControl::drive_axial(LoadingState& s, const Seen& seen) const {
 
 void LoadingControl::hold(LoadingState& s, const Seen& seen, std::size_t axis, double wanted) const {
   const double error = wanted - seen.stress[axis], limit = loading_.servo_speed * std::max(1.0, seen.pace);
-  // The wall's mass tau/P must stay one that the steps can resolve on the spring of a wall in full contact.
-  const double delay = std::max(
-      {servo_delay * transit_, servo_delay_steps * seen.step, gain_ * contact_stiffness_ * seen.step * seen.step});
+  // Both masses of the wall, tau/P and 1/I, must be such that steps resolve them on the spring of a wall in full contact, whose
+  // nodes at edges count twice: explicit steps are stable up to spring dt^2/mass = 4, and at these bounds the sum is 3.
+  const double spring = contact_stiffness_ * seen.step * seen.step;
+  const double delay = std::max({servo_delay * transit_, servo_delay_steps * seen.step, gain_ * spring});
+  const double slow_gain = spring > 0 ? std::min(slow_gain_, 0.5 / spring) : slow_gain_;
   s.fast[axis] += (gain_ * error - s.fast[axis]) * seen.step / (delay + seen.step);
   // At its limit the wall cannot do more; what it has not done is not to be made up for later.
   const double before = s.fast[axis] + s.slow[axis];
   if (std::abs(before) < limit || before * error < 0)
-    s.slow[axis] = std::clamp(s.slow[axis] + slow_gain_ * error * seen.step, -limit, limit);
+    s.slow[axis] = std::clamp(s.slow[axis] + slow_gain * error * seen.step, -limit, limit);
   s.speed[axis] = std::clamp(s.fast[axis] + s.slow[axis], -limit, limit);
   s.error[axis] += (error - s.error[axis]) * seen.step / (transit_ + seen.step);
   s.hold_error = std::max(s.hold_error, std::abs(s.error[axis]));

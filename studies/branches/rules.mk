@@ -16,7 +16,7 @@ ifeq ($(filter $(ELEMENT),tet4 tet4-anp tet4-patch),)
 endif
 
 # The paper's grains touch by their facets. SURFACE=smooth is nearer to round grains (docs/speed-against-error): stresses at a
-# given density are a fifth lower at 0.03 mm.
+# given density are an eighth lower at 0.03 mm.
 SURFACE ?= facets
 ifeq ($(filter $(SURFACE),facets smooth),)
   $(error SURFACE=$(SURFACE): allowed are facets and smooth)

@@ -201,6 +201,7 @@ void packing(const std::string& element, const std::string& file, double factor)
   scenario.numerics.element = element_of(element);
   scenario.numerics.own_pressure = usual_own_pressure(scenario.numerics.element);
   scenario.contact.stiffness_factor = factor;
+  scenario.contact.surface = ContactSurface::facets;
   scenario.stages.clear();
   for (const double density : {0.7, 0.8, 0.9}) {
     Stage stage;

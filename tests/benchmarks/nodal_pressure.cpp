@@ -163,6 +163,7 @@ void vibration(const std::string& element, double size_ratio, const std::string&
 void cycles(const std::string& element, const std::string& file, int count) {
   Scenario scenario = holding_scenario(1, HardeningLaw::power);
   scenario.walls = true;
+  scenario.contact.surface = ContactSurface::facets;
   scenario.numerics.element = element_of(element);
   scenario.numerics.own_pressure = usual_own_pressure(scenario.numerics.element);
   scenario.stages.clear();

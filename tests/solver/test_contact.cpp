@@ -78,13 +78,22 @@ TEST_CASE("an oblique collision of two elastic grains keeps momentum, angular mo
   move(first, {0.5, 0.5, 0.5});
   move(second, {0.5 + 0.183, 0.5 + 0.04, 0.5});
   Scenario scenario = holding_scenario(4e-6);
-  scenario.contact.surface = GENERATE(ContactSurface::facets, ContactSurface::smooth);
+  scenario.contact.surface = GENERATE(ContactSurface::facets, ContactSurface::smooth, ContactSurface::automatic);
   scenario.grain_velocity = {{5e3, 0, 0}, {-5e3, 0, 1e3}}; // 5 m/s each
   scenario.numerics.bulk_viscosity_linear = 0;
   scenario.numerics.bulk_viscosity_quadratic = 0;
   scenario.numerics.step_estimate = StepEstimate::tet; // whose steps the errors of second order below belong to
   ThreadTeam team(1);
-  Simulation simulation(build_model(pack({first, second}, {1, 1, 1}), scenario, "test"), scenario, team);
+  MeshedPacking packing = pack({first, second}, {1, 1, 1});
+  if (scenario.contact.surface == ContactSurface::automatic) { // one of each kind: only the first is known as a sphere
+    const double volume = build_model(packing, scenario, "test").reference_volume[0];
+    packing.sphere_center = {0.5, 0.5, 0.5, 0, 0, 0};
+    packing.sphere_radius = {std::cbrt(volume * 3 / (4 * M_PI)), 0.08};
+  }
+  Simulation simulation(build_model(packing, scenario, "test"), scenario, team);
+  CHECK(simulation.model().smooth_grains == (scenario.contact.surface == ContactSurface::facets   ? 0
+                                             : scenario.contact.surface == ContactSurface::smooth ? 2
+                                                                                                  : 1));
   const Totals start = totals(simulation.model());
   const double initial = simulation.state().initial_energy;
   double worst = 0, largest_contact = 0;

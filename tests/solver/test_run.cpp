@@ -272,6 +272,29 @@ TEST_CASE("a run through every loading that is stopped and resumed ends bitwise 
   check_resuming(loading_text, 4);
 }
 
+TEST_CASE("spheres that a packing file holds with meshes of their volume touch by their smooth surfaces, and the run "
+          "says so") {
+  const Folder folder;
+  const MeshedPacking packing = eight_grains(4);
+  const double volume = build_model(packing, holding_scenario(1), "test").reference_volume[0];
+  for (const double factor : {1.0, 0.99}) {
+    write_packing(folder / "packing.h5", packing, std::vector<double>(8, factor * std::cbrt(volume * 3 / (4 * M_PI))));
+    write_text(folder / "scenario.toml", scenario_text);
+    const std::string run = folder / fmt::format("run-{}.h5", factor);
+    CHECK_THAT(mpfem_command(fmt::format("check {}", folder / "scenario.toml")).output,
+               Catch::Contains(factor == 1 ? "by the grains' smooth surfaces" : "by the facets of the grains' meshes"));
+    REQUIRE(mpfem_command(fmt::format("run {} -o {} --quiet", folder / "scenario.toml", run)).exit_code == 0);
+    const schema::FileReader file(run, schema::FileKind::run);
+    CHECK(file.read_scalar(schema::run::provenance_smooth_grains) == (factor == 1 ? 8 : 0));
+  }
+  // The same scenario text, another contact: not to be gone on with.
+  const Outcome other =
+      mpfem_command(fmt::format("run {} -o {} --from {} --quiet --set contact.surface=smooth", folder / "scenario.toml",
+                                folder / "other.h5", folder / "run-0.99.compaction.checkpoint.h5"));
+  CHECK(other.exit_code == 2);
+  CHECK_THAT(other.messages, Catch::Contains("0 of 8 grains") && Catch::Contains("contact.surface"));
+}
+
 TEST_CASE("a run says what ended its stages, and how well stresses were held") {
   const Folder folder;
   prepare(folder, 3, loading_text);

@@ -2,10 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include <catch2/catch.hpp>
 
+#include "common/errors.hpp"
 #include "tests/support/bonded_pair.hpp"
 #include "tests/support/meshes.hpp"
 
@@ -64,6 +66,10 @@ TEST_CASE("where a scenario does not say, meshes of spheres with their volume to
   CHECK(largest(0) > 0.01);
   CHECK(largest(1) == 0);
   CHECK(largest(2) == 0);
+  packing.sphere_radius.pop_back();
+  CHECK_THROWS_AS(build_model(packing, holding_scenario(1e-9), "test"), InputError);
+  packing.sphere_radius = {radius, radius, std::numeric_limits<double>::quiet_NaN()};
+  CHECK(build_model(packing, holding_scenario(1e-9), "test").smooth_grains == 1);
   // What a scenario says holds for every grain.
   Scenario facets = holding_scenario(1e-9);
   facets.contact.surface = ContactSurface::facets;
