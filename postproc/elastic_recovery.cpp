@@ -35,7 +35,7 @@ ElasticRecovery elastic_recovery(std::span<const double> density, std::span<cons
   while (from > r.densest_row && belongs(from - 1)) --from;
   r.extrapolated_from_row = from;
   const auto stress = mean_stress.subspan(from), part = density.subspan(from);
-  double rest = 0, rest_of_hertz = 0, scatter = 0;
+  double rest = 0, rest_of_hertz = 0, ringing = 0;
   if (*std::max_element(stress.begin(), stress.end()) > *std::min_element(stress.begin(), stress.end())) {
     const auto two_thirds = [](double p) { return std::copysign(std::pow(std::abs(p), 2.0 / 3.0), p); };
     std::vector<double> hertz;
@@ -43,10 +43,14 @@ ElasticRecovery elastic_recovery(std::span<const double> density, std::span<cons
     const Line line = least_squares_line(stress, part), hertz_line = least_squares_line(hertz, part);
     rest = line.slope * r.residual_stress;
     rest_of_hertz = hertz_line.slope * two_thirds(r.residual_stress);
-    scatter = std::min(line.scatter, hertz_line.scatter);
+    const bool linear = line.scatter < hertz_line.scatter;
+    const Line& better = linear ? line : hertz_line;
+    const double last_on_line = better.intercept + (linear ? rest : rest_of_hertz);
+    ringing = better.intercept_half_width + std::abs(r.smallest_density - last_on_line);
   }
   r.recovery_at_zero_stress = r.recovery + rest / r.largest_density;
-  r.uncertainty = std::hypot(std::max(std::abs(rest), std::abs(rest_of_hertz)), 2 * scatter) / r.largest_density;
+  // The rest is a bias of known sign, which ringing may hide a part of.
+  r.uncertainty = (std::max(std::abs(rest), std::abs(rest_of_hertz)) + ringing) / r.largest_density;
   return r;
 }
 
@@ -63,8 +67,8 @@ Measurement measure_elastic_recovery(const schema::FileReader& file, std::option
   m.metric = "elastic-recovery";
   m.value = r.recovery;
   m.uncertainty = r.uncertainty;
-  m.uncertainty_meaning =
-      "what the rest of the stress would add, linear or as in Hertz's theory, and twice the scatter of the last rows";
+  m.uncertainty_meaning = "what the rest of the stress would add, linear or as in Hertz's theory, and the 95 % "
+                          "interval of that line at zero stress";
   m.window.stage = unloading.number;
   m.window.stage_type = unloading.type;
   m.window.first_row = begin + r.densest_row;

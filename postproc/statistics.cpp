@@ -60,7 +60,9 @@ Line least_squares_line(std::span<const double> x, std::span<const double> y) {
   }
   const std::size_t freedom = x.size() - 2;
   line.scatter = std::sqrt(squares / static_cast<double>(freedom));
-  line.slope_half_width = student_t_95(freedom) * line.scatter / std::sqrt(xx);
+  const double interval = student_t_95(freedom) * line.scatter;
+  line.slope_half_width = interval / std::sqrt(xx);
+  line.intercept_half_width = interval * std::sqrt(1.0 / static_cast<double>(x.size()) + mean_x * mean_x / xx);
   return line;
 }
 

@@ -14,11 +14,12 @@ double student_t_95(std::size_t degrees_of_freedom);
 /// A straight line value = intercept + slope * x.
 struct Line {
   double intercept = 0, slope = 0;
-  double slope_half_width = 0; ///< half of the 95 % interval of the slope
-  double scatter = 0;          ///< standard deviation of the residuals
+  double slope_half_width = 0;     ///< half of the 95 % interval of the slope
+  double intercept_half_width = 0; ///< and of the intercept; of least squares only
+  double scatter = 0;              ///< standard deviation of the residuals
 };
 
-/// Ordinary least squares. Needs two different x; half width and scatter are 0 below three points.
+/// Ordinary least squares. Needs two different x; half widths and scatter are 0 below three points.
 Line least_squares_line(std::span<const double> x, std::span<const double> y);
 
 /// Theil-Sen: the median slope of all pairs of points (Sen 1968), which up to 29 % of outliers do not move; intercept

@@ -1,13 +1,30 @@
 #include "postproc/yield_point.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include <fmt/format.h>
 
 #include "common/errors.hpp"
+#include "postproc/smoothing.hpp"
 #include "postproc/statistics.hpp"
 
 namespace mpfem {
+
+namespace {
+
+/// Half width of the 95 % interval of one row's value, from how rows scatter about the smoothed curve; 0 for curves too short
+/// to be smoothed.
+double ringing(const std::vector<double>& values) {
+  if (values.size() < 2 * smoothing_half_rows(values.size()) + 1) return 0;
+  const std::vector<double> smooth = smoothed(values);
+  double squares = 0;
+  for (std::size_t row = 0; row < values.size(); ++row)
+    squares += (values[row] - smooth[row]) * (values[row] - smooth[row]);
+  return 1.96 * std::sqrt(squares / static_cast<double>(values.size()));
+}
+
+} // namespace
 
 Measurement yield_point(const StageCurve& c, double ratio) {
   std::vector<double> dissipated(c.rows());
@@ -27,12 +44,17 @@ Measurement yield_point(const StageCurve& c, double ratio) {
                                  *std::max_element(dissipated.begin(), dissipated.end()) / dissipated.front(), ratio));
   const Crossing at{next - 1, (threshold - dissipated[next - 1]) / (dissipated[next] - dissipated[next - 1])};
 
+  const auto uncertainty = [&](const std::vector<double>& values) {
+    return std::hypot(at.half_spacing(values), ringing(values));
+  };
+
   Measurement m;
   m.metric = "yield";
   m.value = at.of(c.deviatoric_stress);
   m.unit = "MPa";
-  m.uncertainty = at.half_spacing(c.deviatoric_stress);
-  m.uncertainty_meaning = "half of the change between the rows on both sides";
+  m.uncertainty = uncertainty(c.deviatoric_stress);
+  m.uncertainty_meaning =
+      "half of the change between the rows on both sides, and 95 % of the stage's ringing, as hypotenuse";
   m.window.stage = c.stage;
   m.window.stage_type = c.type;
   m.window.first_row = c.first_row + at.row;
@@ -46,7 +68,7 @@ Measurement yield_point(const StageCurve& c, double ratio) {
   m.details = {{"deviatoric_stress_MPa", m.value},
                {"deviatoric_stress_uncertainty_MPa", m.uncertainty},
                {"mean_stress_MPa", at.of(c.mean_stress)},
-               {"mean_stress_uncertainty_MPa", at.half_spacing(c.mean_stress)},
+               {"mean_stress_uncertainty_MPa", uncertainty(c.mean_stress)},
                {"axial_strain_at_yield", at.of(c.axial_strain)},
                {"volumetric_strain_at_yield", at.of(c.volumetric_strain)},
                {"mean_stress_at_start_MPa", c.mean_stress.front()},
@@ -54,7 +76,7 @@ Measurement yield_point(const StageCurve& c, double ratio) {
                {"dissipation_at_start_mJ", dissipated.front()},
                {"damage_share_of_dissipation_since_start",
                 (at.of(c.damage_dissipation) - c.damage_dissipation.front()) / (threshold - dissipated.front())}};
-  m.brief = fmt::format("q at p = {:.5g} ± {:.2g} MPa", at.of(c.mean_stress), at.half_spacing(c.mean_stress));
+  m.brief = fmt::format("q at p = {:.5g} ± {:.2g} MPa", at.of(c.mean_stress), uncertainty(c.mean_stress));
   if (next == 1) m.notes.emplace_back("yields before the stage's first row: record more rows");
   return m;
 }

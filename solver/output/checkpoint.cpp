@@ -309,6 +309,11 @@ void read_checkpoint(const std::string& path, Simulation& simulation, RunRecord&
     if (before.material != now.material || before.grain_materials != now.grain_materials)
       throw InputError(
           fmt::format("{}: the checkpoint's material differs from the scenario's, allowed the same [material]", path));
+    if (now.initial_velocity != std::array<double, 3>{} || !now.grain_velocity.empty() ||
+        !now.grain_angular_velocity.empty())
+      throw InputError(fmt::format("{}: [initial] has no meaning in a run that begins at a checkpoint: its grains move "
+                                   "as they moved there",
+                                   path));
     // Bonds that are whole hold nothing but their places, so that the law may still be chosen.
     if (bonded && before.bond != now.bond && (!now.bond || has_damaged_bond(file)))
       throw InputError(fmt::format(

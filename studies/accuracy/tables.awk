@@ -58,12 +58,15 @@ function signed(x) { return (x < 0 ? "−" : "+") percent(absolute(x)) }
 function ratio(x) { return sprintf(x < 9.95 ? "%.1f" : "%.0f", x) }
 function seconds(x) { return x < 9.95 ? sprintf("%.2g s", x) : x < 600 ? sprintf("%.0f s", x) : sprintf("%.0f min", x / 60) }
 function thousands(n) { return n < 1000 ? n "" : thousands(int(n / 1000)) sprintf(",%03d", n % 1000) }
+# What of penalty, speed and mass is not the default's.
+function moved(group, i) {
+  return (penalty[group, i] != 10 ? ", K = " penalty[group, i] " E/h" : "") (speed[group, i] != 1 ? ", " speed[group, i] " × speed" : "") \
+         (mass[group, i] != 1 ? ", " mass[group, i] " × mass" : "")
+}
 function settings(group, i,   text, part) {
   split(group, part, SUBSEP)
   text = "`" element[group, i] "`, " sprintf(unit(part[1]), fineness[group, i])
-  if (lever[group, i] == "penalty") text = text ", K = " penalty[group, i] " E/h"
-  if (lever[group, i] == "speed") text = text ", " speed[group, i] " × speed"
-  if (lever[group, i] == "mass") text = text ", " mass[group, i] " × mass"
+  text = text moved(group, i)
   if (lever[group, i] == "pace") text = text ", speed chosen"
   if (lever[group, i] == "precision") text = text ", mixed precision"
   if (lever[group, i] == "surface") text = text ", smooth surface"
@@ -181,8 +184,8 @@ function surface(   g, i, d, part, rows) {
     rows = 0
     for (i = 1; i <= cases[group_of[g]]; ++i) {
       if (lever[group_of[g], i] != "surface") continue
-      d = default_of(group_of[g], i)
-      printf "| %s | %s, `%s` | %s | %s |\n", rows++ ? "" : title(part[1], part[2]), sprintf(unit(part[1]), fineness[group_of[g], i]), element[group_of[g], i], d ? percent(error[group_of[g], d]) " (" signed(bias[group_of[g], d]) ")" : "", percent(error[group_of[g], i]) " (" signed(bias[group_of[g], i]) ")"
+      d = moved(group_of[g], i) == "" ? default_of(group_of[g], i) : 0
+      printf "| %s | %s, `%s`%s | %s | %s |\n", rows++ ? "" : title(part[1], part[2]), sprintf(unit(part[1]), fineness[group_of[g], i]), element[group_of[g], i], moved(group_of[g], i), d ? percent(error[group_of[g], d]) " (" signed(bias[group_of[g], d]) ")" : "", percent(error[group_of[g], i]) " (" signed(bias[group_of[g], i]) ")"
     }
   }
 }

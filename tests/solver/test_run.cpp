@@ -761,6 +761,10 @@ TEST_CASE("a packing that was unloaded is compacted again to less than before, f
                                                    folder / "again.toml", folder / "other.h5", from));
   CHECK(smooth.exit_code == 2);
   CHECK_THAT(smooth.messages, Catch::Contains("contact.surface"));
+  const Outcome pushed = mpfem_command(fmt::format("run {} -o {} --from {} --quiet --set initial.velocity=[1,0,0]",
+                                                   folder / "again.toml", folder / "other.h5", from));
+  CHECK(pushed.exit_code == 2);
+  CHECK_THAT(pushed.messages, Catch::Contains("[initial]"));
   // Unloading that has nothing to do ends where it began.
   write_text(folder / "idle.toml", replaced(scenario_text, "type = \"isotropic_compaction\"\nrelative_density = 0.62",
                                             "type = \"isotropic_unloading\"\nmean_stress = 0"));
