@@ -155,7 +155,7 @@ int body(int argc, char** argv) {
       "  pack-gen hemispheres --radius 0.1 --size 0.012 --contact-size 0.0005 --contact-radius 0.01 -o pair.h5\n"
       "  pack-gen export spheres.h5 -o spheres.csv\n"
       "Lengths in mm. Exit codes: 0 done, 2 bad usage or input, 3 no packing or mesh could be made, 4 storage failed.");
-  app.set_version_flag("--version", std::string(version()));
+  app.set_version_flag("--version", version_and_commit());
   app.require_subcommand(1);
 
   Arguments arguments;

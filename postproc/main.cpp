@@ -185,7 +185,7 @@ int body(int argc, char** argv) {
       "  postproc vtk run.h5 -o vtk        (open vtk/run.pvd in ParaView)\n"
       "  postproc validate run.h5\n"
       "Exit codes: 0 done, 2 bad usage or input, 3 a picture could not be drawn, 4 storage failed.");
-  app.set_version_flag("--version", std::string(version()));
+  app.set_version_flag("--version", version_and_commit());
   app.require_subcommand(1);
 
   Arguments arguments;

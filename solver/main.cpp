@@ -129,7 +129,7 @@ int body(int argc, char** argv) {
                "  mpfem bench\n"
                "Exit codes: 0 done, 2 bad usage or input, 3 simulation failed (state saved), 4 storage failed, "
                "5 interrupted (resumable).");
-  app.set_version_flag("--version", std::string(version()));
+  app.set_version_flag("--version", version_and_commit());
   app.require_subcommand(1);
 
   Arguments arguments;

@@ -177,7 +177,7 @@ void write_checkpoint(const std::string& path, const Simulation& simulation, con
   const Model& model = simulation.model();
   const Contact& contact = simulation.contact();
   const ContactCandidates& candidates = contact.candidates;
-  schema::FileWriter file(path, schema::FileKind::checkpoint, fmt::format("mpfem {}", version()));
+  schema::FileWriter file(path, schema::FileKind::checkpoint, fmt::format("mpfem {}", version_and_commit()));
   file.write_scalar(check::scenario, scenario_text);
   file.write_scalar(check::packing_hash, hash_text(model.mesh_hash));
   file.write_scalar(check::numbering_hash, hash_text(numbering_hash(model)));

@@ -134,7 +134,7 @@ void write_snapshot_file(const std::string& path, Simulation& simulation) {
   const Model& model = simulation.model();
   const RunState& state = simulation.state();
   const std::string name = "0000";
-  schema::FileWriter file(path, schema::FileKind::run, fmt::format("mpfem {}", version()));
+  schema::FileWriter file(path, schema::FileKind::run, fmt::format("mpfem {}", version_and_commit()));
   file.write_scalar(run::snapshots_time, state.time, name);
   file.write_scalar(run::snapshots_step, state.step, name);
   file.write_scalar(run::snapshots_relative_density, simulation.relative_density(), name);
@@ -168,7 +168,7 @@ void write_snapshot_file(const std::string& path, Simulation& simulation) {
 
 void write_run_file(const std::string& path, const Model& model, const std::vector<HistoryRow>& history,
                     const std::vector<std::string>& snapshot_files, const Provenance& provenance) {
-  schema::FileWriter file(path, schema::FileKind::run, fmt::format("mpfem {}", version()));
+  schema::FileWriter file(path, schema::FileKind::run, fmt::format("mpfem {}", version_and_commit()));
   write_history(file, history);
 
   // Connectivity back in file order.

@@ -70,6 +70,8 @@ TEST_CASE("Lack of memory and what is no std::exception make one line too") {
 
 TEST_CASE("The version is three numbers, and the host one line without control characters") {
   CHECK_THAT(std::string(version()), Catch::Matches("[0-9]+\\.[0-9]+\\.[0-9]+"));
+  CHECK_THAT(version_and_commit(),
+             Catch::Matches(std::string(version()) + "( \\(commit [0-9a-f]{10}( and changes)?\\))?"));
   const std::string host = physical_host();
   CHECK(!host.empty());
   CHECK(std::none_of(host.begin(), host.end(), [](char c) { return static_cast<unsigned char>(c) < 0x20; }));
