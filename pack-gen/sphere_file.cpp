@@ -139,7 +139,7 @@ void export_spheres(const std::string& path, const SpherePacking& packing) {
 
 void write_packing_file(const std::string& path, const SpherePacking& packing, const PackingOrigin& origin,
                         const std::optional<MeshForFile>& mesh) {
-  schema::FileWriter writer(path, schema::FileKind::packing, fmt::format("pack-gen {}", version()));
+  schema::FileWriter writer(path, schema::FileKind::packing, fmt::format("pack-gen {}", version_and_commit()));
   std::vector<double> center;
   for (const auto& c : packing.center) center.insert(center.end(), c.begin(), c.end());
   const std::size_t spheres = packing.radius.size();

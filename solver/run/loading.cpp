@@ -152,6 +152,9 @@ LoadingControl::LoadingControl(const Stage& stage, const std::array<double, 3>& 
     path_rate_ = 0.1 * speed * 2 * modulus / longest_;
     break;
   }
+  case LoadingPath::held:
+    expected_duration_ = *ends.duration;
+    break;
   case LoadingPath::unconfined:
   case LoadingPath::triaxial:
   case LoadingPath::die: {
@@ -167,7 +170,7 @@ LoadingControl::LoadingControl(const Stage& stage, const std::array<double, 3>& 
     break;
   }
   }
-  ramp_ = loading_.ramp_fraction * way / speed;
+  ramp_ = loading_.path == LoadingPath::held ? 0.5 * expected_duration_ : loading_.ramp_fraction * way / speed;
   if (ends.duration) expected_duration_ = std::min(expected_duration_, *ends.duration);
 }
 
@@ -223,6 +226,9 @@ void LoadingControl::update(LoadingState& s, const LoadingObservation& observati
     break;
   case LoadingPath::probe:
     follow_path(s, seen);
+    break;
+  case LoadingPath::held:
+    hold_all(s, seen);
     break;
   }
   watch_peak(s, seen);
@@ -314,10 +320,20 @@ void LoadingControl::hold(LoadingState& s, const Seen& seen, std::size_t axis, d
   s.hold_stress = std::max(s.hold_stress, std::abs(wanted));
 }
 
+/// Part of the way from the stress at the start to a given one, which is brought on as driven walls are brought to speed.
+double LoadingControl::brought_on(const Seen& seen) const {
+  return ramp_ > 0 ? smooth_step(seen.time / ramp_) : 1.0;
+}
+
+void LoadingControl::hold_all(LoadingState& s, const Seen& seen) const {
+  const double reached = brought_on(seen);
+  for (std::size_t axis = 0; axis < 3; ++axis)
+    hold(s, seen, axis, s.start_stress[axis] + (loading_.held_stress - s.start_stress[axis]) * reached);
+}
+
 void LoadingControl::hold_lateral(LoadingState& s, const Seen& seen) const {
+  const double reached = brought_on(seen);
   for (std::size_t axis = 0; axis < 2; ++axis) {
-    // A given stress is brought on as the driven walls are brought to speed.
-    const double reached = ramp_ > 0 ? smooth_step(seen.time / ramp_) : 1.0;
     const auto wanted = [&](double start, double end) { return start + (end - start) * reached; };
     const double start_area = length_[1 - axis] * length_[2];
     const double given = loading_.lateral_stress.value_or(s.start_stress[axis]);

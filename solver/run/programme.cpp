@@ -198,7 +198,8 @@ void check_programme(const Scenario& scenario, std::int64_t first_stage, std::ar
       check("quasi_static.fastest_speed", stage.quasi_static->fastest_speed);
     else
       check(stage.grip ? "speed" : "wall_speed", stage.speed());
-    if (stage.loading && (stage.loading->path == LoadingPath::triaxial || stage.loading->path == LoadingPath::probe))
+    if (stage.loading && (stage.loading->path == LoadingPath::triaxial || stage.loading->path == LoadingPath::probe ||
+                          stage.loading->path == LoadingPath::held))
       // servos hurry with the stage
       check("servo_speed",
             stage.loading->servo_speed *

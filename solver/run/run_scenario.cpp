@@ -117,6 +117,8 @@ std::string stage_text(const Stage& stage) {
     return "z walls driven, x and y walls at rest";
   case LoadingPath::probe:
     return "all walls held on a straight path of p and q";
+  case LoadingPath::held:
+    return fmt::format("all walls held at {:g} MPa, for a time", stage.loading->held_stress);
   }
   return {};
 }

@@ -275,7 +275,7 @@ const std::vector<std::pair<std::string, std::vector<std::string>>> stage_keys =
     {std::string(stage_isotropic_compaction), {"relative_density", "mean_stress", "wall_speed", "ramp_fraction"}},
     {std::string(stage_isotropic_unloading), {"mean_stress", "wall_speed", "ramp_fraction"}},
     {std::string(stage_grip), {"axis", "grip_depth", "lateral", "displacement", "sliding", "speed", "ramp_fraction"}},
-    {std::string(stage_hold), {"duration"}},
+    {std::string(stage_hold), {"duration", "mean_stress", "servo_speed"}},
     {std::string(stage_unconfined),
      {"wall_speed", "ramp_fraction", "axial_strain", "axial_stress", "stress_drop", "dissipation_ratio", "duration"}},
     {std::string(stage_triaxial),
@@ -399,7 +399,19 @@ Stage read_stage(TableReader table, std::size_t number, double youngs_modulus) {
   } else if (type == stage_grip) {
     stage.grip = read_grip(table);
   } else if (type == stage_hold) {
-    stage.hold = Hold{.duration = table.number("duration", positive)};
+    const double duration = table.number("duration", positive);
+    if (const auto stress = table.optional_number("mean_stress", positive)) {
+      constexpr double usual_servo_speed = 2000; // mm/s, far above what a packing at rest asks for
+      WallLoading loading;
+      loading.path = LoadingPath::held;
+      loading.held_stress = *stress;
+      loading.wall_speed = loading.servo_speed = table.number_or("servo_speed", usual_servo_speed, positive);
+      loading.ends.duration = duration;
+      stage.loading = loading;
+    } else {
+      if (table.has("servo_speed")) table.fail("servo_speed", "has no meaning without 'mean_stress'");
+      stage.hold = Hold{.duration = duration};
+    }
   } else {
     stage.loading = read_loading(table, type);
   }

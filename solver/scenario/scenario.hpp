@@ -161,6 +161,7 @@ enum class LoadingPath {
   triaxial,   ///< x and y walls held at a stress or force, z walls driven
   die,        ///< x and y walls at rest, z walls driven
   probe,      ///< all walls held on a straight path of mean and deviatoric stress
+  held,       ///< all walls held at one stress, for a time
 };
 
 /// What ends a loading: the first of those that are given. Strains are logarithmic, since the stage began, compression
@@ -184,6 +185,7 @@ struct WallLoading {
   double ramp_fraction = 0.1; ///< of the time of the whole way (of 5 % of strain where that is not known) to full speed
   bool hold_force = true;     ///< triaxial: the lateral walls' force is held; false: their stress
   std::optional<double> lateral_stress; ///< triaxial, MPa: to be held; none: what acts when the stage begins
+  double held_stress = 0;               ///< held, MPa
   std::array<double, 2> direction{};    ///< probe: of the path, in mean and deviatoric stress
   double lowest_mean_stress = 0;        ///< cycles, MPa
   double highest_mean_stress = 0;       ///< cycles, MPa

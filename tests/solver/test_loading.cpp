@@ -268,6 +268,30 @@ TEST_CASE("lateral walls hold the force that acts within 1 % while a packing is 
   CHECK(rows.back().kinetic_energy < 0.01 * (rows.back().elastic_energy + rows.back().plastic_dissipation));
 }
 
+TEST_CASE("a packing is held at a mean stress within 1 %, and is brought to it, up or down") {
+  const double stress = GENERATE(8.0, 25.0);
+  WallLoading loading = loading_of(LoadingPath::held, 2000);
+  loading.held_stress = stress;
+  loading.ends.duration = 4e-6;
+  Stage held = loading_stage("held", loading);
+  held.damping = {2e6, 1e4};
+  Bench bench(eight_grains(4), scenario_of({compaction(30), unloading(15), held}));
+  bench.finish_stage();
+  bench.next_stage();
+  const auto rows = bench.next_stage();
+  CHECK(bench.result.hold_error < 0.01 * stress);
+  CHECK(bench.result.ended_by == "duration 4e-06 s");
+  int late = 0;
+  for (const HistoryRow& row : rows) {
+    if (row.time < rows.front().time + 2e-6) continue;
+    ++late;
+    for (std::size_t axis = 0; axis < 3; ++axis)
+      CHECK(0.5 * (row.wall_stress[2 * axis] + row.wall_stress[2 * axis + 1]) == Approx(stress).epsilon(0.01));
+  }
+  CHECK(late > 3);
+  CHECK(rows.back().kinetic_energy < 1e-3 * rows.back().elastic_energy);
+}
+
 TEST_CASE("a probe stays within 1 % of its line of p and q, in compression and in extension, until it dissipates") {
   const double dq = GENERATE(1.5, -1.0);
   WallLoading loading = loading_of(LoadingPath::probe, 500);

@@ -114,6 +114,11 @@ name = "die"
 type = "die_compression"
 wall_speed = 10000
 duration = 2e-6
+[[stages]]
+name = "held"
+type = "hold"
+mean_stress = 15
+duration = 1e-6
 )";
 
 /// Packing and scenario of eight grains in a folder.
@@ -300,7 +305,8 @@ TEST_CASE("a run says what ended its stages, and how well stresses were held") {
   prepare(folder, 3, loading_text);
   const Outcome plan = mpfem_command(fmt::format("check {}", folder / "scenario.toml"));
   CHECK(plan.exit_code == 0);
-  CHECK_THAT(plan.output, Catch::Contains("held at constant force") && Catch::Contains("x and y walls away"));
+  CHECK_THAT(plan.output, Catch::Contains("held at constant force") && Catch::Contains("x and y walls away") &&
+                              Catch::Contains("all walls held at 15 MPa"));
   const Outcome outcome = mpfem_command(fmt::format("run {} -o {}", folder / "scenario.toml", folder / "run.h5"));
   REQUIRE(outcome.exit_code == 0);
   CHECK_THAT(outcome.messages, Catch::Contains("stage 'triaxial' ended by axial strain 0.02; stresses held within"));
@@ -309,10 +315,12 @@ TEST_CASE("a run says what ended its stages, and how well stresses were held") {
   CHECK(schema::validate(folder / "run.h5").empty());
   const schema::FileReader file(folder / "run.h5", schema::FileKind::run);
   const auto name = file.read(schema::run::provenance_stage_name), end = file.read(schema::run::provenance_stage_end);
-  REQUIRE(name == std::vector<std::string>{"compaction", "cycles", "triaxial", "probe", "unconfined", "die"});
+  REQUIRE(name == std::vector<std::string>{"compaction", "cycles", "triaxial", "probe", "unconfined", "die", "held"});
   CHECK(end[0] == "mean stress 20 MPa");
   CHECK_THAT(end[1], Catch::StartsWith("1 cycle; wall speed chosen between"));
   CHECK(end[5] == "duration 2e-06 s");
+  CHECK(end[6] == "duration 1e-06 s");
+  CHECK(file.read(schema::run::provenance_stage_hold_error)[6] > 0);
   CHECK(file.read(schema::run::provenance_stage_hold_error)[2] > 0);
   CHECK(file.read(schema::run::provenance_stage_hold_error)[5] == 0);
   const auto rms = file.read(schema::run::provenance_stage_hold_rms);
