@@ -154,7 +154,8 @@ void unequal(const std::string& element, double lower, double upper, std::uint64
     }
 }
 
-void pressure(const std::string& element, double size_ratio, double factor, const std::string& profile) {
+void pressure(const std::string& element, double size_ratio, double factor, const std::string& profile,
+              ContactSurface contact_surface) {
   fmt::print(
       "element,size_ratio,factor,contact,nominal_approach,force,inner_nodes,mean_pressure,from_mean,from_plane,largest,"
       "own_from_mean,own_from_plane,penetration,kinetic_over_elastic,residual_over_work\n");
@@ -163,6 +164,7 @@ void pressure(const std::string& element, double size_ratio, double factor, cons
   setup.element = element_of(element);
   setup.law = HardeningLaw::power;
   setup.stiffness_factor = factor;
+  setup.surface = contact_surface;
   setup.approaches = {0.05 * radius, 0.1 * radius, 0.2 * radius};
   PressedColumn column({turned(mesh, 3), turned(mesh, 4)}, setup);
   for (const double approach : setup.approaches) {
@@ -238,7 +240,7 @@ void packing(const std::string& element, const std::string& file, double factor)
 int usage() {
   fmt::print(stderr,
              "contact-surface geometry | rotations ELEMENT SCALING R/h FIRST LAST | unequal ELEMENT R/h R/h FIRST "
-             "LAST | pressure ELEMENT R/h FACTOR PROFILE.csv | packing ELEMENT PACKING.h5 FACTOR\n");
+             "LAST | pressure ELEMENT R/h FACTOR PROFILE.csv [smooth] | packing ELEMENT PACKING.h5 FACTOR\n");
   return 2;
 }
 
@@ -254,8 +256,8 @@ int main(int argc, char** argv) {
     rotations(argv[2], argv[3], number(4), whole(5), whole(6));
   else if (what == "unequal" && argc == 7)
     unequal(argv[2], number(3), number(4), whole(5), whole(6));
-  else if (what == "pressure" && argc == 6)
-    pressure(argv[2], number(3), number(4), argv[5]);
+  else if (what == "pressure" && (argc == 6 || (argc == 7 && std::string(argv[6]) == "smooth")))
+    pressure(argv[2], number(3), number(4), argv[5], argc == 7 ? ContactSurface::smooth : ContactSurface::facets);
   else if (what == "packing" && argc == 5)
     packing(argv[2], argv[3], number(4));
   else
