@@ -23,6 +23,9 @@ measure unequal-8-8.csv unequal tet4-anp 8 8 1 2
 measure unequal-3-3.csv unequal tet4-anp 3 3 1 4
 measure unequal-9-3.csv unequal tet4-anp 9 3 1 2
 # Pressure from node to node.
+for size in 5 7; do
+  measure pressure-tet4-anp-smooth-$size-10.csv pressure tet4-anp $size 10 "$folder/profile-tet4-anp-smooth-$size-10.csv" smooth
+done
 for element in tet4-anp tet4; do
   measure pressure-$element-7-10.csv pressure $element 7 10 "$folder/profile-$element-7-10.csv"
   for factor in 1 10 100; do

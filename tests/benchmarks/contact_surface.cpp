@@ -175,10 +175,11 @@ void pressure(const std::string& element, double size_ratio, double factor, cons
     for (const SurfacePressure* seen : {&surface, &on_walls}) {
       const PressureOscillation total = oscillation(column.model(), *seen, seen->total),
                                 own = oscillation(column.model(), *seen, seen->own);
-      fmt::print("{},{},{},{},{},{:.5f},{},{:.2f},{:.4f},{:.4f},{:.3f},{:.4f},{:.4f},{:.4f},{:.1e},{:.1e}\n", element,
-                 size_ratio, factor, seen == &surface ? "pair" : "wall", approach / radius, state.pair_force,
-                 total.nodes, total.mean, total.from_mean, total.from_plane, total.largest, own.from_mean,
-                 own.from_plane, state.penetration, state.kinetic_over_elastic, state.residual_over_work);
+      fmt::print("{},{},{},{},{},{:.5f},{},{:.2f},{:.4f},{:.4f},{:.3f},{:.4f},{:.4f},{:.4f},{:.1e},{:.1e}\n",
+                 element + (contact_surface == ContactSurface::smooth ? " smooth" : ""), size_ratio, factor,
+                 seen == &surface ? "pair" : "wall", approach / radius, state.pair_force, total.nodes, total.mean,
+                 total.from_mean, total.from_plane, total.largest, own.from_mean, own.from_plane, state.penetration,
+                 state.kinetic_over_elastic, state.residual_over_work);
     }
     std::fflush(stdout);
     if (approach != setup.approaches.back()) continue;
