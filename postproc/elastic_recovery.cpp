@@ -67,8 +67,8 @@ Measurement measure_elastic_recovery(const schema::FileReader& file, std::option
   m.metric = "elastic-recovery";
   m.value = r.recovery;
   m.uncertainty = r.uncertainty;
-  m.uncertainty_meaning = "what the rest of the stress would add, linear or as in Hertz's theory, and the 95 % "
-                          "interval of that line at zero stress";
+  m.uncertainty_meaning = "what the rest of the stress would add, linear or as in Hertz's theory, the 95 % interval "
+                          "of that line at zero stress, and what the last row is off it";
   m.window.stage = unloading.number;
   m.window.stage_type = unloading.type;
   m.window.first_row = begin + r.densest_row;

@@ -320,26 +320,23 @@ void LoadingControl::hold(LoadingState& s, const Seen& seen, std::size_t axis, d
   s.hold_stress = std::max(s.hold_stress, std::abs(wanted));
 }
 
-/// Part of the way from the stress at the start to a given one, which is brought on as driven walls are brought to speed.
-double LoadingControl::brought_on(const Seen& seen) const {
-  return ramp_ > 0 ? smooth_step(seen.time / ramp_) : 1.0;
+/// A stress or force between that at the start and a given one, which is brought on as driven walls are brought to speed.
+double LoadingControl::brought_on(const Seen& seen, double start, double given) const {
+  return start + (given - start) * (ramp_ > 0 ? smooth_step(seen.time / ramp_) : 1.0);
 }
 
 void LoadingControl::hold_all(LoadingState& s, const Seen& seen) const {
-  const double reached = brought_on(seen);
   for (std::size_t axis = 0; axis < 3; ++axis)
-    hold(s, seen, axis, s.start_stress[axis] + (loading_.held_stress - s.start_stress[axis]) * reached);
+    hold(s, seen, axis, brought_on(seen, s.start_stress[axis], loading_.held_stress));
 }
 
 void LoadingControl::hold_lateral(LoadingState& s, const Seen& seen) const {
-  const double reached = brought_on(seen);
   for (std::size_t axis = 0; axis < 2; ++axis) {
-    const auto wanted = [&](double start, double end) { return start + (end - start) * reached; };
     const double start_area = length_[1 - axis] * length_[2];
     const double given = loading_.lateral_stress.value_or(s.start_stress[axis]);
     hold(s, seen, axis,
-         loading_.hold_force ? wanted(s.start_force[axis], given * start_area) / seen.area[axis]
-                             : wanted(s.start_stress[axis], given));
+         loading_.hold_force ? brought_on(seen, s.start_force[axis], given * start_area) / seen.area[axis]
+                             : brought_on(seen, s.start_stress[axis], given));
   }
 }
 

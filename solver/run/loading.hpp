@@ -125,7 +125,7 @@ private:
   void drive_isotropic(LoadingState& state, const Seen& seen) const;
   void drive_axial(LoadingState& state, const Seen& seen) const;
   void hold(LoadingState& state, const Seen& seen, std::size_t axis, double wanted) const;
-  double brought_on(const Seen& seen) const;
+  double brought_on(const Seen& seen, double start, double given) const;
   void hold_all(LoadingState& state, const Seen& seen) const;
   void hold_lateral(LoadingState& state, const Seen& seen) const;
   void follow_path(LoadingState& state, const Seen& seen) const;

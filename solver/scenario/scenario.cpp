@@ -405,7 +405,7 @@ Stage read_stage(TableReader table, std::size_t number, double youngs_modulus) {
       WallLoading loading;
       loading.path = LoadingPath::held;
       loading.held_stress = *stress;
-      loading.wall_speed = loading.servo_speed = table.number_or("servo_speed", usual_servo_speed, positive);
+      loading.servo_speed = table.number_or("servo_speed", usual_servo_speed, positive);
       loading.ends.duration = duration;
       stage.loading = loading;
     } else {

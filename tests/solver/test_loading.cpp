@@ -270,7 +270,9 @@ TEST_CASE("lateral walls hold the force that acts within 1 % while a packing is 
 
 TEST_CASE("a packing is held at a mean stress within 1 %, and is brought to it, up or down") {
   const double stress = GENERATE(8.0, 25.0);
-  WallLoading loading = loading_of(LoadingPath::held, 2000);
+  WallLoading loading;
+  loading.path = LoadingPath::held;
+  loading.servo_speed = 6000;
   loading.held_stress = stress;
   loading.ends.duration = 4e-6;
   Stage held = loading_stage("held", loading);

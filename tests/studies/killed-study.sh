@@ -15,17 +15,17 @@ for name in undisturbed disturbed; do
   mkdir "$work/$name/out"
   [ ! -e "$here/out/packings" ] || cp -r "$here/out/packings" "$work/$name/out/"
 done
-study() { make -f Makefile.studies "$figure" MESH=smoke BIN="$bin" THREADS=1 RUN="$runner" -j2; }
+study=(make -f Makefile.studies "$figure" MESH=smoke BIN="$bin" THREADS=1 RUN="$runner" -j2)
 runs() { pgrep -f "^$bin/mpfem run .* -o out/smoke" || true; }
 
 cd "$work/undisturbed"
 echo "undisturbed: $(date +%T)"
-study >"$work/undisturbed.log" 2>&1
+"${study[@]}" >"$work/undisturbed.log" 2>&1
 
 cd "$work/disturbed"
 killed=0
 for signal in 'TERM make' 'KILL run' 'TERM run' 'KILL make' 'INT make' 'KILL run' 'TERM make' 'KILL make'; do
-  setsid --wait make -f Makefile.studies "$figure" MESH=smoke BIN="$bin" THREADS=1 RUN="$runner" -j2 >>"$work/disturbed.log" 2>&1 &
+  setsid --wait "${study[@]}" >>"$work/disturbed.log" 2>&1 &
   waiting=$!
   sleep $((4 + RANDOM % 6))
   maker=$(pgrep -f "^make -f Makefile.studies $figure MESH=smoke BIN=$bin" | head -n 1 || true)
@@ -42,7 +42,7 @@ for signal in 'TERM make' 'KILL run' 'TERM run' 'KILL make' 'INT make' 'KILL run
   while [ -n "$(runs)" ]; do sleep 0.5; done
 done
 echo "to the end: $(date +%T)"
-study >>"$work/disturbed.log" 2>&1
+"${study[@]}" >>"$work/disturbed.log" 2>&1
 
 cd "$work/undisturbed/out/smoke/$figure"
 tables=0
