@@ -144,9 +144,13 @@ int body(int argc, char** argv) {
   run->add_option("--time-limit", arguments.run.time_limit, "Stop resumably after so many seconds of wall-clock time")
       ->check(CLI::PositiveNumber);
 
-  CLI::App* check =
-      app.add_subcommand("check", "Validate a scenario and print its plan.\nExample: mpfem check compaction.toml");
+  CLI::App* check = app.add_subcommand("check", "Validate a scenario, print its plan and how long it takes here.\n"
+                                                "Examples:\n"
+                                                "  mpfem check compaction.toml\n"
+                                                "  mpfem check unloading.toml --from run.D0.850.checkpoint.h5");
   add_common(*check, arguments);
+  check->add_option("--from", from, "Of a branch that begins at the state of this checkpoint")
+      ->check(CLI::ExistingFile);
 
   BondProgrammeOptions bond_options;
   const CLI::App* bond = add_bond(app, bond_options);
@@ -175,12 +179,12 @@ int body(int argc, char** argv) {
     return 0;
   }
   const Scenario scenario = load_scenario(arguments);
+  if (!from.empty()) arguments.run.from = from;
   if (run->parsed()) {
-    if (!from.empty()) arguments.run.from = from;
     arguments.run.scenario_file = arguments.scenario;
     run_scenario(scenario, arguments.run);
   } else if (check->parsed()) {
-    check_scenario(scenario, arguments.run.threads);
+    check_scenario(scenario, arguments.run.threads, arguments.run.from);
   }
   return 0;
 }

@@ -212,11 +212,7 @@ void run_bench(const BenchOptions& options) {
     strain_before_hand(simulation.model());
     approach_affinely(simulation, scenario);
   }
-  if (options.from) {
-    RunRecord earlier;
-    read_checkpoint(*options.from, simulation, earlier, scenario.text, true);
-    simulation.begin_branch();
-  }
+  if (options.from) begin_branch(*options.from, simulation, scenario.text);
   const RunState& state = simulation.state();
   check_programme(scenario, state.stage, state.stage_low, state.stage_high, simulation.model(), state.stable_step);
   say(fmt::format("{} tets in {} grains; warming up", simulation.model().tets(), simulation.model().grains));

@@ -22,6 +22,7 @@ namespace mpfem {
 /// The bond of one contact point.
 struct PointBond {
   std::int32_t facet = -1;            ///< where it is attached, -1: none
+  std::int32_t law = 0;               ///< number of the law by which it, or the one before it, formed
   double weight1 = 0, weight2 = 0;    ///< shape functions of the facet's second and third node
   BondState state;                    ///< separations at first damage and largest, mm
   double remaining = 1;               ///< 1 - D

@@ -129,7 +129,7 @@ void keep_bonded_points(const ContactCandidates& old, const std::vector<PointBon
 void renew_candidates(const Model& model, double margin, ThreadTeam& team, Contact& contact) {
   // Nodes are looked for; their contact points lie behind them, and travel counts from where they are now.
   ContactCandidates candidates = find_contact_candidates(model.surface(), margin + largest_stand_out(model), team);
-  if (contact.bonding) {
+  if (contact.bonding()) {
     std::vector<PointBond> bond;
     keep_bonded_points(contact.candidates, contact.bond, model.grains, candidates, bond);
     contact.bond = std::move(bond);
@@ -265,15 +265,15 @@ ContactSums forces_of_points(Model& model, Contact& contact, int grain) {
     const double stiffness = pass_stiffness(model, g, other);
     const std::int32_t begin = candidates.pair_point_offset[at(pair)], end = candidates.pair_point_offset[at(pair) + 1];
     std::int32_t active = 0, pulling = 0;
-    BondLaw law;
-    if constexpr (bonding) law = pair_bond_law(model, *contact.bonding, grain, other_grain);
-    const double pair_bond_stiffness = law.stiffness;
+    const bool normal_only = bonding && contact.bond_laws.back().normal_only;
     const auto pull = [&](PointBond& bond, std::int32_t node_index, const Vector3<double>& node, double gap) {
       const Facet facet = facet_geometry(model, bond.facet);
-      const double k = stiffness * model.local_stiffness(at(node_index)) * model.reference_area[at(node_index)];
+      const double share = stiffness * model.local_stiffness(at(node_index)); // of this pass
+      const double k = share * model.reference_area[at(node_index)];
+      const BondLaw law = bond_law(contact, bond, 2 * share);
       ContactForce& record = contact.bond_force[at(begin + pulling++)];
-      record = bond_record(law.normal_only ? pull_of_normal_bond(law, bond, node, facet.x)
-                                           : pull_of_bond(law, bond, node, facet.x, gap),
+      record = bond_record(normal_only ? pull_of_normal_bond(law, bond, node, facet.x)
+                                       : pull_of_bond(law, bond, node, facet.x, gap),
                            k, node_index, bond, facet);
       act_on_node(model, record);
     };
@@ -282,7 +282,6 @@ ContactSums forces_of_points(Model& model, Contact& contact, int grain) {
       const std::int32_t point = awake[next];
       const std::int32_t node_index = candidates.point_node[at(point)];
       if constexpr (bonding) {
-        law.stiffness = pair_bond_stiffness * model.local_stiffness(at(node_index));
         // The mode in which damage begins depends on the gap; later on a bond needs none, and the gap may sleep.
         PointBond& bond = contact.bond[at(point)];
         if (bond.state.initiation > 0 && travel < contact.point_wake[at(point)]) {
@@ -319,10 +318,11 @@ ContactSums forces_of_points(Model& model, Contact& contact, int grain) {
           PointBond& bond = contact.bond[at(point)];
           if (bond.intact()) {
             pull(bond, node_index, node, distance);
-          } else if (bond.exists() && contact.bonding->rebond_on_contact) {
-            const double spent = bond.spent + law.fracture_energy;
-            bond = {};
-            bond.spent = spent;
+          } else if (bond.exists() && contact.rebond_on_contact) {
+            PointBond none;
+            none.law = bond.law;
+            none.spent = bond.spent + contact.bond_laws[at(bond.law)].fracture_energy;
+            bond = none;
           }
         }
         continue;
@@ -337,11 +337,12 @@ ContactSums forces_of_points(Model& model, Contact& contact, int grain) {
       double pushed = k;
       if constexpr (bonding) {
         PointBond& bond = contact.bond[at(point)];
-        if (!bond.exists() || (law.normal_only && bond.intact())) {
+        if (!bond.exists()) bond.law = static_cast<std::int32_t>(contact.bond_laws.size()) - 1;
+        if (!bond.exists() || (normal_only && bond.intact())) {
           bond.facet = facet;
           bond.weight1 = closest.weight1, bond.weight2 = closest.weight2;
         }
-        if (law.normal_only) {
+        if (normal_only) {
           bond.opening = bond.separation = 0;
         } else if (bond.intact()) {
           pull(bond, node_index, node, -distance);
@@ -369,18 +370,18 @@ ContactSums forces_of_points(Model& model, Contact& contact, int grain) {
 
 } // namespace
 
-BondLaw pair_bond_law(const Model& model, const BondParameters& parameters, std::int32_t first, std::int32_t second) {
-  return {2 * pass_stiffness(model, at(first), at(second)),
-          parameters.tensile_strength,
-          parameters.shear_strength,
-          parameters.fracture_energy,
-          parameters.softening,
-          parameters.normal_only};
+BondLaw law_of_bonds(const BondParameters& parameters) {
+  return {.stiffness = 0,
+          .tensile_strength = parameters.tensile_strength,
+          .shear_strength = parameters.shear_strength,
+          .fracture_energy = parameters.fracture_energy,
+          .softening = parameters.softening,
+          .normal_only = parameters.normal_only};
 }
 
 ContactSums contact_forces(Model& model, Contact& contact, int grain) {
-  return contact.bonding ? forces_of_points<true>(model, contact, grain)
-                         : forces_of_points<false>(model, contact, grain);
+  return contact.bonding() ? forces_of_points<true>(model, contact, grain)
+                           : forces_of_points<false>(model, contact, grain);
 }
 
 void contact_reactions(Model& model, const Contact& contact, int grain) {
@@ -499,14 +500,13 @@ BondSums bond_sums(const Model& model, const Contact& contact, std::int32_t pair
   BondSums sums;
   if (contact.bond.empty()) return sums;
   const ContactCandidates& candidates = contact.candidates;
-  BondLaw law =
-      pair_bond_law(model, *contact.bonding, candidates.pair_first[at(pair)], candidates.pair_second[at(pair)]);
-  const double pair_stiffness = law.stiffness;
+  const double stiffness =
+      2 * pass_stiffness(model, at(candidates.pair_first[at(pair)]), at(candidates.pair_second[at(pair)]));
   for (std::int32_t p = candidates.pair_point_offset[at(pair)]; p < candidates.pair_point_offset[at(pair) + 1]; ++p) {
     const PointBond& bond = contact.bond[at(p)];
     if (!bond.exists() && bond.spent == 0) continue;
     const double area = model.reference_area[at(candidates.point_node[at(p)])];
-    law.stiffness = pair_stiffness * model.local_stiffness(at(candidates.point_node[at(p)]));
+    const BondLaw law = bond_law(contact, bond, stiffness * model.local_stiffness(at(candidates.point_node[at(p)])));
     // Each of the two passes carries half of the traction, so half of the energy.
     const double share = 0.5 * area;
     sums.formed_area += area;

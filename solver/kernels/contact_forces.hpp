@@ -10,7 +10,6 @@
 // the candidates however far it has opened.
 
 #include <cstdint>
-#include <optional>
 #include <span>
 #include <vector>
 
@@ -46,13 +45,17 @@ struct Contact {
   std::vector<double> point_sure;        ///< [points], mm: point_facet is the closest until travel adds up to this
   std::vector<ContactForce> force;       ///< [points]: active points first within every pair's range
   std::vector<std::int32_t> active;      ///< [pairs]: number of active points
-  std::optional<BondParameters> bonding; ///< none: no bonds, and the three arrays below stay empty
-  std::vector<PointBond> bond;           ///< [points]
-  std::vector<ContactForce> bond_force;  ///< [points]: pulling bonds first within every pair's range
-  std::vector<std::int32_t> pulling;     ///< [pairs]: number of pulling bonds
-  std::vector<double> travel;            ///< [grains], mm: bound of any node's path length since the run began
-  std::vector<double> travel_at_search;  ///< [grains], mm
+  /// Laws by which bonds formed, empty: no bonds, and the arrays below stay empty. The last is that of bonds to come; a branch
+  /// may bring another than its checkpoint's bonds have. Their stiffness is unset: it is the point's (bond_law).
+  std::vector<BondLaw> bond_laws;
+  bool rebond_on_contact = false;       ///< a broken bond's point bonds anew when it has opened and closes again
+  std::vector<PointBond> bond;          ///< [points]
+  std::vector<ContactForce> bond_force; ///< [points]: pulling bonds first within every pair's range
+  std::vector<std::int32_t> pulling;    ///< [pairs]: number of pulling bonds
+  std::vector<double> travel;           ///< [grains], mm: bound of any node's path length since the run began
+  std::vector<double> travel_at_search; ///< [grains], mm
 
+  bool bonding() const { return !bond_laws.empty(); }
   std::span<const ContactForce> active_points(std::int32_t pair) const {
     const auto p = static_cast<std::size_t>(pair);
     return {force.data() + candidates.pair_point_offset[p], static_cast<std::size_t>(active[p])};
@@ -89,9 +92,15 @@ void contact_stiffness_rate(const Model& model, const Contact& contact, int grai
 /// coarser grain to what one of its nodes would bring, whose stiffness is that of its larger area.
 void raise_to_expected_rate(const Model& model, const Contact& contact, int grain, std::span<double> rate);
 
-/// Law of the bonds of points whose nodes are on `first` and whose facets are on `second`; its stiffness is to be
-/// multiplied by the node's local_stiffness.
-BondLaw pair_bond_law(const Model& model, const BondParameters& parameters, std::int32_t first, std::int32_t second);
+/// The law of bonds to form, its stiffness unset.
+BondLaw law_of_bonds(const BondParameters& parameters);
+
+/// Law by which a bond formed, at a point with this penalty stiffness (MPa/mm, of both passes together).
+inline BondLaw bond_law(const Contact& contact, const PointBond& bond, double stiffness) {
+  BondLaw law = contact.bond_laws[static_cast<std::size_t>(bond.law)];
+  law.stiffness = stiffness;
+  return law;
+}
 
 /// Sums over bonds at the present time level.
 struct BondSums {

@@ -94,14 +94,15 @@ void for_each_array(F&& f) {
   f(check::contact_pair_first), f(check::contact_pair_second), f(check::contact_pair_point_offset);
   f(check::contact_point_node), f(check::contact_point_facet_offset), f(check::contact_candidate_facet);
   f(check::contact_point_facet);
-  f(check::bond_facet), f(check::bond_values), f(check::grip_node), f(check::grip_side), f(check::grip_reference);
+  f(check::bond_facet), f(check::bond_values), f(check::bond_laws), f(check::bond_law);
+  f(check::grip_node), f(check::grip_side), f(check::grip_reference);
 }
 
 /// Hash of the arrays in a file. One array is in memory at a time: a checkpoint may be as large as the model.
 std::uint64_t checksum(const schema::FileReader& file) {
   std::uint64_t hash = hash_seed;
   for_each_array([&](const auto& dataset) {
-    if (!file.has(dataset)) return; // bonds and grips
+    if (!file.has(dataset)) return; // of bonds and grips
     const auto values = file.read(dataset);
     hash = hash_values(std::span<const typename decltype(values)::value_type>(values), hash);
   });
@@ -141,15 +142,6 @@ std::vector<double> of_tets(const Model& model, Values&& values) {
   std::vector<double> result(static_cast<std::size_t>(model.tets()));
   for_each_tet(model, [&](const auto& block, int lane, std::size_t tet) { result[tet] = values(block)[lane]; });
   return result;
-}
-
-/// True where a bond in the file is damaged, or has been broken and formed anew.
-bool has_damaged_bond(const schema::FileReader& file) {
-  const auto facet = file.read(check::bond_facet);
-  const auto values = file.read(check::bond_values);
-  for (std::size_t i = 0; i < facet.size() && 6 * i + 5 < values.size(); ++i)
-    if ((facet[i] >= 0 && values[6 * i + 4] < 1) || values[6 * i + 5] > 0) return true;
-  return false;
 }
 
 /// Unused lanes of a grain's last block repeat its last tet.
@@ -230,16 +222,22 @@ void write_checkpoint(const std::string& path, const Simulation& simulation, con
   arrays.write(check::contact_point_facet_offset, candidates.point_facet_offset);
   arrays.write(check::contact_candidate_facet, candidates.point_facet);
   arrays.write(check::contact_point_facet, contact.point_facet);
-  if (contact.bonding) {
-    std::vector<std::int32_t> facet;
-    std::vector<double> values;
+  if (contact.bonding()) {
+    std::vector<std::int32_t> facet, number;
+    std::vector<double> values, laws;
     for (const PointBond& bond : contact.bond) {
       facet.push_back(bond.facet);
+      number.push_back(bond.law);
       values.insert(values.end(), {bond.weight1, bond.weight2, bond.state.initiation, bond.state.largest,
                                    bond.remaining, bond.spent});
     }
     arrays.write(check::bond_facet, facet);
     arrays.write(check::bond_values, values, facet.size());
+    for (const BondLaw& law : contact.bond_laws)
+      laws.insert(laws.end(), {law.tensile_strength, law.shear_strength, law.fracture_energy,
+                               law.softening == SofteningLaw::energy ? 1.0 : 0.0});
+    arrays.write(check::bond_laws, laws, contact.bond_laws.size());
+    if (contact.bond_laws.size() > 1) arrays.write(check::bond_law, number);
   }
   if (simulation.grips().present()) {
     std::vector<std::int32_t> node, side;
@@ -261,10 +259,48 @@ namespace {
 
 /// Grains that touch by their smooth surface in a checkpoint. Those of before the number was kept had all of them where the
 /// scenario said so, and none where it did not.
-int smooth_grains_before(const schema::FileReader& file, const Model& model) {
+int smooth_grains_before(const schema::FileReader& file, const Scenario& before, const Model& model) {
   if (file.has(check::smooth_grains)) return file.read_scalar(check::smooth_grains);
-  const Scenario before = read_scenario(TomlDocument::from_text(file.read_scalar(check::scenario), "checkpoint"));
   return before.contact.surface == ContactSurface::smooth ? model.grains : 0;
+}
+
+/// Laws by which the bonds in a checkpoint formed. In files of before they were kept it was the scenario's for all.
+std::vector<BondLaw> bond_laws_before(const schema::FileReader& file, const BondParameters& bond) {
+  if (!file.has(check::bond_laws)) return {law_of_bonds(bond)};
+  std::vector<BondLaw> laws;
+  const auto values = file.read(check::bond_laws);
+  for (std::size_t i = 0; i + 4 <= values.size(); i += 4)
+    laws.push_back({.stiffness = 0,
+                    .tensile_strength = values[i],
+                    .shear_strength = values[i + 1],
+                    .fracture_energy = values[i + 2],
+                    .softening = values[i + 3] != 0 ? SofteningLaw::energy : SofteningLaw::exponential,
+                    .normal_only = bond.normal_only});
+  return laws;
+}
+
+/// Bonds of a checkpoint, [points].
+std::vector<PointBond> bonds_before(const schema::FileReader& file, std::size_t points, std::size_t laws,
+                                    const InputError& damaged) {
+  const auto facet = file.read(check::bond_facet);
+  const auto values = file.read(check::bond_values);
+  const auto law = file.has(check::bond_law) ? file.read(check::bond_law) : std::vector<std::int32_t>(points, 0);
+  if (facet.size() != points || values.size() != 6 * points || law.size() != points) throw damaged;
+  std::vector<PointBond> bonds;
+  for (std::size_t i = 0; i < points; ++i) {
+    const double* v = &values[6 * i];
+    if (law[i] < 0 || static_cast<std::size_t>(law[i]) >= laws) throw damaged;
+    bonds.push_back({.facet = facet[i],
+                     .law = law[i],
+                     .weight1 = v[0],
+                     .weight2 = v[1],
+                     .state = {v[2], v[3]},
+                     .remaining = v[4],
+                     .spent = v[5],
+                     .opening = 0,
+                     .separation = 0});
+  }
+  return bonds;
 }
 
 } // namespace
@@ -294,18 +330,19 @@ void read_checkpoint(const std::string& path, Simulation& simulation, RunRecord&
                     "would not go on bitwise",
                     path, file.read_scalar(check::lanes), native_lanes));
 
+  const Scenario before = read_scenario(TomlDocument::from_text(file.read_scalar(check::scenario), path));
+  if (bonded && !before.bond) throw damaged();
+
   // All contacts would open or close by the height of the smooth surface at once.
-  if (const int before = smooth_grains_before(file, model); before != model.smooth_grains)
+  if (const int smooth = smooth_grains_before(file, before, model); smooth != model.smooth_grains)
     throw InputError(fmt::format(
         "{}: in the checkpoint {} of {} grains touch by their smooth surface, in the scenario {}; allowed the same "
         "contact.surface (earlier versions took facets where a scenario does not say)",
-        path, before, model.grains, model.smooth_grains));
+        path, smooth, model.grains, model.smooth_grains));
 
   // A branch goes on with the same matter: its stresses and strains mean nothing in another material.
   if (any_scenario) {
-    const std::string earlier = file.read_scalar(check::scenario);
-    const Scenario before = read_scenario(TomlDocument::from_text(earlier, path)),
-                   now = read_scenario(TomlDocument::from_text(scenario_text, path));
+    const Scenario now = read_scenario(TomlDocument::from_text(scenario_text, path));
     if (before.material != now.material || before.grain_materials != now.grain_materials)
       throw InputError(
           fmt::format("{}: the checkpoint's material differs from the scenario's, allowed the same [material]", path));
@@ -314,10 +351,11 @@ void read_checkpoint(const std::string& path, Simulation& simulation, RunRecord&
       throw InputError(fmt::format("{}: [initial] has no meaning in a run that begins at a checkpoint: its grains move "
                                    "as they moved there",
                                    path));
-    // Bonds that are whole hold nothing but their places, so that the law may still be chosen.
-    if (bonded && before.bond != now.bond && (!now.bond || has_damaged_bond(file)))
-      throw InputError(fmt::format(
-          "{}: the checkpoint has bonds of another law than the scenario's, allowed the same [bond]", path));
+    // Bonds keep the law by which they formed, and [bond] is that of bonds to come. Whether bonds resist sliding decides how
+    // all of them are followed.
+    if (bonded && (!now.bond || before.bond->normal_only != now.bond->normal_only))
+      throw InputError(fmt::format("{}: the checkpoint has bonds{}, allowed a [bond] with the same normal_only", path,
+                                   now.bond ? " of the other bond.normal_only" : ", the scenario has none"));
     if (bonded && before.contact.penalty_differs(now.contact)) // a damaged bond's separations belong to its stiffness
       throw InputError(fmt::format(
           "{}: the checkpoint has bonds of another penalty than the scenario's, allowed the same contact.stiffness "
@@ -405,25 +443,17 @@ void read_checkpoint(const std::string& path, Simulation& simulation, RunRecord&
   contact.point_sure = take(check::contact_point_sure, points);
   contact.force.resize(points);
   contact.active.assign(pairs, 0);
-  if (contact.bonding) {
+  if (contact.bonding()) {
     // A checkpoint without bonds goes on with them: they form where grains touch.
     contact.bond.assign(points, {});
     contact.bond_force.resize(points);
     contact.pulling.assign(pairs, 0);
     if (bonded) {
-      const auto facet = take(check::bond_facet, points);
-      const auto values = take(check::bond_values, 6 * points);
-      for (std::size_t i = 0; i < points; ++i) {
-        const double* v = &values[6 * i];
-        contact.bond[i] = {.facet = facet[i],
-                           .weight1 = v[0],
-                           .weight2 = v[1],
-                           .state = {v[2], v[3]},
-                           .remaining = v[4],
-                           .spent = v[5],
-                           .opening = 0,
-                           .separation = 0};
-      }
+      const BondLaw coming = contact.bond_laws.back();
+      contact.bond_laws = bond_laws_before(file, *before.bond);
+      contact.bond = bonds_before(file, points, contact.bond_laws.size(), damaged());
+      if (contact.bond_laws.empty()) throw damaged();
+      if (contact.bond_laws.back() != coming) contact.bond_laws.push_back(coming);
     }
   }
   Grips grips;
@@ -438,6 +468,12 @@ void read_checkpoint(const std::string& path, Simulation& simulation, RunRecord&
     grips.make_offsets(model.node_offset);
   }
   simulation.restored(std::move(grips));
+}
+
+void begin_branch(const std::string& path, Simulation& simulation, const std::string& scenario_text) {
+  RunRecord earlier;
+  read_checkpoint(path, simulation, earlier, scenario_text, true);
+  simulation.begin_branch();
 }
 
 std::string checkpoint_checksum(const std::string& path) {

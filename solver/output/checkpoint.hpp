@@ -27,6 +27,10 @@ void write_checkpoint(const std::string& path, const Simulation& simulation, con
 void read_checkpoint(const std::string& path, Simulation& simulation, RunRecord& record,
                      const std::string& scenario_text, bool any_scenario);
 
+/// Begins the scenario's first stage at the state of an earlier run. Bonds keep the law by which they formed, the scenario's is
+/// that of bonds to come. Throws InputError as read_checkpoint, and where the scenario is one of other matter.
+void begin_branch(const std::string& path, Simulation& simulation, const std::string& scenario_text);
+
 /// What tells a checkpoint's state from others. Throws InputError where the file is no checkpoint.
 std::string checkpoint_checksum(const std::string& path);
 

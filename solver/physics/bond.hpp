@@ -25,6 +25,7 @@ struct BondLaw {
   double fracture_energy = 0;  ///< G^c, N/mm; must exceed t^2/(2 K) of the larger strength
   SofteningLaw softening = SofteningLaw::exponential;
   bool normal_only = false; ///< no traction against sliding (for comparison with theories of adhesion)
+  bool operator==(const BondLaw&) const = default;
 };
 
 /// What a bond remembers.

@@ -87,6 +87,19 @@ std::string mass_scaling_text(const Scenario& scenario, const Model& model) {
   return text;
 }
 
+/// Which bonds have another law than those to come; empty where all have the scenario's.
+std::string earlier_bonds_text(const Contact& contact) {
+  if (contact.bond_laws.size() < 2) return {};
+  std::vector<std::int64_t> intact(contact.bond_laws.size(), 0);
+  for (const PointBond& bond : contact.bond)
+    if (bond.intact()) ++intact[static_cast<std::size_t>(bond.law)];
+  std::string text;
+  for (std::size_t i = 0; i + 1 < intact.size(); ++i)
+    text += fmt::format("{}{} bonds formed earlier keep their fracture energy of {:g} N/mm", i == 0 ? "" : ", ",
+                        intact[i], contact.bond_laws[i].fracture_energy);
+  return text + fmt::format("; those to come have {:g} N/mm", contact.bond_laws.back().fracture_energy);
+}
+
 /// "ended by axial strain 0.15; stresses held within 0.05 MPa (0.6 %)"
 std::string stage_end_text(const StageResult& result) {
   std::string text = "ended by " + result.ended_by;
@@ -144,6 +157,8 @@ public:
     if (!options_.quiet && !already_complete_) {
       for (const std::string& warning : warnings) fmt::print(stderr, "mpfem: warning: {}\n", warning);
       if (const std::string text = mass_scaling_text(scenario_, simulation_.model()); !text.empty())
+        fmt::print(stderr, "mpfem: {}\n", text);
+      if (const std::string text = earlier_bonds_text(simulation_.contact()); !text.empty())
         fmt::print(stderr, "mpfem: {}\n", text);
     }
     const RunState& state = simulation_.state();
@@ -203,9 +218,7 @@ private:
       return;
     }
     if (options_.from) {
-      RunRecord earlier;
-      read_checkpoint(*options_.from, simulation_, earlier, scenario_.text, true);
-      simulation_.begin_branch();
+      begin_branch(*options_.from, simulation_, scenario_.text);
       first_step_ = simulation_.state().step;
     }
     record_.from = from;
@@ -557,10 +570,12 @@ void run_scenario(const Scenario& scenario, const RunOptions& options) {
   Runner(scenario, options).run();
 }
 
-void check_scenario(const Scenario& scenario, int threads) {
+void check_scenario(const Scenario& scenario, int threads, const std::optional<std::string>& from) {
   ThreadTeam team(threads);
   Simulation simulation(build_model(read_packing(scenario.packing_file), scenario, scenario.packing_file), scenario,
-                        team);
+                        team, from.has_value());
+  if (from) begin_branch(*from, simulation, scenario.text);
+  const RunState& state = simulation.state();
   const Model& model = simulation.model();
   fmt::print("packing        {}: {} grains, {} tets, {} nodes, {} facets\n", scenario.packing_file, model.grains,
              model.tets(), model.nodes(), model.facets());
@@ -589,12 +604,15 @@ void check_scenario(const Scenario& scenario, int threads) {
         r.steep_fracture_energy, r.smallest_fracture_energy);
   }
   for (const std::string& warning : warnings) fmt::print("warning        {}\n", warning);
-  check_programme(scenario, 0, model.box_low, model.box_high, model, simulation.state().stable_step);
+  if (const std::string text = earlier_bonds_text(simulation.contact()); !text.empty())
+    fmt::print("               {}\n", text);
+  check_programme(scenario, 0, state.stage_low, state.stage_high, model, state.stable_step);
   // The steps of all stages at the present stable step, and the time of a few steps measured here.
-  const auto forecasts = forecast(scenario, 0, model.box_low, model.box_high, model);
+  const auto forecasts = forecast(scenario, 0, state.stage_low, state.stage_high, model);
+  const double first_stable_step = state.stable_step;
   double steps = 0;
   for (std::size_t s = 0; s < forecasts.size(); ++s) {
-    const double stage_steps = forecasts[s].duration / simulation.state().stable_step;
+    const double stage_steps = forecasts[s].duration / first_stable_step;
     steps += stage_steps;
     fmt::print("stage          {}: {}{:.4g} s, {:.0f} steps at the present step; {}\n", scenario.stages[s].name,
                forecasts[s].sure ? "" : "about ", forecasts[s].duration, stage_steps, stage_text(scenario.stages[s]));
@@ -606,10 +624,10 @@ void check_scenario(const Scenario& scenario, int threads) {
     simulation.advance();
   }
   const double seconds = Profile::since(start) / std::max(measured, 1);
-  fmt::print(
-      "estimate       {:.3g} ms a step measured here on {} threads; {:.0f} steps: {:.0f} s. Dense packings take about "
-      "half as long again (contact), and the step shrinks as tets flatten.\n",
-      1e3 * seconds, threads, steps, seconds * steps);
+  fmt::print("estimate       {:.3g} ms a step measured here on {} threads; {:.0f} steps: {:.0f} s. {}\n", 1e3 * seconds,
+             threads, steps, seconds * steps,
+             from ? "The step shrinks as tets flatten."
+                  : "Dense packings take about half as long again (contact), and the step shrinks as tets flatten.");
 }
 
 } // namespace mpfem

@@ -63,7 +63,10 @@ Simulation::Simulation(Model model, const Scenario& scenario, ThreadTeam& team, 
   stiffness_rate_.resize(static_cast<std::size_t>(model_.nodes()));
   walls_.present = scenario.walls;
   state_.absent_axes = scenario.walls ? 0 : 7;
-  contact_.bonding = scenario.bond;
+  if (scenario.bond) {
+    contact_.bond_laws = {law_of_bonds(*scenario.bond)};
+    contact_.rebond_on_contact = scenario.bond->rebond_on_contact;
+  }
   margin_ = scenario.contact.search_margin * *std::max_element(model_.element_size.begin(), model_.element_size.end());
   state_.low = state_.stage_low = walls_.low = model_.box_low;
   state_.high = state_.stage_high = walls_.high = model_.box_high;
@@ -527,7 +530,7 @@ void Simulation::report_bad_grain(int grain) const {
 BondSums Simulation::total_bonds() {
   const auto pairs = static_cast<int>(contact_.candidates.pair_first.size());
   std::vector<BondSums> sums(static_cast<std::size_t>(pairs));
-  if (!contact_.bonding) return {};
+  if (!contact_.bonding()) return {};
   team_.for_each(pairs,
                  [&](int pair, int) { sums[static_cast<std::size_t>(pair)] = bond_sums(model_, contact_, pair); });
   BondSums total;

@@ -2,12 +2,15 @@
 
 #include <filesystem>
 #include <fstream>
+#include <set>
+#include <sstream>
 
 #include <catch2/catch.hpp>
 #include <fmt/format.h>
 
 #include "results-schema/file.hpp"
 #include "solver/output/run_lock.hpp"
+#include "tests/support/bonded_pair.hpp"
 #include "tests/support/folder.hpp"
 #include "tests/support/packing_file.hpp"
 
@@ -182,26 +185,32 @@ void check_threads(const std::string& text, int cells) {
   CHECK(all[0] == all[2]);
 }
 
+/// Runs a command that writes `output`, stopping it and resuming, twice at least. Where the machine has become faster since
+/// the whole run took its `seconds`, it begins anew with shorter parts.
+void run_in_parts(const std::string& command, const std::string& output, double seconds) {
+  int stops = 0;
+  for (double limit = seconds / 5; stops < 2; limit /= 2) {
+    REQUIRE(limit > seconds / 100);
+    fs::remove(output);
+    stops = 0;
+    for (int code = 5; code == 5; stops += code == 5 ? 1 : 0) {
+      const Outcome outcome = mpfem_command(fmt::format("{} --resume --time-limit {}", command, limit));
+      code = outcome.exit_code;
+      INFO(outcome.messages);
+      REQUIRE((code == 0 || code == 5));
+      CHECK(schema::validate(output).empty()); // readable at every stop
+      REQUIRE(stops < 200);
+    }
+  }
+}
+
 void check_resuming(const std::string& text, int cells) {
   const Folder folder;
   prepare(folder, cells, text);
   const std::string common = fmt::format("run {} --threads 2 --quiet -o ", folder / "scenario.toml");
   const Outcome whole = mpfem_command(common + (folder / "whole.h5"));
   REQUIRE(whole.exit_code == 0);
-  int stops = 0;
-  for (int code = 5; code == 5;) {
-    const Outcome outcome =
-        mpfem_command(common + fmt::format("{} --resume --time-limit {}", folder / "parts.h5", whole.seconds / 5));
-    code = outcome.exit_code;
-    INFO(outcome.messages);
-    REQUIRE((code == 0 || code == 5));
-    if (code == 5) {
-      ++stops;
-      CHECK(schema::validate(folder / "parts.h5").empty()); // readable at every stop
-    }
-    REQUIRE(stops < 100);
-  }
-  CHECK(stops >= 2);
+  run_in_parts(common + (folder / "parts.h5"), folder / "parts.h5", whole.seconds);
   CHECK(results(folder / "whole.h5") == results(folder / "parts.h5"));
   const schema::FileReader in_one(folder / "whole.h5"), in_parts(folder / "parts.h5");
   for (const auto& dataset : {schema::run::provenance_stage_overshoot, schema::run::provenance_stage_hold_error,
@@ -470,22 +479,141 @@ TEST_CASE("a step too large for the motion to be stable exits with 3, says so, a
   CHECK(run(2.1).exit_code == 2);
 }
 
-TEST_CASE("a branch may have bonds of another law as long as none is damaged") {
+namespace {
+
+/// Two cubes pressed together, whose bonds are then torn to a part of their energy.
+const std::string torn_cubes_text = "walls = false\n" + grains_text + R"([bond]
+tensile_strength = 25
+shear_strength = 18
+fracture_energy = 0.1
+[[stages]]
+name = "pressing"
+type = "grip"
+grip_depth = 0.03
+displacement = -6e-4
+speed = 500
+[[stages]]
+name = "tearing"
+type = "grip"
+grip_depth = 0.03
+displacement = 5e-3
+speed = 500
+)";
+
+/// A branch of it, moved by further displacements.
+std::string further_grips(const std::string& displacement, double speed) {
+  std::string text = torn_cubes_text.substr(0, torn_cubes_text.find("[[stages]]"));
+  std::istringstream each(displacement);
+  for (std::string d; each >> d;)
+    text += fmt::format(
+        "[[stages]]\nname = \"moved-{}\"\ntype = \"grip\"\ngrip_depth = 0.03\ndisplacement = {}\nspeed = {}\n",
+        text.size(), d, speed);
+  return text;
+}
+
+std::vector<float> fracture_energies(const std::string& path) {
+  const schema::FileReader file(path, schema::FileKind::run);
+  return file.read(schema::run::snapshots_bond_fracture_energy, file.snapshots().back());
+}
+
+} // namespace
+
+TEST_CASE("bonds keep the law by which they formed, and those that form in a branch have the branch's") {
   const Folder folder;
-  prepare(folder, 3, replaced(loading_text, "[0.5, 0.61]", "[0.405]"));
+  write_packing(folder / "packing.h5", two_cubes(4), {0.1, 0.1});
+  write_text(folder / "scenario.toml", torn_cubes_text);
+  const auto run = [&](const std::string& scenario, const std::string& output, const std::string& options) {
+    return mpfem_command(fmt::format("run {} -o {} {}", folder / scenario, folder / output, options));
+  };
+  REQUIRE(run("scenario.toml", "torn.h5", "--quiet").exit_code == 0);
+  const schema::FileReader torn(folder / "torn.h5", schema::FileKind::run);
+  const double area = 0.5 * torn.read(schema::run::history_bonded_area).back();
+  const double spent = torn.read(schema::run::history_damage_dissipation).back();
+  REQUIRE(spent > 0.1 * 0.1 * area); // damaged,
+  REQUIRE(spent < 0.9 * 0.1 * area); // and not broken
+  CHECK_FALSE(torn.has(schema::run::snapshots_bond_fracture_energy, torn.snapshots().back()));
+  const std::string from = fmt::format("--from {} ", folder / "torn.tearing.checkpoint.h5");
+
+  // Torn apart with another law of bonds to come: nothing else happens than with their own.
+  write_text(folder / "apart.toml", further_grips("0.08", 4000));
+  const Outcome same = run("apart.toml", "same.h5", from + "--quiet");
+  INFO(same.messages);
+  REQUIRE(same.exit_code == 0);
+  const std::string other_law =
+      "--set bond.fracture_energy=0.05 --set bond.tensile_strength=20 --set bond.softening=energy ";
+  const Outcome apart = run("apart.toml", "other.h5", from + other_law);
+  INFO(apart.messages);
+  REQUIRE(apart.exit_code == 0);
+  CHECK_THAT(apart.messages,
+             Catch::Contains("34 bonds formed earlier keep their fracture energy of 0.1 N/mm; those to come "
+                             "have 0.05 N/mm"));
+  CHECK(results(folder / "same.h5") == results(folder / "other.h5"));
+  CHECK(schema::FileReader(folder / "other.h5").read(schema::run::history_damage_dissipation).back() ==
+        Approx(0.1 * area).epsilon(1e-9));
+  for (const float energy : fracture_energies(folder / "other.h5")) CHECK(energy == 0.1F);
+
+  // Pressed together and torn apart again, in one go and with stops: the new bonds take the new energy.
+  write_text(folder / "again.toml", further_grips("0.08 -0.09 0.06", 4000));
+  const std::string again = from + "--set bond.fracture_energy=0.06 --set bond.rebond=on_contact --quiet ";
+  const Outcome whole = run("again.toml", "again.h5", again);
+  REQUIRE(whole.exit_code == 0);
+  CHECK(schema::FileReader(folder / "again.h5").read(schema::run::history_damage_dissipation).back() ==
+        Approx((0.1 + 0.06) * area).epsilon(1e-9));
+  for (const float energy : fracture_energies(folder / "again.h5")) CHECK(energy == 0.06F);
+  run_in_parts(fmt::format("run {} -o {} {}", folder / "again.toml", folder / "parts.h5", again), folder / "parts.h5",
+               whole.seconds);
+  CHECK(results(folder / "again.h5") == results(folder / "parts.h5"));
+
+  const Outcome sliding = run("apart.toml", "refused.h5", from + "--set bond.normal_only=true --quiet");
+  CHECK(sliding.exit_code == 2);
+  CHECK_THAT(sliding.messages, Catch::Contains("normal_only"));
+  const std::string text = further_grips("0.08", 4000);
+  write_text(folder / "unbonded.toml", text.substr(0, text.find("[bond]")) + text.substr(text.find("[[stages]]")));
+  const Outcome unbonded = run("unbonded.toml", "refused.h5", from + "--quiet");
+  CHECK(unbonded.exit_code == 2);
+  CHECK_THAT(unbonded.messages, Catch::Contains("the scenario has none"));
+}
+
+TEST_CASE("a compaction that goes on with another fracture energy has bonds of both, of a branch's branch of three") {
+  const Folder folder;
+  prepare(folder, 3, replaced(loading_text, "[0.5, 0.61]", "[0.55, 0.59]"));
   REQUIRE(mpfem_command(fmt::format("run {} -o {} --quiet", folder / "scenario.toml", folder / "run.h5")).exit_code ==
           0);
-  const auto branch = [&](const std::string& checkpoint, const std::string& set) {
+  const auto branch = [&](const std::string& name, const std::string& from, const std::string& set) {
     return mpfem_command(fmt::format("run {} -o {} --quiet --from {} {}", folder / "scenario.toml",
-                                     folder / "branch.h5", folder / checkpoint, set));
+                                     folder / (name + ".h5"), folder / from, set));
   };
-  const Outcome untouched = branch("run.D0.405.checkpoint.h5", "--set bond.fracture_energy=0.1");
-  INFO(untouched.messages);
-  CHECK(untouched.exit_code == 0);
-  const Outcome damaged = branch("run.cycles.checkpoint.h5", "--set bond.fracture_energy=0.1");
-  CHECK(damaged.exit_code == 2);
-  CHECK_THAT(damaged.messages, Catch::Contains("bonds of another law"));
-  CHECK(branch("run.D0.405.checkpoint.h5", "--set material.youngs_modulus=4000").exit_code == 2);
+  const auto kinds = [&](const std::string& name) {
+    const auto energies = fracture_energies(folder / (name + ".h5"));
+    return std::set<float>(energies.begin(), energies.end());
+  };
+  REQUIRE(branch("two", "run.D0.550.checkpoint.h5", "--set bond.fracture_energy=0.1").exit_code == 0);
+  CHECK(kinds("two") == std::set<float>{0.05F, 0.1F});
+  REQUIRE(branch("three", "two.D0.590.checkpoint.h5", "--set bond.fracture_energy=0.2").exit_code == 0);
+  CHECK(kinds("three") == std::set<float>{0.05F, 0.1F, 0.2F});
+  CHECK(branch("steel", "run.D0.550.checkpoint.h5", "--set material.youngs_modulus=4000").exit_code == 2);
+}
+
+TEST_CASE("a branch's plan begins at its checkpoint, and is refused as its run would be") {
+  const Folder folder;
+  prepare(folder, 3);
+  REQUIRE(mpfem_command(fmt::format("run {} -o {} --quiet", folder / "scenario.toml", folder / "run.h5")).exit_code ==
+          0);
+  const std::string from = " --from " + (folder / "run.compaction.checkpoint.h5");
+  write_text(folder / "further.toml", replaced(scenario_text, "relative_density = 0.62", "relative_density = 0.64"));
+  const Outcome further = mpfem_command(fmt::format("check {}{}", folder / "further.toml", from));
+  CHECK(further.exit_code == 0);
+  CHECK_THAT(further.output, Catch::Contains("relative density at the start  0.6200"));
+  // From 0.62 to 0.64 the way is a fraction of that from the packing.
+  const auto steps = [](const std::string& plan) {
+    const std::size_t end = plan.find(" steps at the present step");
+    return std::stod(plan.substr(plan.rfind(' ', end - 1)));
+  };
+  const Outcome whole = mpfem_command(fmt::format("check {}", folder / "further.toml"));
+  CHECK(steps(further.output) < 0.2 * steps(whole.output));
+  CHECK(mpfem_command(fmt::format("check {}{}", folder / "scenario.toml", from)).exit_code == 2); // is at 0.62 already
+  CHECK(mpfem_command(fmt::format("check {}{} --set material.density=2e-9", folder / "further.toml", from)).exit_code ==
+        2);
 }
 
 TEST_CASE("grains of another material are named by numbers that the packing has, each once") {
