@@ -619,7 +619,7 @@ void check_scenario(const Scenario& scenario, int threads, const std::optional<s
   }
   int measured = 0;
   const auto start = Profile::Clock::now();
-  for (; measured < 20 && !simulation.stage_complete(); ++measured) {
+  for (; (measured < 20 || Profile::since(start) < 0.5) && !simulation.stage_complete(); ++measured) {
     simulation.evaluate_forces();
     simulation.advance();
   }

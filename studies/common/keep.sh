@@ -1,6 +1,6 @@
 #!/bin/sh
 # keep.sh MESH MPFEM FIGURE...: copies the small results of figures from out/MESH to studies/results/MESH, with what their runs took
-# (out/MESH/times.csv) and from what they came (provenance.txt: program, packing, settings of every run). The verdicts of all
+# (out/MESH/times.csv, plan.csv) and from what they came (provenance.txt: program, packing, settings of every run). The verdicts of all
 # figures kept for that mesh go to verdicts.md there, those of all meshes side by side to docs/verdicts.md. Of tables above 100 kB every
 # N-th row is kept, as NAME.every-N.csv.
 set -eu
@@ -34,7 +34,7 @@ done
     printf '\n## %s\n\n| statement | %s | here | verdict |\n|---|---|---|---|\n' "$(basename "$folder")" "$reference"
     awk -v format=markdown -f studies/common/fields.awk -f studies/common/report.awk "$folder/verdict.json"
   done
-  cp "out/$mesh/times.csv" "$kept/times.csv"
+  cp "out/$mesh/times.csv" "out/$mesh/plan.csv" "$kept/"
   printf '\n## What the runs took\n\nA run that several studies use counts for the first of them.\n\n'
   echo '| study | runs | counted before | tet-steps | wall time of the others, s | times threads, s |'
   echo '|---|---|---|---|---|---|'
