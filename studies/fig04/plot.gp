@@ -2,10 +2,11 @@
 call 'studies/common/style.gp' ARG1
 folder = ARG2
 set output ARG3
-set multiplot layout 1,3 margins 0.12,0.985,0.13,0.92 spacing 0.075
+set multiplot layout 1,3 margins 0.12,0.965,0.13,0.92 spacing 0.075
 set xlabel 'approach h/R × 10^3'
 set ylabel 'force F/(ER^2) × 10^4' 
-set key top left
+small = ARG1 eq 'svg' ? ',12' : ',15'
+set key top left samplen 1 font small
 set xzeroaxis linetype -1 linewidth 0.5
 do for [w in '0.01 0.1 0.5'] {
   set title sprintf('G^c = %s N/mm', w)
