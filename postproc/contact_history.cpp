@@ -5,7 +5,7 @@
 #include <fmt/format.h>
 
 #include "postproc/stages.hpp"
-#include "postproc/statistics.hpp"
+#include "postproc/uncertainty.hpp"
 
 namespace mpfem {
 
@@ -42,26 +42,30 @@ Measurement measure_contact(const schema::FileReader& file, std::optional<int> n
   m.value = ratio[stage.last];
   m.window.stage = stage.number;
   m.window.stage_type = stage.type;
-  m.window.first_row = std::max(stage.first, stage.last < 4 ? std::size_t{0} : stage.last - 4);
-  m.window.last_row = stage.last;
-  if (const std::size_t rows = stage.last + 1 - m.window.first_row; rows > 2) {
-    std::vector<double> number_of_row(rows);
-    for (std::size_t i = 0; i < rows; ++i) number_of_row[i] = static_cast<double>(i);
-    m.uncertainty =
-        least_squares_line(number_of_row, std::span<const double>(ratio).subspan(m.window.first_row, rows)).scatter;
-  }
-  m.uncertainty_meaning = "standard deviation of the stage's last five rows about their line; not that of the mesh";
+  const RowRange last_rows = rows_about(stage.last, stage.rows());
+  m.window.first_row = last_rows.first;
+  m.window.last_row = last_rows.last;
+  m.uncertainty = row_uncertainty(history, ratio, stage.last, stage.rows());
+  m.uncertainty_meaning =
+      "95 % of a row's scatter, by the stage's last rows about their parabola over time; not that of the mesh";
   m.window.strain = range_of(history["axial_strain"], m.window.first_row, m.window.last_row);
   m.window.stress_name = "mean_stress";
   m.window.stress = range_of(history["mean_stress"], m.window.first_row, m.window.last_row);
   m.method =
       "area of grain surface in contact with other grains over total grain surface, at the stage's last row; axial "
       "strain since the run began";
-  for (const char* name : {"contact_area_ratio", "bonded_area_ratio", "coordination_number", "bonds", "mean_damage",
-                           "damage_dissipation", "relative_density", "mean_stress"}) {
-    m.details[fmt::format("{}_at_start", name)] = column(name)[stage.first];
-    m.details[fmt::format("{}_at_end", name)] = column(name)[stage.last];
-  }
+  const auto uncertainty = [&](std::string_view name, std::size_t row) {
+    return name == "damage_dissipation" ? energy_uncertainty(history, name, row, stage.rows())
+                                        : row_uncertainty(history, column(name), row, stage.rows());
+  };
+  for (const std::string_view name : {"contact_area_ratio", "bonded_area_ratio", "coordination_number", "bonds",
+                                      "mean_damage", "damage_dissipation", "relative_density", "mean_stress"})
+    for (const auto& [place, row] : {std::pair{"start", stage.first}, std::pair{"end", stage.last}}) {
+      m.details[fmt::format("{}_at_{}", name, place)] = column(name)[row];
+      if (name != "relative_density") // the box tells it exactly
+        m.details[fmt::format("{}_at_{}_uncertainty", name, place)] = uncertainty(name, row);
+    }
+  note_short_stage(m, stage.rows());
   m.brief = fmt::format("contact area over surface, coordination number {:.2f}, mean damage {:.3g}",
                         column("coordination_number")[stage.last], column("mean_damage")[stage.last]);
   return m;

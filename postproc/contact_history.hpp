@@ -15,7 +15,8 @@ namespace mpfem {
 std::vector<Column> contact_history(const HistoryTable& history);
 
 /// Contact-area ratio at the end of stage `number` (default: the last); at its beginning in the details, with
-/// coordination, bonds and damage of both. Uncertainty: standard deviation of the stage's last five rows about their line.
+/// coordination, bonds and damage of both, each with its uncertainty: row_uncertainty, of the damage dissipation
+/// energy_uncertainty.
 Measurement measure_contact(const schema::FileReader& file, std::optional<int> number);
 
 } // namespace mpfem

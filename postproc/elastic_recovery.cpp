@@ -8,7 +8,7 @@
 
 #include "common/errors.hpp"
 #include "common/one_line.hpp"
-#include "postproc/statistics.hpp"
+#include "postproc/uncertainty.hpp"
 
 namespace mpfem {
 
@@ -49,6 +49,7 @@ ElasticRecovery elastic_recovery(std::span<const double> density, std::span<cons
     ringing = better.intercept_half_width + std::abs(r.smallest_density - last_on_line);
   }
   r.recovery_at_zero_stress = r.recovery + rest / r.largest_density;
+  r.uncertainty_at_zero_stress = (std::abs(rest - rest_of_hertz) + ringing) / r.largest_density;
   // The rest is a bias of known sign, which ringing may hide a part of.
   r.uncertainty = (std::max(std::abs(rest), std::abs(rest_of_hertz)) + ringing) / r.largest_density;
   return r;
@@ -81,12 +82,20 @@ Measurement measure_elastic_recovery(const schema::FileReader& file, std::option
       fmt::format("(D_max - D_min) / D_max (Eq. 9): D_max at the densest row, D_min at the unloading's last row; "
                   "line through the last {} rows for zero stress; volumetric strain since the run began",
                   rows - r.extrapolated_from_row);
+  const auto of_stress = [&](std::size_t row) { // on the side of the unloading, where the densest row is not before it
+    const RowRange before{begin, unloading.first};
+    return row_uncertainty(history, history["mean_stress"], row, row < unloading.first ? before : unloading.rows());
+  };
   m.details = {{"relative_density_max", r.largest_density},
                {"relative_density_min", r.smallest_density},
                {"mean_stress_at_max_MPa", r.stress_at_largest},
+               {"mean_stress_at_max_uncertainty_MPa", of_stress(m.window.first_row)},
                {"residual_mean_stress_MPa", r.residual_stress},
+               {"residual_mean_stress_uncertainty_MPa", of_stress(unloading.last)},
                {"recovery_at_zero_stress", r.recovery_at_zero_stress},
-               {"recovery_over_loaded_volume", r.recovery_over_loaded_volume}};
+               {"recovery_at_zero_stress_uncertainty", r.uncertainty_at_zero_stress},
+               {"recovery_over_loaded_volume", r.recovery_over_loaded_volume},
+               {"recovery_over_loaded_volume_uncertainty", r.uncertainty / ((1 - r.recovery) * (1 - r.recovery))}};
   m.brief = fmt::format("D_max {:.4f} at {:.3g} MPa, D_min {:.4f} at {:.3g} MPa", r.largest_density,
                         r.stress_at_largest, r.smallest_density, r.residual_stress);
   if (std::abs(r.residual_stress) > 0.02 * r.stress_at_largest)

@@ -15,6 +15,8 @@ struct ElasticRecovery {
   double recovery_over_loaded_volume = 0; ///< R / (1 - R) = (D_max - D_min) / D_min
   double recovery_at_zero_stress = 0;     ///< with D_min extrapolated to zero mean stress
   double uncertainty = 0;                 ///< of the recovery
+  /// Of recovery_at_zero_stress: the difference of both ways to extrapolate, and what ringing adds.
+  double uncertainty_at_zero_stress = 0;
   std::size_t densest_row = 0, extrapolated_from_row = 0; ///< of the spans
 };
 

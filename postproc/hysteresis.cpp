@@ -7,7 +7,7 @@
 
 #include "common/errors.hpp"
 #include "common/one_line.hpp"
-#include "postproc/statistics.hpp"
+#include "postproc/uncertainty.hpp"
 
 namespace mpfem {
 
@@ -91,7 +91,8 @@ double loop_area(std::span<const double> mean_stress, std::span<const double> vo
 
 Hysteresis hysteresis(std::span<const double> mean_stress, std::span<const double> volumetric_strain,
                       std::span<const double> relative_density, std::span<const double> plastic_dissipation,
-                      std::span<const double> damage_dissipation, const std::string& path) {
+                      std::span<const double> damage_dissipation, std::span<const double> energy_residual,
+                      const std::string& path) {
   Hysteresis h;
   const auto cycles = find_cycles(mean_stress);
   if (cycles.empty() || !cycles.back().whole)
@@ -116,10 +117,18 @@ Hysteresis hysteresis(std::span<const double> mean_stress, std::span<const doubl
     const Crossing low = crossing(mean_stress, c.top, c.end, h.low_stress);
     r.density_at_high = high.of(relative_density);
     r.density_at_low = low.of(relative_density);
-    h.drift_uncertainty =
-        std::max({h.drift_uncertainty, high.half_spacing(relative_density), low.half_spacing(relative_density)});
+    r.density_at_high_uncertainty =
+        interpolation_uncertainty(mean_stress, relative_density, high, h.high_stress, {c.begin, c.top});
+    r.density_at_low_uncertainty =
+        interpolation_uncertainty(mean_stress, relative_density, low, h.low_stress, {c.top, c.end});
     r.plastic = plastic_dissipation[c.end] - plastic_dissipation[c.begin];
     r.damage = damage_dissipation[c.end] - damage_dissipation[c.begin];
+    const auto of_difference = [&](std::span<const double> dissipation) {
+      return turning_point_uncertainty(dissipation, c.begin) + turning_point_uncertainty(dissipation, c.end);
+    };
+    r.plastic_uncertainty =
+        std::hypot(of_difference(plastic_dissipation), energy_residual[c.end] - energy_residual[c.begin]);
+    r.damage_uncertainty = of_difference(damage_dissipation); // of bonds: see energy_uncertainty
     h.cycles.push_back(r);
   }
   const auto steps = static_cast<double>(whole_cycles(h)) - 1;
@@ -127,7 +136,9 @@ Hysteresis hysteresis(std::span<const double> mean_stress, std::span<const doubl
     const CycleResult &first = first_whole(h), &last = h.cycles.back();
     h.drift_at_low = (last.density_at_low - first.density_at_low) / steps;
     h.drift_at_high = (last.density_at_high - first.density_at_high) / steps;
-    h.drift_uncertainty *= 2 / steps;
+    h.drift_at_low_uncertainty = std::hypot(first.density_at_low_uncertainty, last.density_at_low_uncertainty) / steps;
+    h.drift_at_high_uncertainty =
+        std::hypot(first.density_at_high_uncertainty, last.density_at_high_uncertainty) / steps;
   }
   return h;
 }
@@ -144,7 +155,11 @@ std::vector<Column> cycle_table(const Hysteresis& h, std::size_t first_row) {
                                  {"relative_density_at_low_stress", "1", {}},
                                  {"relative_density_at_high_stress", "1", {}},
                                  {"plastic_dissipation", "mJ", {}},
-                                 {"damage_dissipation", "mJ", {}}};
+                                 {"damage_dissipation", "mJ", {}},
+                                 {"relative_density_at_low_stress_uncertainty", "1", {}},
+                                 {"relative_density_at_high_stress_uncertainty", "1", {}},
+                                 {"plastic_dissipation_uncertainty", "mJ", {}},
+                                 {"damage_dissipation_uncertainty", "mJ", {}}};
   for (std::size_t i = 0; i < h.cycles.size(); ++i) {
     const CycleResult& c = h.cycles[i];
     const double row[] = {static_cast<double>(h.cycles.front().rows.whole ? i + 1 : i),
@@ -158,7 +173,11 @@ std::vector<Column> cycle_table(const Hysteresis& h, std::size_t first_row) {
                           c.density_at_low,
                           c.density_at_high,
                           c.plastic,
-                          c.damage};
+                          c.damage,
+                          c.density_at_low_uncertainty,
+                          c.density_at_high_uncertainty,
+                          c.plastic_uncertainty,
+                          c.damage_uncertainty};
     for (std::size_t k = 0; k < columns.size(); ++k) columns[k].values.push_back(row[k]);
   }
   return columns;
@@ -172,8 +191,9 @@ HysteresisMeasurement measure_hysteresis(const schema::FileReader& file, std::op
   const auto part = [&](const char* name) {
     return std::span<const double>(history[name]).subspan(stage.first, stage.last + 1 - stage.first);
   };
-  const Hysteresis h = hysteresis(part("mean_stress"), part("volumetric_strain"), part("relative_density"),
-                                  part("plastic_dissipation"), part("damage_dissipation"), file.path());
+  const Hysteresis h =
+      hysteresis(part("mean_stress"), part("volumetric_strain"), part("relative_density"), part("plastic_dissipation"),
+                 part("damage_dissipation"), part("energy_residual"), file.path());
   const CycleResult& last = h.cycles.back();
   Measurement m;
   m.metric = "hysteresis";
@@ -194,8 +214,10 @@ HysteresisMeasurement measure_hysteresis(const schema::FileReader& file, std::op
       "from lowest over highest to lowest mean stress";
   m.details = {{"cycles", whole_cycles(h)},
                {"drift_of_relative_density_at_low_stress_per_cycle", h.drift_at_low},
+               {"drift_of_relative_density_at_low_stress_per_cycle_uncertainty", h.drift_at_low_uncertainty},
                {"drift_of_relative_density_at_high_stress_per_cycle", h.drift_at_high},
-               {"drift_uncertainty", h.drift_uncertainty},
+               {"drift_of_relative_density_at_high_stress_per_cycle_uncertainty", h.drift_at_high_uncertainty},
+               {"drift_uncertainty", std::max(h.drift_at_low_uncertainty, h.drift_at_high_uncertainty)},
                {"low_stress_MPa", h.low_stress},
                {"high_stress_MPa", h.high_stress}};
   HysteresisMeasurement result;

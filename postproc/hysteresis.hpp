@@ -31,7 +31,10 @@ struct CycleResult {
   double lowest_stress = 0, highest_stress = 0;   ///< MPa
   double area = 0, area_uncertainty = 0;          ///< MPa; the latter from leaving out every second row
   double density_at_low = 0, density_at_high = 0; ///< at the stresses that all cycles reach (see hysteresis)
-  double plastic = 0, damage = 0;                 ///< mJ, dissipated in the cycle
+  double density_at_low_uncertainty = 0, density_at_high_uncertainty = 0; ///< interpolation_uncertainty
+  double plastic = 0, damage = 0;                                         ///< mJ, dissipated in the cycle
+  /// mJ: turning_point_uncertainty of both ends, added, and the change of the ledger's residual, as hypotenuse.
+  double plastic_uncertainty = 0, damage_uncertainty = 0;
 };
 
 struct Hysteresis {
@@ -39,18 +42,19 @@ struct Hysteresis {
   double low_stress = 0;  ///< MPa: highest of the lowest stresses; densities at low stress are read here, on unloading
   double high_stress = 0; ///< MPa: lowest of the highest stresses; densities at high stress are read here, on loading
   double drift_at_low = 0,
-         drift_at_high = 0;     ///< mean change of the relative density from cycle to cycle; 0 for one cycle
-  double drift_uncertainty = 0; ///< of both, from the spacing of rows
+         drift_at_high = 0; ///< mean change of the relative density from cycle to cycle; 0 for one cycle
+  double drift_at_low_uncertainty = 0, drift_at_high_uncertainty = 0; ///< from those of the first and the last density
 };
 
-/// Curves row by row: MPa, 1 (compression positive), 1, mJ, mJ. Densities are read at common stresses because turning
+/// Curves row by row: MPa, 1 (compression positive), 1, mJ, mJ, mJ. Densities are read at common stresses because turning
 /// points overshoot by varying amounts, which would pass for a drift. Throws InputError naming `path` without a whole cycle.
 Hysteresis hysteresis(std::span<const double> mean_stress, std::span<const double> volumetric_strain,
                       std::span<const double> relative_density, std::span<const double> plastic_dissipation,
-                      std::span<const double> damage_dissipation, const std::string& path);
+                      std::span<const double> damage_dissipation, std::span<const double> energy_residual,
+                      const std::string& path);
 
 /// A row a cycle: its number from 1 (0: a first loading that is not whole), rows of the history (`first_row` is that of the
-/// curves' first), stresses, area, densities, dissipation.
+/// curves' first), stresses, area, densities, dissipation, uncertainties.
 std::vector<Column> cycle_table(const Hysteresis& hysteresis, std::size_t first_row);
 
 struct HysteresisMeasurement {

@@ -181,6 +181,7 @@ int body(int argc, char** argv) {
       "  postproc section run.h5 --field damage -o damage.png\n"
       "  postproc contact run.h5 --pair 3,17 --view contact.png\n"
       "  postproc elastic-recovery run.h5 -o recovery.json   (and modulus, strength, yield, hysteresis, energy)\n"
+      "  postproc damage run.h5 --snapshot -1 -o damage.json\n"
       "  postproc fit points.csv --x relative_density --y strength --model exponential -o fits.json\n"
       "  postproc vtk run.h5 -o vtk        (open vtk/run.pvd in ParaView)\n"
       "  postproc validate run.h5\n"

@@ -2,6 +2,7 @@
 // A number read off a run: what it is, how well it is known, from which rows and by which rule.
 
 #include <array>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -22,6 +23,14 @@ struct Window {
   std::array<double, 2> stress{};           ///< MPa
 };
 
+/// Which snapshot a number was read from, of those that are not read from rows of the history.
+struct SnapshotWindow {
+  int number = 0;                               ///< from 0
+  double relative_density = 0, mean_stress = 0; ///< 1, MPa
+  int stage = 0;                                ///< as in the scenario, of the history's row nearest in time
+  std::string stage_type;                       ///< empty where it is not known
+};
+
 struct Measurement {
   std::string metric;
   double value = 0;
@@ -29,10 +38,11 @@ struct Measurement {
   double uncertainty = 0;          ///< in the value's unit
   std::string uncertainty_meaning; ///< what it covers
   Window window;
-  std::string method;             ///< the rule in words, with the figures used
-  std::string brief;              ///< further numbers in words, for the line on the terminal
-  nlohmann::ordered_json details; ///< further numbers by name
-  std::vector<std::string> notes; ///< what a reader must know before using the number
+  std::optional<SnapshotWindow> snapshot; ///< in place of `window`
+  std::string method;                     ///< the rule in words, with the figures used
+  std::string brief;                      ///< further numbers in words, for the line on the terminal
+  nlohmann::ordered_json details;         ///< further numbers by name
+  std::vector<std::string> notes;         ///< what a reader must know before using the number
 };
 
 /// Adds a note where the run stopped on its way: its history looks like any other.
@@ -40,7 +50,7 @@ void note_unfinished(Measurement& measurement, const schema::FileReader& run);
 
 nlohmann::ordered_json to_json(const Measurement& measurement);
 
-/// One line: "modulus: 1234 ± 56 MPa; BRIEF (stage 2, rows 401 … 433)".
+/// One line: "modulus: 1234 ± 56 MPa; BRIEF (stage 2, rows 401 … 433)", or "(stage 2, snapshot 3)".
 std::string to_text(const Measurement& measurement);
 
 /// Lowest and highest of values [first, last].

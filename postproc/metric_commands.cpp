@@ -14,6 +14,7 @@
 #include "common/one_line.hpp"
 #include "postproc/contact_history.hpp"
 #include "postproc/csv_file.hpp"
+#include "postproc/damage_statistics.hpp"
 #include "postproc/elastic_recovery.hpp"
 #include "postproc/energy.hpp"
 #include "postproc/energy_release.hpp"
@@ -38,6 +39,7 @@ struct MetricCommands::State {
   std::string input, output, table, packing; ///< files
   bool quiet = false;
   std::optional<int> stage;
+  int snapshot = -1;
   std::optional<double> youngs_modulus, mean_radius;
   ModulusRule modulus;
   std::vector<double> strain_range;
@@ -245,6 +247,22 @@ MetricCommands::MetricCommands(CLI::App& app) : state_(std::make_unique<State>()
                      s.deliver(result.measurement);
                    });
   hysteresis.add_option("--cycles", s.table, "CSV file to write, a row a cycle");
+
+  CLI::App& damage = s.add(app, "damage",
+                           "Damage of the bonds of a snapshot: its area-weighted mean, shares broken and undamaged, "
+                           "percentiles, spread between\n"
+                           "contacts.\n"
+                           "Example: postproc damage run.h5 --snapshot -1 -o damage.json --data distribution.csv",
+                           "JSON file to write", [&s] {
+                             const schema::FileReader file = s.open_run();
+                             const Measurement measurement = measure_damage(file, s.snapshot);
+                             if (!s.table.empty())
+                               write_file(s.table, csv_text(damage_distribution(read_bonds(file, s.snapshot))));
+                             s.deliver(measurement);
+                           });
+  damage.add_option("run", s.input, "Run file (HDF5)")->required();
+  damage.add_option("--snapshot", s.snapshot, "Number of the snapshot; -1 is the last")->capture_default_str();
+  damage.add_option("--data", s.table, "CSV file to write: the share of the area whose damage is not above each value");
 
   CLI::App& energy = s.add_metric(
       app, "energy",

@@ -192,9 +192,11 @@ Measurement measure_modulus(const schema::FileReader& file, std::optional<int> n
   const std::optional<double> grains = youngs_modulus ? youngs_modulus : facts.youngs_modulus;
   m.details["youngs_modulus_of_grains_MPa"] = nullptr;
   m.details["modulus_over_grains"] = nullptr;
+  m.details["modulus_over_grains_uncertainty"] = nullptr;
   if (grains && *grains > 0) {
     m.details["youngs_modulus_of_grains_MPa"] = *grains;
     m.details["modulus_over_grains"] = m.value / *grains;
+    m.details["modulus_over_grains_uncertainty"] = m.uncertainty / *grains;
   }
   return m;
 }

@@ -2,6 +2,7 @@
 // The stages of a run: which rows of its history belong to each, and what its scenario says of them.
 
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -10,6 +11,13 @@
 
 namespace mpfem {
 
+/// Rows first … last, both included.
+struct RowRange {
+  std::size_t first = 0, last = 0;
+  std::size_t count() const { return last - first + 1; }
+  std::span<const double> of(std::span<const double> column) const { return column.subspan(first, count()); }
+};
+
 /// Rows of one stage. `first` is the state in which it begins: the last row of the stage before, or, where the history
 /// begins with it, its own first row.
 struct StageRows {
@@ -17,6 +25,7 @@ struct StageRows {
   std::string type;      ///< as in the scenario ("isotropic_unloading"); empty where it is not known
   std::size_t first = 0; ///< row of the history
   std::size_t last = 0;  ///< row of the history, included
+  RowRange rows() const { return {first, last}; }
 };
 
 /// What a metric needs of the scenario that a run file carries; nothing of it must be there.

@@ -66,6 +66,66 @@ Line least_squares_line(std::span<const double> x, std::span<const double> y) {
   return line;
 }
 
+double noise_left_by_parabolas(std::size_t half_rows) {
+  const auto m = static_cast<double>(half_rows);
+  return 3 * (3 * m * m + 3 * m - 1) / ((2 * m - 1) * (2 * m + 1) * (2 * m + 3));
+}
+
+Parabola least_squares_parabola(std::span<const double> x, std::span<const double> y) {
+  const auto [low, high] = std::minmax_element(x.begin(), x.end());
+  Parabola parabola;
+  parabola.centre = 0.5 * (*low + *high);
+  if (*high > *low) parabola.scale = 0.5 * (*high - *low);
+  const auto points = static_cast<Eigen::Index>(x.size());
+  Eigen::MatrixXd basis(points, 3);
+  for (Eigen::Index i = 0; i < points; ++i) {
+    const double t = (x[static_cast<std::size_t>(i)] - parabola.centre) / parabola.scale;
+    basis.row(i) << 1, t, t * t;
+  }
+  // From the first value on, so that a constant is one without rounding.
+  const Eigen::VectorXd values = Eigen::Map<const Eigen::VectorXd>(y.data(), points).array() - y.front();
+  const Eigen::Vector3d c = basis.colPivHouseholderQr().solve(values);
+  parabola.coefficient = {y.front() + c[0], c[1], c[2]};
+  parabola.freedom = x.size() - 3;
+  if (parabola.freedom > 0)
+    parabola.scatter = (values - basis * c).norm() / std::sqrt(static_cast<double>(parabola.freedom));
+  return parabola;
+}
+
+Ratio ratio_of_sums(std::span<const double> y, std::span<const double> x) {
+  double sum_y = 0, sum_x = 0;
+  for (std::size_t i = 0; i < x.size(); ++i) {
+    sum_y += y[i];
+    sum_x += x[i];
+  }
+  Ratio ratio{sum_y / sum_x, 0};
+  if (x.size() < 2) return ratio;
+  double squares = 0;
+  for (std::size_t i = 0; i < x.size(); ++i) {
+    const double residual = y[i] - ratio.value * x[i];
+    squares += residual * residual;
+  }
+  const auto n = static_cast<double>(x.size());
+  ratio.half_width = student_t_95(x.size() - 1) * std::sqrt(n / (n - 1) * squares) / sum_x;
+  return ratio;
+}
+
+Ratio standard_deviation(std::span<const double> values) {
+  if (values.size() < 2) return {};
+  const double centre = mean(values), n = static_cast<double>(values.size());
+  double squares = 0, fourths = 0;
+  for (const double value : values) {
+    const double square = (value - centre) * (value - centre);
+    squares += square;
+    fourths += square * square;
+  }
+  const double variance = squares / (n - 1);
+  if (!(variance > 0)) return {};
+  const double variance_of_variance = std::max(0.0, (fourths / n - variance * variance) / n);
+  return {std::sqrt(variance),
+          student_t_95(values.size() - 1) * std::sqrt(variance_of_variance) / (2 * std::sqrt(variance))};
+}
+
 double median(std::vector<double> values) {
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
   std::nth_element(values.begin(), middle, values.end());

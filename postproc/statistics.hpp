@@ -1,6 +1,7 @@
 #pragma once
 // Small statistics that the metrics share.
 
+#include <array>
 #include <cstddef>
 #include <span>
 #include <vector>
@@ -31,6 +32,40 @@ Line theil_sen_line(std::span<const double> x, std::span<const double> y);
 /// rows, none beyond the end). A parabola, unlike a running mean, does not cut off peaks.
 /// Needs 2 * half_rows + 1 values or more, half_rows >= 1.
 std::vector<double> local_parabolas(std::span<const double> y, std::size_t half_rows);
+
+/// Share of the rows' noise (variance, independent from row to row) that is left in a row of local_parabolas away from the
+/// ends: a third for half_rows = 3 (Savitzky and Golay 1964).
+double noise_left_by_parabolas(std::size_t half_rows);
+
+/// A parabola, in x taken from `centre` and over `scale` so that its coefficients are of one order.
+struct Parabola {
+  double centre = 0, scale = 1;
+  std::array<double, 3> coefficient{};
+  double scatter = 0;      ///< standard deviation of the residuals
+  std::size_t freedom = 0; ///< degrees of freedom that it is known with: points less three
+  double at(double x) const {
+    const double t = (x - centre) / scale;
+    return coefficient[0] + t * (coefficient[1] + t * coefficient[2]);
+  }
+};
+
+/// Ordinary least squares. Needs three points or more; scatter and freedom are 0 for three.
+Parabola least_squares_parabola(std::span<const double> x, std::span<const double> y);
+
+/// A share of sums, and how well it is known.
+struct Ratio {
+  double value = 0;
+  double half_width = 0; ///< half of the 95 % interval; 0 for one unit, which says nothing of others
+};
+
+/// sum(y) / sum(x) over units that are independent of each other (y and x of one unit need not be): the ratio estimator of
+/// cluster samples. Variance by linearisation, n / (n - 1) sum((y - R x)^2) / sum(x)^2 (Cochran, Sampling Techniques, 3rd ed.
+/// 1977, chapter 6), interval by Student's t with n - 1 degrees of freedom. Needs sum(x) > 0.
+Ratio ratio_of_sums(std::span<const double> y, std::span<const double> x);
+
+/// Standard deviation (n - 1) and half of its 95 % interval from its variance (m_4 - s^4) / (4 n s^2), m_4 the fourth central
+/// moment: no normal distribution is supposed. Both 0 for fewer than two values.
+Ratio standard_deviation(std::span<const double> values);
 
 double median(std::vector<double> values); ///< of at least one value
 

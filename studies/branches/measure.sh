@@ -14,7 +14,7 @@ case $code in
     cat "$output.partial" >&2
     # A modulus of the first rows, taken for want of a window, is none.
     if grep -q 'ends with nothing: no window' "${output%.json}.new.json"; then
-      sed -i 's/^  "value": .*/  "value": null,/; s/^  "modulus_over_grains": .*/  "modulus_over_grains": null,/' "${output%.json}.new.json"
+      sed -i 's/^  "value": .*/  "value": null,/; s/^  "\(modulus_over_grains[a-z_]*\)": .*/  "\1": null,/' "${output%.json}.new.json"
     fi
     mv "${output%.json}.new.json" "$output"
     ;;

@@ -17,6 +17,8 @@ struct Row {
   double relative_density = 0.6;               ///< free, so that a test can say what it wants
   double plastic = 0, damage = 0, elastic = 0; ///< mJ
   double contact_area = 0, coordination = 0;   ///< mm^2 of 10 mm^2, 1
+  double bonded_area = 0, mean_damage = 0;     ///< mm^2, 1
+  double residual = 0;                         ///< mJ, of the ledger
 };
 
 inline RunContents run_of(const std::vector<Row>& rows, const std::string& scenario = "text") {
@@ -44,6 +46,9 @@ inline RunContents run_of(const std::vector<Row>& rows, const std::string& scena
     n["/history/surface_area"].push_back(10);
     n["/history/contact_area"].push_back(r.contact_area);
     n["/history/coordination_number"].push_back(r.coordination);
+    n["/history/bonded_area"].push_back(r.bonded_area);
+    n["/history/mean_damage"].push_back(r.mean_damage);
+    n["/history/energy_residual"].push_back(r.residual);
   }
   c.texts["/provenance/scenario"] = {scenario};
   return c;

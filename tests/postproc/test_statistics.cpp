@@ -120,3 +120,55 @@ TEST_CASE("linear least squares have the textbook's interval, and none where col
   basis.col(1) = 2 * basis.col(0);
   CHECK_FALSE(linear_least_squares(basis, Eigen::VectorXd::Ones(5)));
 }
+
+TEST_CASE("a parabola through points on one has its values and no scatter; one point off tells the scatter") {
+  const auto exact = [](double x) { return 2 + 4.4 * (x - 1e-3) / 1e-3 - 2.7 * std::pow((x - 1e-3) / 1e-3, 2); };
+  const std::vector<double> x = {1e-3, 1.1e-3, 1.3e-3, 1.35e-3, 1.5e-3};
+  std::vector<double> y;
+  for (const double at : x) y.push_back(exact(at));
+  const Parabola through = least_squares_parabola(x, y);
+  CHECK(through.freedom == 2);
+  CHECK(through.scatter < 1e-12);
+  CHECK(within(through.at(1.2e-3), exact(1.2e-3), 1e-12));
+  // Five even points, the middle one off by 1: what is left is along (1, -4, 6, -4, 1) / sqrt(70) and (1, -2, 0, 2, -1) / sqrt(10),
+  // which is orthogonal to it: 36 / 70 in square.
+  const std::vector<double> even = {0, 1, 2, 3, 4}, off = {0, 0, 1, 0, 0};
+  CHECK(within(least_squares_parabola(even, off).scatter, std::sqrt(36.0 / 70 / 2), 1e-12));
+}
+
+TEST_CASE("parabolas leave the share of the noise that Savitzky and Golay's weights leave") {
+  // Their sums of squared weights for 7 and 9 rows: 7/21 and 59/231, the weights of the middle row themselves.
+  CHECK(within(noise_left_by_parabolas(3), 7.0 / 21, rounding));
+  CHECK(within(noise_left_by_parabolas(4), 59.0 / 231, rounding));
+}
+
+TEST_CASE("a ratio of sums has its value and the interval of the formula") {
+  // y - x / 2: 0, 1, -1. Variance 3/2 * 2 / 8^2, Student's t of two degrees of freedom 4.3027.
+  const Ratio ratio = ratio_of_sums(std::vector<double>{1, 2, 1}, std::vector<double>{2, 2, 4});
+  CHECK(ratio.value == 0.5);
+  CHECK(within(ratio.half_width, 4.3027 * std::sqrt(3.0 / 64), 1e-4));
+  CHECK(ratio_of_sums(std::vector<double>{1}, std::vector<double>{4}).half_width == 0);
+}
+
+TEST_CASE("a standard deviation is known as well as its interval says, normal or not") {
+  CHECK(within(standard_deviation(std::vector<double>{1, 2, 3, 6}).value, std::sqrt(14.0 / 3), rounding));
+  CHECK(standard_deviation(std::vector<double>{4}).half_width == 0);
+  CHECK(standard_deviation(std::vector<double>{4, 4, 4}).half_width == 0);
+  Noise noise(31);
+  int held_normal = 0, held_uniform = 0;
+  for (int trial = 0; trial < 400; ++trial) {
+    std::vector<double> normal, uniform;
+    for (int i = 0; i < 100; ++i) {
+      normal.push_back(noise());
+      uniform.push_back(std::erf(noise() / std::sqrt(2.0))); // between -1 and 1
+    }
+    const Ratio of_normal = standard_deviation(normal), of_uniform = standard_deviation(uniform);
+    held_normal += std::abs(of_normal.value - 1) <= of_normal.half_width;
+    held_uniform += std::abs(of_uniform.value - 1 / std::sqrt(3.0)) <= of_uniform.half_width;
+    CHECK(of_normal.half_width < 0.3); // 2 / sqrt(2 * 100) in the mean
+  }
+  // 95 +- 3 * 1.1 %; of a hundred normal values the fourth moment comes out low, which costs two per cent.
+  CHECK(held_normal >= 0.895 * 400);
+  CHECK(held_uniform >= 0.915 * 400);
+  CHECK(held_uniform <= 0.985 * 400);
+}
