@@ -70,7 +70,11 @@ energy_columns := loaded~[mJ]=unloading/energy.elastic_energy_loaded_mJ locked_i
   scale~[mJ]=unloading/energy.energy_scale_mJ loaded_over_scale~[1]=unloading/energy.elastic_energy_loaded_over_scale \
   locked_in_over_scale~[1]=unloading/energy.elastic_energy_locked_in_over_scale released_over_scale~[1]=unloading/energy.elastic_energy_released_over_scale \
   damage_over_scale~[1]=unloading/energy.damage_dissipation_over_scale \
-  damage_in_unloading_over_scale~[1]=unloading/energy.damage_dissipation_in_unloading_over_scale
+  damage_in_unloading_over_scale~[1]=unloading/energy.damage_dissipation_in_unloading_over_scale \
+  loaded_uncertainty~[mJ]=unloading/energy.elastic_energy_loaded_uncertainty_mJ \
+  locked_in_uncertainty~[mJ]=unloading/energy.elastic_energy_locked_in_uncertainty_mJ \
+  released_uncertainty~[mJ]=unloading/energy.elastic_energy_released_uncertainty_mJ \
+  damage_in_unloading_uncertainty~[mJ]=unloading/energy.damage_dissipation_in_unloading_uncertainty_mJ
 fig11_files := $(foreach p,normalised release energy,$(fig11)/$(p).png $(fig11)/$(p).svg) $(fig11)/verdict.json
 fig11: $(fig11_files)
 $(eval $(call branch_table,$(fig11)/release.csv,$(by_modulus),$(energy_columns)))
