@@ -224,7 +224,7 @@ void write_checkpoint(const std::string& path, const Simulation& simulation, con
   arrays.write(check::contact_point_facet, contact.point_facet);
   if (contact.bonding()) {
     std::vector<std::int32_t> facet, number;
-    std::vector<double> values, laws;
+    std::vector<double> values;
     for (const PointBond& bond : contact.bond) {
       facet.push_back(bond.facet);
       number.push_back(bond.law);
@@ -233,10 +233,7 @@ void write_checkpoint(const std::string& path, const Simulation& simulation, con
     }
     arrays.write(check::bond_facet, facet);
     arrays.write(check::bond_values, values, facet.size());
-    for (const BondLaw& law : contact.bond_laws)
-      laws.insert(laws.end(), {law.tensile_strength, law.shear_strength, law.fracture_energy,
-                               law.softening == SofteningLaw::energy ? 1.0 : 0.0});
-    arrays.write(check::bond_laws, laws, contact.bond_laws.size());
+    arrays.write(check::bond_laws, flatten(contact.bond_laws), contact.bond_laws.size());
     if (contact.bond_laws.size() > 1) arrays.write(check::bond_law, number);
   }
   if (simulation.grips().present()) {
@@ -279,28 +276,37 @@ std::vector<BondLaw> bond_laws_before(const schema::FileReader& file, const Bond
   return laws;
 }
 
-/// Bonds of a checkpoint, [points].
-std::vector<PointBond> bonds_before(const schema::FileReader& file, std::size_t points, std::size_t laws,
-                                    const InputError& damaged) {
+/// Takes the bonds of a checkpoint into `bonds` [points], whose laws are so many. False where the file is damaged.
+bool take_bonds(const schema::FileReader& file, std::int32_t facets, std::size_t laws, std::vector<PointBond>& bonds) {
+  const std::size_t points = bonds.size();
   const auto facet = file.read(check::bond_facet);
   const auto values = file.read(check::bond_values);
   const auto law = file.has(check::bond_law) ? file.read(check::bond_law) : std::vector<std::int32_t>(points, 0);
-  if (facet.size() != points || values.size() != 6 * points || law.size() != points) throw damaged;
-  std::vector<PointBond> bonds;
+  if (facet.size() != points || values.size() != 6 * points || law.size() != points) return false;
   for (std::size_t i = 0; i < points; ++i) {
     const double* v = &values[6 * i];
-    if (law[i] < 0 || static_cast<std::size_t>(law[i]) >= laws) throw damaged;
-    bonds.push_back({.facet = facet[i],
-                     .law = law[i],
-                     .weight1 = v[0],
-                     .weight2 = v[1],
-                     .state = {v[2], v[3]},
-                     .remaining = v[4],
-                     .spent = v[5],
-                     .opening = 0,
-                     .separation = 0});
+    if (law[i] < 0 || static_cast<std::size_t>(law[i]) >= laws || facet[i] < -1 || facet[i] >= facets) return false;
+    bonds[i] = {.facet = facet[i],
+                .law = law[i],
+                .weight1 = v[0],
+                .weight2 = v[1],
+                .state = {v[2], v[3]},
+                .remaining = v[4],
+                .spent = v[5],
+                .opening = 0,
+                .separation = 0};
   }
-  return bonds;
+  return true;
+}
+
+/// Whether a bond has formed by the checkpoint.
+bool has_bonds(const schema::FileReader& file) {
+  if (!file.has(check::bond_facet)) return false;
+  const auto facet = file.read(check::bond_facet);
+  const auto values = file.read(check::bond_values);
+  for (std::size_t i = 0; i < facet.size() && 6 * i + 5 < values.size(); ++i)
+    if (facet[i] >= 0 || values[6 * i + 5] > 0) return true;
+  return false;
 }
 
 } // namespace
@@ -311,7 +317,7 @@ void read_checkpoint(const std::string& path, Simulation& simulation, RunRecord&
   const auto damaged = [&path] {
     return InputError(fmt::format("{}: the checkpoint is damaged: its numbers do not match its checksum", path));
   };
-  const bool bonded = file.has(check::bond_facet);
+  const bool bonded = has_bonds(file);
 
   Model& model = simulation.model();
   if (file.read_scalar(check::packing_hash) != hash_text(model.mesh_hash))
@@ -451,8 +457,8 @@ void read_checkpoint(const std::string& path, Simulation& simulation, RunRecord&
     if (bonded) {
       const BondLaw coming = contact.bond_laws.back();
       contact.bond_laws = bond_laws_before(file, *before.bond);
-      contact.bond = bonds_before(file, points, contact.bond_laws.size(), damaged());
-      if (contact.bond_laws.empty()) throw damaged();
+      if (contact.bond_laws.empty() || !take_bonds(file, model.facets(), contact.bond_laws.size(), contact.bond))
+        throw damaged();
       if (contact.bond_laws.back() != coming) contact.bond_laws.push_back(coming);
     }
   }

@@ -85,8 +85,8 @@ void write_bonds(schema::FileWriter& file, const std::string& name, const Simula
 
   const auto nodes = static_cast<std::size_t>(model.nodes());
   std::vector<double> sum(nodes, 0.0), count(nodes, 0.0);
-  std::vector<std::int32_t> node, grain;
-  std::vector<float> damage, separation, fracture_energy;
+  std::vector<std::int32_t> node, grain, law;
+  std::vector<float> damage, separation;
   std::vector<double> area;
   const ContactCandidates& candidates = contact.candidates;
   for (std::size_t p = 0; p < candidates.pair_first.size(); ++p)
@@ -102,8 +102,7 @@ void write_bonds(schema::FileWriter& file, const std::string& name, const Simula
       grain.push_back(candidates.pair_second[p]);
       damage.push_back(static_cast<float>(d));
       area.push_back(model.reference_area[n]);
-      fracture_energy.push_back(
-          static_cast<float>(contact.bond_laws[static_cast<std::size_t>(bond.law)].fracture_energy));
+      law.push_back(bond.law);
       const double sliding = std::sqrt(std::max(bond.separation * bond.separation - bond.opening * bond.opening, 0.0));
       separation.insert(separation.end(), {static_cast<float>(bond.opening), static_cast<float>(sliding)});
     }
@@ -116,7 +115,10 @@ void write_bonds(schema::FileWriter& file, const std::string& name, const Simula
   write(run::snapshots_bond_damage, damage, node.size());
   write(run::snapshots_bond_area, area, node.size());
   write(run::snapshots_bond_separation, separation, node.size());
-  if (contact.bond_laws.size() > 1) write(run::snapshots_bond_fracture_energy, fracture_energy, node.size());
+  if (contact.bond_laws.size() > 1) {
+    write(run::snapshots_bond_law, law, node.size());
+    write(run::snapshots_bond_laws, flatten(contact.bond_laws), contact.bond_laws.size());
+  }
 }
 
 template <class T, int R>
@@ -217,7 +219,8 @@ void write_run_file(const std::string& path, const Model& model, const std::vect
     copy(file, from, run::snapshots_bond_damage, source, target);
     copy(file, from, run::snapshots_bond_area, source, target);
     copy(file, from, run::snapshots_bond_separation, source, target);
-    copy(file, from, run::snapshots_bond_fracture_energy, source, target);
+    copy(file, from, run::snapshots_bond_law, source, target);
+    copy(file, from, run::snapshots_bond_laws, source, target);
   }
 
   file.write_scalar(run::provenance_version, std::string(version()));

@@ -34,7 +34,14 @@ done
     printf '\n## %s\n\n| statement | %s | here | verdict |\n|---|---|---|---|\n' "$(basename "$folder")" "$reference"
     awk -v format=markdown -f studies/common/fields.awk -f studies/common/report.awk "$folder/verdict.json"
   done
-  cp "out/$mesh/times.csv" "out/$mesh/plan.csv" "$kept/"
+  # Times of the figures at hand take the place of those kept before; of the plan, what is not this machine's.
+  kept_times=$kept/times.csv
+  [ -e "$kept_times" ] || head -n 1 "out/$mesh/times.csv" >"$kept_times"
+  awk -F, 'FNR == 1 { if (NR == 1) header = $0; next } { row[$1] = $0 }
+    END { print header; for (i = 3; i <= 26; ++i) { f = sprintf("fig%02d", i); if (f in row) print row[f] } }' \
+    "$kept_times" "out/$mesh/times.csv" >"$kept_times.partial"
+  mv "$kept_times.partial" "$kept_times"
+  [ ! -e "out/$mesh/plan.csv" ] || cut -d, -f1-3 "out/$mesh/plan.csv" >"$kept/plan.csv"
   printf '\n## What the runs took\n\nA run that several studies use counts for the first of them.\n\n'
   echo '| study | runs | counted before | tet-steps | wall time of the others, s | times threads, s |'
   echo '|---|---|---|---|---|---|'

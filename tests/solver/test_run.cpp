@@ -511,9 +511,14 @@ std::string further_grips(const std::string& displacement, double speed) {
   return text;
 }
 
-std::vector<float> fracture_energies(const std::string& path) {
+/// Of the law by which each bond of the last snapshot formed, N/mm.
+std::vector<double> fracture_energies(const std::string& path) {
   const schema::FileReader file(path, schema::FileKind::run);
-  return file.read(schema::run::snapshots_bond_fracture_energy, file.snapshots().back());
+  const auto laws = file.read(schema::run::snapshots_bond_laws, file.snapshots().back());
+  std::vector<double> energies;
+  for (const std::int32_t law : file.read(schema::run::snapshots_bond_law, file.snapshots().back()))
+    energies.push_back(laws.at(4 * static_cast<std::size_t>(law) + 2));
+  return energies;
 }
 
 } // namespace
@@ -531,7 +536,7 @@ TEST_CASE("bonds keep the law by which they formed, and those that form in a bra
   const double spent = torn.read(schema::run::history_damage_dissipation).back();
   REQUIRE(spent > 0.1 * 0.1 * area); // damaged,
   REQUIRE(spent < 0.9 * 0.1 * area); // and not broken
-  CHECK_FALSE(torn.has(schema::run::snapshots_bond_fracture_energy, torn.snapshots().back()));
+  CHECK_FALSE(torn.has(schema::run::snapshots_bond_law, torn.snapshots().back()));
   const std::string from = fmt::format("--from {} ", folder / "torn.tearing.checkpoint.h5");
 
   // Torn apart with another law of bonds to come: nothing else happens than with their own.
@@ -545,12 +550,12 @@ TEST_CASE("bonds keep the law by which they formed, and those that form in a bra
   INFO(apart.messages);
   REQUIRE(apart.exit_code == 0);
   CHECK_THAT(apart.messages,
-             Catch::Contains("34 bonds formed earlier keep their fracture energy of 0.1 N/mm; those to come "
-                             "have 0.05 N/mm"));
+             Catch::Contains("34 bonds formed earlier keep their law (25 and 18 MPa, 0.1 N/mm, softening exponential); "
+                             "those to come have 20 and 18 MPa, 0.05 N/mm, softening energy"));
   CHECK(results(folder / "same.h5") == results(folder / "other.h5"));
   CHECK(schema::FileReader(folder / "other.h5").read(schema::run::history_damage_dissipation).back() ==
         Approx(0.1 * area).epsilon(1e-9));
-  for (const float energy : fracture_energies(folder / "other.h5")) CHECK(energy == 0.1F);
+  for (const double energy : fracture_energies(folder / "other.h5")) CHECK(energy == 0.1);
 
   // Pressed together and torn apart again, in one go and with stops: the new bonds take the new energy.
   write_text(folder / "again.toml", further_grips("0.08 -0.09 0.06", 4000));
@@ -559,7 +564,7 @@ TEST_CASE("bonds keep the law by which they formed, and those that form in a bra
   REQUIRE(whole.exit_code == 0);
   CHECK(schema::FileReader(folder / "again.h5").read(schema::run::history_damage_dissipation).back() ==
         Approx((0.1 + 0.06) * area).epsilon(1e-9));
-  for (const float energy : fracture_energies(folder / "again.h5")) CHECK(energy == 0.06F);
+  for (const double energy : fracture_energies(folder / "again.h5")) CHECK(energy == 0.06);
   run_in_parts(fmt::format("run {} -o {} {}", folder / "again.toml", folder / "parts.h5", again), folder / "parts.h5",
                whole.seconds);
   CHECK(results(folder / "again.h5") == results(folder / "parts.h5"));
@@ -576,7 +581,7 @@ TEST_CASE("bonds keep the law by which they formed, and those that form in a bra
 
 TEST_CASE("a compaction that goes on with another fracture energy has bonds of both, of a branch's branch of three") {
   const Folder folder;
-  prepare(folder, 3, replaced(loading_text, "[0.5, 0.61]", "[0.55, 0.59]"));
+  prepare(folder, 3, replaced(loading_text, "[0.5, 0.61]", "[0.405, 0.55, 0.59]"));
   REQUIRE(mpfem_command(fmt::format("run {} -o {} --quiet", folder / "scenario.toml", folder / "run.h5")).exit_code ==
           0);
   const auto branch = [&](const std::string& name, const std::string& from, const std::string& set) {
@@ -585,13 +590,32 @@ TEST_CASE("a compaction that goes on with another fracture energy has bonds of b
   };
   const auto kinds = [&](const std::string& name) {
     const auto energies = fracture_energies(folder / (name + ".h5"));
-    return std::set<float>(energies.begin(), energies.end());
+    return std::set<double>(energies.begin(), energies.end());
   };
-  REQUIRE(branch("two", "run.D0.550.checkpoint.h5", "--set bond.fracture_energy=0.1").exit_code == 0);
-  CHECK(kinds("two") == std::set<float>{0.05F, 0.1F});
+  const Outcome two = branch("two", "run.D0.550.checkpoint.h5", "--set bond.fracture_energy=0.1");
+  REQUIRE(two.exit_code == 0);
+  CHECK(kinds("two") == std::set<double>{0.05, 0.1});
+  run_in_parts(fmt::format("run {} -o {} --quiet --from {} --set bond.fracture_energy=0.1", folder / "scenario.toml",
+                           folder / "parts.h5", folder / "run.D0.550.checkpoint.h5"),
+               folder / "parts.h5", two.seconds);
+  CHECK(results(folder / "two.h5") == results(folder / "parts.h5"));
+  CHECK(fracture_energies(folder / "two.h5") == fracture_energies(folder / "parts.h5"));
   REQUIRE(branch("three", "two.D0.590.checkpoint.h5", "--set bond.fracture_energy=0.2").exit_code == 0);
-  CHECK(kinds("three") == std::set<float>{0.05F, 0.1F, 0.2F});
-  CHECK(branch("steel", "run.D0.550.checkpoint.h5", "--set material.youngs_modulus=4000").exit_code == 2);
+  CHECK(kinds("three") == std::set<double>{0.05, 0.1, 0.2});
+  const Outcome steel = branch("steel", "run.D0.550.checkpoint.h5", "--set material.youngs_modulus=4000");
+  CHECK(steel.exit_code == 2);
+  CHECK_THAT(steel.messages, Catch::Contains("[material]"));
+
+  // Where no bond has formed yet nothing of an earlier law is left, and the penalty is free.
+  const auto plan = [&](const std::string& checkpoint) {
+    return mpfem_command(
+        fmt::format("check {} --from {} --set bond.fracture_energy=0.2 --set contact.stiffness_factor=12",
+                    folder / "scenario.toml", folder / checkpoint));
+  };
+  const Outcome loose = plan("run.D0.405.checkpoint.h5");
+  CHECK(loose.exit_code == 0);
+  CHECK_THAT(loose.output, !Catch::Contains("formed earlier"));
+  CHECK(plan("run.D0.550.checkpoint.h5").exit_code == 2);
 }
 
 TEST_CASE("a branch's plan begins at its checkpoint, and is refused as its run would be") {
@@ -611,9 +635,13 @@ TEST_CASE("a branch's plan begins at its checkpoint, and is refused as its run w
   };
   const Outcome whole = mpfem_command(fmt::format("check {}", folder / "further.toml"));
   CHECK(steps(further.output) < 0.2 * steps(whole.output));
-  CHECK(mpfem_command(fmt::format("check {}{}", folder / "scenario.toml", from)).exit_code == 2); // is at 0.62 already
-  CHECK(mpfem_command(fmt::format("check {}{} --set material.density=2e-9", folder / "further.toml", from)).exit_code ==
-        2);
+  const Outcome there = mpfem_command(fmt::format("check {}{}", folder / "scenario.toml", from));
+  CHECK(there.exit_code == 2);
+  CHECK_THAT(there.messages, Catch::Contains("relative_density"));
+  const Outcome steel =
+      mpfem_command(fmt::format("check {}{} --set material.density=2e-9", folder / "further.toml", from));
+  CHECK(steel.exit_code == 2);
+  CHECK_THAT(steel.messages, Catch::Contains("[material]"));
 }
 
 TEST_CASE("grains of another material are named by numbers that the packing has, each once") {
