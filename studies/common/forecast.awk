@@ -3,7 +3,7 @@
 # A study's tet-steps are those that it took with the reference mesh, times the ratio of tets times steps that `mpfem check` finds
 # for the same compaction with both meshes: elements of half the size are eight times as many and take steps half as long, or
 # shorter where slivers are; but fig04 and fig05 have meshes of their own. What a tet-step costs is measured on this machine in the
-# loose packing. Dense packings with bonds take half as much again: fig17 to fig22 took 54 ns with 329 grains where the plan
+# loose packing. Dense packings with bonds take half as much again: triaxial tests of 329 grains took 54 ns in quiet moments where the plan
 # had 35.5. They take 300 B a tet, where the plan has 143 (docs/performance.md).
 BEGIN { contact = 1.5; memory_of_contact = 2.1 }
 function duration(s) {
