@@ -24,7 +24,7 @@ file == 2 { ratio = size / (value("tets") * value("steps")); next }
   own_mesh = study == "fig04" || study == "fig05"
   steps = (own_mesh ? 1 : ratio) * value("tet_steps")
   if (!headed++) {
-    printf "MESH=%s: %d tets, some %.2g GB a run; %.0f ns a tet-step on %d threads here\n\n", mesh, tets, memory_of_contact * memory / 1000, cost, threads
+    printf "MESH=%s: %d tets, some %.2g GB a run; %.0f ns a tet-step on %d %s here\n\n", mesh, tets, memory_of_contact * memory / 1000, cost, threads, (threads == 1 ? "core" : "threads")
     printf "%-8s %6s %12s %10s\n", "study", "runs", "tet-steps", "here"
   }
   printf "%-8s %6d %12.3g %10s\n", study, value("runs"), steps, (steps > 0 ? duration(steps * cost * 1e-9) : "-")
@@ -37,6 +37,7 @@ END {
   if (!headed || !(ratio > 0)) { print "forecast.awk: the kept results of MESH=" reference " have no plan or no times" > "/dev/stderr"; exit 1 }
   printf "%-8s %6s %12.3g %10s\n\n", "all", "", all, duration(all * cost * 1e-9)
   printf "Scaled from what the studies took with MESH=%s; a run that several use counts for the first of them.\n", reference
+  if (threads == 1) print "make -jN THREADS=1 on N cores takes an N-th, since N runs go at once."
   for (i = 4; i <= 26; ++i) if (i != 6 && i != 7 && !(sprintf("fig%02d", i) in known)) unknown = unknown " " sprintf("fig%02d", i)
   if (unknown) print "Not known:" unknown "."
   if (incomplete) print "Known in part:" incomplete "."
