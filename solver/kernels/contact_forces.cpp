@@ -379,14 +379,6 @@ BondLaw law_of_bonds(const BondParameters& parameters) {
           .normal_only = parameters.normal_only};
 }
 
-std::vector<double> flatten(std::span<const BondLaw> laws) {
-  std::vector<double> numbers;
-  for (const BondLaw& law : laws)
-    numbers.insert(numbers.end(), {law.tensile_strength, law.shear_strength, law.fracture_energy,
-                                   law.softening == SofteningLaw::energy ? 1.0 : 0.0});
-  return numbers;
-}
-
 ContactSums contact_forces(Model& model, Contact& contact, int grain) {
   return contact.bonding() ? forces_of_points<true>(model, contact, grain)
                            : forces_of_points<false>(model, contact, grain);

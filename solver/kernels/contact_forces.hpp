@@ -95,9 +95,6 @@ void raise_to_expected_rate(const Model& model, const Contact& contact, int grai
 /// The law of bonds to form, its stiffness unset.
 BondLaw law_of_bonds(const BondParameters& parameters);
 
-/// Laws as files hold them, four numbers a law: strengths (MPa), fracture energy (N/mm), softening (0 exponential, 1 energy).
-std::vector<double> flatten(std::span<const BondLaw> laws);
-
 /// Law by which a bond formed, at a point with this penalty stiffness (MPa/mm, of both passes together).
 inline BondLaw bond_law(const Contact& contact, const PointBond& bond, double stiffness) {
   BondLaw law = contact.bond_laws[static_cast<std::size_t>(bond.law)];

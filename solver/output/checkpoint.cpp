@@ -1,5 +1,6 @@
 #include "solver/output/checkpoint.hpp"
 
+#include <algorithm>
 #include <bit>
 #include <cstring>
 
@@ -11,6 +12,7 @@
 #include "common/version.hpp"
 #include "results-schema/descriptors.hpp"
 #include "results-schema/file.hpp"
+#include "solver/output/bond_laws.hpp"
 #include "solver/output/history.hpp"
 
 namespace mpfem {
@@ -264,16 +266,7 @@ int smooth_grains_before(const schema::FileReader& file, const Scenario& before,
 /// Laws by which the bonds in a checkpoint formed. In files of before they were kept it was the scenario's for all.
 std::vector<BondLaw> bond_laws_before(const schema::FileReader& file, const BondParameters& bond) {
   if (!file.has(check::bond_laws)) return {law_of_bonds(bond)};
-  std::vector<BondLaw> laws;
-  const auto values = file.read(check::bond_laws);
-  for (std::size_t i = 0; i + 4 <= values.size(); i += 4)
-    laws.push_back({.stiffness = 0,
-                    .tensile_strength = values[i],
-                    .shear_strength = values[i + 1],
-                    .fracture_energy = values[i + 2],
-                    .softening = values[i + 3] != 0 ? SofteningLaw::energy : SofteningLaw::exponential,
-                    .normal_only = bond.normal_only});
-  return laws;
+  return unflatten_bond_laws(file.read(check::bond_laws), bond.normal_only);
 }
 
 /// Takes the bonds of a checkpoint into `bonds` [points], whose laws are so many. False where the file is damaged.
@@ -303,9 +296,10 @@ bool take_bonds(const schema::FileReader& file, std::int32_t facets, std::size_t
 bool has_bonds(const schema::FileReader& file) {
   if (!file.has(check::bond_facet)) return false;
   const auto facet = file.read(check::bond_facet);
-  const auto values = file.read(check::bond_values);
-  for (std::size_t i = 0; i < facet.size() && 6 * i + 5 < values.size(); ++i)
-    if (facet[i] >= 0 || values[6 * i + 5] > 0) return true;
+  if (std::any_of(facet.begin(), facet.end(), [](std::int32_t f) { return f >= 0; })) return true;
+  const auto values = file.read(check::bond_values); // broken and not formed again: what they spent is left
+  for (std::size_t i = 5; i < values.size(); i += 6)
+    if (values[i] > 0) return true;
   return false;
 }
 

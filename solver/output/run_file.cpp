@@ -8,6 +8,7 @@
 #include "common/physical_host.hpp"
 #include "common/version.hpp"
 #include "results-schema/descriptors.hpp"
+#include "solver/output/bond_laws.hpp"
 
 namespace mpfem {
 

@@ -593,8 +593,8 @@ void check_scenario(const Scenario& scenario, int threads, const std::optional<s
   fmt::print("relative density at the start  {:.4f}\n", simulation.relative_density());
   fmt::print("memory         {:.1f} MB of model data ({:.0f} B a tet)\n", 1e-6 * static_cast<double>(model.memory()),
              static_cast<double>(model.memory()) / model.tets());
-  fmt::print("stable step    {:.4g} s, set by {}\n", simulation.state().stable_step,
-             simulation.state().controlled_by_contact ? "contact" : "elements");
+  fmt::print("stable step    {:.4g} s, set by {}\n", state.stable_step,
+             state.controlled_by_contact ? "contact" : "elements");
 
   if (const std::string text = mass_scaling_text(scenario, model); !text.empty())
     fmt::print("masses         {}\n", text);
