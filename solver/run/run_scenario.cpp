@@ -12,6 +12,7 @@
 #include "common/hash.hpp"
 #include "common/one_line.hpp"
 #include "common/progress.hpp"
+#include "common/run_quality.hpp"
 #include "solver/model/bond_resolution.hpp"
 #include "solver/output/checkpoint.hpp"
 #include "solver/output/history.hpp"
@@ -19,6 +20,7 @@
 #include "solver/output/run_lock.hpp"
 #include "solver/run/checkpoints.hpp"
 #include "solver/run/energy_check.hpp"
+#include "solver/run/history_pace.hpp"
 #include "solver/run/interrupt.hpp"
 #include "solver/run/programme.hpp"
 #include "solver/run/simulation.hpp"
@@ -147,6 +149,7 @@ public:
     try {
       loop();
     } catch (const SimulationError& error) {
+      const std::string good = last_checkpoint_text();
       // The failed state is worth looking at: a snapshot of it, and everything recorded so far.
       try {
         save_snapshot();
@@ -154,7 +157,7 @@ public:
       } catch (const StorageError& storage) {
         throw SimulationError(fmt::format("{}; and its state could not be saved: {}", error.what(), storage.what()));
       }
-      throw SimulationError(fmt::format("{}; history and last state are in {}", error.what(), options_.output));
+      throw SimulationError(fmt::format("{}; history and last state are in {}{}", error.what(), options_.output, good));
     }
     check_promises();
     write_result("complete");
@@ -162,10 +165,20 @@ public:
     progress_.finish(fmt::format("{} steps, D_r = {:.4f}, p = {:.4g} MPa, {}", simulation_.state().step,
                                  simulation_.relative_density(), simulation_.state().mean_stress, options_.output));
     if (!options_.quiet) print_profile();
+    if (!options_.quiet) print_quality();
     return true;
   }
 
 private:
+  /// "; the last checkpoint before is FILE", or that there is none.
+  std::string last_checkpoint_text() const {
+    RunIdentity itself = identity_;
+    itself.from = record_.from;
+    const auto checkpoints = resumable_checkpoints(scenario_, itself);
+    return checkpoints.empty() ? "; there is no checkpoint before"
+                               : fmt::format("; the last checkpoint before is {}", checkpoints.front());
+  }
+
   void begin() {
     const std::string from = options_.from ? checkpoint_checksum(*options_.from) : "packing";
     identity_ = {options_.output, scenario_.text, hash_text(simulation_.model().mesh_hash), from};
@@ -304,11 +317,20 @@ private:
         report_stage_end();
         if (state.stage + 1 == static_cast<std::int64_t>(scenario_.stages.size())) return;
         ++state.stage;
-        simulation_.begin_stage();
+        begin_stage();
       }
       simulation_.advance();
       save_checkpoints();
       report_progress();
+    }
+  }
+
+  /// What a stage needs may have been done away with by the one before: that is a failure of the run, whose state is saved.
+  void begin_stage() {
+    try {
+      simulation_.begin_stage();
+    } catch (const InputError& error) {
+      throw SimulationError(error.what());
     }
   }
 
@@ -347,11 +369,11 @@ private:
                        100 * std::abs(taken) / elastic);
   }
 
-  double next_row_time() const {
-    return simulation_.stage_duration() * static_cast<double>(simulation_.state().rows_in_stage) /
-           scenario_.output.history_rows;
+  bool row_due() const {
+    const RunState& state = simulation_.state();
+    return state.stage_time >=
+           next_row_time(simulation_.stage_duration(), state.rows_in_stage, scenario_.output.history_rows);
   }
-  bool row_due() const { return simulation_.state().stage_time >= next_row_time(); }
 
   void record_row() {
     const auto start = Profile::Clock::now();
@@ -490,9 +512,24 @@ private:
   void report_progress() {
     const RunState& state = simulation_.state();
     if (state.step % 16 != 0) return;
+    warn_of_small_step();
     progress_.update(fraction_done(),
                      fmt::format("step {}  D_r {:.4f}  p {:.4g} MPa  {:.0f} ns/tet-step", state.step,
                                  simulation_.relative_density(), state.mean_stress, nanoseconds_per_tet_step()));
+  }
+
+  /// Once: a run that crawls writes no rows that would tell.
+  void warn_of_small_step() {
+    const double step = simulation_.state().stable_step;
+    if (first_stable_step_ == 0) first_stable_step_ = step;
+    if (step >= doubtful_step_share * first_stable_step_ || warned_of_step_) return;
+    warned_of_step_ = true;
+    if (!options_.quiet)
+      fmt::print(
+          stderr,
+          "mpfem: warning: the stable step fell from {:.3g} s to {:.3g} s: elements are nearly flat, and the run "
+          "takes ever longer\n",
+          first_stable_step_, step);
   }
 
   /// Fixed-width report lines, twenty a stage.
@@ -511,6 +548,16 @@ private:
                row.kinetic_energy < 1e3 * internal ? fmt::format("{:.2e}", row.kinetic_energy / internal) : "-",
                row.external_work > 0 ? row.energy_residual / row.external_work : 0.0, row.max_penetration,
                nanoseconds_per_tet_step());
+  }
+
+  /// What makes the results doubtful, last of all, where it is seen.
+  void print_quality() const {
+    std::vector<QualityRow> rows;
+    for (const HistoryRow& row : record_.history)
+      rows.push_back({row.external_work, row.energy_residual, row.kinetic_energy,
+                      row.elastic_energy + row.plastic_dissipation, row.mean_stress, row.max_penetration,
+                      row.relative_density_current, row.time_step});
+    for (const std::string& warning : quality_warnings(rows)) fmt::print(stderr, "mpfem: warning: {}\n", warning);
   }
 
   void print_profile() const {
@@ -546,6 +593,8 @@ private:
   std::int64_t warned_of_stage_ = -1;
   std::int64_t first_step_ = 0; ///< steps that the checkpoint of --from had done
   int reported_lines_ = 0;
+  double first_stable_step_ = 0; ///< s
+  bool warned_of_step_ = false;
   RunIdentity identity_;
   bool already_complete_ = false, begins_anew_ = false, warned_of_energy_ = false;
   bool taken_up_ = false;        ///< a checkpoint has replaced the state of the simulation
