@@ -14,7 +14,7 @@ trap 'rm -rf "$work"' EXIT
 cp "$here"/*.toml "$here"/*.csv "$work"
 cd "$work"
 "$bin/pack-gen" spheres packing.toml -o spheres.h5 --quiet
-"$bin/pack-gen" mesh spheres.h5 --size 0.09 -o packing.h5 --quiet
+"$bin/pack-gen" mesh spheres.h5 --size 0.05 -o packing.h5 --quiet
 
 now() { date +%s%N; }
 killed=0
@@ -74,7 +74,7 @@ for name in whole killed; do
   cp packing.toml "study-$name/pack-gen/examples/mcc_ph102_smoke.toml"
   cp compactions.csv branches.csv "study-$name/studies/branches"/
 done
-study=(make -s -f Makefile.studies -j2 MESH=smoke size_smoke=0.09 sizes_smoke=0.09 "BIN=$bin" THREADS=1 branches)
+study=(make -s -f Makefile.studies -j2 MESH=smoke size_smoke=0.05 sizes_smoke=0.05 "BIN=$bin" THREADS=1 branches)
 begun=$(now)
 (cd study-whole && "${study[@]}")
 time=$(($(now) - begun))

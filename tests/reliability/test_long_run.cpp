@@ -30,19 +30,19 @@ TEST_CASE("a million steps of two bonded grains neither use more memory nor let 
     simulation.advance();
     return row;
   };
-  steps(10'000);
-  const auto memory = mallinfo2().uordblks + mallinfo2().hblkhd;
-  double energy = 0, early = 0, late = 0;
-  for (int part = 0; part < 99; ++part) {
+  const auto memory_used = [] { return static_cast<double>(mallinfo2().uordblks + mallinfo2().hblkhd); };
+  double energy = 0, drift = 0, first_residual = 0, first_memory = 0, memory = 0;
+  for (int part = 0; part < 100; ++part) {
     const HistoryRow row = steps(10'000);
     energy = std::max({energy, row.kinetic_energy, row.elastic_energy + row.contact_energy + row.bond_energy});
-    double& worst = part < 10 ? early : late;
-    worst = std::max(worst, std::abs(row.energy_residual));
+    if (part == 0) first_residual = row.energy_residual;
+    drift = std::max(drift, std::abs(row.energy_residual - first_residual));
+    // Lists of candidates breathe by some entries.
+    (part < 10 ? first_memory : memory) = std::max(part < 10 ? first_memory : memory, memory_used());
   }
-  CAPTURE(energy, early / energy, late / energy, simulation.state().step, simulation.state().time);
+  CAPTURE(energy, first_residual / energy, drift / energy, first_memory, memory, simulation.state().step);
   REQUIRE(simulation.state().step >= 1'000'000);
-  CHECK(mallinfo2().uordblks + mallinfo2().hblkhd <= memory + 4096);
-  CHECK(late < 0.01 * energy);
-  CHECK(late < 2 * early + 1e-6 * energy);
-  WARN("residual over energy: " << early / energy << " in the first tenth, " << late / energy << " after");
+  CHECK(memory <= first_memory + 1024); // less than a byte in a thousand steps
+  CHECK(drift < 0.01 * energy);
+  WARN("drift of the ledger over energy " << drift / energy << ", memory " << first_memory << " B, then " << memory);
 }
