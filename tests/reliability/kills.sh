@@ -73,6 +73,8 @@ for name in whole killed; do
   cp -r "$repository/pack-gen/examples" "study-$name/pack-gen"/
   cp packing.toml "study-$name/pack-gen/examples/mcc_ph102_smoke.toml"
   cp compactions.csv branches.csv "study-$name/studies/branches"/
+  sed -i 's/^relative_density = .*/relative_density = 0.52/; s/^wall_speed = .*/wall_speed = 20000/' \
+    "study-$name/studies/branches/compaction.toml"
 done
 study=(make -s -f Makefile.studies -j2 MESH=smoke size_smoke=0.05 sizes_smoke=0.05 "BIN=$bin" THREADS=1 branches)
 begun=$(now)
