@@ -1,8 +1,12 @@
 #include "common/errors.hpp"
 
+#include <cerrno>
+#include <csignal>
+#include <cstdio>
 #include <exception>
 #include <filesystem>
 #include <new>
+#include <system_error>
 
 #include <fmt/format.h>
 
@@ -13,15 +17,36 @@ namespace mpfem {
 namespace {
 
 int report(const char* program, std::string_view message, ExitCode code) {
-  fmt::print(stderr, "{}: error: {}\n", program, one_line(message));
+  const std::string line = fmt::format("{}: error: {}\n", program, one_line(message));
+  std::fputs(line.c_str(), stderr); // nobody may be there to read it
   return static_cast<int>(code);
+}
+
+/// A write beyond the file size limit, or to a pipe that nobody reads, is to fail instead of ending the program.
+void let_writes_fail() {
+  std::signal(SIGXFSZ, SIG_IGN);
+  std::signal(SIGPIPE, SIG_IGN);
+}
+
+bool is_of_storage(const std::error_code& code) {
+  const int number = code.value();
+  return code.category() == std::generic_category() &&
+         (number == EPIPE || number == EFBIG || number == ENOSPC || number == EIO || number == EDQUOT);
+}
+
+/// The code of a body that has ended, or storage_failed where its last output could not be written.
+int after_output(const char* program, int code) {
+  if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0) return code;
+  std::clearerr(stdout); // it is reported once
+  return code != 0 ? code : report(program, "standard output could not be written", ExitCode::storage_failed);
 }
 
 } // namespace
 
 int run_program(const char* program, int (*body)(int argc, char** argv), int argc, char** argv) {
+  let_writes_fail();
   try {
-    return body(argc, argv);
+    return after_output(program, body(argc, argv));
   } catch (const InputError& error) {
     return report(program, error.what(), ExitCode::bad_input);
   } catch (const StorageError& error) {
@@ -30,6 +55,10 @@ int run_program(const char* program, int (*body)(int argc, char** argv), int arg
     return report(program, error.what(), ExitCode::interrupted);
   } catch (const std::filesystem::filesystem_error& error) {
     return report(program, error.what(), ExitCode::storage_failed);
+  } catch (const std::system_error& error) {
+    const bool storage = is_of_storage(error.code());
+    return report(program, storage ? fmt::format("an output could not be written: {}", error.what()) : error.what(),
+                  storage ? ExitCode::storage_failed : ExitCode::simulation_failed);
   } catch (const std::bad_alloc&) {
     return report(program, "out of memory", ExitCode::simulation_failed);
   } catch (const std::exception& error) {

@@ -8,6 +8,7 @@
 
 #include "common/available_cores.hpp"
 #include "common/errors.hpp"
+#include "common/one_line.hpp"
 #include "common/progress.hpp"
 #include "common/table_reader.hpp"
 #include "common/version.hpp"
@@ -128,8 +129,13 @@ void import(const Arguments& arguments) {
 void quality(const Arguments& arguments) {
   const SphereFile file = read_spheres(arguments.input);
   const MeshFromFile mesh = read_mesh(arguments.input);
-  fmt::print("{}", report_text(
-                       report_mesh(file.packing, mesh.mesh, mesh.nominal_size, arguments.material, arguments.threads)));
+  try {
+    fmt::print("{}", report_text(report_mesh(file.packing, mesh.mesh, mesh.nominal_size, arguments.material,
+                                             arguments.threads)));
+  } catch (const SimulationError& error) { // what would be a failure of the mesher is a mistake of the file here
+    throw InputError(fmt::format("{}: {}, allowed closed grains of tetrahedra with positive volume",
+                                 one_line(arguments.input), error.what()));
+  }
 }
 
 void add_material(CLI::App& command, StepMaterial& material) {

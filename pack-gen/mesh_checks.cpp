@@ -104,11 +104,12 @@ bool is_closed_sphere(const std::vector<Facet>& facet) {
 
 std::string ball_defect(const TetMesh& mesh) {
   std::vector<char> used(mesh.node.size(), 0);
-  for (const Tet& t : mesh.tet) {
+  for (std::size_t i = 0; i < mesh.tet.size(); ++i) {
+    const Tet& t = mesh.tet[i];
     const auto at = [&](std::size_t k) { return mesh.node[static_cast<std::size_t>(t[k])]; };
     for (const std::int32_t n : t) used[static_cast<std::size_t>(n)] = 1;
     if (!(tet_volume(at(0), at(1), at(2), at(3)) > 0))
-      return fmt::format("a tetrahedron without positive volume (nodes {} {} {} {})", t[0], t[1], t[2], t[3]);
+      return fmt::format("tetrahedron {} without positive volume (nodes {} {} {} {})", i, t[0], t[1], t[2], t[3]);
   }
   if (std::find(used.begin(), used.end(), 0) != used.end()) return "a node outside every tetrahedron";
   try {

@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "common/run_quality.hpp"
 #include "postproc/energy.hpp"
 
 namespace mpfem {
@@ -64,6 +65,12 @@ Summary summarise(const schema::FileReader& file) {
     calm = calm && kinetic <= 0.01 * internal;
     if (calm) s.kinetic_small_from_density = history["relative_density"][row];
   }
+  std::vector<QualityRow> quality;
+  for (std::size_t row = 0; row < rows; ++row)
+    quality.push_back({history["external_work"][row], history["energy_residual"][row], history["kinetic_energy"][row],
+                       internal_energy(history, row), stress[row], history["max_penetration"][row],
+                       history["relative_density_current"][row], history["time_step"][row]});
+  s.warnings = quality_warnings(quality);
   s.largest_residual = work > 0 ? residual / work : 0;
   s.kinetic_over_largest_internal = largest_internal > 0 ? largest_kinetic / largest_internal : 0;
   s.profile_name = file.read(run::provenance_profile_name);
@@ -102,6 +109,7 @@ nlohmann::ordered_json to_json(const Summary& s) {
     json["bonded_area_mm2"] = s.bonds->area;
     json["mean_damage"] = s.bonds->mean_damage;
   }
+  json["warnings"] = s.warnings;
   for (const auto& [name, energy] : s.energies) json["energies_mJ"][name] = energy;
   for (std::size_t i = 0; i < s.profile_name.size(); ++i)
     json["wall_time_share"][s.profile_name[i]] = s.profile_share[i];
@@ -114,6 +122,7 @@ std::string to_text(const Summary& s) {
     text += fmt::format("{:<38}{}\n", name, value);
   };
   line("status", s.status);
+  for (const std::string& warning : s.warnings) line("warning", warning);
   line("grains, tets, steps", fmt::format("{}  {}  {}", s.grains, s.tets, s.steps));
   line("wall time", fmt::format("{:.1f} s on {} threads, {:.1f} ns a tet and step", s.wall_time, s.threads,
                                 s.nanoseconds_per_tet_step));

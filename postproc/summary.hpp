@@ -13,6 +13,7 @@
 namespace mpfem {
 
 struct Summary {
+  std::vector<std::string> warnings; ///< what makes the results doubtful
   std::string status, version, host;
   std::int64_t tets = 0, grains = 0, steps = 0;
   int threads = 0;

@@ -15,6 +15,7 @@
 #include "solver/bench/bench.hpp"
 #include "solver/hand_over.hpp"
 #include "solver/run/bond_programme.hpp"
+#include "solver/run/interrupt.hpp"
 #include "solver/run/run_scenario.hpp"
 
 namespace {
@@ -192,6 +193,7 @@ int body(int argc, char** argv) {
 } // namespace
 
 int main(int argc, char** argv) {
+  if (argc > 1 && std::string_view(argv[1]) == "run") mpfem::catch_interrupts(); // before anything that takes time
 #ifdef __GLIBC__
   // Arrays go back to the system when they are freed. By default the C library keeps those of up to 32 MB once one such
   // has been freed: a tenth of the memory of a coarse packing.

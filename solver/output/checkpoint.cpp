@@ -476,6 +476,12 @@ void begin_branch(const std::string& path, Simulation& simulation, const std::st
   simulation.begin_branch();
 }
 
+void verify_checkpoint(const std::string& path) {
+  const schema::FileReader file(path, schema::FileKind::checkpoint);
+  if (file.read_scalar(check::checksum) != hash_text(checksum(file)))
+    throw InputError(fmt::format("{}: the checkpoint is damaged: its numbers do not match its checksum", path));
+}
+
 std::string checkpoint_checksum(const std::string& path) {
   return schema::FileReader(path, schema::FileKind::checkpoint).read_scalar(check::checksum);
 }

@@ -31,6 +31,9 @@ void read_checkpoint(const std::string& path, Simulation& simulation, RunRecord&
 /// that of bonds to come. Throws InputError as read_checkpoint, and where the scenario is one of other matter.
 void begin_branch(const std::string& path, Simulation& simulation, const std::string& scenario_text);
 
+/// Reads all arrays of a checkpoint. Throws InputError where they do not match its checksum or cannot be read.
+void verify_checkpoint(const std::string& path);
+
 /// What tells a checkpoint's state from others. Throws InputError where the file is no checkpoint.
 std::string checkpoint_checksum(const std::string& path);
 

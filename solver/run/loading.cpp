@@ -37,6 +37,10 @@ constexpr double slowest_path = 0.2;
 /// Strain and density are met when they are so near: walls arrive but for rounding.
 constexpr double arrived = 1e-9;
 constexpr std::int64_t steps_between_damages = 20; // all bonds are visited
+/// A stage may begin beyond its end by this part of it: the stage before has arrived there.
+constexpr double already_there = 0.01;
+/// Part of a held stress by which a hold may miss it at its end.
+constexpr double hold_tolerance = 0.1;
 
 double smooth_step(double s) {
   s = std::clamp(s, 0.0, 1.0);
@@ -208,7 +212,8 @@ void LoadingControl::begin(LoadingState& s, const Seen& seen, double damage) con
 
 void LoadingControl::update(LoadingState& s, const LoadingObservation& observation) const {
   const Seen seen = see(observation);
-  if (s.begun == 0) begin(s, seen, observation.damage_dissipation.value_or(0));
+  const bool begins = s.begun == 0;
+  if (begins) begin(s, seen, observation.damage_dissipation.value_or(0));
   // Damage is a small part and looked at now and then, plastic dissipation every time.
   s.damage_dissipation = observation.damage_dissipation.value_or(s.damage_dissipation);
   s.dissipation = seen.plastic_dissipation + s.damage_dissipation;
@@ -234,8 +239,44 @@ void LoadingControl::update(LoadingState& s, const LoadingObservation& observati
   watch_peak(s, seen);
   s.fraction_done = std::max(s.fraction_done, fraction_done(s, seen));
   const LoadingEnd end = ended(s, seen);
+  if (begins) refuse_end_behind(end, seen);
   s.ended_by = static_cast<double>(end);
   if (end == LoadingEnd::none) check_limits(s, seen);
+  if (end == LoadingEnd::duration && loading_.path == LoadingPath::held) refuse_missed_hold(s, seen);
+}
+
+/// A stage that begins beyond what is to end it would end at once, having done nothing.
+void LoadingControl::refuse_end_behind(LoadingEnd end, const Seen& seen) const {
+  const LoadingEnds& ends = loading_.ends;
+  const auto refuse = [&](const char* key, double target, double now, const char* unit) {
+    // What has been reached by the stage before, but for what its last steps add, may end the stage at once.
+    if (std::abs(now - target) <= already_there * std::max(std::abs(target), std::abs(now))) return;
+    throw SimulationError(fmt::format("stage '{}': key '{}': found {:g}{}, but it begins at {:.4g}{}, beyond that end",
+                                      name_, key, target, unit, now, unit));
+  };
+  if (end == LoadingEnd::axial_strain) refuse("axial_strain", *ends.axial_strain, seen.strain[2], "");
+  if (end == LoadingEnd::relative_density)
+    refuse("relative_density", *ends.relative_density, seen.relative_density, "");
+  if (end == LoadingEnd::axial_stress) refuse("axial_stress", *ends.axial_stress, seen.stress[2], " MPa");
+  if (end == LoadingEnd::mean_stress) refuse("mean_stress", *ends.mean_stress, seen.mean_stress, " MPa");
+  if (end == LoadingEnd::deviatoric_stress)
+    refuse("deviatoric_stress", *ends.deviatoric_stress, seen.deviatoric_stress, " MPa");
+}
+
+/// A hold is to arrive at its stress.
+void LoadingControl::refuse_missed_hold(const LoadingState& s, const Seen& seen) const {
+  // The mean over the last transit began at nothing.
+  const double weight = 1 - std::exp(-seen.time / transit_);
+  double missed = 0;
+  for (const double error : s.error)
+    if (std::abs(error) > std::abs(missed)) missed = error;
+  missed /= weight;
+  if (std::abs(missed) <= hold_tolerance * loading_.held_stress) return;
+  throw SimulationError(
+      fmt::format("stage '{}': a stress is {:.3g} MPa {} the {:g} MPa to be held at its end ({:.0f} %), allowed {:g} "
+                  "%: give it a longer duration or a larger servo_speed",
+                  name_, std::abs(missed), missed > 0 ? "below" : "above", loading_.held_stress,
+                  100 * std::abs(missed) / loading_.held_stress, 100 * hold_tolerance));
 }
 
 /// Part of the wall speed at a part `left` of a leg of stress: the last fifth is left ever more slowly.

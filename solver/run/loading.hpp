@@ -106,7 +106,8 @@ public:
   /// Whether an observation at this step number has to come with the dissipation by damage, for which all bonds are
   /// visited.
   bool needs_damage(const LoadingState& state, std::int64_t step) const;
-  /// New wall speeds from what is seen. Throws SimulationError where the end cannot be reached.
+  /// New wall speeds from what is seen. Throws SimulationError where the end cannot be reached or lies behind, and where a
+  /// hold ends far from its stress.
   void update(LoadingState& state, const LoadingObservation& seen) const;
   /// Moves the walls for one step (s).
   void move(Walls& walls, const LoadingState& state, double step) const;
@@ -132,6 +133,8 @@ private:
   void watch_peak(LoadingState& state, const Seen& seen) const;
   LoadingEnd ended(const LoadingState& state, const Seen& seen) const;
   void check_limits(const LoadingState& state, const Seen& seen) const;
+  void refuse_end_behind(LoadingEnd end, const Seen& seen) const;
+  void refuse_missed_hold(const LoadingState& state, const Seen& seen) const;
   double fraction_done(const LoadingState& state, const Seen& seen) const;
 
   std::string name_;

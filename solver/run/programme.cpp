@@ -5,8 +5,11 @@
 #include <limits>
 
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include "common/errors.hpp"
+#include "solver/run/history_pace.hpp"
+#include "solver/run/simulation.hpp"
 
 namespace mpfem {
 
@@ -58,6 +61,11 @@ StageMotion::StageMotion(const Stage& stage, const std::array<double, 3>& low, c
       throw InputError(fmt::format("stage '{}': key 'displacement': found {:g} mm, allowed > {:g} mm, the distance of "
                                    "the grips",
                                    stage.name, stage.grip->displacement, -length));
+    if (!(2 * stage.grip->depth < length))
+      throw InputError(
+          fmt::format("stage '{}': key 'grip_depth': found {:g} mm, allowed < {:g} mm, half the distance of "
+                      "the grips",
+                      stage.name, stage.grip->depth, 0.5 * length));
     ramp_ = stage.grip->ramp_fraction;
     const auto& s = stage.grip->sliding;
     const double way = std::hypot(stage.grip->displacement, std::hypot(s[0], s[1], s[2]));
@@ -147,6 +155,23 @@ std::string StageMotion::end_text() const {
   return {};
 }
 
+std::string unreachable_stress(const Stage& stage, double mean_stress) {
+  constexpr double already_there = 0.01; // of the target
+  const auto text = [&](const char* what, double target) {
+    return fmt::format(
+        "stage '{}': key 'mean_stress': found {:g} MPa, to be reached by {}, but {:.4g} MPa act when the "
+        "stage begins",
+        stage.name, target, what, mean_stress);
+  };
+  if (const auto& unloading = stage.isotropic_unloading;
+      unloading && mean_stress < (1 - already_there) * unloading->mean_stress)
+    return text("unloading", unloading->mean_stress);
+  if (const auto& loading = stage.loading;
+      loading && loading->path == LoadingPath::isotropic && mean_stress >= *loading->ends.mean_stress)
+    return text("compaction", *loading->ends.mean_stress);
+  return {};
+}
+
 std::vector<StageForecast> forecast(const Scenario& scenario, std::int64_t first_stage, std::array<double, 3> low,
                                     std::array<double, 3> high, const Model& model) {
   std::vector<StageForecast> forecasts;
@@ -179,10 +204,56 @@ std::vector<StageForecast> forecast(const Scenario& scenario, std::int64_t first
   return forecasts;
 }
 
+namespace {
+
+/// A step that is no step tells of units that cannot be meant.
+void check_stable_step(double step) {
+  constexpr double smallest = 1e-30; // s
+  if (!(step >= smallest && std::isfinite(step)))
+    throw InputError(
+        fmt::format("the stable step is {:.3g} s, allowed a finite number >= {:g} s: material.youngs_modulus "
+                    "(MPa), material.density (tonne/mm^3), contact.stiffness or the packing (mm) cannot be "
+                    "in these units",
+                    step, smallest));
+}
+
+/// A run that would not end within years is refused: a core makes some 1e9 steps of the smallest model a day.
+void check_steps(const Scenario& scenario, std::int64_t first_stage, const std::vector<StageForecast>& stages,
+                 double stable_step) {
+  constexpr double most = 1e10;
+  double steps = 0;
+  for (std::size_t i = 0; i < stages.size(); ++i) {
+    const double own = stages[i].duration / stable_step;
+    steps += own;
+    if (!(steps <= most))
+      throw InputError(fmt::format(
+          "stage '{}': takes {:.3g} steps of {:.3g} s ({:.3g} s), allowed at most {:g} steps in "
+          "all stages: raise its speed or shorten it",
+          scenario.stages[static_cast<std::size_t>(first_stage) + i].name, own, stable_step, stages[i].duration, most));
+  }
+}
+
+/// Rows of the history stay in memory until the run ends, and once more while they are written.
+void check_history(const Scenario& scenario, std::int64_t first_stage) {
+  constexpr double copies = 3, largest_part = 0.5; // of the machine's memory
+  const double stages = static_cast<double>(scenario.stages.size()) - static_cast<double>(first_stage);
+  const double rows = stages * most_rows(scenario.output.history_rows);
+  const double memory = static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGESIZE));
+  if (const double needed = copies * rows * static_cast<double>(sizeof(HistoryRow)); needed > largest_part * memory)
+    throw InputError(
+        fmt::format("key 'output.history_rows': found {}, up to {:.3g} rows in {:.0f} stages may need {:.3g} "
+                    "GB, allowed half of the machine's {:.3g} GB",
+                    scenario.output.history_rows, rows, stages, 1e-9 * needed, 1e-9 * memory));
+}
+
+} // namespace
+
 void check_programme(const Scenario& scenario, std::int64_t first_stage, std::array<double, 3> low,
                      std::array<double, 3> high, const Model& model, double stable_step) {
   constexpr double largest_travel = 0.05; // of h a step; a penetration of that size in one step is an impact
-  forecast(scenario, first_stage, low, high, model);
+  check_stable_step(stable_step);
+  check_steps(scenario, first_stage, forecast(scenario, first_stage, low, high, model), stable_step);
+  check_history(scenario, first_stage);
   const double smallest_size = *std::min_element(model.element_size.begin(), model.element_size.end());
   for (auto s = static_cast<std::size_t>(first_stage); s < scenario.stages.size(); ++s) {
     const Stage& stage = scenario.stages[s];

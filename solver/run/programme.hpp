@@ -51,6 +51,10 @@ private:
   double duration_ = 0, expected_duration_ = 0;
 };
 
+/// Why a stage that begins at a mean stress (MPa) cannot reach its own, in one line; empty where it can. An unloading may
+/// begin at its stress or a little below.
+std::string unreachable_stress(const Stage& stage, double mean_stress);
+
 /// What is expected of a stage beforehand.
 struct StageForecast {
   double duration = 0;          ///< s

@@ -2,9 +2,7 @@
 
 #include <algorithm>
 #include <chrono>
-#include <csignal>
 #include <cstdio>
-#include <ctime>
 #include <filesystem>
 #include <fstream>
 
@@ -14,66 +12,22 @@
 #include "common/hash.hpp"
 #include "common/one_line.hpp"
 #include "common/progress.hpp"
+#include "common/run_quality.hpp"
 #include "solver/model/bond_resolution.hpp"
 #include "solver/output/checkpoint.hpp"
 #include "solver/output/history.hpp"
 #include "solver/output/run_file.hpp"
 #include "solver/output/run_lock.hpp"
+#include "solver/run/checkpoints.hpp"
 #include "solver/run/energy_check.hpp"
+#include "solver/run/history_pace.hpp"
+#include "solver/run/interrupt.hpp"
 #include "solver/run/programme.hpp"
 #include "solver/run/simulation.hpp"
 
 namespace mpfem {
 
 namespace {
-
-/// Signals that follow each other within this time (s) are one request: batch systems send several at a time limit.
-constexpr std::time_t one_request = 5;
-
-volatile std::sig_atomic_t interrupt_requested = 0;
-volatile std::sig_atomic_t requested_at = 0; // s
-extern "C" void request_interrupt(int signal) {
-  timespec now{};
-  clock_gettime(CLOCK_MONOTONIC, &now);
-  if (interrupt_requested == 0) {
-    requested_at = static_cast<std::sig_atomic_t>(now.tv_sec);
-    interrupt_requested = 1;
-  } else if (now.tv_sec - requested_at > one_request) {
-    std::signal(signal, SIG_DFL);
-    std::raise(signal);
-  }
-}
-
-/// Catches SIGINT and SIGTERM while it lives; a signal some seconds after the first acts as usual.
-class InterruptGuard {
-public:
-  InterruptGuard() {
-    interrupt_requested = 0;
-    struct sigaction action {};
-    action.sa_handler = request_interrupt;
-    sigaction(SIGINT, &action, &old_int_);
-    sigaction(SIGTERM, &action, &old_term_);
-  }
-  ~InterruptGuard() {
-    if (interrupt_requested != 0) return; // the program ends; what comes late shall not change how
-    sigaction(SIGINT, &old_int_, nullptr);
-    sigaction(SIGTERM, &old_term_, nullptr);
-  }
-  InterruptGuard(const InterruptGuard&) = delete;
-  InterruptGuard& operator=(const InterruptGuard&) = delete;
-
-private:
-  struct sigaction old_int_ {
-  }, old_term_{};
-};
-
-std::string stem(const std::string& run_file) {
-  return run_file.ends_with(".h5") ? run_file.substr(0, run_file.size() - 3) : run_file;
-}
-
-std::string parts_folder(const std::string& run_file) {
-  return stem(run_file) + ".parts";
-}
 
 /// What mass scaling does; empty where there is none.
 std::string mass_scaling_text(const Scenario& scenario, const Model& model) {
@@ -148,16 +102,28 @@ double stiffness_of(const Model& model) {
   return stiffness;
 }
 
+/// Reads the packing and makes the model. Both may take a while, so that a request to stop is looked for in between.
+Model load_model(const Scenario& scenario, const RunOptions& options) {
+  const std::string checkpoint = checkpoint_path(options.output);
+  stop_before_first_step(checkpoint);
+  auto packing = read_packing(scenario.packing_file);
+  stop_before_first_step(checkpoint);
+  Model model = build_model(std::move(packing), scenario, scenario.packing_file);
+  stop_before_first_step(checkpoint);
+  return model;
+}
+
 /// The time loop and its records.
 class Runner {
 public:
   Runner(const Scenario& scenario, const RunOptions& options)
       : scenario_(scenario), options_(options), team_(options.threads),
-        simulation_(build_model(read_packing(scenario.packing_file), scenario, scenario.packing_file), scenario, team_,
-                    options.from.has_value()),
+        simulation_(load_model(scenario, options), scenario, team_, options.from.has_value()),
         energy_check_(stiffness_of(simulation_.model())), progress_("mpfem", options.quiet) {
     const auto warnings = check_bonds(simulation_.model(), scenario_);
     begin();
+    if (must_begin_anew_) return;
+    stop_before_first_step(checkpoint_path(options.output));
     if (!options_.quiet && !already_complete_) {
       for (const std::string& warning : warnings) fmt::print(stderr, "mpfem: warning: {}\n", warning);
       if (const std::string text = mass_scaling_text(scenario_, simulation_.model()); !text.empty())
@@ -173,15 +139,17 @@ public:
     if (begins_anew_) pass_densities();
   }
 
-  void run() {
-    if (already_complete_) return;
+  /// False where what there is to resume cannot be used: the run has to begin anew, without --resume.
+  bool run() {
+    if (must_begin_anew_) return false;
+    if (already_complete_) return true;
     if (begins_anew_) drop_unfinished_run();
-    const InterruptGuard guard;
     start_ = last_checkpoint_ = Profile::Clock::now();
     steps_at_start_ = simulation_.state().step;
     try {
       loop();
     } catch (const SimulationError& error) {
+      const std::string good = last_checkpoint_text();
       // The failed state is worth looking at: a snapshot of it, and everything recorded so far.
       try {
         save_snapshot();
@@ -189,44 +157,121 @@ public:
       } catch (const StorageError& storage) {
         throw SimulationError(fmt::format("{}; and its state could not be saved: {}", error.what(), storage.what()));
       }
-      throw SimulationError(fmt::format("{}; history and last state are in {}", error.what(), options_.output));
+      throw SimulationError(fmt::format("{}; history and last state are in {}{}", error.what(), options_.output, good));
     }
+    check_promises();
     write_result("complete");
-    remove_parts();
+    remove_unfinished(options_.output);
     progress_.finish(fmt::format("{} steps, D_r = {:.4f}, p = {:.4g} MPa, {}", simulation_.state().step,
                                  simulation_.relative_density(), simulation_.state().mean_stress, options_.output));
     if (!options_.quiet) print_profile();
+    if (!options_.quiet) print_quality();
+    return true;
   }
 
 private:
+  /// "; the last checkpoint before is FILE", or that there is none.
+  std::string last_checkpoint_text() const {
+    RunIdentity itself = identity_;
+    itself.from = record_.from;
+    const auto checkpoints = resumable_checkpoints(scenario_, itself);
+    return checkpoints.empty() ? "; there is no checkpoint before"
+                               : fmt::format("; the last checkpoint before is {}", checkpoints.front());
+  }
+
   void begin() {
-    const std::string rolling = checkpoint_path(options_.output);
     const std::string from = options_.from ? checkpoint_checksum(*options_.from) : "packing";
-    if (options_.resume && std::filesystem::exists(rolling)) {
-      read_checkpoint(rolling, simulation_, record_, scenario_.text, false);
-      if (options_.from && !record_.from.empty() && record_.from != from)
-        throw InputError(fmt::format("{}: the run did not begin at {}; run without --resume to begin anew", rolling,
-                                     one_line(*options_.from)));
-      if (!record_.history.empty()) first_step_ = static_cast<std::int64_t>(record_.history.front().step);
-      for (const std::string& name : record_.snapshot_files)
-        if (const std::string part = snapshot_path(name); !std::filesystem::exists(part))
-          throw InputError(fmt::format(
-              "{}: the snapshot {} that was taken before the checkpoint is missing; run without --resume to begin anew",
-              rolling, part));
-      if (!options_.quiet) fmt::print(stderr, "mpfem: resumed {} at step {}\n", rolling, simulation_.state().step);
-      return;
-    }
-    if (options_.resume && is_complete(from)) {
-      already_complete_ = true;
-      if (!options_.quiet) fmt::print(stderr, "mpfem: {} is complete already\n", options_.output);
-      return;
-    }
+    identity_ = {options_.output, scenario_.text, hash_text(simulation_.model().mesh_hash), from};
+    if (options_.resume && resume()) return;
+    if (must_begin_anew_) return;
     if (options_.from) {
       begin_branch(*options_.from, simulation_, scenario_.text);
       first_step_ = simulation_.state().step;
     }
     record_.from = from;
     begins_anew_ = true;
+  }
+
+  /// Goes on from the best checkpoint that there is, or finds the run complete. False where there is nothing to go on from.
+  bool resume() {
+    std::vector<std::string> lost; // checkpoints that should stand on disk and do not
+    if (!rolling_checkpoint_exists() && is_complete(lost)) {
+      already_complete_ = true;
+      remove_unfinished(options_.output); // a run that was killed while it tidied up
+      if (!options_.quiet) fmt::print(stderr, "mpfem: {} is complete already\n", options_.output);
+      return true;
+    }
+    std::string damage;
+    for (const std::string& path : resumable_checkpoints(scenario_, identity_)) {
+      try {
+        verify_checkpoint(path);
+      } catch (const InputError& error) {
+        fmt::print(stderr, "mpfem: warning: {}; looking for an earlier checkpoint\n", error.what());
+        if (damage.empty()) damage = error.what();
+        continue;
+      }
+      if (!take_up(path, lost)) continue;
+      if (path == previous_checkpoint_path(options_.output)) // whatever stands in the rolling one's place is worse
+        std::filesystem::rename(path, checkpoint_path(options_.output));
+      if (!lost.empty())
+        fmt::print(stderr, "mpfem: warning: {} is missing; the run goes on from {} to write it again\n", lost.front(),
+                   path);
+      if (!options_.quiet) fmt::print(stderr, "mpfem: resumed {} at step {}\n", path, simulation_.state().step);
+      return true;
+    }
+    if (!lost.empty())
+      fmt::print(stderr, "mpfem: warning: {} is missing; the run begins anew to write it again\n", lost.front());
+    else if (!damage.empty())
+      throw InputError(fmt::format("{}; no earlier one can be used: run without --resume to begin anew", damage));
+    must_begin_anew_ = taken_up_;
+    return false;
+  }
+
+  /// Takes up a checkpoint. False where the run cannot go on from it; checkpoints that it counts as written and that are
+  /// missing are added to `lost`.
+  bool take_up(const std::string& path, std::vector<std::string>& lost) {
+    const bool rolling = path == checkpoint_path(options_.output);
+    taken_up_ = true;
+    record_ = {};
+    read_checkpoint(path, simulation_, record_, scenario_.text, false);
+    if (options_.from && !record_.from.empty() && record_.from != identity_.from)
+      throw InputError(fmt::format("{}: the run did not begin at {}; run without --resume to begin anew", path,
+                                   one_line(*options_.from)));
+    RunIdentity itself = identity_;
+    itself.from = record_.from;
+    const auto missing = missing_checkpoints(promised_now(), itself);
+    lost.insert(lost.end(), missing.begin(), missing.end());
+    if (!missing.empty()) return false;
+    for (const std::string& name : record_.snapshot_files)
+      if (const std::string part = snapshot_path(name); !std::filesystem::exists(part)) {
+        if (!rolling || !lost.empty()) return false;
+        throw InputError(fmt::format(
+            "{}: the snapshot {} that was taken before the checkpoint is missing; run without --resume to begin anew",
+            path, part));
+      }
+    if (!record_.history.empty()) first_step_ = static_cast<std::int64_t>(record_.history.front().step);
+    return true;
+  }
+
+  /// Checkpoints of stages and densities that must have been written by now.
+  std::vector<std::string> promised_now() const {
+    const double start =
+        record_.history.empty() ? simulation_.relative_density() : record_.history.front().relative_density;
+    return promised_checkpoints(scenario_, options_.output, simulation_.state(), simulation_.stage_complete(), start);
+  }
+
+  /// Before a run is called complete: whatever it has written may have been taken away meanwhile.
+  void check_promises() const {
+    RunIdentity itself = identity_;
+    itself.from = record_.from;
+    if (const auto missing = missing_checkpoints(promised_now(), itself); !missing.empty())
+      throw StorageError(fmt::format("{}: was written by this run and is missing at its end; --resume writes it again",
+                                     one_line(missing.front())));
+  }
+
+  bool rolling_checkpoint_exists() const {
+    return std::filesystem::exists(checkpoint_path(options_.output)) ||
+           std::filesystem::exists(previous_checkpoint_path(options_.output));
   }
 
   /// What an earlier, unfinished run of this name left would mix with what this one writes.
@@ -236,19 +281,28 @@ private:
       fmt::print(stderr,
                  "mpfem: {} of an unfinished run is dropped: this run begins anew (--resume would have gone on)\n",
                  rolling);
-    remove_parts();
+    remove_unfinished(options_.output);
   }
 
   /// True where the output is the finished run of this very scenario and packing, from this beginning (where one is
-  /// asked for).
-  bool is_complete(const std::string& from) const {
+  /// named), and all its checkpoints stand; those that do not are added to `lost`.
+  bool is_complete(std::vector<std::string>& lost) const {
     if (!std::filesystem::exists(options_.output)) return false;
     const schema::FileReader file(options_.output, schema::FileKind::run);
-    return file.read_scalar(schema::run::provenance_status) == "complete" &&
-           file.read_scalar(schema::run::provenance_scenario) == scenario_.text &&
-           file.read_scalar(schema::run::provenance_packing_hash) == hash_text(simulation_.model().mesh_hash) &&
-           (!options_.from || !file.has(schema::run::provenance_from) ||
-            file.read_scalar(schema::run::provenance_from) == from);
+    const std::string from =
+        file.has(schema::run::provenance_from) ? file.read_scalar(schema::run::provenance_from) : "";
+    const bool complete = file.read_scalar(schema::run::provenance_status) == "complete" &&
+                          file.read_scalar(schema::run::provenance_scenario) == scenario_.text &&
+                          file.read_scalar(schema::run::provenance_packing_hash) == identity_.packing_hash &&
+                          (!options_.from || from.empty() || from == identity_.from);
+    if (!complete) return false;
+    RunIdentity itself = identity_;
+    itself.from = from;
+    const auto density = file.read(schema::run::history_relative_density);
+    lost = missing_checkpoints(promised_checkpoints(scenario_, options_.output, density.front(),
+                                                    *std::max_element(density.begin(), density.end())),
+                               itself);
+    return lost.empty();
   }
 
   void loop() {
@@ -263,11 +317,20 @@ private:
         report_stage_end();
         if (state.stage + 1 == static_cast<std::int64_t>(scenario_.stages.size())) return;
         ++state.stage;
-        simulation_.begin_stage();
+        begin_stage();
       }
       simulation_.advance();
       save_checkpoints();
       report_progress();
+    }
+  }
+
+  /// What a stage needs may have been done away with by the one before: that is a failure of the run, whose state is saved.
+  void begin_stage() {
+    try {
+      simulation_.begin_stage();
+    } catch (const InputError& error) {
+      throw SimulationError(error.what());
     }
   }
 
@@ -306,11 +369,11 @@ private:
                        100 * std::abs(taken) / elastic);
   }
 
-  double next_row_time() const {
-    return simulation_.stage_duration() * static_cast<double>(simulation_.state().rows_in_stage) /
-           scenario_.output.history_rows;
+  bool row_due() const {
+    const RunState& state = simulation_.state();
+    return state.stage_time >=
+           next_row_time(simulation_.stage_duration(), state.rows_in_stage, scenario_.output.history_rows);
   }
-  bool row_due() const { return simulation_.state().stage_time >= next_row_time(); }
 
   void record_row() {
     const auto start = Profile::Clock::now();
@@ -360,7 +423,7 @@ private:
 
   void save_checkpoints() {
     const bool stage_end = simulation_.stage_complete();
-    const bool interrupted = interrupt_requested != 0;
+    const bool interrupted = interrupt_requested();
     const std::vector<double> passed = pass_densities();
     const bool out_of_time = options_.time_limit > 0 && Profile::since(start_) > options_.time_limit;
     for (const double density : passed) save_checkpoint(density_checkpoint_path(options_.output, density));
@@ -368,10 +431,11 @@ private:
         Profile::since(last_checkpoint_) < scenario_.output.checkpoint_interval)
       return;
     const auto start = Profile::Clock::now();
-    save_checkpoint(checkpoint_path(options_.output));
     if (stage_end)
       save_checkpoint(stage_checkpoint_path(
           options_.output, scenario_.stages[static_cast<std::size_t>(simulation_.state().stage)].name));
+    // Last: it counts stages and densities as done whose checkpoints stand by now.
+    replace_rolling_checkpoint(options_.output, [this](const std::string& path) { save_checkpoint(path); });
     last_checkpoint_ = Profile::Clock::now();
     simulation_.profile().add_serial(Part::output, Profile::since(start));
     if (interrupted || out_of_time) {
@@ -427,15 +491,6 @@ private:
   static std::string snapshot_name(std::size_t number) { return fmt::format("snapshot-{:04}.h5", number); }
   std::string snapshot_path(const std::string& name) const { return parts_folder(options_.output) + "/" + name; }
 
-  /// Removes the run's own files only; the folder goes if nothing else is in it.
-  void remove_parts() const {
-    std::error_code ignored;
-    for (std::size_t number = 0; std::filesystem::remove(snapshot_path(snapshot_name(number)), ignored); ++number) {
-    }
-    std::filesystem::remove(parts_folder(options_.output), ignored);
-    std::filesystem::remove(checkpoint_path(options_.output), ignored);
-  }
-
   double nanoseconds_per_tet_step() const {
     const auto steps = static_cast<double>(simulation_.state().step - steps_at_start_);
     return steps > 0 ? 1e9 * Profile::since(start_) / (steps * static_cast<double>(simulation_.model().tets())) : 0.0;
@@ -457,9 +512,24 @@ private:
   void report_progress() {
     const RunState& state = simulation_.state();
     if (state.step % 16 != 0) return;
+    warn_of_small_step();
     progress_.update(fraction_done(),
                      fmt::format("step {}  D_r {:.4f}  p {:.4g} MPa  {:.0f} ns/tet-step", state.step,
                                  simulation_.relative_density(), state.mean_stress, nanoseconds_per_tet_step()));
+  }
+
+  /// Once: a run that crawls writes no rows that would tell.
+  void warn_of_small_step() {
+    const double step = simulation_.state().stable_step;
+    if (first_stable_step_ == 0) first_stable_step_ = step;
+    if (step >= doubtful_step_share * first_stable_step_ || warned_of_step_) return;
+    warned_of_step_ = true;
+    if (!options_.quiet)
+      fmt::print(
+          stderr,
+          "mpfem: warning: the stable step fell from {:.3g} s to {:.3g} s: elements are nearly flat, and the run "
+          "takes ever longer\n",
+          first_stable_step_, step);
   }
 
   /// Fixed-width report lines, twenty a stage.
@@ -478,6 +548,16 @@ private:
                row.kinetic_energy < 1e3 * internal ? fmt::format("{:.2e}", row.kinetic_energy / internal) : "-",
                row.external_work > 0 ? row.energy_residual / row.external_work : 0.0, row.max_penetration,
                nanoseconds_per_tet_step());
+  }
+
+  /// What makes the results doubtful, last of all, where it is seen.
+  void print_quality() const {
+    std::vector<QualityRow> rows;
+    for (const HistoryRow& row : record_.history)
+      rows.push_back({row.external_work, row.energy_residual, row.kinetic_energy,
+                      row.elastic_energy + row.plastic_dissipation, row.mean_stress, row.max_penetration,
+                      row.relative_density_current, row.time_step});
+    for (const std::string& warning : quality_warnings(rows)) fmt::print(stderr, "mpfem: warning: {}\n", warning);
   }
 
   void print_profile() const {
@@ -513,7 +593,12 @@ private:
   std::int64_t warned_of_stage_ = -1;
   std::int64_t first_step_ = 0; ///< steps that the checkpoint of --from had done
   int reported_lines_ = 0;
+  double first_stable_step_ = 0; ///< s
+  bool warned_of_step_ = false;
+  RunIdentity identity_;
   bool already_complete_ = false, begins_anew_ = false, warned_of_energy_ = false;
+  bool taken_up_ = false;        ///< a checkpoint has replaced the state of the simulation
+  bool must_begin_anew_ = false; ///< what there is to resume cannot be used
 };
 
 bool same_file(const std::string& a, const std::string& b) {
@@ -556,22 +641,14 @@ void check_output(const Scenario& scenario, const RunOptions& options) {
 
 } // namespace
 
-std::string checkpoint_path(const std::string& run_file) {
-  return stem(run_file) + ".checkpoint.h5";
-}
-
-std::string stage_checkpoint_path(const std::string& run_file, const std::string& stage) {
-  return fmt::format("{}.{}.checkpoint.h5", stem(run_file), stage);
-}
-
-std::string density_checkpoint_path(const std::string& run_file, double relative_density) {
-  return fmt::format("{}.D{:.3f}.checkpoint.h5", stem(run_file), relative_density);
-}
-
 void run_scenario(const Scenario& scenario, const RunOptions& options) {
   check_output(scenario, options);
   const RunLock lock(options.output);
-  Runner(scenario, options).run();
+  remove_partial_files(scenario, options.output);
+  if (Runner(scenario, options).run()) return;
+  RunOptions anew = options;
+  anew.resume = false;
+  Runner(scenario, anew).run();
 }
 
 void check_scenario(const Scenario& scenario, int threads, const std::optional<std::string>& from) {

@@ -26,9 +26,4 @@ void run_scenario(const Scenario& scenario, const RunOptions& options);
 /// names a checkpoint, of a branch that begins there. Throws InputError where the run would be refused.
 void check_scenario(const Scenario& scenario, int threads, const std::optional<std::string>& from);
 
-/// Name of the rolling checkpoint of a run file, of that at the end of a stage, and of that at a relative density.
-std::string checkpoint_path(const std::string& run_file);
-std::string stage_checkpoint_path(const std::string& run_file, const std::string& stage);
-std::string density_checkpoint_path(const std::string& run_file, double relative_density);
-
 } // namespace mpfem

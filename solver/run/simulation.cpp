@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <set>
+#include <span>
 
 #include <fmt/format.h>
 
@@ -190,6 +191,8 @@ void Simulation::return_walls(std::size_t axis) {
 
 void Simulation::begin_stage() {
   change_walls();
+  if (const std::string reason = unreachable_stress(stage(), state_.mean_stress); !reason.empty())
+    throw InputError(reason);
   state_.stage_time = 0;
   state_.stage_ended = 0;
   state_.rows_in_stage = 0;
@@ -206,9 +209,8 @@ void Simulation::begin_stage() {
     std::array<bool, 2> holds{};
     for (const GrippedNode& node : grips_.node) holds[static_cast<std::size_t>(node.side)] = true;
     if (!holds[0] || !holds[1])
-      throw SimulationError(
-          fmt::format("stage '{}': no node lies within grip_depth = {:g} mm of the {} face of the box", stage().name,
-                      grip->depth, holds[0] ? "high" : "low"));
+      throw InputError(fmt::format("stage '{}': no node lies within grip_depth = {:g} mm of the {} face of the box",
+                                   stage().name, grip->depth, holds[0] ? "high" : "low"));
   }
 }
 
@@ -517,14 +519,43 @@ void Simulation::advance() {
     estimate_stable_step();
 }
 
+namespace {
+
+/// " at (0.1, 0.2, 0.3) mm", of the mean of some nodes; " at no finite position" where they have flown away.
+std::string place_text(const Model& model, std::span<const std::int32_t> nodes) {
+  std::array<double, 3> centre{};
+  for (const std::int32_t node : nodes)
+    for (std::size_t axis = 0; axis < 3; ++axis)
+      centre[axis] += model.position[4 * static_cast<std::size_t>(node) + axis] / static_cast<double>(nodes.size());
+  if (!std::isfinite(centre[0] + centre[1] + centre[2])) return " at no finite position";
+  return fmt::format(" at ({:.4g}, {:.4g}, {:.4g}) mm", centre[0], centre[1], centre[2]);
+}
+
+/// Nodes of the tet of a grain that has this number in the packing file; all of the grain's where there is no such tet.
+std::vector<std::int32_t> nodes_of_file_tet(const Model& model, int grain, std::int32_t file_tet) {
+  const auto g = static_cast<std::size_t>(grain);
+  std::vector<std::int32_t> nodes;
+  for (std::int32_t tet = model.tet_offset[g]; tet < model.tet_offset[g + 1]; ++tet)
+    if (model.file_tet[static_cast<std::size_t>(tet)] == file_tet)
+      for (const auto corner : model.nodes_of_tet(grain, tet - model.tet_offset[g]))
+        nodes.push_back(model.node_offset[g] + static_cast<std::int32_t>(corner));
+  if (nodes.empty())
+    for (std::int32_t n = model.node_offset[g]; n < model.node_offset[g + 1]; ++n) nodes.push_back(n);
+  return nodes;
+}
+
+} // namespace
+
 void Simulation::report_bad_grain(int grain) const {
   const BadTet bad = find_bad_tet(model_, grain);
+  const std::string when =
+      fmt::format("step {}, t = {:.4g} s, D_r = {:.4f}", state_.step, state_.time, relative_density());
+  const std::string place = place_text(model_, nodes_of_file_tet(model_, grain, bad.file_tet));
+  const char* cause = "likely causes: too fast a motion, too large a numerics.time_step_factor, or a poor mesh there";
   if (bad.file_tet >= 0)
-    throw SimulationError(
-        fmt::format("step {}, t = {:.4g} s, D_r = {:.4f}: tet {} of grain {} is inverted (volume ratio {:.3g})",
-                    state_.step, state_.time, relative_density(), bad.file_tet, grain, bad.volume_ratio));
-  throw SimulationError(fmt::format("step {}, t = {:.4g} s, D_r = {:.4f}: a stress of grain {} is not finite",
-                                    state_.step, state_.time, relative_density(), grain));
+    throw SimulationError(fmt::format("{}: tet {} of grain {}{} is inverted (volume ratio {:.3g}); {}", when,
+                                      bad.file_tet, grain, place, bad.volume_ratio, cause));
+  throw SimulationError(fmt::format("{}: a stress of grain {}{} is not finite; {}", when, grain, place, cause));
 }
 
 BondSums Simulation::total_bonds() {

@@ -73,10 +73,11 @@ endef
 $(foreach b,$(branch_names),$(call check_branch,$(b)))
 
 # ------------------------------------------------------------------------------------------------ runs
-# A run works in work/ and is moved out when it is complete; a rerun goes on from its own checkpoint, unless an input is newer.
+# A run works in work/ and is moved out when it is complete; a rerun goes on from its own checkpoints, unless an input is newer
+# than all that the run has made.
 # $(call run_recipe,SCENARIO,OPTIONS)
 define run_recipe
-for input in $^; do [ $(@D)/work/run.checkpoint.h5 -nt $$input ] || [ $(@D)/work/run.h5 -nt $$input ] || rm -f $(@D)/work/run.*h5*; done
+for input in $(filter-out FORCE,$^); do for own in $(@D)/work/run.checkpoint.h5 $(@D)/work/run.checkpoint.previous.h5 $(@D)/work/run.h5 $@; do [ ! $$own -nt $$input ] || continue 2; done; rm -f $(@D)/work/run.*h5*; done
 $(RUN) $(BIN)/mpfem run $(1) -o $(@D)/work/run.h5 --set packing=$(mesh) $(2) --resume $(threads) > $(@D)/work/log.txt 2>&1 || \
   { code=$$?; tail -n 3 $(@D)/work/log.txt >&2; [ $$code != 5 ] || echo 'The same make command goes on where this run stopped.' >&2; exit $$code; }
 mv $(@D)/work/run.h5 $@
@@ -97,10 +98,14 @@ $(foreach c,$(compaction_names),$(eval $(call compaction_rules,$(c))))
 define branch_rules
 $(call stamp,$(branches)/$(1)/run.settings,from $(branch_$(1)_parent) $(call compaction_assignments,$(call branch_root,$(1))) $(branch_$(1)_settings) scenario $(branch_$(1)_programme) $(call content_of,studies/branches/$(branch_$(1)_programme).toml))
 $(branches)/$(1)/run.h5: $(call parent_run,$(1)) $(branches)/$(1)/run.settings | $(branches)/$(1)/work $(BIN)/mpfem
-	@[ -e $(call parent_checkpoint,$(1)) ] || { echo '$(call parent_checkpoint,$(1)) is missing; remove $(call parent_run,$(1)) to make it again' >&2; exit 1; }
+	@[ -e $(call parent_checkpoint,$(1)) ] || { rm -f $$@; echo '$(call parent_checkpoint,$(1)) is missing; the same make command makes it again' >&2; exit 1; }
 	$$(call run_recipe,studies/branches/$(branch_$(1)_programme).toml,--from $(call parent_checkpoint,$(1)) $$(call set_words,$$(call compaction_assignments,$(call branch_root,$(1))) $$(branch_$(1)_settings)))
 endef
 $(foreach b,$(branch_names),$(eval $(call branch_rules,$(b))))
+
+# A run whose checkpoint is missing is made again, as far as it takes, for a branch that has not been made.
+wants_parent_again = $(and $(wildcard $(call parent_run,$(1))),$(if $(wildcard $(branches)/$(1)/run.h5 $(call parent_checkpoint,$(1))),,again))
+$(foreach b,$(branch_names),$(if $(call wants_parent_again,$(b)),$(eval $(call parent_run,$(b)): FORCE)))
 
 # All runs, whether or not a figure asks for them.
 .PHONY: branches

@@ -189,6 +189,34 @@ TEST_CASE("a mesh whose numbering is wrong is refused, not followed") {
   }
 }
 
+TEST_CASE("a mesh with an inverted tet is bad input, and the message names grain and tet") {
+  const Folder folder;
+  const SpherePacking packing{.box = {1, 1, 1}, .center = {{0.3, 0.5, 0.5}, {0.7, 0.5, 0.5}}, .radius = {0.15, 0.15}};
+  PackingMesh mesh = mesh_packing(packing, {.nominal_size = 0.1});
+  const auto tet = static_cast<std::size_t>(mesh.grain_tet_offset[1]) + 3;
+  std::swap(mesh.tet[4 * tet], mesh.tet[4 * tet + 1]);
+  write_packing_file(folder / "p.h5", packing, {}, MeshForFile{&mesh, 0.1, 0.01, 0.5});
+  const Outcome outcome = pack_gen("quality " + (folder / "p.h5"));
+  INFO(outcome.messages);
+  CHECK(outcome.exit_code == 2);
+  CHECK(outcome.one_error_line("pack-gen"));
+  CHECK_THAT(outcome.messages, Catch::Contains("p.h5") && Catch::Contains("grain 1 has tetrahedron 3 without"));
+}
+
+TEST_CASE("a report that nobody reads to its end, or that does not fit, ends with exit code 4") {
+  const Folder folder;
+  const SpherePacking packing{.box = {1, 1, 1}, .center = {{0.3, 0.5, 0.5}}, .radius = {0.15}};
+  const PackingMesh mesh = mesh_packing(packing, {.nominal_size = 0.1});
+  write_packing_file(folder / "p.h5", packing, {}, MeshForFile{&mesh, 0.1, 0.01, 0.5});
+  const Outcome closed = run_command(fmt::format("mkfifo {0}; (exec 3<{0}) & exec 4>{0}; wait; '{1}' quality {2} >&4",
+                                                 folder / "pipe", MPFEM_PACK_GEN, folder / "p.h5"));
+  CHECK(closed.exit_code == 4);
+  CHECK(closed.one_error_line("pack-gen"));
+  const Outcome full = run_command(fmt::format("'{}' quality {} >/dev/full", MPFEM_PACK_GEN, folder / "p.h5"));
+  CHECK(full.exit_code == 4);
+  CHECK(full.one_error_line("pack-gen"));
+}
+
 TEST_CASE("a table that cannot be stored ends with exit code 4 and leaves nothing half-written") {
   const Folder folder;
   write_packing_file(folder / "s.h5", {.box = {1, 1, 1}, .center = {{0.3, 0.5, 0.5}}, .radius = {0.25}}, {});

@@ -1,0 +1,174 @@
+#include "solver/run/checkpoints.hpp"
+
+#include <algorithm>
+#include <filesystem>
+
+#include <fmt/format.h>
+
+#include "common/errors.hpp"
+#include "common/one_line.hpp"
+#include "results-schema/descriptors.hpp"
+#include "results-schema/file.hpp"
+
+namespace mpfem {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string stem(const std::string& run_file) {
+  return run_file.ends_with(".h5") ? run_file.substr(0, run_file.size() - 3) : run_file;
+}
+
+/// Where a new rolling checkpoint is written before it is known to be good.
+std::string next_checkpoint_path(const std::string& run_file) {
+  return stem(run_file) + ".checkpoint.next.h5";
+}
+
+/// Rounding does not decide whether a density is reached.
+constexpr double nearly = 1 - 1e-9;
+
+std::vector<std::string> of_stages(const Scenario& scenario, const std::string& run_file, std::size_t count) {
+  std::vector<std::string> paths;
+  for (std::size_t i = 0; i < std::min(count, scenario.stages.size()); ++i)
+    paths.push_back(stage_checkpoint_path(run_file, scenario.stages[i].name));
+  return paths;
+}
+
+bool is_snapshot_name(const std::string& name) {
+  return name.starts_with("snapshot-") && (name.ends_with(".h5") || name.ends_with(".h5.partial"));
+}
+
+/// Removes files of the run's own from its folder of snapshots.
+template <class Wanted>
+void remove_snapshots(const std::string& run_file, const Wanted& wanted) {
+  std::error_code ignored;
+  std::vector<fs::path> found;
+  for (const auto& entry : fs::directory_iterator(parts_folder(run_file), ignored))
+    if (const std::string name = entry.path().filename().string(); is_snapshot_name(name) && wanted(name))
+      found.push_back(entry.path());
+  for (const fs::path& path : found) fs::remove(path, ignored);
+}
+
+} // namespace
+
+std::string checkpoint_path(const std::string& run_file) {
+  return stem(run_file) + ".checkpoint.h5";
+}
+
+std::string previous_checkpoint_path(const std::string& run_file) {
+  return stem(run_file) + ".checkpoint.previous.h5";
+}
+
+std::string stage_checkpoint_path(const std::string& run_file, const std::string& stage) {
+  return fmt::format("{}.{}.checkpoint.h5", stem(run_file), stage);
+}
+
+std::string density_checkpoint_path(const std::string& run_file, double relative_density) {
+  return fmt::format("{}.D{:.3f}.checkpoint.h5", stem(run_file), relative_density);
+}
+
+std::string parts_folder(const std::string& run_file) {
+  return stem(run_file) + ".parts";
+}
+
+bool is_checkpoint_of(const std::string& path, const RunIdentity& run) {
+  namespace check = schema::checkpoint;
+  if (!fs::exists(path)) return false;
+  try {
+    const schema::FileReader file(path, schema::FileKind::checkpoint);
+    const std::string from = file.has(check::run_from) ? file.read_scalar(check::run_from) : "";
+    return file.read_scalar(check::scenario) == run.scenario_text &&
+           file.read_scalar(check::packing_hash) == run.packing_hash && (run.from.empty() || run.from == from);
+  } catch (const InputError&) {
+    return false;
+  }
+}
+
+void replace_rolling_checkpoint(const std::string& run_file, const std::function<void(const std::string&)>& write) {
+  const std::string rolling = checkpoint_path(run_file), previous = previous_checkpoint_path(run_file),
+                    next = next_checkpoint_path(run_file);
+  std::error_code ignored;
+  fs::remove(previous, ignored); // two of them are on disk at most; the one that stays was read back
+  write(next);
+  try {
+    verify_checkpoint(next);
+  } catch (const InputError& error) {
+    fs::remove(next, ignored);
+    throw StorageError(fmt::format("{}: what was written cannot be read back ({}); the checkpoint before stays",
+                                   one_line(rolling), error.what()));
+  }
+  if (fs::exists(rolling)) fs::rename(rolling, previous);
+  fs::rename(next, rolling);
+}
+
+std::vector<std::string> promised_checkpoints(const Scenario& scenario, const std::string& run_file,
+                                              const RunState& state, bool stage_complete, double start_density) {
+  auto paths =
+      of_stages(scenario, run_file, static_cast<std::size_t>(state.stage) + static_cast<std::size_t>(stage_complete));
+  const auto& densities = scenario.output.checkpoint_relative_densities;
+  for (std::size_t i = 0; i < std::min(densities.size(), static_cast<std::size_t>(state.checkpoints_passed)); ++i)
+    if (start_density < densities[i] * nearly) paths.push_back(density_checkpoint_path(run_file, densities[i]));
+  return paths;
+}
+
+std::vector<std::string> promised_checkpoints(const Scenario& scenario, const std::string& run_file,
+                                              double start_density, double largest_density) {
+  auto paths = of_stages(scenario, run_file, scenario.stages.size());
+  for (const double density : scenario.output.checkpoint_relative_densities)
+    if (start_density < density * nearly && largest_density >= density * nearly)
+      paths.push_back(density_checkpoint_path(run_file, density));
+  return paths;
+}
+
+std::vector<std::string> missing_checkpoints(const std::vector<std::string>& promised, const RunIdentity& run) {
+  std::vector<std::string> missing;
+  std::copy_if(promised.begin(), promised.end(), std::back_inserter(missing),
+               [&](const std::string& path) { return !is_checkpoint_of(path, run); });
+  return missing;
+}
+
+std::vector<std::string> resumable_checkpoints(const Scenario& scenario, const RunIdentity& run) {
+  std::vector<std::string> paths;
+  if (const std::string rolling = checkpoint_path(run.run_file); fs::exists(rolling)) paths.push_back(rolling);
+  // Where no beginning is named, the rolling checkpoints tell where the run began.
+  RunIdentity unnamed = run;
+  if (unnamed.from == "packing") unnamed.from.clear();
+  if (const std::string previous = previous_checkpoint_path(run.run_file); is_checkpoint_of(previous, unnamed))
+    paths.push_back(previous);
+
+  std::vector<std::pair<std::int64_t, std::string>> kept; // by step
+  std::vector<std::string> all = of_stages(scenario, run.run_file, scenario.stages.size());
+  for (const double density : scenario.output.checkpoint_relative_densities)
+    all.push_back(density_checkpoint_path(run.run_file, density));
+  for (const std::string& path : all) {
+    if (!is_checkpoint_of(path, run)) continue;
+    const auto counters = schema::FileReader(path, schema::FileKind::checkpoint).read(schema::checkpoint::run_integers);
+    if (!counters.empty()) kept.emplace_back(counters[0], path);
+  }
+  std::sort(kept.rbegin(), kept.rend());
+  for (const auto& [step, path] : kept) paths.push_back(path);
+  return paths;
+}
+
+void remove_partial_files(const Scenario& scenario, const std::string& run_file) {
+  std::vector<std::string> written{run_file, checkpoint_path(run_file), next_checkpoint_path(run_file)};
+  for (const Stage& stage : scenario.stages) written.push_back(stage_checkpoint_path(run_file, stage.name));
+  for (const double density : scenario.output.checkpoint_relative_densities)
+    written.push_back(density_checkpoint_path(run_file, density));
+  std::error_code ignored;
+  for (const std::string& path : written) fs::remove(path + ".partial", ignored);
+  fs::remove(next_checkpoint_path(run_file), ignored); // not known to be good
+  remove_snapshots(run_file, [](const std::string& name) { return name.ends_with(".partial"); });
+}
+
+void remove_unfinished(const std::string& run_file) {
+  // The rolling checkpoint goes before the snapshots that it names, and after the one before it.
+  std::error_code ignored;
+  fs::remove(previous_checkpoint_path(run_file), ignored);
+  fs::remove(checkpoint_path(run_file), ignored);
+  remove_snapshots(run_file, [](const std::string&) { return true; });
+  fs::remove(parts_folder(run_file), ignored); // unless something else is in it
+}
+
+} // namespace mpfem

@@ -1,0 +1,139 @@
+// Runs that are killed, interrupted or robbed of their checkpoints, through the executable.
+
+#include <filesystem>
+#include <fstream>
+
+#include <catch2/catch.hpp>
+#include <fmt/format.h>
+
+#include "tests/reliability/small_runs.hpp"
+#include "tests/support/folder.hpp"
+
+using namespace mpfem;
+using namespace mpfem::test;
+
+namespace fs = std::filesystem;
+
+TEST_CASE("no rolling checkpoint is newer than the stage's or the density's that it counts as written") {
+  const Folder folder;
+  prepare_stages(folder, two_stages);
+  // A directory in the place of a checkpoint stands for a kill before that checkpoint: it cannot be written.
+  for (const std::string blocked : {"run.first.checkpoint.h5", "run.D0.500.checkpoint.h5"}) {
+    fs::create_directories(folder / (blocked + ".partial/full"));
+    const Outcome stopped = run_stages(folder, "run.h5");
+    INFO(stopped.messages);
+    CHECK(stopped.exit_code == 4);
+    fs::remove_all(folder / (blocked + ".partial"));
+    CHECK(run_stages(folder, "run.h5", "--resume").exit_code == 0);
+    CHECK(fs::exists(folder / blocked));
+    for (const std::string name : {"first", "second", "D0.500"})
+      fs::remove(folder / ("run." + name + ".checkpoint.h5"));
+    fs::remove(folder / "run.h5");
+  }
+}
+
+TEST_CASE("a complete run whose stage checkpoint was lost is not complete, and --resume writes it again") {
+  const Folder folder;
+  prepare_stages(folder, two_stages);
+  REQUIRE(run_stages(folder, "run.h5").exit_code == 0);
+  const auto numbers = numbers_of_run(folder / "run.h5");
+  for (const std::string name : {"first", "D0.500", "second"}) {
+    const std::string lost = folder / ("run." + name + ".checkpoint.h5");
+    REQUIRE(fs::remove(lost));
+    const Outcome outcome = run_stages(folder, "run.h5", "--resume");
+    INFO(outcome.messages);
+    CHECK(outcome.exit_code == 0);
+    CHECK_THAT(outcome.messages, Catch::Contains(name + ".checkpoint.h5 is missing"));
+    CHECK(fs::exists(lost));
+    CHECK(numbers_of_run(folder / "run.h5") == numbers);
+  }
+  CHECK(run_stages(folder, "run.h5", "--resume").messages.find("missing") == std::string::npos);
+}
+
+TEST_CASE("an unfinished run whose stage checkpoint was lost goes on from before it") {
+  const Folder folder;
+  prepare_stages(folder, two_stages);
+  REQUIRE(run_stages(folder, "whole.h5").exit_code == 0);
+  // Without its last stage's checkpoint the run cannot end: it stops with everything else done.
+  fs::create_directories(folder / "run.second.checkpoint.h5.partial/full");
+  REQUIRE(run_stages(folder, "run.h5").exit_code == 4);
+  fs::remove_all(folder / "run.second.checkpoint.h5.partial");
+  REQUIRE(fs::exists(folder / "run.checkpoint.h5"));
+  REQUIRE(fs::remove(folder / "run.first.checkpoint.h5"));
+  const Outcome outcome = run_stages(folder, "run.h5", "--resume");
+  INFO(outcome.messages);
+  CHECK(outcome.exit_code == 0);
+  CHECK_THAT(outcome.messages, Catch::Contains("run.first.checkpoint.h5 is missing; the run goes on from"));
+  CHECK(fs::exists(folder / "run.first.checkpoint.h5"));
+  CHECK(numbers_of_run(folder / "run.h5") == numbers_of_run(folder / "whole.h5"));
+}
+
+TEST_CASE("a damaged or missing rolling checkpoint falls back to the one before, and the run ends the same") {
+  const Folder folder;
+  prepare_stages(folder, two_stages);
+  REQUIRE(run_stages(folder, "whole.h5").exit_code == 0);
+  for (const bool damaged : {true, false}) {
+    fs::create_directories(folder / "run.second.checkpoint.h5.partial/full");
+    REQUIRE(run_stages(folder, "run.h5").exit_code == 4);
+    fs::remove_all(folder / "run.second.checkpoint.h5.partial");
+    REQUIRE(fs::exists(folder / "run.checkpoint.previous.h5"));
+    if (damaged)
+      fs::resize_file(folder / "run.checkpoint.h5", fs::file_size(folder / "run.checkpoint.h5") / 2);
+    else
+      fs::remove(folder / "run.checkpoint.h5");
+    const Outcome outcome = run_stages(folder, "run.h5", "--resume");
+    INFO(outcome.messages);
+    CHECK(outcome.exit_code == 0);
+    CHECK_THAT(outcome.messages, Catch::Contains("resumed") && Catch::Contains("run.checkpoint.previous.h5"));
+    if (damaged) CHECK_THAT(outcome.messages, Catch::Contains("warning") && Catch::Contains("earlier checkpoint"));
+    CHECK(numbers_of_run(folder / "run.h5") == numbers_of_run(folder / "whole.h5"));
+    CHECK_FALSE(fs::exists(folder / "run.checkpoint.previous.h5"));
+    fs::remove(folder / "run.h5");
+  }
+}
+
+TEST_CASE("a run that was killed while it tidied up is complete, and what was left is removed") {
+  const Folder folder;
+  prepare_stages(folder, two_stages);
+  REQUIRE(run_stages(folder, "run.h5").exit_code == 0);
+  fs::create_directories(folder / "run.parts");
+  write_text(folder / "run.parts/snapshot-0001.h5", "of the time before");
+  for (const std::string left : {"run.h5.partial", "run.checkpoint.next.h5", "run.first.checkpoint.h5.partial"})
+    write_text(folder / left, "half written");
+  CHECK(run_stages(folder, "run.h5", "--resume").exit_code == 0);
+  for (const std::string left :
+       {"run.parts", "run.h5.partial", "run.checkpoint.next.h5", "run.first.checkpoint.h5.partial"})
+    CHECK_FALSE(fs::exists(folder / left));
+}
+
+TEST_CASE("a file size limit ends a run with exit code 4, not with a signal, and what was stored stays") {
+  const Folder folder;
+  prepare_stages(folder, two_stages);
+  const Outcome outcome = run_command("ulimit -f 40; " + stages_command(folder, "run.h5"));
+  INFO(outcome.messages);
+  CHECK(outcome.exit_code == 4);
+  CHECK(outcome.one_error_line("mpfem"));
+  CHECK(run_stages(folder, "run.h5", "--resume").exit_code == 0);
+}
+
+TEST_CASE("a run that is asked to stop while its packing loads ends with exit code 5 and says what can be resumed") {
+  const Folder folder;
+  prepare_stages(folder, two_stages, 14);
+  // The lock stands before the packing is read.
+  const auto stop = [&](const std::string& options) {
+    return run_command(fmt::format("{} {} & pid=$!; while [ ! -e {} ] && kill -0 $pid; do :; done; kill -TERM $pid; "
+                                   "wait $pid",
+                                   stages_command(folder, "run.h5"), options, folder / "run.lock"));
+  };
+  const Outcome fresh = stop("");
+  INFO(fresh.messages);
+  CHECK(fresh.exit_code == 5);
+  CHECK_THAT(fresh.messages, Catch::Contains("interrupted before the first step; nothing to resume"));
+  CHECK_FALSE(fs::exists(folder / "run.h5"));
+  CHECK_FALSE(fs::exists(folder / "run.lock"));
+  REQUIRE(run_stages(folder, "run.h5", "--time-limit 0.001").exit_code == 5);
+  const Outcome resumed = stop("--resume");
+  INFO(resumed.messages);
+  CHECK(resumed.exit_code == 5);
+  CHECK_THAT(resumed.messages, Catch::Contains("run.checkpoint.h5 is as it was, go on with --resume"));
+}
