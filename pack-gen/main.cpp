@@ -9,6 +9,7 @@
 #include "common/available_cores.hpp"
 #include "common/errors.hpp"
 #include "common/one_line.hpp"
+#include "common/output_file.hpp"
 #include "common/progress.hpp"
 #include "common/table_reader.hpp"
 #include "common/version.hpp"
@@ -35,14 +36,10 @@ struct Arguments {
 };
 
 /// Looked at before hours of work, not after them.
-void check_output(const Arguments& arguments) {
-  const std::filesystem::path output = arguments.output;
+void check_output(const Arguments& arguments, OutputKind kind) {
+  check_output_path("--output", arguments.output, kind);
   std::error_code ignored;
-  if (std::filesystem::is_directory(output, ignored))
-    throw InputError(fmt::format("--output {}: found a folder, allowed: a file", arguments.output));
-  if (!std::filesystem::is_directory(std::filesystem::absolute(output).parent_path(), ignored))
-    throw InputError(fmt::format("--output {}: the folder does not exist", arguments.output));
-  if (std::filesystem::equivalent(output, arguments.input, ignored))
+  if (std::filesystem::equivalent(arguments.output, arguments.input, ignored))
     throw InputError(fmt::format("--output {}: found the input itself, allowed: another file", arguments.output));
 }
 
@@ -250,7 +247,8 @@ int body(int argc, char** argv) {
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0 ? 0 : static_cast<int>(ExitCode::bad_input);
   }
-  if (!quality_command->parsed()) check_output(arguments);
+  if (!quality_command->parsed())
+    check_output(arguments, export_command->parsed() ? OutputKind::text : OutputKind::binary);
   if (spheres_command->parsed()) spheres(arguments);
   if (mesh_command->parsed()) mesh(arguments);
   if (hemispheres_command->parsed()) hemispheres(arguments);

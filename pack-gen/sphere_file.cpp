@@ -2,16 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
-#include <fstream>
-#include <functional>
 
 #include <fmt/format.h>
 
 #include "common/errors.hpp"
+#include "common/output_file.hpp"
 #include "common/version.hpp"
 #include "pack-gen/csv_table.hpp"
-#include "results-schema/file.hpp"
+#include "results-schema/packing_file.hpp"
 
 namespace mpfem {
 
@@ -26,27 +24,6 @@ std::string body(const SpherePacking& packing, int index) {
   if (index < 0) return fmt::format("the wall {}", wall[-1 - index]);
   const auto& c = packing.center[static_cast<std::size_t>(index)];
   return fmt::format("sphere {} at ({:g}, {:g}, {:g})", index, c[0], c[1], c[2]);
-}
-
-/// Refuses offsets and corners that do not divide nodes and tets among the grains.
-void refuse_wrong_numbering(const PackingMesh& mesh, const std::string& path) {
-  const auto nodes = static_cast<std::int32_t>(mesh.node.size() / 3),
-             tets = static_cast<std::int32_t>(mesh.tet.size() / 4);
-  const auto partitions = [](const std::vector<std::int32_t>& offset, std::int32_t end) {
-    return !offset.empty() && offset.front() == 0 && offset.back() == end &&
-           std::adjacent_find(offset.begin(), offset.end(), std::greater_equal<>()) == offset.end();
-  };
-  const std::size_t grains = mesh.grain_node_offset.size() - 1;
-  if (!partitions(mesh.grain_node_offset, nodes) || !partitions(mesh.grain_tet_offset, tets) ||
-      mesh.grain_tet_offset.size() != grains + 1)
-    throw InputError(
-        fmt::format("{}: the grains' offsets do not divide {} nodes and {} tetrahedra", path, nodes, tets));
-  for (std::size_t g = 0; g < grains; ++g)
-    for (auto k = 4 * static_cast<std::size_t>(mesh.grain_tet_offset[g]);
-         k < 4 * static_cast<std::size_t>(mesh.grain_tet_offset[g + 1]); ++k)
-      if (mesh.tet[k] < mesh.grain_node_offset[g] || mesh.tet[k] >= mesh.grain_node_offset[g + 1])
-        throw InputError(fmt::format("{}: tetrahedron {} of grain {} has node {}; allowed: {} … {}", path, k / 4, g,
-                                     mesh.tet[k], mesh.grain_node_offset[g], mesh.grain_node_offset[g + 1] - 1));
 }
 
 } // namespace
@@ -71,22 +48,11 @@ void refuse_overlap(const SpherePacking& packing, const std::string& name) {
 SphereFile read_spheres(const std::string& path) {
   const schema::FileReader reader(path, schema::FileKind::packing);
   SphereFile result;
-  const auto lengths = reader.read(file::box_lengths), center = reader.read(file::spheres_center);
-  result.packing.radius = reader.read(file::spheres_radius);
-  if (center.size() != 3 * result.packing.radius.size() || result.packing.radius.empty())
-    throw InputError(fmt::format("{}: {} centres and {} radii; allowed: as many, at least one", path, center.size() / 3,
-                                 result.packing.radius.size()));
-  std::copy(lengths.begin(), lengths.end(), result.packing.box.begin());
-  for (const double length : lengths)
-    if (!(length > 0) || !std::isfinite(length))
-      throw InputError(fmt::format("{}: the box has an edge of {:g} mm; allowed: > 0", path, length));
-  for (std::size_t i = 0; i < result.packing.radius.size(); ++i) {
-    result.packing.center.push_back({center[3 * i], center[3 * i + 1], center[3 * i + 2]});
-    if (!(result.packing.radius[i] > 0) ||
-        !std::isfinite(center[3 * i] + center[3 * i + 1] + center[3 * i + 2] + result.packing.radius[i]))
-      throw InputError(fmt::format("{}: sphere {} has the radius {:g} mm; allowed: finite centre, radius > 0", path, i,
-                                   result.packing.radius[i]));
-  }
+  schema::PackingSpheres spheres = schema::read_packing_spheres(reader);
+  std::copy_n(spheres.box_lengths.begin(), 3, result.packing.box.begin());
+  for (std::size_t i = 0; i < spheres.radius.size(); ++i)
+    result.packing.center.push_back({spheres.center[3 * i], spheres.center[3 * i + 1], spheres.center[3 * i + 2]});
+  result.packing.radius = std::move(spheres.radius);
   if (reader.has(file::packing_seed)) result.origin.seed = reader.read_scalar(file::packing_seed);
   if (reader.has(file::packing_description)) result.origin.description = reader.read_scalar(file::packing_description);
   if (reader.has(file::packing_target_diameter)) {
@@ -122,19 +88,11 @@ SpherePacking import_spheres(const std::string& path, const std::optional<Point>
 }
 
 void export_spheres(const std::string& path, const SpherePacking& packing) {
-  const std::string partial = path + ".partial";
-  std::error_code failure;
-  std::ofstream out(partial);
-  out << "x [mm],y [mm],z [mm],radius [mm]\n";
+  std::string text = "x [mm],y [mm],z [mm],radius [mm]\n";
   for (std::size_t i = 0; i < packing.radius.size(); ++i)
-    out << fmt::format("{},{},{},{}\n", packing.center[i][0], packing.center[i][1], packing.center[i][2],
-                       packing.radius[i]);
-  out.close();
-  if (out) std::filesystem::rename(partial, path, failure);
-  if (!out || failure) {
-    std::filesystem::remove(partial, failure);
-    throw StorageError(fmt::format("{}: cannot be written", path));
-  }
+    text += fmt::format("{},{},{},{}\n", packing.center[i][0], packing.center[i][1], packing.center[i][2],
+                        packing.radius[i]);
+  write_file(path, text);
 }
 
 void write_packing_file(const std::string& path, const SpherePacking& packing, const PackingOrigin& origin,
@@ -175,14 +133,11 @@ MeshFromFile read_mesh(const std::string& path) {
   if (!reader.has(file::mesh_tet))
     throw InputError(fmt::format("{}: a packing without meshes; pack-gen mesh makes them", path));
   MeshFromFile result;
-  result.mesh.node = reader.read(file::mesh_node);
-  result.mesh.tet = reader.read(file::mesh_tet);
-  result.mesh.grain_node_offset = reader.read(file::mesh_grain_node_offset);
-  result.mesh.grain_tet_offset = reader.read(file::mesh_grain_tet_offset);
-  refuse_wrong_numbering(result.mesh, path);
-  if (result.mesh.grain_node_offset.size() != reader.rows(file::spheres_radius) + 1)
-    throw InputError(fmt::format("{}: {} meshes for {} spheres; allowed: as many", path,
-                                 result.mesh.grain_node_offset.size() - 1, reader.rows(file::spheres_radius)));
+  schema::PackingTets mesh = schema::read_packing_tets(reader, reader.rows(file::spheres_radius));
+  result.mesh.node = std::move(mesh.node);
+  result.mesh.tet = std::move(mesh.tet);
+  result.mesh.grain_node_offset = std::move(mesh.grain_node_offset);
+  result.mesh.grain_tet_offset = std::move(mesh.grain_tet_offset);
   if (reader.has(file::mesh_nominal_size)) result.nominal_size = reader.read_scalar(file::mesh_nominal_size);
   return result;
 }

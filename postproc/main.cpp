@@ -1,6 +1,7 @@
 // postproc: numbers, tables and pictures from run files.
 
 #include <cmath>
+#include <filesystem>
 #include <optional>
 
 #include <CLI/CLI.hpp>
@@ -8,6 +9,7 @@
 #include <fmt/ranges.h>
 
 #include "common/errors.hpp"
+#include "common/one_line.hpp"
 #include "common/version.hpp"
 #include "postproc/contact.hpp"
 #include "postproc/contact_history.hpp"
@@ -40,6 +42,13 @@ struct Arguments {
 
 schema::FileReader open_run(const Arguments& arguments) {
   return {arguments.input, schema::FileKind::run};
+}
+
+/// Of `vtk`, which makes the folder where there is none.
+void check_output_folder(const std::string& path) {
+  std::error_code ignored;
+  if (std::filesystem::exists(path, ignored) && !std::filesystem::is_directory(path, ignored))
+    throw InputError(fmt::format("--output {}: found a file, allowed: a folder", one_line(path)));
 }
 
 /// To the file that -o names, or to standard output.
@@ -311,6 +320,13 @@ int body(int argc, char** argv) {
   for (const std::string& input : {arguments.input, arguments.packing})
     for (const std::string& output : {arguments.output, arguments.data, arguments.contact_picture})
       refuse_overwriting(output, input);
+  const bool folder = vtk_command->parsed() && arguments.packing.empty();
+  if (folder)
+    check_output_folder(arguments.output);
+  else if (!arguments.output.empty())
+    check_output_path("--output", arguments.output, section_command->parsed() ? OutputKind::binary : OutputKind::text);
+  if (!arguments.data.empty()) check_output_path("--data", arguments.data, OutputKind::text);
+  if (!arguments.contact_picture.empty()) check_output_path("--view", arguments.contact_picture, OutputKind::binary);
   if (summary_command->parsed()) summary(arguments);
   if (curve_command->parsed()) curve(arguments);
   if (contact_command->parsed()) contact(arguments);

@@ -2,24 +2,20 @@
 
 #include <cmath>
 #include <numbers>
+#include <numeric>
 #include <vector>
 
 #include <Eigen/Dense>
-#include <fmt/format.h>
 
-#include "common/errors.hpp"
-#include "common/one_line.hpp"
 #include "postproc/snapshot.hpp"
+#include "results-schema/packing_file.hpp"
 
 namespace mpfem {
 
 double mean_radius_of_packing(const std::string& path) {
   const schema::FileReader file(path, schema::FileKind::packing);
-  const auto radius = file.read(schema::packing::spheres_radius);
-  double sum = 0;
-  for (const double r : radius) sum += r;
-  if (!(sum > 0)) throw InputError(fmt::format("{}: /spheres/radius holds no radii above 0", one_line(path)));
-  return sum / static_cast<double>(radius.size());
+  const auto radius = schema::read_packing_spheres(file).radius;
+  return std::accumulate(radius.begin(), radius.end(), 0.0) / static_cast<double>(radius.size());
 }
 
 std::optional<double> mean_radius_of_run(const schema::FileReader& file) {

@@ -303,6 +303,10 @@ void MetricCommands::run() const {
     if (!command->parsed()) continue;
     for (const std::string& out : {state_->output, state_->table, state_->curve})
       for (const std::string& in : {state_->input, state_->packing}) refuse_overwriting(out, in);
+    for (const auto& [option, out] : {std::pair<const char*, const std::string&>{"--output", state_->output},
+                                      {command->get_name() == "hysteresis" ? "--cycles" : "--data", state_->table},
+                                      {"--curve", state_->curve}})
+      if (!out.empty()) check_output_path(option, out, OutputKind::text);
     action();
   }
 }

@@ -7,6 +7,7 @@
 
 #include "common/errors.hpp"
 #include "common/one_line.hpp"
+#include "results-schema/packing_file.hpp"
 
 namespace mpfem {
 
@@ -105,13 +106,12 @@ Snapshot read_packing_snapshot(const std::string& path) {
     throw InputError(fmt::format("{}: a packing without meshes; pack-gen mesh makes them", one_line(path)));
   Snapshot s;
   s.name = "packing";
-  const auto lengths = file.read(packing::box_lengths);
-  std::copy(lengths.begin(), lengths.end(), s.box_high.begin());
-  const auto node = file.read(packing::mesh_node);
-  s.node.assign(node.begin(), node.end());
-  s.tet = file.read(packing::mesh_tet);
-  s.tet_grain = grain_of_tets(file.read(packing::mesh_grain_tet_offset), s.tets(), one_line(path));
-  check_tets(s, one_line(path));
+  const schema::PackingSpheres spheres = schema::read_packing_spheres(file);
+  schema::PackingTets mesh = schema::read_packing_tets(file, spheres.radius.size());
+  std::copy(spheres.box_lengths.begin(), spheres.box_lengths.end(), s.box_high.begin());
+  s.node.assign(mesh.node.begin(), mesh.node.end());
+  s.tet = std::move(mesh.tet);
+  s.tet_grain = grain_of_tets(mesh.grain_tet_offset, s.tets(), one_line(path));
   if (file.has(packing::packing_relative_density))
     s.relative_density = file.read_scalar(packing::packing_relative_density);
   s.tet_fields = {{"grain", "1", {s.tet_grain.begin(), s.tet_grain.end()}}};

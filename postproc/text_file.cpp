@@ -1,7 +1,6 @@
 #include "postproc/text_file.hpp"
 
 #include <filesystem>
-#include <fstream>
 
 #include <fmt/format.h>
 
@@ -14,21 +13,6 @@ void refuse_overwriting(const std::string& output, const std::string& input) {
   std::error_code ignored; // one of them is not there: not the same
   if (!output.empty() && !input.empty() && std::filesystem::equivalent(output, input, ignored))
     throw InputError(fmt::format("{}: is the input; allowed for output: another file", one_line(output)));
-}
-
-void write_file(const std::string& path, std::string_view content) {
-  const std::string partial = path + ".partial";
-  std::ofstream file(partial, std::ios::binary);
-  file.write(content.data(), static_cast<std::streamsize>(content.size()));
-  file.close();
-  std::error_code error;
-  if (file) std::filesystem::rename(partial, path, error);
-  if (!file || error) {
-    std::error_code ignored;
-    std::filesystem::remove(partial, ignored);
-    throw StorageError(
-        fmt::format("{}: cannot be written (missing folder, no permission, or disk full)", one_line(path)));
-  }
 }
 
 std::string csv_text(const std::vector<const Column*>& columns) {

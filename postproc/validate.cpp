@@ -12,12 +12,15 @@ Verdict verdict_on(const std::string& path) {
   const std::string name = one_line(path);
   Verdict verdict;
   try {
-    for (const std::string& finding : schema::validate(path)) verdict.text += fmt::format("{}: {}\n", name, finding);
-    if (!verdict.text.empty()) return verdict;
-    const schema::FileReader file(path);
-    verdict.valid = true;
-    verdict.text = fmt::format("{}: valid ({}, schema {})\n", name,
-                               schema::kinds[static_cast<std::size_t>(file.kind())].name, schema::schema_version);
+    const schema::Validation found = schema::validate(path);
+    for (const std::string& finding : found.findings) verdict.text += fmt::format("{}: {}\n", name, finding);
+    verdict.valid = found.findings.empty();
+    if (verdict.valid)
+      verdict.text = fmt::format("{}: valid ({}, schema {})\n", name, found.kind, schema::schema_version);
+    if (!found.checked)
+      verdict.text += fmt::format("{}: note: carries no checksums (written by an earlier version or another program): "
+                                  "damage to its values cannot be noticed\n",
+                                  name);
   } catch (const InputError& error) { // its message begins with the file's name
     verdict.text += fmt::format("{}\n", error.what());
   }

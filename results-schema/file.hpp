@@ -11,8 +11,11 @@
 
 namespace mpfem::schema {
 
-/// Writes one file: beside its place as PATH.partial, renamed by commit(). Without commit() nothing is left behind and a
-/// file that stood at PATH stays as it was. Throws StorageError where the storage fails.
+class FileReader;
+
+/// Writes one file: beside its place as PATH.partial, renamed by commit(). Without commit() nothing is left behind, and
+/// what stood at PATH stays. Where PATH is a symbolic link, its target is written. Every dataset gets a checksum, the
+/// file a seal. Throws StorageError where the storage fails, InputError where PATH is a folder or a device.
 class FileWriter {
 public:
   /// `creator`: program and version, a root attribute of the file.
@@ -33,7 +36,10 @@ public:
   void write_scalar(const Dataset<T, 0>& dataset, const T& value, std::string_view snapshot = {}) {
     write_values(dataset, &value, 1, 1, snapshot);
   }
-  /// Closes the file and renames it to its place.
+  /// Writes all datasets that another file of this kind has of a snapshot, under another name. Throws InputError where
+  /// one of them cannot be read or a required one is missing.
+  void copy_snapshot(const FileReader& from, std::string_view source, std::string_view target);
+  /// Closes the file, waits until it is on the disk, and renames it to its place.
   void commit();
 
 private:
@@ -46,8 +52,8 @@ private:
 /// Reads one file. Every mistake is an InputError that names the file and the dataset.
 class FileReader {
 public:
-  /// Throws InputError where the file is missing, is no HDF5 file, was made by no program of this toolkit, has another
-  /// schema version, or is not of this kind.
+  /// Throws InputError where the file is missing, is no HDF5 file, does not agree with its seal, was made by no program
+  /// of this toolkit, has another schema version, or is not of this kind.
   FileReader(const std::string& path, FileKind kind);
   /// Any kind.
   explicit FileReader(const std::string& path);
@@ -59,38 +65,55 @@ public:
   const std::string& path() const;
   FileKind kind() const;
   std::string creator() const;
+  /// Hash of the whole content (root attribute `checksums`); empty in a file that is not checked.
+  std::string checksums() const;
   bool has(const DatasetDescription& dataset, std::string_view snapshot = {}) const;
-  /// All values, row by row. Type and shape are checked against the schema.
+  /// All values, row by row. Type and shape are checked against the schema, the values against their checksum.
   template <class T, int Rank>
   std::vector<T> read(const Dataset<T, Rank>& dataset, std::string_view snapshot = {}) const {
     static_assert(Rank > 0, "read_scalar reads scalars");
+    return read_all<T>(dataset, snapshot);
+  }
+  template <class T>
+  T read_scalar(const Dataset<T, 0>& dataset, std::string_view snapshot = {}) const {
+    return read_all<T>(dataset, snapshot).front();
+  }
+  /// First extent of a dataset.
+  std::size_t rows(const DatasetDescription& dataset, std::string_view snapshot = {}) const;
+  /// Reads all datasets, one at a time, so that damage to any of them throws InputError.
+  void verify() const;
+  /// Names of the snapshots, ascending: "0000", "0001", …
+  std::vector<std::string> snapshots() const;
+
+  struct State;
+
+private:
+  friend class FileWriter;
+  template <class T>
+  std::vector<T> read_all(const DatasetDescription& dataset, std::string_view snapshot) const {
     std::vector<T> values(count(dataset, snapshot));
     read_values(dataset, values.data(), snapshot);
     return values;
   }
-  template <class T>
-  T read_scalar(const Dataset<T, 0>& dataset, std::string_view snapshot = {}) const {
-    T value{};
-    count(dataset, snapshot);
-    read_values(dataset, &value, snapshot);
-    return value;
-  }
-  /// First extent of a dataset.
-  std::size_t rows(const DatasetDescription& dataset, std::string_view snapshot = {}) const;
-  /// Names of the snapshots, ascending: "0000", "0001", …
-  std::vector<std::string> snapshots() const;
-
-private:
-  friend std::vector<std::string> validate(const std::string& path);
   std::size_t count(const DatasetDescription& dataset, std::string_view snapshot) const;
   void read_values(const DatasetDescription& dataset, void* values, std::string_view snapshot) const;
-  struct State;
   std::unique_ptr<State> state_;
 };
 
-/// Holds a file to the schema: kind, version, every required dataset, every dataset's type, shape, unit and description,
-/// agreement of named extents, ranges of indices, finite numbers, and nothing that the schema does not know. One line a
-/// finding; empty for a good file. Throws InputError where the file cannot be read at all.
-std::vector<std::string> validate(const std::string& path);
+/// What validate() found.
+struct Validation {
+  std::vector<std::string> findings; ///< one line each; empty for a good file
+  std::string kind;                  ///< of the file
+  bool checked = false;              ///< whether the file has checksums
+
+  /// Whether nothing is wrong.
+  bool empty() const { return findings.empty(); }
+};
+
+/// Holds a file to the schema: seal and checksums, kind, version, every required dataset, every dataset's type, shape,
+/// unit and description, agreement of named extents, ranges of indices, finite numbers, and nothing that the schema
+/// does not know. The file is read in a process of its own: a file on which the HDF5 library crashes, or does not come
+/// to an end, is a finding. Throws InputError where the file cannot be read at all.
+Validation validate(const std::string& path);
 
 } // namespace mpfem::schema

@@ -2,12 +2,14 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <map>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include "common/errors.hpp"
 #include "common/one_line.hpp"
+#include "results-schema/checksum.hpp"
 
 namespace mpfem::schema {
 
@@ -30,18 +32,50 @@ std::string extents_text(const std::vector<hsize_t>& extents) {
   return extents.empty() ? "scalar" : fmt::format("[{}]", fmt::join(extents, ", "));
 }
 
-FileReader::FileReader(const std::string& path) : state_(std::make_unique<State>()) {
+namespace {
+
+/// How many bytes of values one byte of a file may hold: as it is, or at most what deflate reaches.
+constexpr std::uintmax_t greatest_compression = 1032;
+
+/// Checksums of all datasets in a file, by path; empty where one has none.
+std::map<std::string, std::string> stored_checksums(hid_t file) {
+  std::map<std::string, std::string> checksums;
+  const auto visit = [](hid_t root, const char* name, const H5O_info_t* info, void* data) -> herr_t {
+    if (info->type != H5O_TYPE_DATASET) return 0;
+    const Handle set(H5Dopen2(root, name, H5P_DEFAULT), H5Dclose);
+    (*static_cast<std::map<std::string, std::string>*>(data))[std::string("/") + name] =
+        set ? read_text_attribute(set, attribute::checksum) : "";
+    return 0;
+  };
+  H5Ovisit2(file, H5_INDEX_NAME, H5_ITER_NATIVE, visit, &checksums, H5O_INFO_BASIC);
+  return checksums;
+}
+
+} // namespace
+
+std::string wrong_list(const FileReader::State& state) {
+  const std::string found = checksum_of_list(
+      read_text_attribute(state.file, attribute::file_kind), read_text_attribute(state.file, attribute::schema_version),
+      read_text_attribute(state.file, attribute::creator), stored_checksums(state.file));
+  return found == state.checksums ? ""
+                                  : "the file is damaged: its list of datasets does not match its checksum (a dataset "
+                                    "is lost, added, renamed or changed)";
+}
+
+std::unique_ptr<FileReader::State> open_unchecked(const std::string& path) {
   prepare_hdf5();
-  state_->path = path;
+  auto state = std::make_unique<FileReader::State>();
+  state->path = path;
   std::error_code ignored;
   if (!std::filesystem::exists(path, ignored)) throw InputError(fmt::format("{}: no such file", one_line(path)));
   if (!std::filesystem::is_regular_file(path, ignored)) throw InputError(fmt::format("{}: not a file", one_line(path)));
-  state_->file = Handle(H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), H5Fclose);
-  if (!state_->file)
+  state->file_size = std::filesystem::file_size(path, ignored);
+  state->file = Handle(H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), H5Fclose);
+  if (!state->file)
     throw InputError(fmt::format("{}: not an HDF5 file that can be opened (damaged or not readable)", one_line(path)));
 
-  const std::string kind = read_text_attribute(state_->file, "file_kind");
-  const std::string version = read_text_attribute(state_->file, "schema_version");
+  const std::string kind = read_text_attribute(state->file, attribute::file_kind);
+  const std::string version = read_text_attribute(state->file, attribute::schema_version);
   const auto known = std::find_if(std::begin(kinds), std::end(kinds), [&](const auto& k) { return k.name == kind; });
   if (known == std::end(kinds))
     throw InputError(
@@ -49,7 +83,24 @@ FileReader::FileReader(const std::string& path) : state_(std::make_unique<State>
   if (version != schema_version)
     throw InputError(fmt::format("{}: schema version '{}', this program reads {}", one_line(path), one_line(version),
                                  schema_version));
-  state_->kind = static_cast<FileKind>(known - std::begin(kinds));
+  state->kind = static_cast<FileKind>(known - std::begin(kinds));
+  state->checksums = read_text_attribute(state->file, attribute::checksums);
+  return state;
+}
+
+FileReader::FileReader(const std::string& path) {
+  std::error_code ignored;
+  const bool regular = std::filesystem::is_regular_file(path, ignored);
+  const Seal seal = regular ? check_seal(path) : Seal::absent; // before HDF5 sees the file
+  if (seal == Seal::broken)
+    throw InputError(fmt::format("{}: the file is damaged: its structure does not match its checksum (postproc "
+                                 "validate looks at each dataset)",
+                                 one_line(path)));
+  state_ = open_unchecked(path);
+  state_->seal = seal;
+  if (seal == Seal::absent && !state_->checksums.empty())
+    if (const std::string wrong = wrong_list(*state_); !wrong.empty())
+      throw InputError(fmt::format("{}: {}", one_line(path), wrong));
 }
 
 FileReader::FileReader(const std::string& path, FileKind kind) : FileReader(path) {
@@ -69,7 +120,10 @@ FileKind FileReader::kind() const {
   return state_->kind;
 }
 std::string FileReader::creator() const {
-  return read_text_attribute(state_->file, "creator");
+  return read_text_attribute(state_->file, attribute::creator);
+}
+std::string FileReader::checksums() const {
+  return state_->checksums;
 }
 
 bool FileReader::has(const DatasetDescription& dataset, std::string_view snapshot) const {
@@ -93,12 +147,27 @@ std::size_t FileReader::count(const DatasetDescription& dataset, std::string_vie
     values *= extents[i];
   }
   if (!good) fail(fmt::format("has the shape {}, expected {}", extents_text(extents), dataset.shape));
+  if (const std::string vast = state_->vast(set); !vast.empty()) fail(vast);
   return values;
 }
 
-void FileReader::read_values(const DatasetDescription& dataset, void* values, std::string_view snapshot) const {
-  const std::string path = path_of(dataset, snapshot);
-  const Handle set(H5Dopen2(state_->file, path.c_str(), H5P_DEFAULT), H5Dclose);
+std::string FileReader::State::vast(hid_t set) const {
+  const Handle type(H5Dget_type(set), H5Tclose), creation(H5Dget_create_plist(set), H5Pclose);
+  const std::uintmax_t compression = H5Pget_nfilters(creation) > 0 ? greatest_compression : 1;
+  const auto extents = extents_of(set);
+  std::uintmax_t left = file_size * compression / std::max<std::size_t>(H5Tget_size(type), 1); // values that fit
+  for (const hsize_t extent : extents) {
+    if (extent == 0) return "";
+    left /= extent;
+  }
+  if (left > 0) return "";
+  return fmt::format("has the shape {}, more values than a file of {} bytes can hold", extents_text(extents),
+                     file_size);
+}
+
+std::string FileReader::State::read(const DatasetDescription& dataset, const std::string& path_in_file,
+                                    void* values) const {
+  const Handle set(H5Dopen2(file, path_in_file.c_str(), H5P_DEFAULT), H5Dclose);
   const Handle type = memory_type(dataset.type);
   herr_t status = 0;
   if (dataset.type == ElementType::string) {
@@ -112,8 +181,19 @@ void FileReader::read_values(const DatasetDescription& dataset, void* values, st
   } else {
     status = H5Dread(set, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, values);
   }
-  if (status < 0)
-    throw InputError(fmt::format("{}: dataset {} cannot be read (damaged)", one_line(state_->path), path));
+  if (status < 0) return "is damaged: it cannot be read";
+  const std::string checksum = read_text_attribute(set, attribute::checksum);
+  if (checksum.empty()) return checked() ? "is damaged: it has no checksum" : "";
+  const auto extents = extents_of(set);
+  const std::string found = checksum_of_dataset(dataset, path_in_file, read_text_attribute(set, attribute::unit),
+                                                {extents.begin(), extents.end()}, values);
+  return found == checksum ? "" : "is damaged: its values do not match its checksum";
+}
+
+void FileReader::read_values(const DatasetDescription& dataset, void* values, std::string_view snapshot) const {
+  const std::string path = path_of(dataset, snapshot);
+  if (const std::string wrong = state_->read(dataset, path, values); !wrong.empty())
+    throw InputError(fmt::format("{}: dataset {} {}", one_line(state_->path), path, wrong));
 }
 
 std::size_t FileReader::rows(const DatasetDescription& dataset, std::string_view snapshot) const {
@@ -123,17 +203,34 @@ std::size_t FileReader::rows(const DatasetDescription& dataset, std::string_view
   return extents.empty() ? 1 : extents.front();
 }
 
-std::vector<std::string> FileReader::snapshots() const {
+void FileReader::verify() const {
+  const auto read_one = [this](const DatasetDescription& dataset, const std::string& snapshot) {
+    if (!has(dataset, snapshot)) return;
+    with_element(dataset.type, [&](auto element) { read_all<decltype(element)>(dataset, snapshot); });
+  };
+  const auto names = snapshots();
+  for (const DatasetDescription& dataset : kinds[static_cast<std::size_t>(kind())].datasets) {
+    if (!dataset.of_snapshot()) read_one(dataset, {});
+    for (const std::string& snapshot : names)
+      if (dataset.of_snapshot()) read_one(dataset, snapshot);
+  }
+}
+
+std::vector<std::string> snapshots_in(hid_t file) {
   std::vector<std::string> names;
-  if (!path_exists(state_->file, "/snapshots")) return names;
+  if (!path_exists(file, "/snapshots")) return names;
   const auto collect = [](hid_t, const char* name, const H5L_info_t*, void* data) -> herr_t {
     static_cast<std::vector<std::string>*>(data)->emplace_back(name);
     return 0;
   };
-  const Handle group(H5Gopen2(state_->file, "/snapshots", H5P_DEFAULT), H5Gclose);
+  const Handle group(H5Gopen2(file, "/snapshots", H5P_DEFAULT), H5Gclose);
   if (group) H5Literate(group, H5_INDEX_NAME, H5_ITER_INC, nullptr, collect, &names);
   std::sort(names.begin(), names.end());
   return names;
+}
+
+std::vector<std::string> FileReader::snapshots() const {
+  return snapshots_in(state_->file);
 }
 
 } // namespace mpfem::schema

@@ -3,6 +3,7 @@
 
 #include "results-schema/file.hpp"
 #include "results-schema/hdf5_handle.hpp"
+#include "results-schema/seal.hpp"
 
 namespace mpfem::schema {
 
@@ -10,7 +11,40 @@ struct FileReader::State {
   std::string path;
   Handle file;
   FileKind kind{};
+  Seal seal = Seal::absent;
+  std::uintmax_t file_size = 0;
+  std::string checksums; ///< root attribute; empty: none
+
+  bool checked() const { return seal != Seal::absent || !checksums.empty(); }
+  /// Reads all values of a dataset of good type and shape. Returns what is wrong with it, "" for nothing.
+  std::string read(const DatasetDescription& dataset, const std::string& path_in_file, void* values) const;
+  /// What is wrong with a dataset's extents in view of the file's size; "" for nothing.
+  std::string vast(hid_t set) const;
 };
+
+/// Opens a file without comparing it with its checksums. Throws InputError as FileReader's constructor does.
+std::unique_ptr<FileReader::State> open_unchecked(const std::string& path);
+/// What is wrong with the list of datasets in view of the root attribute `checksums`; "" for nothing.
+std::string wrong_list(const FileReader::State& state);
+/// Names of the groups below /snapshots.
+std::vector<std::string> snapshots_in(hid_t file);
+
+/// Calls f(T{}) with the type of an element.
+template <class F>
+void with_element(ElementType type, F&& f) {
+  switch (type) {
+  case ElementType::float64:
+    return f(double{});
+  case ElementType::float32:
+    return f(float{});
+  case ElementType::int32:
+    return f(std::int32_t{});
+  case ElementType::int64:
+    return f(std::int64_t{});
+  case ElementType::string:
+    return f(std::string{});
+  }
+}
 
 /// Extents of an open dataset.
 std::vector<hsize_t> extents_of(hid_t dataset);

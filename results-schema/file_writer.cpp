@@ -1,13 +1,15 @@
 #include <algorithm>
-#include <filesystem>
 #include <map>
 #include <stdexcept>
 
 #include <fmt/format.h>
 
 #include "common/errors.hpp"
-#include "results-schema/file.hpp"
-#include "results-schema/hdf5_handle.hpp"
+#include "common/one_line.hpp"
+#include "common/output_file.hpp"
+#include "results-schema/checksum.hpp"
+#include "results-schema/file_reader.hpp"
+#include "results-schema/seal.hpp"
 
 namespace mpfem::schema {
 
@@ -16,15 +18,41 @@ namespace {
 /// Arrays of snapshots beyond this many bytes are compressed: byte shuffle and deflate at its fastest level.
 constexpr std::size_t compressed_from = 64 * 1024;
 constexpr hsize_t chunk_values = 64 * 1024;
+/// The seal leaves out values of datasets beyond this many bytes.
+constexpr std::size_t left_out_from = 64 * 1024;
+
+/// Where the values of a dataset stand in the file. Everything must have been flushed.
+std::vector<ByteRange> places_of_values(hid_t set) {
+  const Handle creation(H5Dget_create_plist(set), H5Pclose);
+  if (H5Pget_layout(creation) == H5D_CONTIGUOUS) {
+    const haddr_t address = H5Dget_offset(set);
+    if (address == HADDR_UNDEF) return {};
+    return {{address, H5Dget_storage_size(set)}};
+  }
+  std::array<hsize_t, 2> chunk{}, offset{}; // a chunk has whole rows
+  H5Pget_chunk(creation, static_cast<int>(chunk.size()), chunk.data());
+  std::vector<ByteRange> places;
+  for (const hsize_t rows = extents_of(set).front(); offset[0] < rows; offset[0] += chunk[0]) {
+    haddr_t address = HADDR_UNDEF;
+    hsize_t size = 0;
+    unsigned filters = 0;
+    if (H5Dget_chunk_info_by_coord(set, offset.data(), &filters, &address, &size) >= 0 && address != HADDR_UNDEF)
+      places.push_back({address, size});
+  }
+  return places;
+}
 
 } // namespace
 
 struct FileWriter::State {
-  std::string path, partial;
+  std::string path, target, partial; ///< as named, where links lead, and beside that
   FileKind kind;
+  std::string creator;
   Handle file;
-  bool complete = false;                      ///< all written and closed: .partial is worth keeping
-  std::map<std::string, std::size_t> extents; ///< named extents seen so far; of a snapshot: its name before them
+  bool complete = false;                        ///< all written and closed: .partial is worth keeping
+  std::map<std::string, std::size_t> extents;   ///< named extents seen so far; of a snapshot: its name before them
+  std::map<std::string, std::string> checksums; ///< of all datasets so far, by path
+  std::vector<std::string> large;               ///< paths of datasets whose values the seal leaves out
 
   [[noreturn]] void storage_failed(std::string_view what) const {
     throw StorageError(
@@ -33,24 +61,30 @@ struct FileWriter::State {
 };
 
 FileWriter::FileWriter(const std::string& path, FileKind kind, std::string_view creator)
-    : state_(std::make_unique<State>(State{path, path + ".partial", kind, {}, false, {}})) {
+    : state_(std::make_unique<State>()) {
+  refuse_special_file("output", path, OutputKind::binary);
+  state_->path = path;
+  state_->target = output_target(path);
+  state_->partial = state_->target + ".partial";
+  state_->kind = kind;
+  state_->creator = creator;
+  remove_stale_partial(state_->partial);
   prepare_hdf5();
   const Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
   H5Pset_libver_bounds(access, H5F_LIBVER_V18, H5F_LIBVER_LATEST);
   state_->file = Handle(H5Fcreate(state_->partial.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, access), H5Fclose);
   if (!state_->file) state_->storage_failed("the file");
   const std::string kind_name(kinds[static_cast<std::size_t>(kind)].name);
-  if (write_text_attribute(state_->file, "schema_version", schema_version) < 0 ||
-      write_text_attribute(state_->file, "file_kind", kind_name) < 0 ||
-      write_text_attribute(state_->file, "creator", creator) < 0)
+  if (write_text_attribute(state_->file, attribute::schema_version, schema_version) < 0 ||
+      write_text_attribute(state_->file, attribute::file_kind, kind_name) < 0 ||
+      write_text_attribute(state_->file, attribute::creator, creator) < 0)
     state_->storage_failed("the root attributes");
 }
 
 FileWriter::~FileWriter() {
   if (state_->complete) return;
   state_->file.reset();
-  std::error_code ignored;
-  std::filesystem::remove(state_->partial, ignored);
+  std::remove(state_->partial.c_str());
 }
 
 void FileWriter::write_values(const DatasetDescription& dataset, const void* values, std::size_t count,
@@ -104,9 +138,14 @@ void FileWriter::write_values(const DatasetDescription& dataset, const void* val
   const Handle set(H5Dcreate2(state_->file, path.c_str(), file_type(dataset.type), space, link, creation, H5P_DEFAULT),
                    H5Dclose);
   if (!set) state_->storage_failed(path);
-  if (write_text_attribute(set, "unit", dataset.unit) < 0 ||
-      write_text_attribute(set, "description", dataset.description) < 0)
+  const std::string checksum =
+      checksum_of_dataset(dataset, path, dataset.unit, {extent.begin(), extent.begin() + dataset.rank}, values);
+  if (write_text_attribute(set, attribute::unit, dataset.unit) < 0 ||
+      write_text_attribute(set, attribute::description, dataset.description) < 0 ||
+      write_text_attribute(set, attribute::checksum, checksum) < 0)
     state_->storage_failed(path);
+  state_->checksums.emplace(path, checksum);
+  if (count * H5Tget_size(type) >= left_out_from && dataset.type != ElementType::string) state_->large.push_back(path);
   if (count == 0) return;
 
   herr_t status = 0;
@@ -120,15 +159,32 @@ void FileWriter::write_values(const DatasetDescription& dataset, const void* val
   if (status < 0) state_->storage_failed(path);
 }
 
+void FileWriter::copy_snapshot(const FileReader& from, std::string_view source, std::string_view target) {
+  for (const DatasetDescription& dataset : kinds[static_cast<std::size_t>(state_->kind)].datasets) {
+    if (!dataset.of_snapshot() || (!dataset.required && !from.has(dataset, source))) continue;
+    with_element(dataset.type, [&](auto element) {
+      const auto values = from.read_all<decltype(element)>(dataset, source);
+      write_values(dataset, values.data(), values.size(), from.rows(dataset, source), target);
+    });
+  }
+}
+
 void FileWriter::commit() {
   if (!state_->file) throw std::logic_error(state_->path + ": commit() called twice");
-  if (H5Fflush(state_->file, H5F_SCOPE_GLOBAL) < 0 || !state_->file.reset()) state_->storage_failed("the file");
+  const std::string list = checksum_of_list(kinds[static_cast<std::size_t>(state_->kind)].name, schema_version,
+                                            state_->creator, state_->checksums);
+  if (write_text_attribute(state_->file, attribute::checksums, list) < 0) state_->storage_failed("the root attributes");
+  if (H5Fflush(state_->file, H5F_SCOPE_GLOBAL) < 0) state_->storage_failed("the file");
+  std::vector<ByteRange> left_out;
+  for (const std::string& path : state_->large) {
+    const Handle set(H5Dopen2(state_->file, path.c_str(), H5P_DEFAULT), H5Dclose);
+    for (const ByteRange& place : places_of_values(set)) left_out.push_back(place);
+  }
+  if (!state_->file.reset()) state_->storage_failed("the file");
+  append_seal(state_->partial, left_out);
+  if (check_seal(state_->partial) != Seal::intact) state_->storage_failed("the file");
   state_->complete = true;
-  std::error_code error;
-  std::filesystem::rename(state_->partial, state_->path, error);
-  if (error)
-    throw StorageError(fmt::format("{}: the complete file {} could not be renamed: {}", state_->path, state_->partial,
-                                   error.message()));
+  replace_file(state_->partial, state_->target);
 }
 
 } // namespace mpfem::schema

@@ -23,10 +23,14 @@ struct Kind {
   std::vector<Line> lines;
 };
 
+struct Attribute {
+  std::string name, description;
+};
+
 struct Schema {
   std::string version;
-  std::vector<std::string> conventions;
-  std::vector<std::string> attributes;
+  std::vector<std::string> conventions, integrity;
+  std::vector<Attribute> root_attributes, dataset_attributes;
   std::vector<Kind> kinds;
 };
 
@@ -102,19 +106,39 @@ std::string cpp_name(const std::string& path) {
   return name;
 }
 
+std::vector<std::string> texts(const toml::table& table, std::string_view key) {
+  std::vector<std::string> lines;
+  if (const toml::array* array = table[key].as_array())
+    for (const toml::node& line : *array) lines.push_back(line.value_or(std::string()));
+  return lines;
+}
+
+/// In the order of the file.
+std::vector<Attribute> read_attributes(const toml::table& root, std::string_view key) {
+  const toml::table* table = root[key].as_table();
+  if (!table) fail(root, fmt::format("key '{}' must be a table", key));
+  std::vector<std::pair<std::uint32_t, Attribute>> attributes;
+  for (const auto& [name, value] : *table)
+    attributes.emplace_back(value.source().begin.line, Attribute{std::string(name.str()), text(*table, name, true)});
+  std::sort(attributes.begin(), attributes.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+  std::vector<Attribute> sorted;
+  for (auto& [line, attribute] : attributes) sorted.push_back(std::move(attribute));
+  return sorted;
+}
+
 /// Kinds in the order of the file (toml++ keeps tables in alphabetical order).
 Schema read_schema(const std::string& path) {
   const toml::table root = toml::parse_file(path);
   Schema schema;
   schema.version = text(root, "version", true);
-  if (const toml::array* conventions = root["conventions"].as_array())
-    for (const toml::node& line : *conventions) schema.conventions.push_back(line.value_or(std::string()));
-  if (const toml::table* attributes = root["attributes"].as_table())
-    for (const auto& [key, value] : *attributes) schema.attributes.emplace_back(key.str());
+  schema.conventions = texts(root, "conventions");
+  schema.integrity = texts(root, "integrity");
+  schema.root_attributes = read_attributes(root, "attributes");
+  schema.dataset_attributes = read_attributes(root, "dataset_attributes");
 
   std::vector<std::pair<std::uint32_t, Kind>> kinds;
   for (const auto& [key, value] : root) {
-    if (key.str() == "attributes" || !value.is_table()) continue;
+    if (key.str().ends_with("attributes") || !value.is_table()) continue;
     const toml::table& table = *value.as_table();
     Kind kind{std::string(key.str()), text(table, "description", true), {}};
     const toml::array* datasets = table["datasets"].as_array();
@@ -165,6 +189,12 @@ std::string descriptors(const Schema& schema) {
   std::string out = "#pragma once\n// Generated from results-schema/schema.toml; do not edit.\n\n"
                     "#include \"results-schema/dataset.hpp\"\n\nnamespace mpfem::schema {\n\n";
   out += fmt::format("inline constexpr std::string_view schema_version = {};\n\n", quoted(schema.version));
+  out += "/// Names of the attributes, all of them texts.\nnamespace attribute {\n";
+  for (const auto* attributes : {&schema.root_attributes, &schema.dataset_attributes})
+    for (const Attribute& attribute : *attributes)
+      out += fmt::format("/// {}\ninline constexpr const char* {} = {};\n", attribute.description, attribute.name,
+                         quoted(attribute.name));
+  out += "} // namespace attribute\n\n";
   std::vector<std::string> names;
   for (const Kind& kind : schema.kinds) names.push_back(kind.name);
   out += fmt::format("enum class FileKind {{ {} }};\n\n", fmt::join(names, ", "));
@@ -188,22 +218,28 @@ std::string descriptors(const Schema& schema) {
   return out + "};\n\n} // namespace mpfem::schema\n";
 }
 
+std::string attribute_table(const std::string& heading, const std::vector<Attribute>& attributes) {
+  std::string out = fmt::format("\n| {} | meaning |\n|---|---|\n", heading);
+  for (const Attribute& attribute : attributes)
+    out += fmt::format("| `{}` | {} |\n", attribute.name, attribute.description);
+  return out;
+}
+
 std::string markdown(const Schema& schema) {
   std::string out = fmt::format("# Results schema, version {}\n\n"
                                 "Generated from `results-schema/schema.toml` (build target `results_schema_docs`); do "
-                                "not edit.\n\n"
-                                "Every file is HDF5. Its root has the attributes {}. Every dataset has the attributes "
-                                "`unit` and `description`.\n\n",
-                                schema.version, [&] {
-                                  std::vector<std::string> names;
-                                  for (const auto& name : schema.attributes) names.push_back("`" + name + "`");
-                                  return fmt::format("{}", fmt::join(names, ", "));
-                                }());
+                                "not edit.\n\nEvery file is HDF5. All attributes are texts.\n",
+                                schema.version);
+  out += attribute_table("root attribute", schema.root_attributes);
+  out += attribute_table("attribute of a dataset", schema.dataset_attributes);
+  out += "\n## Conventions\n\n";
   for (const std::string& line : schema.conventions) out += fmt::format("- {}\n", line);
   out +=
       "- A name in a shape is a free extent; the same name has the same value everywhere in one file (with a leading "
       "`*`: in one snapshot). `NAME_plus_1` is one more than `NAME`.\n"
-      "- `*` in a path stands for a snapshot's name: `0000`, `0001`, …\n";
+      "- `*` in a path stands for a snapshot's name: `0000`, `0001`, …\n"
+      "\n## How files are checked\n\n";
+  for (const std::string& line : schema.integrity) out += line + "\n";
   for (const Kind& kind : schema.kinds) {
     out +=
         fmt::format("\n## {}\n\n{}\n\n| path | type | shape | unit | required | meaning |\n|---|---|---|---|---|---|\n",

@@ -79,6 +79,8 @@ std::string read_text_attribute(hid_t object, const char* name) {
     H5free_memory(text);
     return result;
   }
+  constexpr std::size_t longest = 1 << 20;
+  if (H5Tget_size(stored) > longest) return {};
   std::vector<char> text(H5Tget_size(stored) + 1, '\0');
   if (H5Aread(attribute, stored, text.data()) < 0) return {};
   return text.data();

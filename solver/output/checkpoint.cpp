@@ -8,6 +8,7 @@
 
 #include "common/errors.hpp"
 #include "common/hash.hpp"
+#include "common/one_line.hpp"
 #include "common/table_reader.hpp"
 #include "common/version.hpp"
 #include "results-schema/descriptors.hpp"
@@ -79,58 +80,34 @@ void for_each_tet(ModelType& model, F&& f) {
   });
 }
 
-/// Of a tet's deviator, in the order of TetBlock. One array each: a copy of all five would be the most that a run holds.
+/// Of a tet's deviator, in the order of TetBlock. One array each: a copy of all five would be the most that a run
+/// holds.
 constexpr std::array deviator_components = {check::tet_deviator_xx, check::tet_deviator_yy, check::tet_deviator_xy,
                                             check::tet_deviator_yz, check::tet_deviator_zx};
 
-/// Calls f(dataset) for every array that the checksum covers, in its order, which is also that of writing.
-template <class F>
-void for_each_array(F&& f) {
-  f(check::run_integers), f(check::run_numbers), f(check::run_history), f(check::run_stage_values);
-  f(check::run_stage_hold_rms);
-  f(check::node_position), f(check::node_velocity), f(check::node_force);
-  for (const auto& component : deviator_components) f(component);
-  f(check::tet_flow_stress), f(check::tet_plastic_strain), f(check::tet_length);
-  f(check::grain_step), f(check::grain_step_growth), f(check::node_step_contact);
-  f(check::grain_travel), f(check::grain_travel_at_search), f(check::contact_point_wake), f(check::contact_point_sure);
-  f(check::contact_pair_first), f(check::contact_pair_second), f(check::contact_pair_point_offset);
-  f(check::contact_point_node), f(check::contact_point_facet_offset), f(check::contact_candidate_facet);
-  f(check::contact_point_facet);
-  f(check::bond_facet), f(check::bond_values), f(check::bond_laws), f(check::bond_law);
-  f(check::grip_node), f(check::grip_side), f(check::grip_reference);
-}
-
-/// Hash of the arrays in a file. One array is in memory at a time: a checkpoint may be as large as the model.
-std::uint64_t checksum(const schema::FileReader& file) {
+/// The hash that files of before every dataset had a checksum hold in /checksum. One array is in memory at a time: a
+/// checkpoint may be as large as the model.
+std::uint64_t earlier_checksum(const schema::FileReader& file) {
   std::uint64_t hash = hash_seed;
-  for_each_array([&](const auto& dataset) {
-    if (!file.has(dataset)) return; // of bonds and grips
-    const auto values = file.read(dataset);
-    hash = hash_values(std::span<const typename decltype(values)::value_type>(values), hash);
-  });
+  const auto add = [&](const auto&... datasets) {
+    const auto add_one = [&](const auto& dataset) {
+      if (!file.has(dataset)) return; // of bonds and grips
+      const auto values = file.read(dataset);
+      hash = hash_values(std::span(values), hash);
+    };
+    (add_one(datasets), ...);
+  };
+  add(check::run_integers, check::run_numbers, check::run_history, check::run_stage_values, check::run_stage_hold_rms,
+      check::node_position, check::node_velocity, check::node_force);
+  for (const auto& component : deviator_components) add(component);
+  add(check::tet_flow_stress, check::tet_plastic_strain, check::tet_length, check::grain_step, check::grain_step_growth,
+      check::node_step_contact, check::grain_travel, check::grain_travel_at_search, check::contact_point_wake,
+      check::contact_point_sure, check::contact_pair_first, check::contact_pair_second,
+      check::contact_pair_point_offset, check::contact_point_node, check::contact_point_facet_offset,
+      check::contact_candidate_facet, check::contact_point_facet, check::bond_facet, check::bond_values,
+      check::bond_laws, check::bond_law, check::grip_node, check::grip_side, check::grip_reference);
   return hash;
 }
-
-/// Writes arrays in the order of for_each_array and makes their checksum on the way.
-class ArrayWriter {
-public:
-  explicit ArrayWriter(schema::FileWriter& file) : file_(file) {}
-  template <class T, int Rank, class Vector>
-  void write(const schema::Dataset<T, Rank>& dataset, const Vector& values, std::size_t rows) {
-    const std::span<const T> span(values.data(), values.size());
-    hash_ = hash_values(span, hash_);
-    file_.write(dataset, span, rows);
-  }
-  template <class T, class Vector>
-  void write(const schema::Dataset<T, 1>& dataset, const Vector& values) {
-    write(dataset, values, values.size());
-  }
-  std::uint64_t checksum() const { return hash_; }
-
-private:
-  schema::FileWriter& file_;
-  std::uint64_t hash_ = hash_seed;
-};
 
 /// Of the order of nodes and tets, in which arrays stand in a checkpoint.
 std::uint64_t numbering_hash(const Model& model) {
@@ -196,34 +173,38 @@ void write_checkpoint(const std::string& path, const Simulation& simulation, con
   std::vector<double> numbers;
   for_each_number(simulation.state(), record, [&](double value) { numbers.push_back(value); });
   const auto nodes = static_cast<std::size_t>(model.nodes());
-  ArrayWriter arrays(file);
-  arrays.write(check::run_integers, integers(simulation.state()));
-  arrays.write(check::run_numbers, numbers);
-  arrays.write(check::run_history, flatten(record.history));
-  arrays.write(check::run_stage_values, stage_values, stage_name.size());
-  arrays.write(check::run_stage_hold_rms, stage_hold_rms);
-  arrays.write(check::node_position, model.position, nodes);
-  arrays.write(check::node_velocity, model.velocity, nodes);
-  arrays.write(check::node_force, model.force, nodes);
+  const auto write_rows = [&file](const auto& dataset, const auto& values, std::size_t rows) {
+    using T = typename std::decay_t<decltype(values)>::value_type;
+    file.write(dataset, std::span<const T>(values.data(), values.size()), rows);
+  };
+  const auto write = [&](const auto& dataset, const auto& values) { write_rows(dataset, values, values.size()); };
+  write(check::run_integers, integers(simulation.state()));
+  write(check::run_numbers, numbers);
+  write(check::run_history, flatten(record.history));
+  write_rows(check::run_stage_values, stage_values, stage_name.size());
+  write(check::run_stage_hold_rms, stage_hold_rms);
+  write_rows(check::node_position, model.position, nodes);
+  write_rows(check::node_velocity, model.velocity, nodes);
+  write_rows(check::node_force, model.force, nodes);
   for (std::size_t c = 0; c < deviator_components.size(); ++c)
-    arrays.write(deviator_components[c], of_tets(model, [c](const auto& b) { return b.deviator[c]; }));
-  arrays.write(check::tet_flow_stress, of_tets(model, [](const auto& b) { return b.flow_stress; }));
-  arrays.write(check::tet_plastic_strain, of_tets(model, [](const auto& b) { return b.plastic_strain; }));
-  arrays.write(check::tet_length, of_tets(model, [](const auto& b) { return b.length; }));
-  arrays.write(check::grain_step, simulation.grain_steps().whole);
-  arrays.write(check::grain_step_growth, simulation.grain_steps().growth);
-  arrays.write(check::node_step_contact, simulation.grain_steps().contact);
-  arrays.write(check::grain_travel, contact.travel);
-  arrays.write(check::grain_travel_at_search, contact.travel_at_search);
-  arrays.write(check::contact_point_wake, contact.point_wake);
-  arrays.write(check::contact_point_sure, contact.point_sure);
-  arrays.write(check::contact_pair_first, candidates.pair_first);
-  arrays.write(check::contact_pair_second, candidates.pair_second);
-  arrays.write(check::contact_pair_point_offset, candidates.pair_point_offset);
-  arrays.write(check::contact_point_node, candidates.point_node);
-  arrays.write(check::contact_point_facet_offset, candidates.point_facet_offset);
-  arrays.write(check::contact_candidate_facet, candidates.point_facet);
-  arrays.write(check::contact_point_facet, contact.point_facet);
+    write(deviator_components[c], of_tets(model, [c](const auto& b) { return b.deviator[c]; }));
+  write(check::tet_flow_stress, of_tets(model, [](const auto& b) { return b.flow_stress; }));
+  write(check::tet_plastic_strain, of_tets(model, [](const auto& b) { return b.plastic_strain; }));
+  write(check::tet_length, of_tets(model, [](const auto& b) { return b.length; }));
+  write(check::grain_step, simulation.grain_steps().whole);
+  write(check::grain_step_growth, simulation.grain_steps().growth);
+  write(check::node_step_contact, simulation.grain_steps().contact);
+  write(check::grain_travel, contact.travel);
+  write(check::grain_travel_at_search, contact.travel_at_search);
+  write(check::contact_point_wake, contact.point_wake);
+  write(check::contact_point_sure, contact.point_sure);
+  write(check::contact_pair_first, candidates.pair_first);
+  write(check::contact_pair_second, candidates.pair_second);
+  write(check::contact_pair_point_offset, candidates.pair_point_offset);
+  write(check::contact_point_node, candidates.point_node);
+  write(check::contact_point_facet_offset, candidates.point_facet_offset);
+  write(check::contact_candidate_facet, candidates.point_facet);
+  write(check::contact_point_facet, contact.point_facet);
   if (contact.bonding()) {
     std::vector<std::int32_t> facet, number;
     std::vector<double> values;
@@ -233,10 +214,10 @@ void write_checkpoint(const std::string& path, const Simulation& simulation, con
       values.insert(values.end(), {bond.weight1, bond.weight2, bond.state.initiation, bond.state.largest,
                                    bond.remaining, bond.spent});
     }
-    arrays.write(check::bond_facet, facet);
-    arrays.write(check::bond_values, values, facet.size());
-    arrays.write(check::bond_laws, flatten(contact.bond_laws), contact.bond_laws.size());
-    if (contact.bond_laws.size() > 1) arrays.write(check::bond_law, number);
+    write(check::bond_facet, facet);
+    write_rows(check::bond_values, values, facet.size());
+    write_rows(check::bond_laws, flatten(contact.bond_laws), contact.bond_laws.size());
+    if (contact.bond_laws.size() > 1) write(check::bond_law, number);
   }
   if (simulation.grips().present()) {
     std::vector<std::int32_t> node, side;
@@ -246,18 +227,17 @@ void write_checkpoint(const std::string& path, const Simulation& simulation, con
       side.push_back(gripped.side);
       reference.insert(reference.end(), gripped.reference.begin(), gripped.reference.end());
     }
-    arrays.write(check::grip_node, node);
-    arrays.write(check::grip_side, side);
-    arrays.write(check::grip_reference, reference, node.size());
+    write(check::grip_node, node);
+    write(check::grip_side, side);
+    write_rows(check::grip_reference, reference, node.size());
   }
-  file.write_scalar(check::checksum, hash_text(arrays.checksum()));
   file.commit();
 }
 
 namespace {
 
-/// Grains that touch by their smooth surface in a checkpoint. Those of before the number was kept had all of them where the
-/// scenario said so, and none where it did not.
+/// Grains that touch by their smooth surface in a checkpoint. Those of before the number was kept had all of them where
+/// the scenario said so, and none where it did not.
 int smooth_grains_before(const schema::FileReader& file, const Scenario& before, const Model& model) {
   if (file.has(check::smooth_grains)) return file.read_scalar(check::smooth_grains);
   return before.contact.surface == ContactSurface::smooth ? model.grains : 0;
@@ -292,6 +272,23 @@ bool take_bonds(const schema::FileReader& file, std::int32_t facets, std::size_t
   return true;
 }
 
+/// What tells a checkpoint's content from others: the hash of its list of datasets or, in files of before there was
+/// one, of its numbers.
+std::string content_hash(const schema::FileReader& file) {
+  if (!file.checksums().empty()) return file.checksums();
+  if (file.has(check::checksum)) return file.read_scalar(check::checksum);
+  throw InputError(
+      fmt::format("{}: the checkpoint has no checksum, allowed: a file as mpfem wrote it", one_line(file.path())));
+}
+
+/// Throws InputError where the numbers of an earlier version's file do not match its checksum.
+void check_content_hash(const schema::FileReader& file) {
+  if (const std::string hash = content_hash(file);
+      hash != file.checksums() && hash != hash_text(earlier_checksum(file)))
+    throw InputError(fmt::format("{}: the checkpoint is damaged: its numbers do not match its checksum",
+                                 one_line(file.path())));
+}
+
 /// Whether a bond has formed by the checkpoint.
 bool has_bonds(const schema::FileReader& file) {
   if (!file.has(check::bond_facet)) return false;
@@ -309,7 +306,7 @@ void read_checkpoint(const std::string& path, Simulation& simulation, RunRecord&
                      const std::string& scenario_text, bool any_scenario) {
   const schema::FileReader file(path, schema::FileKind::checkpoint);
   const auto damaged = [&path] {
-    return InputError(fmt::format("{}: the checkpoint is damaged: its numbers do not match its checksum", path));
+    return InputError(fmt::format("{}: the checkpoint is damaged: its numbers do not belong together", path));
   };
   const bool bonded = has_bonds(file);
 
@@ -320,7 +317,7 @@ void read_checkpoint(const std::string& path, Simulation& simulation, RunRecord&
   if (!file.has(check::numbering_hash) || file.read_scalar(check::numbering_hash) != hash_text(numbering_hash(model)))
     throw InputError(
         fmt::format("{}: the checkpoint was written by a version of mpfem that orders nodes and tets otherwise", path));
-  if (file.read_scalar(check::checksum) != hash_text(checksum(file))) throw damaged();
+  check_content_hash(file);
   if (!any_scenario && file.read_scalar(check::scenario) != scenario_text)
     throw InputError(
         fmt::format("{}: the checkpoint belongs to another scenario; run without --resume to begin anew", path));
@@ -351,8 +348,8 @@ void read_checkpoint(const std::string& path, Simulation& simulation, RunRecord&
       throw InputError(fmt::format("{}: [initial] has no meaning in a run that begins at a checkpoint: its grains move "
                                    "as they moved there",
                                    path));
-    // Bonds keep the law by which they formed, and [bond] is that of bonds to come. Whether bonds resist sliding decides how
-    // all of them are followed.
+    // Bonds keep the law by which they formed, and [bond] is that of bonds to come. Whether bonds resist sliding
+    // decides how all of them are followed.
     if (bonded && (!now.bond || before.bond->normal_only != now.bond->normal_only))
       throw InputError(fmt::format("{}: the checkpoint has bonds{}, allowed a [bond] with the same normal_only", path,
                                    now.bond ? " of the other bond.normal_only" : ", the scenario has none"));
@@ -478,12 +475,12 @@ void begin_branch(const std::string& path, Simulation& simulation, const std::st
 
 void verify_checkpoint(const std::string& path) {
   const schema::FileReader file(path, schema::FileKind::checkpoint);
-  if (file.read_scalar(check::checksum) != hash_text(checksum(file)))
-    throw InputError(fmt::format("{}: the checkpoint is damaged: its numbers do not match its checksum", path));
+  file.verify();
+  check_content_hash(file);
 }
 
 std::string checkpoint_checksum(const std::string& path) {
-  return schema::FileReader(path, schema::FileKind::checkpoint).read_scalar(check::checksum);
+  return content_hash(schema::FileReader(path, schema::FileKind::checkpoint));
 }
 
 } // namespace mpfem

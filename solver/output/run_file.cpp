@@ -122,18 +122,6 @@ void write_bonds(schema::FileWriter& file, const std::string& name, const Simula
   }
 }
 
-template <class T, int R>
-void copy(schema::FileWriter& to, const schema::FileReader& from, const schema::Dataset<T, R>& dataset,
-          const std::string& source, const std::string& target) {
-  if (!dataset.required && !from.has(dataset, source)) return;
-  if constexpr (R == 0) {
-    to.write_scalar(dataset, from.read_scalar(dataset, source), target);
-  } else {
-    const auto values = from.read(dataset, source);
-    to.write(dataset, std::span<const T>(values), from.rows(dataset, source), target);
-  }
-}
-
 } // namespace
 
 void write_snapshot_file(const std::string& path, Simulation& simulation) {
@@ -194,34 +182,7 @@ void write_run_file(const std::string& path, const Model& model, const std::vect
 
   for (std::size_t i = 0; i < snapshot_files.size(); ++i) {
     const schema::FileReader from(snapshot_files[i], schema::FileKind::run);
-    const std::string source = "0000", target = fmt::format("{:04}", i);
-    copy(file, from, run::snapshots_time, source, target);
-    copy(file, from, run::snapshots_step, source, target);
-    copy(file, from, run::snapshots_relative_density, source, target);
-    copy(file, from, run::snapshots_mean_stress, source, target);
-    copy(file, from, run::snapshots_box_low, source, target);
-    copy(file, from, run::snapshots_box_high, source, target);
-    copy(file, from, run::snapshots_node, source, target);
-    copy(file, from, run::snapshots_velocity, source, target);
-    copy(file, from, run::snapshots_von_mises, source, target);
-    copy(file, from, run::snapshots_pressure, source, target);
-    copy(file, from, run::snapshots_plastic_strain, source, target);
-    copy(file, from, run::snapshots_contact_pressure, source, target);
-    copy(file, from, run::snapshots_pair_grains, source, target);
-    copy(file, from, run::snapshots_pair_force, source, target);
-    copy(file, from, run::snapshots_pair_area, source, target);
-    copy(file, from, run::snapshots_pair_bonded_area, source, target);
-    copy(file, from, run::snapshots_pair_damage, source, target);
-    copy(file, from, run::snapshots_pair_bond_energy, source, target);
-    copy(file, from, run::snapshots_pair_damage_dissipation, source, target);
-    copy(file, from, run::snapshots_damage, source, target);
-    copy(file, from, run::snapshots_bond_node, source, target);
-    copy(file, from, run::snapshots_bond_grain, source, target);
-    copy(file, from, run::snapshots_bond_damage, source, target);
-    copy(file, from, run::snapshots_bond_area, source, target);
-    copy(file, from, run::snapshots_bond_separation, source, target);
-    copy(file, from, run::snapshots_bond_law, source, target);
-    copy(file, from, run::snapshots_bond_laws, source, target);
+    file.copy_snapshot(from, "0000", fmt::format("{:04}", i));
   }
 
   file.write_scalar(run::provenance_version, std::string(version()));

@@ -12,6 +12,7 @@
 
 #include "common/errors.hpp"
 #include "common/one_line.hpp"
+#include "common/output_file.hpp"
 #include "common/table_reader.hpp"
 #include "solver/scenario/scenario.hpp"
 
@@ -103,40 +104,6 @@ void refuse_overwriting(const std::string& output, const std::string& input) {
     throw InputError(fmt::format("{}: is an input, allowed another --output", one_line(output)));
 }
 
-/// A text file that appears under its name when it is complete.
-class TextFile {
-public:
-  explicit TextFile(const std::string& path) : path_(path), partial_(path + ".partial"), file_(partial_) {
-    if (!file_) fail();
-  }
-  ~TextFile() {
-    std::error_code ignored;
-    if (!complete_) std::filesystem::remove(partial_, ignored);
-  }
-  TextFile(const TextFile&) = delete;
-  TextFile& operator=(const TextFile&) = delete;
-
-  void write(const fmt::memory_buffer& text) { file_.write(text.data(), static_cast<std::streamsize>(text.size())); }
-  void complete() {
-    file_.close();
-    std::error_code error;
-    if (file_) std::filesystem::rename(partial_, path_, error);
-    if (!file_ || error) fail();
-    complete_ = true;
-  }
-
-private:
-  [[noreturn]] void fail() const {
-    std::error_code ignored;
-    std::filesystem::remove(partial_, ignored);
-    throw StorageError(
-        fmt::format("{}: cannot be written (missing folder, no permission, or disk full)", one_line(path_)));
-  }
-  std::string path_, partial_;
-  std::ofstream file_;
-  bool complete_ = false;
-};
-
 } // namespace
 
 BondedPoint::Response BondedPoint::move_to(const Separation& separation) {
@@ -225,6 +192,7 @@ void run_bond_programme(const BondProgrammeOptions& options) {
   for (const std::string& assignment : options.assignments) document.set(assignment);
   const BondedPointLaw law = read_bonded_point_law(document);
   const std::vector<WayPoint> programme = read_bond_programme(options.programme, options.increments);
+  check_output_path("--output", options.output, OutputKind::text);
   refuse_overwriting(options.output, options.law);
   refuse_overwriting(options.output, options.programme);
 
@@ -238,13 +206,17 @@ void run_bond_programme(const BondProgrammeOptions& options) {
   Separation here;
   BondedPoint::Response response = point.move_to(here);
   double work = 0, peak_normal = 0, peak_shear = 0;
+  constexpr std::size_t buffered = 1 << 16; // bytes
+  const auto write_out = [&] {
+    file.write({text.data(), text.size()});
+    text.clear();
+  };
   const auto write_row = [&](std::size_t way_point) {
     fmt::format_to(std::back_inserter(text), "{},{},{},{},{},{},{},{},{},{},{},{},{},{}\n", way_point, here.opening,
                    here.shear1, here.shear2, response.normal, response.shear1, response.shear2, response.effective,
                    response.damage, response.stored, response.dissipated, response.stored + response.dissipated, work,
                    response.state);
-    file.write(text);
-    text.clear();
+    if (text.size() > buffered) write_out();
   };
   write_row(0);
   for (std::size_t i = 0; i < programme.size(); ++i) {
@@ -260,6 +232,7 @@ void run_bond_programme(const BondProgrammeOptions& options) {
       write_row(i + 1);
     }
   }
+  write_out();
   file.complete();
   if (!options.quiet)
     fmt::print("{}: {} at the end, damage {:.6g}; largest traction {:.6g} MPa in tension, {:.6g} MPa in shear; "

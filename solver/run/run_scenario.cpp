@@ -11,6 +11,7 @@
 #include "common/errors.hpp"
 #include "common/hash.hpp"
 #include "common/one_line.hpp"
+#include "common/output_file.hpp"
 #include "common/progress.hpp"
 #include "common/run_quality.hpp"
 #include "solver/model/bond_resolution.hpp"
@@ -610,12 +611,7 @@ bool same_file(const std::string& a, const std::string& b) {
 /// Refuses to write over what the run reads, and finds out now whether it can write at all.
 void check_output(const Scenario& scenario, const RunOptions& options) {
   const std::string& output = options.output;
-  std::error_code ignored;
-  if (output.empty() || output.back() == '/' || std::filesystem::is_directory(output, ignored))
-    throw InputError(
-        fmt::format("--output '{}': found a folder or nothing, allowed the name of a file", one_line(output)));
-  if (!std::filesystem::is_directory(std::filesystem::absolute(output).parent_path(), ignored))
-    throw InputError(fmt::format("--output {}: the folder does not exist", one_line(output)));
+  check_output_path("--output", output, OutputKind::binary);
   const auto refuse = [&](const std::string& file, const std::string& what) {
     if (same_file(output, file))
       throw InputError(fmt::format("--output {}: is {} of this run, allowed another name", one_line(output), what));
@@ -634,8 +630,10 @@ void check_output(const Scenario& scenario, const RunOptions& options) {
             fmt::format("--from {}: this run would write its own checkpoint there, allowed another --output",
                         one_line(*options.from)));
   }
-  const std::string trial = output + ".partial";
+  const std::string trial = output_target(output) + ".partial";
+  remove_stale_partial(trial);
   if (!std::ofstream(trial)) throw StorageError(fmt::format("{}: cannot be written", one_line(trial)));
+  std::error_code ignored;
   std::filesystem::remove(trial, ignored);
 }
 

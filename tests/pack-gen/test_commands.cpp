@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include <sys/stat.h>
+
 #include <catch2/catch.hpp>
 #include <fmt/format.h>
 
@@ -219,11 +221,52 @@ TEST_CASE("a report that nobody reads to its end, or that does not fit, ends wit
 
 TEST_CASE("a table that cannot be stored ends with exit code 4 and leaves nothing half-written") {
   const Folder folder;
-  write_packing_file(folder / "s.h5", {.box = {1, 1, 1}, .center = {{0.3, 0.5, 0.5}}, .radius = {0.25}}, {});
-  std::filesystem::create_symlink("/dev/full", folder / "s.csv.partial"); // every write to it finds the disk full
-  const Outcome outcome = pack_gen(fmt::format("export {} -o {}", folder / "s.h5", folder / "s.csv"));
+  SpherePacking packing{.box = {100, 1, 1}, .center = {}, .radius = {}};
+  for (int i = 0; i < 100; ++i) {
+    packing.center.push_back({i + 0.5, 0.5, 0.5});
+    packing.radius.push_back(0.25);
+  }
+  write_packing_file(folder / "s.h5", packing, {});
+  // Files of this command end after one block, as on a full disk.
+  const Outcome outcome = run_command(fmt::format("trap '' XFSZ; ulimit -f 1; '{}' export '{}' -o '{}'", MPFEM_PACK_GEN,
+                                                  folder / "s.h5", folder / "s.csv"));
+  INFO(outcome.messages);
   CHECK(outcome.exit_code == 4);
   CHECK(outcome.one_error_line("pack-gen"));
   CHECK_FALSE(std::filesystem::exists(folder / "s.csv"));
   CHECK_FALSE(std::filesystem::exists(std::filesystem::symlink_status(folder / "s.csv.partial")));
+}
+
+TEST_CASE("a table goes to standard output or a FIFO, a packing to neither") {
+  const Folder folder;
+  write_packing_file(folder / "s.h5", {.box = {1, 1, 1}, .center = {{0.3, 0.5, 0.5}}, .radius = {0.25}}, {});
+  const std::string table = "x [mm],y [mm],z [mm],radius [mm]\n0.3,0.5,0.5,0.25\n";
+  const Outcome to_output = pack_gen(fmt::format("export {} -o /dev/stdout", folder / "s.h5"));
+  CHECK(to_output.exit_code == 0);
+  CHECK(to_output.output == table);
+  CHECK(run_command(fmt::format("'{}' export '{}' -o /dev/stdout | cat", MPFEM_PACK_GEN, folder / "s.h5")).output ==
+        table);
+  REQUIRE(mkfifo((folder / "fifo").c_str(), 0600) == 0);
+  const Outcome to_fifo = run_command(
+      fmt::format("cat '{0}' & '{1}' export '{2}' -o '{0}'; wait", folder / "fifo", MPFEM_PACK_GEN, folder / "s.h5"));
+  CHECK(to_fifo.exit_code == 0);
+  CHECK(to_fifo.output == table);
+  const Outcome packing = pack_gen(fmt::format("mesh {} --size 0.1 -o {}", folder / "s.h5", folder / "fifo"));
+  CHECK(packing.exit_code == 2);
+  CHECK(packing.one_error_line("pack-gen"));
+  CHECK_THAT(packing.messages, Catch::Contains("found a FIFO, allowed: a file"));
+  CHECK(std::filesystem::is_fifo(folder / "fifo"));
+}
+
+TEST_CASE("a packing that means nothing is refused by its meaning") {
+  const Folder folder;
+  write_packing_file(folder / "s.h5", {.box = {1, 1, 1}, .center = {{0.3, 0.5, 0.5}}, .radius = {-0.25}}, {});
+  for (const std::string& arguments : {fmt::format("mesh {} --size 0.1 -o {}", folder / "s.h5", folder / "p.h5"),
+                                       fmt::format("export {} -o {}", folder / "s.h5", folder / "s.csv")}) {
+    const Outcome outcome = pack_gen(arguments);
+    CHECK(outcome.exit_code == 2);
+    CHECK(outcome.one_error_line("pack-gen"));
+    CHECK_THAT(outcome.messages,
+               Catch::Contains("s.h5: dataset /spheres/radius: found -0.25 at index 0, allowed: finite and > 0"));
+  }
 }

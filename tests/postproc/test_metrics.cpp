@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include <sys/stat.h>
+
 #include <catch2/catch.hpp>
 #include <fmt/format.h>
 
@@ -165,10 +167,60 @@ TEST_CASE("postproc refuses what it cannot use with one line and exit code 2") {
   CHECK(bare.one_error_line("postproc"));
   CHECK_THAT(bare.messages, Catch::Contains("gnuplot is not installed"));
   CHECK_FALSE(std::filesystem::exists(folder / "x.png"));
-  CHECK(postproc("curve " + run + " -o " + (folder / "no/such/folder.csv")).exit_code == 4);
+  CHECK(postproc("curve " + run + " -o " + (folder / "no/such/folder.csv")).exit_code == 2);
   CHECK(postproc("--help").exit_code == 0);
   CHECK(postproc("section --help").exit_code == 0);
   CHECK(postproc("juggle").exit_code == 2);
+}
+
+TEST_CASE("outputs are files, and text may go to a pipe or standard output too") {
+  const Folder folder;
+  const std::string run = folder / "run.h5", fifo = folder / "fifo";
+  write_run(run, small_run());
+  REQUIRE(mkfifo(fifo.c_str(), 0600) == 0);
+  const std::string curve = postproc("curve " + run + " --columns time").output;
+  CHECK(postproc("curve " + run + " --columns time -o /dev/stdout").output == curve);
+  CHECK(
+      run_command(fmt::format("cat '{0}' & '{1}' curve '{2}' --columns time -o '{0}'; wait", fifo, MPFEM_POSTPROC, run))
+          .output == curve);
+  std::filesystem::create_symlink("target.csv", folder / "link.csv");
+  CHECK(postproc("curve " + run + " --columns time -o " + (folder / "link.csv")).exit_code == 0);
+  CHECK(std::filesystem::is_symlink(folder / "link.csv"));
+  CHECK(read_text(folder / "target.csv") == curve);
+  for (const auto& [arguments, expected] : std::vector<std::pair<std::string, std::string>>{
+           {"summary " + run + " -o .", "--output .: found a folder, allowed: a file"},
+           {"curve " + run + " -o " + (folder / ""), "found a folder"},
+           {"yield " + run + " -o .", "--output .: found a folder"},
+           {"hysteresis " + run + " --cycles .", "--cycles .: found a folder"},
+           {"section " + run + " -o " + fifo, "found a FIFO, allowed: a file"},
+           {"section " + run + " --data .", "--data .: found a folder"},
+           {"contact " + run + " --pair 0,1 --view " + fifo, "--view " + fifo + ": found a FIFO"},
+           {"vtk " + run + " -o " + fifo, "found a file, allowed: a folder"}}) {
+    const Outcome outcome = postproc(arguments);
+    INFO(arguments << ": " << outcome.messages);
+    CHECK(outcome.exit_code == 2);
+    CHECK(outcome.one_error_line("postproc"));
+    CHECK_THAT(outcome.messages, Catch::Contains(expected));
+    CHECK(std::filesystem::is_fifo(fifo));
+  }
+}
+
+TEST_CASE("validate says which file has no checksums, and where a checked one is damaged") {
+  const Folder folder;
+  const std::string good = folder / "good.h5", bad = folder / "bad.h5";
+  write_run(good, small_run());
+  CHECK(postproc("validate " + good).output == good + ": valid (run, schema 1.0)\n");
+  std::string bytes = read_text(good);
+  bytes[bytes.size() / 2] = static_cast<char>(bytes[bytes.size() / 2] ^ 4);
+  write_text(bad, bytes);
+  const Outcome outcome = postproc("validate " + bad);
+  CHECK(outcome.exit_code == 2);
+  CHECK(outcome.one_error_line("postproc"));
+  CHECK_THAT(outcome.output,
+             Catch::StartsWith(bad + ": the file is damaged: its structure does not match its checksum\n"));
+  const Outcome reading = postproc("summary " + bad);
+  CHECK(reading.exit_code == 2);
+  CHECK_THAT(reading.messages, Catch::Contains(bad + ": the file is damaged"));
 }
 
 TEST_CASE("validate passes a good file and finds a bad one") {

@@ -18,7 +18,7 @@ struct GoodFile {
   test::TemporaryFolder folder;
   std::string path = folder.file("file.h5");
   explicit GoodFile(FileKind kind, bool optional = true) { test::write_complete_file(path, kind, optional); }
-  Findings findings() const { return validate(path); }
+  Findings findings() const { return validate(path).findings; }
 };
 
 /// A place of a dataset: in the first snapshot where it is of a snapshot.
@@ -200,5 +200,5 @@ TEST_CASE("A run without snapshots is clean") {
       if (!dataset.of_snapshot()) test::write_values(writer, dataset, test::good_values(dataset, extents, ""), "");
     writer.commit();
   }
-  CHECK(validate(folder.file("run.h5")) == Findings{});
+  CHECK(validate(folder.file("run.h5")).findings == Findings{});
 }

@@ -156,7 +156,7 @@ TEST_CASE("A refused writing leaves the file as good as it was") {
   writer.write(packing::spheres_center, some(6), 2);
   writer.write(packing::spheres_radius, some(2), 2);
   writer.commit();
-  CHECK(validate(folder.file("f.h5")).empty());
+  CHECK(validate(folder.file("f.h5")).findings.empty());
 }
 
 TEST_CASE("A folder that is missing, is a file, or cannot be written gives a StorageError") {
@@ -175,9 +175,9 @@ TEST_CASE("A folder that is missing, is a file, or cannot be written gives a Sto
 TEST_CASE("A complete file whose place is taken by a folder is kept beside it and named") {
   const test::TemporaryFolder folder;
   const std::string path = folder.file("f.h5");
-  std::filesystem::create_directories(path + "/within");
   {
     FileWriter writer(path, FileKind::packing, "test");
+    std::filesystem::create_directories(path + "/within"); // meanwhile
     CHECK_THROWS_WITH(writer.commit(), Catch::Contains("f.h5.partial could not be renamed"));
   }
   CHECK_NOTHROW(FileReader(path + ".partial"));

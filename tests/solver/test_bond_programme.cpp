@@ -222,7 +222,7 @@ TEST_CASE("what cannot be driven is refused in one line with its place, exit cod
   }
 }
 
-TEST_CASE("the programme and the law are not overwritten, and a result that cannot be stored is exit code 4") {
+TEST_CASE("the programme and the law are not overwritten, and a result goes to a file or a stream") {
   const Folder folder;
   const std::string programme = "opening,shear1,shear2\n1e-5,0,0\n";
   REQUIRE(bond(folder, programme, "--quiet").exit_code == 0);
@@ -235,5 +235,10 @@ TEST_CASE("the programme and the law are not overwritten, and a result that cann
     CHECK(to(folder / name).exit_code == 2);
     CHECK(read_text(folder / name) == before);
   }
-  CHECK(to(folder / "no-such-folder/result.csv").exit_code == 4);
+  CHECK(to(folder / "no-such-folder/result.csv").exit_code == 2);
+  CHECK(to(".").exit_code == 2);
+  CHECK(to("/dev/full").exit_code == 4);
+  const Outcome shown = to("/dev/stdout");
+  CHECK(shown.exit_code == 0);
+  CHECK_THAT(shown.output, Catch::StartsWith("way_point,opening_mm"));
 }

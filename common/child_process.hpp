@@ -1,0 +1,24 @@
+#pragma once
+// Work in a process of its own: what crashes there does not end the program.
+
+#include <functional>
+#include <string>
+#include <string_view>
+
+namespace mpfem {
+
+/// How the child ended, and what it wrote until then.
+struct ChildEnd {
+  std::string output;
+  int exit_code = 0; ///< of a child that ended by itself
+  int signal = 0;    ///< that ended it; 0: none
+  bool out_of_time = false;
+};
+
+/// Runs `body(write)` in a child process, whose write(text) reaches the result, and waits for its end; after `seconds`
+/// it is killed. An exception that leaves `body` ends the child with exit code 1. Not to be called while other threads
+/// of this process hold locks that `body` needs. Throws std::runtime_error where no process can be started.
+ChildEnd run_in_child(const std::function<void(const std::function<void(std::string_view)>& write)>& body,
+                      double seconds);
+
+} // namespace mpfem

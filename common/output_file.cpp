@@ -1,0 +1,159 @@
+#include "common/output_file.hpp"
+
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+#include <filesystem>
+#include <optional>
+#include <utility>
+
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <fmt/format.h>
+
+#include "common/errors.hpp"
+#include "common/one_line.hpp"
+
+namespace mpfem {
+
+namespace {
+
+/// What stands under a path, links followed.
+std::optional<struct stat> found_at(const std::string& path) {
+  struct stat found {};
+  if (stat(path.c_str(), &found) != 0) return {};
+  return found;
+}
+
+std::string kind_of(mode_t mode) {
+  if (S_ISDIR(mode)) return "a folder";
+  if (S_ISCHR(mode)) return "a character device";
+  if (S_ISBLK(mode)) return "a block device";
+  if (S_ISFIFO(mode)) return "a FIFO";
+  if (S_ISSOCK(mode)) return "a socket";
+  return "no regular file";
+}
+
+bool is_stream(mode_t mode) {
+  return S_ISCHR(mode) || S_ISFIFO(mode);
+}
+
+bool is_standard_output(const struct stat& found) {
+  struct stat output {};
+  return fstat(STDOUT_FILENO, &output) == 0 && output.st_dev == found.st_dev && output.st_ino == found.st_ino;
+}
+
+std::string folder_of(const std::string& path) {
+  const std::string folder = std::filesystem::path(path).parent_path().string();
+  return folder.empty() ? "." : folder;
+}
+
+/// Waits until the content of a file or folder is on the disk. File systems that know no such thing say EINVAL.
+bool reaches_disk(const std::string& path) {
+  const int file = open(path.c_str(), O_RDONLY | O_CLOEXEC);
+  if (file < 0) return false;
+  const bool good = fsync(file) == 0 || errno == EINVAL;
+  return close(file) == 0 && good;
+}
+
+} // namespace
+
+void refuse_special_file(std::string_view option, const std::string& path, OutputKind kind) {
+  const auto refuse = [&](const std::string& what) {
+    throw InputError(fmt::format("{} {}: found {}, allowed: a file{}", option, one_line(path), what,
+                                 kind == OutputKind::text ? ", a character device or a FIFO" : ""));
+  };
+  if (path.ends_with('/')) refuse("a folder");
+  const auto found = found_at(path);
+  if (!found || S_ISREG(found->st_mode)) return;
+  if (kind == OutputKind::binary || !is_stream(found->st_mode)) refuse(kind_of(found->st_mode));
+}
+
+void check_output_path(std::string_view option, const std::string& path, OutputKind kind) {
+  if (path.empty()) throw InputError(fmt::format("{}: found no name, allowed: a file", option));
+  refuse_special_file(option, path, kind);
+  std::error_code ignored;
+  if (!std::filesystem::is_directory(folder_of(output_target(path)), ignored))
+    throw InputError(fmt::format("{} {}: the folder does not exist", option, one_line(path)));
+}
+
+std::string output_target(const std::string& path) {
+  std::filesystem::path target = path;
+  std::error_code error;
+  constexpr int most_links = 40; // as many as Linux follows
+  for (int i = 0; i < most_links && std::filesystem::is_symlink(target, error); ++i) {
+    const auto next = std::filesystem::read_symlink(target, error);
+    if (error) break;
+    target = target.parent_path() / next; // an absolute `next` replaces all of it
+  }
+  return target.string();
+}
+
+void remove_stale_partial(const std::string& partial) {
+  if (unlink(partial.c_str()) != 0 && errno != ENOENT)
+    throw StorageError(fmt::format("{}: cannot be replaced: {}", one_line(partial), std::strerror(errno)));
+}
+
+void replace_file(const std::string& partial, const std::string& path) {
+  const auto check = [&](bool good, const char* what) {
+    if (!good)
+      throw StorageError(fmt::format("{}: the complete file {} could not be {}: {}", one_line(path), one_line(partial),
+                                     what, std::strerror(errno)));
+  };
+  check(reaches_disk(partial), "brought to the disk");
+  check(std::rename(partial.c_str(), path.c_str()) == 0, "renamed");
+  // The file is complete under its name: where the folder cannot be read, that is all that can be done.
+  reaches_disk(folder_of(path));
+}
+
+TextFile::TextFile(const std::string& path) : path_(path), target_(path) {
+  const auto found = found_at(path);
+  if (found && is_standard_output(*found)) {
+    std::fflush(stdout);
+    file_ = dup(STDOUT_FILENO);
+  } else if (found && is_stream(found->st_mode)) {
+    file_ = open(path.c_str(), O_WRONLY | O_CLOEXEC | O_NOCTTY);
+  } else {
+    target_ = output_target(path);
+    partial_ = target_ + ".partial";
+    remove_stale_partial(partial_);
+    file_ = open(partial_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+  }
+  if (file_ < 0) fail();
+}
+
+TextFile::~TextFile() {
+  if (file_ >= 0) close(file_);
+  if (!complete_ && !partial_.empty()) unlink(partial_.c_str());
+}
+
+void TextFile::write(std::string_view text) {
+  while (!text.empty()) {
+    const ssize_t written = ::write(file_, text.data(), text.size());
+    if (written < 0 && errno == EINTR) continue;
+    if (written < 0) fail();
+    text.remove_prefix(static_cast<std::size_t>(written));
+  }
+}
+
+void TextFile::complete() {
+  if (close(std::exchange(file_, -1)) != 0) fail();
+  if (!partial_.empty()) replace_file(partial_, target_);
+  complete_ = true;
+}
+
+void TextFile::fail() const {
+  const int error = errno;
+  if (!partial_.empty()) unlink(partial_.c_str());
+  throw StorageError(fmt::format("{}: cannot be written: {}", one_line(path_), std::strerror(error)));
+}
+
+void write_file(const std::string& path, std::string_view content) {
+  TextFile file(path);
+  file.write(content);
+  file.complete();
+}
+
+} // namespace mpfem

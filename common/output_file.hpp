@@ -1,0 +1,54 @@
+#pragma once
+// Outputs: what may stand under the name of one, and how a complete file comes to its place.
+
+#include <string>
+#include <string_view>
+
+namespace mpfem {
+
+/// Text may also go to a device or a pipe; a binary file (HDF5, PNG) is a regular file.
+enum class OutputKind { text, binary };
+
+/// Refuses what cannot become this output: a folder, a socket, a block device, a name that ends with '/', and for
+/// binary outputs also a character device and a FIFO. `option` begins the message ("--output"). Symbolic links are
+/// followed. Throws InputError. A path that does not exist is good.
+void refuse_special_file(std::string_view option, const std::string& path, OutputKind kind);
+
+/// The same, and the folder must exist. To be called before hours of work. An empty path is refused.
+void check_output_path(std::string_view option, const std::string& path, OutputKind kind);
+
+/// Where an output is written: the path itself or, where that is a symbolic link, what the link leads to.
+std::string output_target(const std::string& path);
+
+/// Removes what a killed program left under the name of a partial file. Throws StorageError where that is a folder.
+void remove_stale_partial(const std::string& partial);
+
+/// Brings a complete file to its place: its content reaches the disk before the name does (fsync, rename, fsync of the
+/// folder). Throws StorageError; the partial file is left then.
+void replace_file(const std::string& partial, const std::string& path);
+
+/// A text file that appears under its name when it is complete. A character device or a FIFO, or the file that standard
+/// output goes to, is written to directly. Throws StorageError.
+class TextFile {
+public:
+  explicit TextFile(const std::string& path);
+  ~TextFile();
+  TextFile(const TextFile&) = delete;
+  TextFile& operator=(const TextFile&) = delete;
+
+  void write(std::string_view text);
+  void complete();
+
+private:
+  [[noreturn]] void fail() const;
+  std::string path_;    ///< as named, for messages
+  std::string target_;  ///< where it goes
+  std::string partial_; ///< empty where it is written directly
+  int file_ = -1;
+  bool complete_ = false;
+};
+
+/// Writes a whole TextFile. Bytes of other kinds (a picture) are written as they are.
+void write_file(const std::string& path, std::string_view content);
+
+} // namespace mpfem

@@ -1,0 +1,21 @@
+#pragma once
+// Checksums of datasets and of the list of them, which writer and reader share.
+
+#include <map>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "results-schema/descriptors.hpp"
+
+namespace mpfem::schema {
+
+/// Of a dataset's path, type, shape, unit and values; `values` holds as many elements of its type as the extents say.
+std::string checksum_of_dataset(const DatasetDescription& dataset, std::string_view path, std::string_view unit,
+                                const std::vector<std::size_t>& extents, const void* values);
+
+/// Of a file's kind, version and creator and of the checksums of all its datasets, by path.
+std::string checksum_of_list(std::string_view kind, std::string_view version, std::string_view creator,
+                             const std::map<std::string, std::string>& checksum_of_path);
+
+} // namespace mpfem::schema

@@ -1,0 +1,102 @@
+#include "results-schema/packing_file.hpp"
+
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "common/errors.hpp"
+#include "common/one_line.hpp"
+
+namespace mpfem::schema {
+
+namespace {
+
+/// A dataset of a file, to be complained of.
+struct Place {
+  const FileReader& file;
+  std::string_view dataset;
+
+  [[noreturn]] void fail(const std::string& what) const {
+    throw InputError(fmt::format("{}: dataset {}: {}", one_line(file.path()), dataset, what));
+  }
+};
+
+void refuse_not_positive(const std::vector<double>& values, const Place& place) {
+  for (std::size_t i = 0; i < values.size(); ++i)
+    if (!(values[i] > 0) || !std::isfinite(values[i]))
+      place.fail(fmt::format("found {:g} at index {}, allowed: finite and > 0", values[i], i));
+}
+
+void refuse_not_finite(const std::vector<double>& points, const Place& place) {
+  for (std::size_t i = 0; i < points.size(); ++i)
+    if (!std::isfinite(points[i]))
+      place.fail(fmt::format("found {:g} at index [{}, {}], allowed: finite", points[i], i / 3, i % 3));
+}
+
+/// Centres may stand on a wall (hemispheres do), known to rounding.
+void refuse_outside(const std::vector<double>& center, const std::vector<double>& lengths, const Place& place) {
+  constexpr double rounding = 1e-9;
+  for (std::size_t i = 0; i < center.size(); ++i) {
+    const double length = lengths[i % 3];
+    if (center[i] < -rounding * length || center[i] > (1 + rounding) * length)
+      place.fail(
+          fmt::format("found {:g} at index [{}, {}], allowed: 0 … {:g}, in the box", center[i], i / 3, i % 3, length));
+  }
+}
+
+/// Offsets rise from 0 to the end, each grain with at least one.
+void refuse_wrong_offsets(const std::vector<std::int32_t>& offset, std::size_t spheres, std::size_t end,
+                          const Place& place) {
+  if (offset.size() != spheres + 1)
+    place.fail(
+        fmt::format("found {} values, allowed: {}, one more than there are spheres", offset.size(), spheres + 1));
+  const auto expected = [&](std::size_t i, const std::string& allowed) {
+    place.fail(fmt::format("found {} at index {}, allowed: {}", offset[i], i, allowed));
+  };
+  if (offset.front() != 0) expected(0, "0");
+  for (std::size_t i = 1; i < offset.size(); ++i)
+    if (offset[i] <= offset[i - 1]) expected(i, fmt::format("more than the {} before it", offset[i - 1]));
+  if (static_cast<std::size_t>(offset.back()) != end) expected(spheres, fmt::format("{}, the number of rows", end));
+}
+
+void refuse_foreign_nodes(const PackingTets& mesh, const Place& place) {
+  for (std::size_t g = 0; g + 1 < mesh.grain_node_offset.size(); ++g) {
+    const std::int32_t first = mesh.grain_node_offset[g], end = mesh.grain_node_offset[g + 1];
+    for (auto k = 4 * static_cast<std::size_t>(mesh.grain_tet_offset[g]);
+         k < 4 * static_cast<std::size_t>(mesh.grain_tet_offset[g + 1]); ++k)
+      if (mesh.tet[k] < first || mesh.tet[k] >= end)
+        place.fail(fmt::format("found node {} at index [{}, {}], allowed: {} … {}, the nodes of grain {}", mesh.tet[k],
+                               k / 4, k % 4, first, end - 1, g));
+  }
+}
+
+} // namespace
+
+PackingSpheres read_packing_spheres(const FileReader& file) {
+  PackingSpheres spheres{file.read(packing::box_lengths), file.read(packing::spheres_center),
+                         file.read(packing::spheres_radius)};
+  const auto at = [&](const DatasetDescription& dataset) { return Place{file, dataset.path}; };
+  refuse_not_positive(spheres.box_lengths, at(packing::box_lengths));
+  if (spheres.radius.empty()) at(packing::spheres_radius).fail("found no sphere, allowed: at least one");
+  if (spheres.center.size() != 3 * spheres.radius.size())
+    at(packing::spheres_center)
+        .fail(fmt::format("found {} centres, allowed: {}, as many as radii", spheres.center.size() / 3,
+                          spheres.radius.size()));
+  refuse_not_positive(spheres.radius, at(packing::spheres_radius));
+  refuse_not_finite(spheres.center, at(packing::spheres_center));
+  refuse_outside(spheres.center, spheres.box_lengths, at(packing::spheres_center));
+  return spheres;
+}
+
+PackingTets read_packing_tets(const FileReader& file, std::size_t spheres) {
+  PackingTets mesh{file.read(packing::mesh_node), file.read(packing::mesh_tet),
+                   file.read(packing::mesh_grain_node_offset), file.read(packing::mesh_grain_tet_offset)};
+  const auto at = [&](const DatasetDescription& dataset) { return Place{file, dataset.path}; };
+  refuse_not_finite(mesh.node, at(packing::mesh_node));
+  refuse_wrong_offsets(mesh.grain_node_offset, spheres, mesh.node.size() / 3, at(packing::mesh_grain_node_offset));
+  refuse_wrong_offsets(mesh.grain_tet_offset, spheres, mesh.tet.size() / 4, at(packing::mesh_grain_tet_offset));
+  refuse_foreign_nodes(mesh, at(packing::mesh_tet));
+  return mesh;
+}
+
+} // namespace mpfem::schema

@@ -1,0 +1,29 @@
+#pragma once
+// What every program that reads a packing demands of it beyond the schema.
+
+#include <cstdint>
+#include <vector>
+
+#include "results-schema/file.hpp"
+
+namespace mpfem::schema {
+
+struct PackingSpheres {
+  std::vector<double> box_lengths; ///< [3], mm, > 0
+  std::vector<double> center;      ///< [spheres][3], mm, in the box
+  std::vector<double> radius;      ///< [spheres], mm, > 0; at least one
+};
+
+struct PackingTets {
+  std::vector<double> node;                                      ///< [nodes][3], mm
+  std::vector<std::int32_t> tet;                                 ///< [tets][4]; a grain's tets have its own nodes
+  std::vector<std::int32_t> grain_node_offset, grain_tet_offset; ///< [spheres + 1]; every grain has nodes and tets
+};
+
+/// Spheres of a packing file. Throws InputError "FILE: dataset /x …" with index, what was found and what is allowed.
+PackingSpheres read_packing_spheres(const FileReader& file);
+
+/// Meshes of a packing file with so many spheres; the same errors. To be called where the file has /mesh/tet.
+PackingTets read_packing_tets(const FileReader& file, std::size_t spheres);
+
+} // namespace mpfem::schema

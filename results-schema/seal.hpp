@@ -1,0 +1,28 @@
+#pragma once
+// The seal of a file: a hash of its structure, behind the end of its HDF5 data. HDF5 itself does not check all of its
+// own structure, and crashes on some damage; the seal is checked before the library sees the file.
+//
+// The values of large datasets are left out, so that opening a file costs no reading of all of it; each dataset's own
+// checksum covers them. docs/results-schema.md says how a seal is laid out.
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace mpfem::schema {
+
+/// A run of bytes in a file.
+struct ByteRange {
+  std::uint64_t begin = 0, size = 0;
+};
+
+/// Appends a seal to a complete file. `left_out` are the ranges that the seal does not cover; they do not overlap.
+/// Throws StorageError.
+void append_seal(const std::string& path, std::vector<ByteRange> left_out);
+
+enum class Seal { absent, intact, broken };
+
+/// Whether a file agrees with its seal. Throws InputError where the file cannot be read.
+Seal check_seal(const std::string& path);
+
+} // namespace mpfem::schema

@@ -1,0 +1,169 @@
+#include <fstream>
+#include <sstream>
+#include <thread>
+
+#include <fcntl.h>
+#include <sys/socket.h>
+#include <sys/stat.h>
+#include <sys/un.h>
+#include <unistd.h>
+
+#include <catch2/catch.hpp>
+
+#include "common/output_file.hpp"
+#include "tests/common/one_line_error.hpp"
+#include "tests/support/folder.hpp"
+#include "tests/support/null_device.hpp"
+
+using namespace mpfem;
+using mpfem::test::Folder;
+using mpfem::test::input_error;
+using mpfem::test::read_text;
+namespace fs = std::filesystem;
+
+namespace {
+
+std::string refusal(const std::string& path, OutputKind kind) {
+  return input_error([&] { check_output_path("--output", path, kind); });
+}
+
+bool is_character_device(const std::string& path) {
+  return fs::is_character_file(path);
+}
+
+} // namespace
+
+TEST_CASE("A new name, a file and a link to one are good outputs of either kind") {
+  const Folder folder;
+  test::write_text(folder / "old", "old");
+  fs::create_symlink("old", folder / "link");
+  fs::create_symlink("not yet", folder / "dangling");
+  for (const OutputKind kind : {OutputKind::text, OutputKind::binary})
+    for (const std::string name : {"new", "old", "link", "dangling"})
+      CHECK_NOTHROW(check_output_path("--output", folder / name, kind));
+}
+
+TEST_CASE("A folder, a socket, no name and a missing folder are refused as outputs of either kind") {
+  const Folder folder;
+  fs::create_directory(folder / "folder");
+  const int socket_file = socket(AF_UNIX, SOCK_STREAM, 0);
+  sockaddr_un address{};
+  address.sun_family = AF_UNIX;
+  const std::string at = folder / "socket";
+  REQUIRE(at.size() < sizeof address.sun_path);
+  at.copy(address.sun_path, at.size());
+  REQUIRE(bind(socket_file, reinterpret_cast<const sockaddr*>(&address), sizeof address) == 0);
+  close(socket_file);
+  const std::string text = ", a character device or a FIFO";
+  for (const auto& [kind, more] : {std::pair{OutputKind::text, text}, {OutputKind::binary, std::string()}}) {
+    const auto expected = [&, more = more](const std::string& path, const std::string& what) {
+      return "--output " + path + ": found " + what + ", allowed: a file" + more;
+    };
+    CHECK(refusal(folder / "folder", kind) == expected(folder / "folder", "a folder"));
+    CHECK(refusal(folder / "new/", kind) == expected(folder / "new/", "a folder"));
+    CHECK(refusal(".", kind) == expected(".", "a folder"));
+    CHECK(refusal(at, kind) == expected(at, "a socket"));
+    CHECK(refusal("", kind) == "--output: found no name, allowed: a file");
+    CHECK(refusal(folder / "none/x", kind) == "--output " + (folder / "none/x") + ": the folder does not exist");
+  }
+}
+
+TEST_CASE("A FIFO or a character device is an output of text only") {
+  const Folder folder;
+  const std::string fifo = folder / "fifo";
+  REQUIRE(mkfifo(fifo.c_str(), 0600) == 0);
+  CHECK_NOTHROW(check_output_path("--output", fifo, OutputKind::text));
+  CHECK(refusal(fifo, OutputKind::binary) == "--output " + fifo + ": found a FIFO, allowed: a file");
+  CHECK_NOTHROW(check_output_path("--output", "/dev/null", OutputKind::text));
+  CHECK(refusal("/dev/null", OutputKind::binary) == "--output /dev/null: found a character device, allowed: a file");
+}
+
+TEST_CASE("Text reaches the reader of a FIFO, which stays a FIFO") {
+  const Folder folder;
+  const std::string fifo = folder / "fifo";
+  REQUIRE(mkfifo(fifo.c_str(), 0600) == 0);
+  std::string received;
+  std::thread reader([&] { received = read_text(fifo); });
+  write_file(fifo, "a,b\n1,2\n");
+  reader.join();
+  CHECK(received == "a,b\n1,2\n");
+  CHECK(fs::is_fifo(fifo));
+  CHECK_FALSE(fs::exists(fifo + ".partial"));
+}
+
+TEST_CASE("Text that goes to a device leaves the device what it is") {
+  const Folder folder;
+  const std::string device = folder / "null";
+  if (!test::make_null_device(device)) {
+    WARN("devices can be made by the superuser only");
+    return;
+  }
+  // Where devices may be made but not opened (a container), the writing fails; the device stays all the same.
+  try {
+    write_file(device, "nothing");
+  } catch (const StorageError&) {
+  }
+  CHECK(is_character_device(device));
+  CHECK_FALSE(fs::exists(device + ".partial"));
+}
+
+TEST_CASE("A full device ends in a StorageError") {
+  CHECK_THROWS_AS(write_file("/dev/full", "too much"), StorageError);
+  CHECK(is_character_device("/dev/full"));
+}
+
+TEST_CASE("A link is kept, what it leads to is replaced, and a link to nothing makes a file") {
+  const Folder folder;
+  fs::create_directory(folder / "store");
+  test::write_text(folder / "store/old", "old");
+  fs::create_symlink("store/old", folder / "link");
+  fs::create_symlink("link", folder / "second");
+  fs::create_symlink(folder / "store/new", folder / "dangling");
+  CHECK(output_target(folder / "second") == folder / "store/old");
+  CHECK(output_target(folder / "dangling") == folder / "store/new");
+  CHECK(output_target(folder / "none") == folder / "none");
+  write_file(folder / "second", "written");
+  write_file(folder / "dangling", "too");
+  CHECK(fs::is_symlink(folder / "second"));
+  CHECK(fs::is_symlink(folder / "link"));
+  CHECK(read_text(folder / "store/old") == "written");
+  CHECK(fs::is_symlink(folder / "dangling"));
+  CHECK(read_text(folder / "store/new") == "too");
+}
+
+TEST_CASE("Whatever stands under the name of the partial file is replaced, but no folder") {
+  const Folder folder;
+  const std::string path = folder / "out", partial = path + ".partial";
+  SECTION("a file") {
+    test::write_text(partial, "left by a crash, and longer than what comes");
+  }
+  SECTION("a FIFO") {
+    REQUIRE(mkfifo(partial.c_str(), 0600) == 0);
+  }
+  SECTION("a link") {
+    test::write_text(folder / "other", "other");
+    fs::create_symlink("other", partial);
+  }
+  write_file(path, "text");
+  CHECK(read_text(path) == "text");
+  CHECK(fs::is_regular_file(fs::symlink_status(path)));
+  CHECK_FALSE(fs::exists(fs::symlink_status(partial)));
+  if (fs::exists(folder / "other")) CHECK(read_text(folder / "other") == "other");
+  fs::create_directory(partial);
+  CHECK_THROWS_AS(write_file(path, "later"), StorageError);
+  CHECK(read_text(path) == "text");
+}
+
+TEST_CASE("A text file that is not completed leaves nothing and keeps the older one") {
+  const Folder folder;
+  const std::string path = folder / "out";
+  test::write_text(path, "older");
+  {
+    TextFile file(path);
+    file.write("new");
+    CHECK(fs::exists(path + ".partial"));
+  }
+  CHECK_FALSE(fs::exists(path + ".partial"));
+  CHECK(read_text(path) == "older");
+  CHECK_THROWS_AS(TextFile(folder / "none/out"), StorageError);
+}
