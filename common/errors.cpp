@@ -13,7 +13,8 @@ namespace mpfem {
 namespace {
 
 int report(const char* program, std::string_view message, ExitCode code) {
-  fmt::print(stderr, "{}: error: {}\n", program, one_line(message));
+  constexpr std::size_t longest = 500; // characters; whoever throws shortens the parts that are long
+  fmt::print(stderr, "{}: error: {}\n", program, shortened(message, longest));
   return static_cast<int>(code);
 }
 
