@@ -14,6 +14,7 @@
 #include "results-schema/file.hpp"
 #include "solver/output/bond_laws.hpp"
 #include "solver/output/history.hpp"
+#include "solver/output/other_scenario.hpp"
 
 namespace mpfem {
 
@@ -322,8 +323,8 @@ void read_checkpoint(const std::string& path, Simulation& simulation, RunRecord&
         fmt::format("{}: the checkpoint was written by a version of mpfem that orders nodes and tets otherwise", path));
   if (file.read_scalar(check::checksum) != hash_text(checksum(file))) throw damaged();
   if (!any_scenario && file.read_scalar(check::scenario) != scenario_text)
-    throw InputError(
-        fmt::format("{}: the checkpoint belongs to another scenario; run without --resume to begin anew", path));
+    throw InputError(fmt::format("{}: the checkpoint belongs to another scenario{}; run without --resume to begin anew",
+                                 path, scenario_difference(file.read_scalar(check::scenario), scenario_text)));
   if (file.read_scalar(check::lanes) != native_lanes)
     throw InputError(
         fmt::format("{}: the checkpoint was written by a build with {} lanes, this one has {}: nodes and tets "
