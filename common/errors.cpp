@@ -17,7 +17,8 @@ namespace mpfem {
 namespace {
 
 int report(const char* program, std::string_view message, ExitCode code) {
-  const std::string line = fmt::format("{}: error: {}\n", program, one_line(message));
+  constexpr std::size_t longest = 500; // characters; whoever throws shortens the parts that are long
+  const std::string line = fmt::format("{}: error: {}\n", program, shortened(message, longest));
   std::fputs(line.c_str(), stderr); // nobody may be there to read it
   return static_cast<int>(code);
 }

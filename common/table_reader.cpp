@@ -1,13 +1,8 @@
 #include "common/table_reader.hpp"
 
 #include <algorithm>
-#include <cerrno>
 #include <charconv>
 #include <cmath>
-#include <cstring>
-#include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <sstream>
 #include <utility>
 
@@ -17,12 +12,17 @@
 #include "common/errors.hpp"
 #include "common/nearest_word.hpp"
 #include "common/one_line.hpp"
+#include "common/text_input.hpp"
+#include "common/toml_depth.hpp"
 
 namespace mpfem {
 
 namespace {
 
 constexpr std::string_view assignment_mark = "--set ";
+constexpr std::size_t longest_word = 60;     // of a key or value in a message
+constexpr std::size_t longest_place = 120;   // characters of an assignment in a message
+constexpr std::size_t longest_finding = 160; // of what the parser says, which repeats parts of the text
 
 [[noreturn]] void throw_input_error(std::string_view place, std::string_view message) {
   throw InputError(one_line(fmt::format("{}: {}", place, message)));
@@ -30,9 +30,9 @@ constexpr std::string_view assignment_mark = "--set ";
 
 /// "FILE:LINE:COLUMN", or the assignment that a value comes from, or the file alone where nothing else is known.
 std::string place_text(const std::string& file, const toml::source_region& source) {
-  if (source.path && source.path->starts_with(assignment_mark)) return *source.path;
-  if (!source.begin) return file;
-  return fmt::format("{}:{}:{}", file, source.begin.line, source.begin.column);
+  if (source.path && source.path->starts_with(assignment_mark)) return shortened(*source.path, longest_place);
+  if (!source.begin) return shown_path(file);
+  return fmt::format("{}:{}:{}", shown_path(file), source.begin.line, source.begin.column);
 }
 
 std::string_view type_text(const toml::node& node) {
@@ -58,17 +58,10 @@ std::string_view type_text(const toml::node& node) {
   }
 }
 
-std::string shortened(std::string text) {
-  constexpr std::size_t longest = 60;
-  if (text.size() <= longest) return text;
-  std::size_t end = longest;
-  while (end > 0 && (static_cast<unsigned char>(text[end]) & 0xC0U) == 0x80U) --end; // not within a UTF-8 sequence
-  return text.substr(0, end) + "…";
-}
-
 /// "the string 'abc'", "a table"…: what a message says was found.
 std::string found_text(const toml::node& node) {
-  if (const auto* value = node.as_string()) return fmt::format("the string '{}'", shortened(value->get()));
+  if (const auto* value = node.as_string())
+    return fmt::format("the string '{}'", shortened(value->get(), longest_word));
   if (const auto* value = node.as_integer()) return fmt::format("{}", value->get());
   if (const auto* value = node.as_floating_point()) return fmt::format("{}", value->get());
   if (const auto* value = node.as_boolean()) return value->get() ? "true" : "false";
@@ -89,10 +82,15 @@ std::string quoted_list(const std::vector<std::string>& words) {
 }
 
 toml::table parse_toml(std::string_view text, const std::string& name) {
+  if (const auto line = line_nested_too_deep(text))
+    throw_input_error(
+        fmt::format("{}:{}", shown_path(name), *line),
+        fmt::format("tables and arrays nest deeper than {} levels, which is the most that is read", deepest_toml));
   try {
     return toml::parse(text, name);
   } catch (const toml::parse_error& error) {
-    throw_input_error(place_text(name, error.source()), fmt::format("not valid TOML: {}", error.description()));
+    throw_input_error(place_text(name, error.source()),
+                      fmt::format("not valid TOML: {}", shortened(error.description(), longest_finding)));
   }
 }
 
@@ -102,11 +100,15 @@ toml::table parse_assigned_value(std::string_view value, const std::string& sour
   if (first == std::string_view::npos) throw_input_error(source, "the value is empty, expected KEY=VALUE");
   value = value.substr(first, value.find_last_not_of(" \t") - first + 1);
   if (value.find_first_of("\r\n") != std::string_view::npos) throw_input_error(source, "the value has several lines");
+  if (line_nested_too_deep(value))
+    throw_input_error(
+        source, fmt::format("the value nests deeper than {} levels, which is the most that is read", deepest_toml));
   try {
     return toml::parse(fmt::format("value = {}", value), source);
   } catch (const toml::parse_error& error) {
     if (std::string_view("\"'[{").find(value.front()) != std::string_view::npos)
-      throw_input_error(source, fmt::format("not a valid TOML value: {}", error.description()));
+      throw_input_error(source,
+                        fmt::format("not a valid TOML value: {}", shortened(error.description(), longest_finding)));
   }
   std::string literal = "value = \"";
   for (const char c : value) {
@@ -125,7 +127,10 @@ std::vector<std::string> split_key(std::string_view key, const std::string& sour
       throw_input_error(source,
                         fmt::format("'{}' is not a key, expected words joined by dots, as 'contact.search_margin' "
                                     "or 'stages.0.name'",
-                                    key));
+                                    shortened(key, longest_word)));
+    if (parts.size() > deepest_toml)
+      throw_input_error(source,
+                        fmt::format("found a key of more than {} parts, which is the most that is read", deepest_toml));
     begin = end + 1;
   }
   return parts;
@@ -135,9 +140,10 @@ std::size_t element_index(const toml::array& array, const std::string& index, co
   std::size_t i = 0;
   const auto [end, error] = std::from_chars(index.data(), index.data() + index.size(), i);
   if (error == std::errc{} && end == index.data() + index.size() && i < array.size()) return i;
-  throw_input_error(
-      source, array.empty() ? fmt::format("found element '{}' of an empty array", index)
-                            : fmt::format("found element '{}' of an array, allowed 0 … {}", index, array.size() - 1));
+  throw_input_error(source, array.empty()
+                                ? fmt::format("found element '{}' of an empty array", shortened(index, longest_word))
+                                : fmt::format("found element '{}' of an array, allowed 0 … {}",
+                                              shortened(index, longest_word), array.size() - 1));
 }
 
 /// The table or array element below `parent`, made where a table has none.
@@ -145,45 +151,20 @@ toml::node& child(toml::node& parent, const std::string& part, const toml::sourc
   if (toml::array* array = parent.as_array()) return *array->get(element_index(*array, part, *source.path));
   toml::table* table = parent.as_table();
   if (table == nullptr)
-    throw_input_error(*source.path, fmt::format("'{}' stands below {}, which has no keys", part, type_text(parent)));
+    throw_input_error(*source.path, fmt::format("'{}' stands below {}, which has no keys",
+                                                shortened(part, longest_word), type_text(parent)));
   if (table->get(part) == nullptr) table->insert_or_assign(toml::key(part, source), toml::table{});
   return *table->get(part);
 }
 
 } // namespace
 
-// ---------------------------------------------------------------- Range
-
-bool Range::contains(double value) const {
-  const bool above = low_open ? value > low : value >= low;
-  const bool below = high_open ? value < high : value <= high;
-  return above && below;
-}
-
-std::string Range::text() const {
-  const bool has_low = std::isfinite(low);
-  const bool has_high = std::isfinite(high);
-  const std::string above = fmt::format("{} {}", low_open ? ">" : "≥", low);
-  const std::string below = fmt::format("{} {}", high_open ? "<" : "≤", high);
-  if (has_low && has_high)
-    return low_open || high_open ? fmt::format("{} and {}", above, below) : fmt::format("{} … {}", low, high);
-  return has_low ? above : has_high ? below : "";
-}
-
 // ---------------------------------------------------------------- TomlDocument
 
 TomlDocument::TomlDocument(toml::table root, std::string name) : root_(std::move(root)), name_(std::move(name)) {}
 
 TomlDocument TomlDocument::from_file(const std::string& path) {
-  std::error_code ignored;
-  if (std::filesystem::is_directory(path, ignored)) throw_input_error(path, "is a folder, expected a TOML file");
-  errno = 0;
-  std::ifstream file(path, std::ios::binary);
-  if (!file) throw_input_error(path, fmt::format("cannot be read: {}", std::strerror(errno)));
-  std::ostringstream text;
-  text << file.rdbuf();
-  if (file.bad()) throw_input_error(path, "cannot be read to its end");
-  return from_text(text.str(), path);
+  return from_text(read_text_file(path, most_bytes), path);
 }
 
 TomlDocument TomlDocument::from_text(std::string_view text, const std::string& name) {
@@ -191,7 +172,8 @@ TomlDocument TomlDocument::from_text(std::string_view text, const std::string& n
 }
 
 void TomlDocument::set(std::string_view assignment) {
-  const std::string source = fmt::format("{}{}", assignment_mark, assignment);
+  const std::string source =
+      fmt::format("{}{}", assignment_mark, shortened(assignment, longest_place - assignment_mark.size()));
   const std::size_t equals = assignment.find('=');
   if (equals == std::string_view::npos) throw_input_error(source, "expected KEY=VALUE");
   const std::vector<std::string> parts = split_key(assignment.substr(0, equals), source);
@@ -209,7 +191,8 @@ void TomlDocument::set(std::string_view assignment) {
     value.visit(
         [&](auto& typed) { array->replace(array->begin() + static_cast<std::ptrdiff_t>(i), std::move(typed)); });
   } else {
-    throw_input_error(source, fmt::format("'{}' stands below {}, which has no keys", last, type_text(*parent)));
+    throw_input_error(source, fmt::format("'{}' stands below {}, which has no keys", shortened(last, longest_word),
+                                          type_text(*parent)));
   }
 }
 
@@ -243,8 +226,8 @@ const toml::node& TableReader::require(std::string_view key, std::string_view al
     if (!asked_.contains(entry.first.str())) present.emplace_back(entry.first.str());
   if (const auto near = nearest_word(key, present)) {
     const auto line = table_->find(*near)->first.source().begin.line;
-    message +=
-        line > 0 ? fmt::format(" (is '{}' in line {} meant?)", *near, line) : fmt::format(" (is '{}' meant?)", *near);
+    message += line > 0 ? fmt::format(" (is '{}' in line {} meant?)", shortened(*near, longest_word), line)
+                        : fmt::format(" (is '{}' meant?)", shortened(*near, longest_word));
   }
   fail_at(table_->source(), key, message);
 }
@@ -254,7 +237,7 @@ std::string TableReader::full_key(std::string_view key) const {
 }
 
 void TableReader::fail_at(const toml::source_region& source, std::string_view key, std::string_view message) const {
-  throw_input_error(place_text(file_, source), fmt::format("key '{}': {}", full_key(key), message));
+  throw_input_error(place_text(file_, source), fmt::format("key '{}': {}", shortened(full_key(key)), message));
 }
 
 void TableReader::fail(std::string_view key, const std::string& message) const {
@@ -290,7 +273,7 @@ std::string TableReader::read_choice(const toml::node& node, std::string_view ke
   if (!node.is_string()) fail_at(node.source(), key, wrong_type(node, fmt::format("one of {}", quoted_list(allowed))));
   const std::string& value = node.as_string()->get();
   if (std::find(allowed.begin(), allowed.end(), value) != allowed.end()) return value;
-  std::string message = fmt::format("found '{}', allowed {}", shortened(value), quoted_list(allowed));
+  std::string message = fmt::format("found '{}', allowed {}", shortened(value, longest_word), quoted_list(allowed));
   if (const auto near = nearest_word(value, allowed)) message += fmt::format(" (did you mean '{}'?)", *near);
   fail_at(node.source(), key, message);
 }
@@ -374,6 +357,19 @@ std::vector<double> TableReader::numbers(std::string_view key, Range range) {
   return read_numbers(require(key, "an array of numbers"), key, range);
 }
 
+std::vector<std::int64_t> TableReader::integers(std::string_view key, Range range) {
+  const toml::node& node = require(key, "an array of whole numbers");
+  constexpr double largest = 9007199254740992.0; // 2^53: beyond it a number does not tell which integer it is
+  range.low = std::max(range.low, -largest), range.high = std::min(range.high, largest);
+  std::vector<std::int64_t> values;
+  for (const double number : read_numbers(node, key, range)) {
+    values.push_back(static_cast<std::int64_t>(number));
+    if (static_cast<double>(values.back()) != number)
+      fail_at(node.source(), key, fmt::format("found {:g}, allowed whole numbers", number));
+  }
+  return values;
+}
+
 std::vector<double> TableReader::numbers_or(std::string_view key, std::vector<double> fallback, Range range) {
   const toml::node* node = find(key);
   return node != nullptr ? read_numbers(*node, key, range) : std::move(fallback);
@@ -430,6 +426,12 @@ std::vector<TableReader> TableReader::tables(std::string_view key) {
   return readers;
 }
 
+KeyPlaces TableReader::places() const {
+  std::map<std::string, std::string> keys;
+  for (const auto& [key, node] : *table_) keys.emplace(key.str(), place_text(file_, node.source()));
+  return {place_text(file_, table_->source()), std::move(keys)};
+}
+
 void TableReader::finish() const {
   // The table iterates alphabetically; the mistake to report is the one that comes first in the file.
   const auto unknown = [&](const auto& entry) { return !asked_.contains(entry.first.str()); };
@@ -439,7 +441,7 @@ void TableReader::finish() const {
       first = &entry.first;
   if (first == nullptr) return;
 
-  std::string message = fmt::format("unknown key '{}'", full_key(first->str()));
+  std::string message = fmt::format("unknown key '{}'", shortened(full_key(first->str())));
   if (const auto near = nearest_word(first->str(), {asked_.begin(), asked_.end()}))
     message += fmt::format(" (did you mean '{}'?)", *near);
   else if (!asked_.empty())

@@ -4,7 +4,6 @@
 
 #include <array>
 #include <cstdint>
-#include <limits>
 #include <memory>
 #include <optional>
 #include <set>
@@ -14,22 +13,10 @@
 
 #include <toml++/toml.h>
 
+#include "common/key_places.hpp"
+#include "common/range.hpp"
+
 namespace mpfem {
-
-/// Admissible closed or half-open interval of a number; the message prints it.
-struct Range {
-  double low = -std::numeric_limits<double>::infinity();
-  double high = std::numeric_limits<double>::infinity();
-  bool low_open = false;
-  bool high_open = false;
-
-  static Range any() { return {}; }
-  static Range positive() { return {.low = 0, .low_open = true}; }
-  static Range non_negative() { return {.low = 0}; }
-  static Range between(double low, double high) { return {.low = low, .high = high}; }
-  bool contains(double value) const;
-  std::string text() const; ///< "> 0", "0 … 1", …
-};
 
 /// A TOML document with the values of `--set key=value` laid over it. It can be moved, not copied: copies would lose
 /// the lines and columns of its values.
@@ -40,10 +27,13 @@ public:
   TomlDocument(const TomlDocument&) = delete;
   TomlDocument& operator=(const TomlDocument&) = delete;
 
-  /// Reads and parses a file. Throws InputError (missing file, syntax error with line and column).
+  /// Reads and parses a regular file of at most `most_bytes`. Throws InputError (missing file, syntax error with line
+  /// and column, tables or arrays that nest too deep).
   static TomlDocument from_file(const std::string& path);
   /// Parses text; `name` stands for the file in messages.
   static TomlDocument from_text(std::string_view text, const std::string& name);
+
+  static constexpr std::size_t most_bytes = std::size_t{8} << 20U;
 
   /// Applies "a.b.c=value" (value: TOML syntax; what is no TOML value, as a bare word or a path, is taken as a string;
   /// array elements by number: "stages.0.wall_speed=…"). Tables that do not exist yet are made; array elements are not.
@@ -83,6 +73,8 @@ public:
   std::string choice(std::string_view key, const std::vector<std::string>& allowed);
   std::string choice_or(std::string_view key, std::string_view fallback, const std::vector<std::string>& allowed);
   std::vector<double> numbers(std::string_view key, Range range = {}); ///< required array
+  /// A required array of whole numbers, with or without a decimal point.
+  std::vector<std::int64_t> integers(std::string_view key, Range range = {});
   std::vector<double> numbers_or(std::string_view key, std::vector<double> fallback, Range range = {});
   std::array<double, 3> vector3(std::string_view key, Range range = {}); ///< required array of three numbers
   std::array<double, 3> vector3_or(std::string_view key, std::array<double, 3> fallback, Range range = {});
@@ -98,6 +90,8 @@ public:
 
   /// "FILE:LINE:COLUMN: key 'a.b': " + message, thrown as InputError; for checks across keys.
   [[noreturn]] void fail(std::string_view key, const std::string& message) const;
+  /// Where the table's own keys stand.
+  KeyPlaces places() const;
   /// Throws on the first key that nobody asked for, with the nearest known key.
   void finish() const;
 

@@ -1,13 +1,22 @@
 #pragma once
-// Tables of numbers as text: comma-separated, '#' begins a comment, one optional heading.
+// Tables of numbers with known columns.
 
 #include <string>
 #include <vector>
 
+#include "common/csv_reader.hpp"
+#include "common/range.hpp"
+
 namespace mpfem {
 
-/// Rows of a CSV file with exactly these columns, in this order. A first line that is no numbers is the heading and must
-/// name the columns (a unit in brackets may follow each name). Throws InputError "FILE:LINE: …".
-std::vector<std::vector<double>> read_csv(const std::string& path, const std::vector<std::string>& columns);
+/// A column's name and the numbers that are allowed in it.
+struct CsvColumn {
+  std::string name;
+  Range range;
+};
+
+/// Rows of a CSV table with exactly these columns, in this order. A first line that is no numbers is the heading and
+/// must name the columns (a unit in brackets may follow each name). Throws InputError "FILE:LINE: …".
+std::vector<std::vector<double>> read_csv(CsvReader reader, const std::vector<CsvColumn>& columns);
 
 } // namespace mpfem

@@ -3,10 +3,10 @@
 #include <cstdio>
 #include <filesystem>
 
-#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
 #include "common/available_cores.hpp"
+#include "common/command_line.hpp"
 #include "common/errors.hpp"
 #include "common/one_line.hpp"
 #include "common/output_file.hpp"
@@ -17,6 +17,7 @@
 #include "pack-gen/mesh_report.hpp"
 #include "pack-gen/packing_description.hpp"
 #include "pack-gen/sphere_file.hpp"
+#include "pack-gen/sphere_import.hpp"
 
 namespace {
 
@@ -40,7 +41,8 @@ void check_output(const Arguments& arguments, OutputKind kind) {
   check_output_path("--output", arguments.output, kind);
   std::error_code ignored;
   if (std::filesystem::equivalent(arguments.output, arguments.input, ignored))
-    throw InputError(fmt::format("--output {}: found the input itself, allowed: another file", arguments.output));
+    throw InputError(
+        fmt::format("--output {}: found the input itself, allowed: another file", shown_path(arguments.output)));
 }
 
 void spheres(const Arguments& arguments) {
@@ -50,12 +52,18 @@ void spheres(const Arguments& arguments) {
   const PackingDescription description = read_packing_description(document);
   const DrawnSizes sizes = draw_sizes(description);
   Progress progress("pack-gen", arguments.quiet);
-  const SpherePacking packing =
-      pack_spheres({.box = description.box,
-                    .radius = sizes.radius,
-                    .smallest_gap = description.smallest_gap,
-                    .seed = description.seed,
-                    .progress = [&](const std::string& state) { progress.update(0, state); }});
+  const auto packed = [&] {
+    try {
+      return pack_spheres({.box = description.box,
+                           .radius = sizes.radius,
+                           .smallest_gap = description.smallest_gap,
+                           .seed = description.seed,
+                           .progress = [&](const std::string& state) { progress.update(0, state); }});
+    } catch (const InputError& error) { // it knows no file
+      throw InputError(fmt::format("{}: {}", shown_path(arguments.input), error.what()));
+    }
+  };
+  const SpherePacking packing = packed();
   PackingOrigin origin{static_cast<std::int64_t>(description.seed), description.text, {}, {}};
   tabulate_target(*description.distribution, sizes.scale, origin);
   write_packing_file(arguments.output, packing, origin);
@@ -136,14 +144,12 @@ void quality(const Arguments& arguments) {
 }
 
 void add_material(CLI::App& command, StepMaterial& material) {
-  command.add_option("--youngs-modulus", material.youngs_modulus, "MPa, for the critical step")
-      ->check(CLI::PositiveNumber)
+  add_number(command, "--youngs-modulus", material.youngs_modulus, moduli, "MPa", "For the critical step")
       ->capture_default_str();
-  command.add_option("--poissons-ratio", material.poissons_ratio, "For the critical step")
-      ->check(CLI::Range(-0.99, 0.499))
+  add_number(command, "--poissons-ratio", material.poissons_ratio, Range::between(-0.99, 0.499), "",
+             "For the critical step")
       ->capture_default_str();
-  command.add_option("--density", material.density, "tonne/mm^3, for the critical step")
-      ->check(CLI::PositiveNumber)
+  add_number(command, "--density", material.density, densities, "tonne/mm^3", "For the critical step")
       ->capture_default_str();
 }
 
@@ -171,28 +177,23 @@ int body(int argc, char** argv) {
     return command;
   };
   const auto add_threads = [&](CLI::App& command) {
-    command
-        .add_option("--threads", arguments.threads,
-                    "Threads (default: all cores that it may use); the result does not depend on it")
-        ->check(CLI::Range(1, 1024));
+    add_number(command, "--threads", arguments.threads, thread_numbers, "",
+               "Threads (default: all cores that it may use); the result does not depend on it");
   };
 
   CLI::App* spheres_command =
       add("spheres", "Pack spheres as a description says.\nExample: pack-gen spheres powder.toml -o spheres.h5",
           "Description of the packing (TOML)", true);
-  spheres_command->add_option("--seed", arguments.seed, "Seed, in place of the description's")
-      ->check(CLI::NonNegativeNumber);
+  add_number(*spheres_command, "--seed", arguments.seed, seed_numbers, "", "Seed, in place of the description's");
   spheres_command->add_option("--set", arguments.assignments, "Override a value: KEY=VALUE, e.g. count=400")
       ->take_all();
 
   CLI::App* mesh_command =
       add("mesh", "Mesh every sphere.\nExample: pack-gen mesh spheres.h5 --size 0.03 -o packing.h5", "Spheres (HDF5)",
           true);
-  mesh_command->add_option("--size", arguments.size, "Nominal element size, mm")
-      ->required()
-      ->check(CLI::PositiveNumber);
-  mesh_command->add_option("--seed", arguments.seed, "Seed of the meshes' orientations (default: 1)")
-      ->check(CLI::NonNegativeNumber);
+  add_number(*mesh_command, "--size", arguments.size, lengths, "mm", "Nominal element size")->required();
+  add_number(*mesh_command, "--seed", arguments.seed, seed_numbers, "",
+             "Seed of the meshes' orientations (default: 1)");
   mesh_command->add_flag("!--no-optimise", arguments.optimise,
                          "Meshes as they were first laid out, not chosen and moved for a larger time step");
   add_threads(*mesh_command);
@@ -202,12 +203,10 @@ int body(int argc, char** argv) {
                                  "Spheres from a table x,y,z,radius (mm), e.g. of a DEM code.\n"
                                  "Example: pack-gen import spheres.csv --box 1,1,1 -o spheres.h5",
                                  "Spheres (CSV)", true);
-  import_command
-      ->add_option("--box", arguments.box,
-                   "Edge lengths X,Y,Z of the box from the origin, mm (default: the tightest box)")
+  add_number(*import_command, "--box", arguments.box, lengths, "mm",
+             "Edge lengths X,Y,Z of the box from the origin (default: the tightest box)")
       ->delimiter(',')
-      ->expected(3)
-      ->check(CLI::PositiveNumber);
+      ->expected(3);
   CLI::App* export_command =
       add("export", "Spheres to a table x,y,z,radius (mm).\nExample: pack-gen export spheres.h5 -o spheres.csv",
           "Packing (HDF5), meshed or not", true);
@@ -221,32 +220,29 @@ int body(int argc, char** argv) {
       "Mesh two hemispheres tip to tip, finely where they will touch.\n"
       "Example: pack-gen hemispheres --radius 0.1 --size 0.012 --contact-size 0.0005 --contact-radius 0.01 -o pair.h5");
   const auto length = [&](const char* name, double& value, const char* help, bool required) {
-    CLI::Option* option = hemispheres_command->add_option(name, value, help)->check(CLI::PositiveNumber);
+    CLI::Option* option = add_number(*hemispheres_command, name, value, lengths, "mm", help);
     if (required) option->required();
   };
   HemisphereRequest& pair = arguments.hemispheres;
   pair.gap = 1e-6;
-  length("--radius", pair.radius, "Radius, mm", true);
-  length("--size", pair.size, "Element size far from the contact, mm", true);
-  length("--contact-size", pair.contact_size, "Element size on the curved face near the tip, mm", true);
-  length("--contact-radius", pair.contact_radius, "How far from the tip that size reaches, mm", true);
+  length("--radius", pair.radius, "Radius", true);
+  length("--size", pair.size, "Element size far from the contact", true);
+  length("--contact-size", pair.contact_size, "Element size on the curved face near the tip", true);
+  length("--contact-radius", pair.contact_radius, "How far from the tip that size reaches", true);
   length("--bulk-size", pair.bulk_size,
-         "Largest element size within 1.5 contact radii under the tip, mm (default: 3 contact sizes)", false);
-  length("--growth", pair.growth, "Growth of the size with distance (default: 0.3)", false);
-  length("--gap", pair.gap, "Distance of the tips, mm (default: 1e-6)", false);
-  length("--box-width", pair.box_width, "Width of the box in x and y, mm (default: 2.4 radii)", false);
-  hemispheres_command->add_option("--rotate", pair.rotation, "Turn of the upper hemisphere about the axis, degrees")
-      ->check(CLI::Range(-360.0, 360.0))
+         "Largest element size within 1.5 contact radii under the tip (default: 3 contact sizes)", false);
+  add_number(*hemispheres_command, "--growth", pair.growth, Range::between(1e-6, 1e6), "",
+             "Growth of the size with distance (default: 0.3)");
+  length("--gap", pair.gap, "Distance of the tips (default: 1e-6)", false);
+  length("--box-width", pair.box_width, "Width of the box in x and y (default: 2.4 radii)", false);
+  add_number(*hemispheres_command, "--rotate", pair.rotation, Range::between(-360, 360), "degrees",
+             "Turn of the upper hemisphere about the axis")
       ->capture_default_str();
   hemispheres_command->add_option("-o,--output", arguments.output, "File to write")->required();
   hemispheres_command->add_flag("--quiet", arguments.quiet, "No report");
   add_material(*hemispheres_command, arguments.material);
 
-  try {
-    app.parse(argc, argv);
-  } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? 0 : static_cast<int>(ExitCode::bad_input);
-  }
+  if (const auto done = parse_command_line(app, "pack-gen", argc, argv)) return *done;
   if (!quality_command->parsed())
     check_output(arguments, export_command->parsed() ? OutputKind::text : OutputKind::binary);
   if (spheres_command->parsed()) spheres(arguments);

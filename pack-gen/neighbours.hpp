@@ -35,7 +35,8 @@ struct CellGrid {
   }
 
   int coordinate(const Point& p, std::size_t k) const {
-    return std::clamp(static_cast<int>(std::floor(p[k] * inverse_size[k])), 0, cells[k] - 1);
+    // Points far outside belong to the last cell; no integer holds their own.
+    return static_cast<int>(std::clamp(std::floor(p[k] * inverse_size[k]), 0.0, cells[k] - 1.0));
   }
   std::size_t index(int x, int y, int z) const {
     return (static_cast<std::size_t>(z) * static_cast<std::size_t>(cells[1]) + static_cast<std::size_t>(y)) *

@@ -10,6 +10,7 @@
 #include "common/errors.hpp"
 #include "pack-gen/neighbours.hpp"
 #include "pack-gen/random.hpp"
+#include "pack-gen/sphere_tree.hpp"
 
 namespace mpfem {
 
@@ -306,27 +307,7 @@ double largest_radius_factor(const SpherePacking& packing, double gap) {
 } // namespace
 
 SurfaceGap smallest_sphere_gap(const SpherePacking& packing) {
-  SurfaceGap smallest{std::numeric_limits<double>::infinity(), -1, -1};
-  if (packing.center.size() < 2) return smallest;
-  const auto n = static_cast<int>(packing.center.size());
-  const double largest = *std::max_element(packing.radius.begin(), packing.radius.end());
-  const auto visit_pair = [&](int i, int j) {
-    const auto a = static_cast<std::size_t>(i), b = static_cast<std::size_t>(j);
-    const double gap = distance(packing.center[a], packing.center[b]) - packing.radius[a] - packing.radius[b];
-    if (gap < smallest.gap) smallest = {gap, i, j};
-  };
-  // Cells grow until the smallest gap found is one that neighbouring cells cannot hide.
-  for (double size = 2.2 * largest;; size *= 2) {
-    smallest = {std::numeric_limits<double>::infinity(), -1, -1};
-    const CellGrid grid(packing.center, packing.box, size);
-    for (int i = 0; i < n; ++i)
-      grid.around(packing.center[static_cast<std::size_t>(i)], [&](int j) {
-        if (j > i) visit_pair(i, j);
-      });
-    const double cell = std::min({1 / grid.inverse_size[0], 1 / grid.inverse_size[1], 1 / grid.inverse_size[2]});
-    const bool all_seen = grid.cells[0] <= 2 && grid.cells[1] <= 2 && grid.cells[2] <= 2;
-    if (all_seen || smallest.gap <= cell - 2 * largest) return smallest;
-  }
+  return smallest_gap_of_pairs(packing.center, packing.radius, -std::numeric_limits<double>::infinity());
 }
 
 SurfaceGap smallest_wall_gap(const SpherePacking& packing) {

@@ -30,7 +30,7 @@ struct SurfaceGap {
   int second = -1;
 };
 
-/// Smallest gap between two spheres; exact, by a grid of cells as large as the largest diameter. Infinite for one sphere.
+/// Smallest gap between two spheres; exact. Infinite for one sphere.
 SurfaceGap smallest_sphere_gap(const SpherePacking& packing);
 /// Smallest gap between a sphere and a wall.
 SurfaceGap smallest_wall_gap(const SpherePacking& packing);

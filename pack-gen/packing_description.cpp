@@ -12,6 +12,9 @@ namespace mpfem {
 
 namespace {
 
+// A larger box, or one of smaller spheres, has volumes that are no numbers any more.
+constexpr Range length = Range::between(1e-12, 1e9); // mm
+
 /// Sizes, and for a table their cumulative fractions, from the keys themselves or from a CSV file.
 struct Columns {
   std::vector<double> values, cumulative;
@@ -19,15 +22,16 @@ struct Columns {
 
 Columns read_columns(TableReader& table, const std::string& description_file, bool with_cumulative) {
   if (!table.has("file")) {
-    Columns columns{table.numbers("values", Range::positive()), {}};
+    Columns columns{table.numbers("values", length), {}};
     if (with_cumulative) columns.cumulative = table.numbers("cumulative", Range::between(0, 1));
     return columns;
   }
   for (const char* key : {"values", "cumulative"})
     if (table.has(key)) table.fail(key, "found beside key 'file', allowed: one of the two");
   const auto path = std::filesystem::path(description_file).parent_path() / table.string("file");
-  const auto rows = read_csv(path.string(), with_cumulative ? std::vector<std::string>{"size", "cumulative"}
-                                                            : std::vector<std::string>{"size"});
+  std::vector<CsvColumn> names = {{"size", length}};
+  if (with_cumulative) names.push_back({"cumulative", Range::between(0, 1)});
+  const auto rows = read_csv(CsvReader::from_file(path.string()), names);
   Columns columns;
   for (const auto& row : rows) {
     columns.values.push_back(row[0]);
@@ -45,10 +49,10 @@ std::unique_ptr<SizeDistribution> read_distribution(TableReader table, const std
   };
   try {
     if (kind == "log_normal") {
-      const double median = to_diameter * table.number("median", Range::positive());
-      const double deviation = table.number("log_deviation", Range::positive());
-      const double smallest = to_diameter * table.number("smallest", Range::positive());
-      const double largest = to_diameter * table.number("largest", Range::positive());
+      const double median = to_diameter * table.number("median", length);
+      const double deviation = table.number("log_deviation", Range::between(1e-6, 10));
+      const double smallest = to_diameter * table.number("smallest", length);
+      const double largest = to_diameter * table.number("largest", length);
       distribution = log_normal_distribution(median, deviation, weight(), smallest, largest);
     } else {
       Columns columns = read_columns(table, description_file, kind == "table");
@@ -72,12 +76,13 @@ PackingDescription read_packing_description(const TomlDocument& document) {
   TableReader root(document);
   description.text = document.text();
   description.count = static_cast<int>(root.integer("count", Range::between(1, 1e7)));
-  description.relative_density = root.number("relative_density", Range{.low = 0, .high = 0.74, .low_open = true});
-  description.box = root.vector3("box", Range::positive());
-  description.smallest_gap = root.number("smallest_gap", Range::positive());
+  description.relative_density = root.number("relative_density", Range::between(1e-9, 0.74));
+  description.box = root.vector3("box", length);
+  description.smallest_gap = root.number("smallest_gap", length);
   description.seed = static_cast<std::uint64_t>(root.integer_or("seed", 1, Range::non_negative()));
-  description.size_scale_tolerance = root.number_or("size_scale_tolerance", 0.01, Range::non_negative());
+  description.size_scale_tolerance = root.number_or("size_scale_tolerance", 0.01, Range::between(0, 1e6));
   description.distribution = read_distribution(root.table("size_distribution"), document.name());
+  description.places = root.places();
   root.finish();
   return description;
 }
@@ -86,13 +91,15 @@ DrawnSizes draw_sizes(const PackingDescription& description) {
   std::vector<double> diameter = description.distribution->sample(description.count);
   const double box_volume = description.box[0] * description.box[1] * description.box[2];
   const double scale = size_scale(diameter, description.relative_density, box_volume);
-  if (std::abs(scale - 1) > description.size_scale_tolerance)
-    throw InputError(fmt::format(
-        "{} spheres of this size distribution at a relative density of {:g} in this box need sizes scaled by {:.4f}; "
-        "allowed by size_scale_tolerance: {:g} … {:g}; or take {:.0f} spheres, or a box larger by {:.4f} along each "
-        "edge",
-        description.count, description.relative_density, scale, 1 - description.size_scale_tolerance,
-        1 + description.size_scale_tolerance, description.count * scale * scale * scale, 1 / scale));
+  if (!(std::abs(scale - 1) <= description.size_scale_tolerance))
+    throw InputError(fmt::format("{}key 'count': {} spheres of this size distribution at a relative_density of {:g} in "
+                                 "this box need sizes scaled "
+                                 "by {:.4g}; allowed by size_scale_tolerance: {:g} … {:g}; or take {:.0f} spheres, or "
+                                 "a box larger by {:.4g} along "
+                                 "each edge",
+                                 description.places.prefix("count"), description.count, description.relative_density,
+                                 scale, 1 - description.size_scale_tolerance, 1 + description.size_scale_tolerance,
+                                 description.count * scale * scale * scale, 1 / scale));
   DrawnSizes sizes{{}, scale};
   for (const double d : diameter) sizes.radius.push_back(0.5 * scale * d);
   return sizes;

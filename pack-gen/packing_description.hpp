@@ -20,6 +20,7 @@ struct PackingDescription {
   std::uint64_t seed = 1;
   double size_scale_tolerance = 0; ///< how far from 1 the factor on all sizes may be that makes count and density agree
   std::unique_ptr<SizeDistribution> distribution;
+  KeyPlaces places; ///< of its keys
   std::string text; ///< the file's text with the assignments
 };
 

@@ -8,7 +8,7 @@
 #include "common/errors.hpp"
 #include "common/output_file.hpp"
 #include "common/version.hpp"
-#include "pack-gen/csv_table.hpp"
+#include "results-schema/file.hpp"
 #include "results-schema/packing_file.hpp"
 
 namespace mpfem {
@@ -18,13 +18,6 @@ namespace {
 namespace file = schema::packing;
 using Doubles = std::span<const double>;
 using Integers = std::span<const std::int32_t>;
-
-std::string body(const SpherePacking& packing, int index) {
-  static constexpr const char* wall[] = {"-x", "+x", "-y", "+y", "-z", "+z"};
-  if (index < 0) return fmt::format("the wall {}", wall[-1 - index]);
-  const auto& c = packing.center[static_cast<std::size_t>(index)];
-  return fmt::format("sphere {} at ({:g}, {:g}, {:g})", index, c[0], c[1], c[2]);
-}
 
 } // namespace
 
@@ -36,13 +29,6 @@ void tabulate_target(const SizeDistribution& distribution, double scale, Packing
     origin.target_diameter.push_back(scale * diameter);
     origin.target_cumulative_number.push_back(distribution.cumulative_number(diameter));
   }
-}
-
-void refuse_overlap(const SpherePacking& packing, const std::string& name) {
-  const SurfaceGap gap = smallest_gap(packing);
-  if (gap.gap < 0)
-    throw InputError(fmt::format("{}: {} and {} overlap by {:.4g} mm; allowed: no overlap", name,
-                                 body(packing, gap.first), body(packing, gap.second), -gap.gap));
 }
 
 SphereFile read_spheres(const std::string& path) {
@@ -60,31 +46,6 @@ SphereFile read_spheres(const std::string& path) {
     result.origin.target_cumulative_number = reader.read(file::packing_target_cumulative_number);
   }
   return result;
-}
-
-SpherePacking import_spheres(const std::string& path, const std::optional<Point>& box) {
-  SpherePacking packing;
-  for (const auto& row : read_csv(path, {"x", "y", "z", "radius"})) {
-    if (!(row[3] > 0))
-      throw InputError(
-          fmt::format("{}: sphere {} has the radius {:g}; allowed: > 0", path, packing.radius.size(), row[3]));
-    packing.center.push_back({row[0], row[1], row[2]});
-    packing.radius.push_back(row[3]);
-  }
-  if (box) {
-    packing.box = *box;
-  } else {
-    for (std::size_t k = 0; k < 3; ++k) {
-      double low = packing.center[0][k] - packing.radius[0], high = packing.center[0][k] + packing.radius[0];
-      for (std::size_t i = 1; i < packing.radius.size(); ++i) {
-        low = std::min(low, packing.center[i][k] - packing.radius[i]);
-        high = std::max(high, packing.center[i][k] + packing.radius[i]);
-      }
-      packing.box[k] = high - low;
-      for (auto& center : packing.center) center[k] -= low;
-    }
-  }
-  return packing;
 }
 
 void export_spheres(const std::string& path, const SpherePacking& packing) {

@@ -26,14 +26,8 @@ struct SphereFile {
 /// The wanted distribution as a curve of 101 points between its smallest and largest size.
 void tabulate_target(const SizeDistribution& distribution, double scale, PackingOrigin& origin);
 
-/// Throws InputError, naming the spheres and the overlap, where two spheres or a sphere and a wall overlap.
-void refuse_overlap(const SpherePacking& packing, const std::string& name);
-
 /// Reads spheres (meshed or not). Throws InputError.
 SphereFile read_spheres(const std::string& path);
-/// Spheres of a CSV file with the columns x, y, z, radius (mm). Without a box: the tightest around all spheres. Spheres
-/// are moved so that the box begins at the origin. Throws InputError.
-SpherePacking import_spheres(const std::string& path, const std::optional<Point>& box);
 /// Writes x, y, z, radius with units in the heading.
 void export_spheres(const std::string& path, const SpherePacking& packing);
 

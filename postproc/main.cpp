@@ -4,10 +4,10 @@
 #include <filesystem>
 #include <optional>
 
-#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "common/command_line.hpp"
 #include "common/errors.hpp"
 #include "common/one_line.hpp"
 #include "common/version.hpp"
@@ -211,15 +211,15 @@ int body(int argc, char** argv) {
     if (required) option->required();
   };
   const auto add_snapshot = [&](CLI::App& command) {
-    command.add_option("--snapshot", arguments.snapshot, "Number of the snapshot; -1 is the last")
+    add_number(command, "--snapshot", arguments.snapshot, whole_numbers, "", "Number of the snapshot; -1 is the last")
         ->capture_default_str();
   };
   const auto add_drawing = [&](CLI::App& command, const std::string& when, const std::string& title,
                                const std::string& patches) {
     command.add_flag("--mesh", arguments.picture.mesh_lines, when + "Draw the edges of " + patches);
     command.add_option("--title", arguments.picture.title, when + "Title (default: " + title + ")");
-    command.add_option("--pixels", arguments.picture.pixels, when + "Pixels along the longer side")
-        ->check(CLI::Range(50, 4000))
+    add_number(command, "--pixels", arguments.picture.pixels, Range::between(50, 4000), "",
+               when + "Pixels along the longer side")
         ->capture_default_str();
   };
   const auto add_packing = [&](CLI::App& command) {
@@ -247,16 +247,16 @@ int body(int argc, char** argv) {
       false, "File to write, .json or .csv (default: CSV on standard output); with --pair JSON");
   add_run(*contact_command, true);
   add_snapshot(*contact_command);
-  contact_command->add_option("--pair", arguments.pair, "Two grains, by comma: their contact in detail")
+  add_number(*contact_command, "--pair", arguments.pair, whole_numbers, "",
+             "Two grains, by comma: their contact in detail")
       ->delimiter(',')
       ->expected(2);
   contact_command->add_flag(
       "--history", arguments.history,
       "All contacts together through the run: areas, coordination, damage, a row a history row; with "
       "-o FILE.json at the end of a stage");
-  contact_command->add_option(
-      "--stage", arguments.stage,
-      "With --history: stage as in the scenario, from 0; negative from the end (default: the last)");
+  add_number(*contact_command, "--stage", arguments.stage, whole_numbers, "",
+             "With --history: stage as in the scenario, from 0; negative from the end (default: the last)");
   contact_command->add_option("--data", arguments.data, "With --pair: CSV file to write, a row a bond");
   contact_command->add_option("--view", arguments.contact_picture,
                               "With --pair: PNG file to write, damage in the contact's plane");
@@ -279,9 +279,8 @@ int body(int argc, char** argv) {
   section_command->add_option("--axis", arguments.axis, "Axis that the plane is normal to")
       ->check(CLI::IsMember({"x", "y", "z"}))
       ->capture_default_str();
-  section_command
-      ->add_option("--position", arguments.position,
-                   "Where on the axis, mm, or with --relative as a fraction of the box")
+  add_number(*section_command, "--position", arguments.position, coordinates, "",
+             "Where on the axis, mm, or with --relative as a fraction of the box")
       ->capture_default_str();
   section_command->add_flag("--relative", arguments.relative, "Take --position as a fraction of the box (0 … 1)");
   section_command
@@ -289,14 +288,12 @@ int body(int argc, char** argv) {
                    "von_mises, pressure, plastic_strain, grain (for --packing: grain) or, for runs with bonds, damage: "
                    "along the cut boundaries")
       ->capture_default_str();
-  section_command
-      ->add_option("--range", arguments.range, "low,high of the colour scale (default: from the data; of damage 0,1)")
+  add_number(*section_command, "--range", arguments.range, Range::between(-1e12, 1e12), "",
+             "low,high of the colour scale (default: from the data; of damage 0,1)")
       ->delimiter(',')
       ->expected(2);
-  section_command
-      ->add_option(
-          "--view", arguments.view,
-          "Part of the plane to show: low,high of its first and of its second coordinate, mm (default: the box)")
+  add_number(*section_command, "--view", arguments.view, coordinates, "mm",
+             "Part of the plane to show: low,high of its first and of its second coordinate (default: the box)")
       ->delimiter(',')
       ->expected(4);
   add_drawing(*section_command, "", "the relative density", "the elements");
@@ -309,11 +306,7 @@ int body(int argc, char** argv) {
   validate_command->add_option("files", arguments.files, "Files of any kind (HDF5)")->required();
   validate_command->add_flag("--quiet", arguments.quiet, "Nothing but findings");
 
-  try {
-    app.parse(argc, argv);
-  } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? 0 : static_cast<int>(ExitCode::bad_input);
-  }
+  if (const auto done = parse_command_line(app, "postproc", argc, argv)) return *done;
   if (section_command->parsed() && !arguments.relative && section_command->count("--position") == 0)
     arguments.relative = true;
   arguments.field_given = section_command->count("--field") > 0;

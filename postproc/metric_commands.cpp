@@ -7,9 +7,9 @@
 #include <string>
 #include <vector>
 
-#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
+#include "common/command_line.hpp"
 #include "common/errors.hpp"
 #include "common/one_line.hpp"
 #include "postproc/contact_history.hpp"
@@ -30,8 +30,8 @@ namespace mpfem {
 
 namespace {
 
-const auto positive = CLI::Range(1e-300, 1e300);
-const auto share = CLI::Range(0.0, 1.0);
+constexpr Range share = Range::between(0, 1);
+constexpr Range strains = Range::between(1e-12, 1e3);
 
 } // namespace
 
@@ -67,8 +67,8 @@ struct MetricCommands::State {
                        const std::string& output_help = "JSON file to write") {
     CLI::App& command = add(app, name, help, output_help, std::move(action));
     command.add_option("run", input, "Run file (HDF5)")->required();
-    command.add_option("--stage", stage,
-                       "Stage as in the scenario, from 0; negative from the end (default: " + default_stage + ")");
+    add_number(command, "--stage", stage, whole_numbers, "",
+               "Stage as in the scenario, from 0; negative from the end (default: " + default_stage + ")");
     return command;
   }
 
@@ -176,27 +176,20 @@ MetricCommands::MetricCommands(CLI::App& app) : state_(std::make_unique<State>()
         }
         s.deliver(measure_modulus(s.open_run(), s.stage, s.modulus, s.youngs_modulus));
       });
-  modulus
-      .add_option("--slope-change", s.modulus.slope_change,
-                  "Largest change of slope between the window's halves, share")
-      ->check(share)
+  add_number(modulus, "--slope-change", s.modulus.slope_change, share, "",
+             "Largest change of slope between the window's halves, share")
       ->capture_default_str();
-  modulus
-      .add_option("--damage-share", s.modulus.damage_share, "Largest damage dissipation over axial work in the window")
-      ->check(share)
+  add_number(modulus, "--damage-share", s.modulus.damage_share, share, "",
+             "Largest damage dissipation over axial work in the window")
       ->capture_default_str();
-  modulus
-      .add_option("--stress-fraction", s.modulus.stress_fraction,
-                  "The window ends at this share of the rise to the peak")
-      ->check(share)
+  add_number(modulus, "--stress-fraction", s.modulus.stress_fraction, share, "",
+             "The window ends at this share of the rise to the peak")
       ->capture_default_str();
-  modulus
-      .add_option("--strain-range", s.strain_range,
-                  "low,high: axial strain since the stage began, in place of the rule")
+  add_number(modulus, "--strain-range", s.strain_range, Range::between(-1e3, 1e3), "",
+             "low,high: axial strain since the stage began, in place of the rule")
       ->delimiter(',')
       ->expected(2);
-  modulus.add_option("--youngs-modulus", s.youngs_modulus, "Of the grains, MPa (default: the scenario's)")
-      ->check(positive);
+  add_number(modulus, "--youngs-modulus", s.youngs_modulus, moduli, "MPa", "Of the grains (default: the scenario's)");
 
   CLI::App& strength = s.add_metric(
       app, "strength",
@@ -219,13 +212,11 @@ MetricCommands::MetricCommands(CLI::App& app) : state_(std::make_unique<State>()
           "--criterion", [&s](const std::string& name) { s.strength.criterion = criteria.at(name); },
           "peak, or damage-onset: the stress where damage begins to grow (default: peak)")
       ->check(CLI::IsMember({"peak", "damage-onset"}));
-  strength.add_option("--drop", s.strength.drop, "Fall after the largest stress that makes it a peak, share")
-      ->check(share)
+  add_number(strength, "--drop", s.strength.drop, share, "",
+             "Fall after the largest stress that makes it a peak, share")
       ->capture_default_str();
-  strength
-      .add_option("--at-strain", s.strength.at_strain,
-                  "Axial strain since the stage began, where q has no peak by then")
-      ->check(positive)
+  add_number(strength, "--at-strain", s.strength.at_strain, strains, "",
+             "Axial strain since the stage began, where q has no peak by then")
       ->capture_default_str();
 
   CLI::App& yield = s.add_metric(
@@ -233,8 +224,8 @@ MetricCommands::MetricCommands(CLI::App& app) : state_(std::make_unique<State>()
       "Yield point of a probe: where plastic and damage dissipation reach 1.003 times their value at its beginning.\n"
       "Example: postproc yield probe.h5 -o yield.json",
       "the last probe, else the last", [&s] { s.deliver(measure_yield(s.open_run(), s.stage, s.yield_ratio)); });
-  yield.add_option("--ratio", s.yield_ratio, "Of the dissipation at yield to that at the stage's beginning")
-      ->check(CLI::Range(1.0 + 1e-9, 100.0))
+  add_number(yield, "--ratio", s.yield_ratio, Range::between(1.0 + 1e-9, 100.0), "",
+             "Of the dissipation at yield to that at the stage's beginning")
       ->capture_default_str();
 
   CLI::App& hysteresis =
@@ -261,7 +252,8 @@ MetricCommands::MetricCommands(CLI::App& app) : state_(std::make_unique<State>()
                              s.deliver(measurement);
                            });
   damage.add_option("run", s.input, "Run file (HDF5)")->required();
-  damage.add_option("--snapshot", s.snapshot, "Number of the snapshot; -1 is the last")->capture_default_str();
+  add_number(damage, "--snapshot", s.snapshot, whole_numbers, "", "Number of the snapshot; -1 is the last")
+      ->capture_default_str();
   damage.add_option("--data", s.table, "CSV file to write: the share of the area whose damage is not above each value");
 
   CLI::App& energy = s.add_metric(
@@ -273,11 +265,9 @@ MetricCommands::MetricCommands(CLI::App& app) : state_(std::make_unique<State>()
       "Example: postproc energy run.h5 --packing packing.h5 -o energy.json",
       "as for elastic-recovery", [&s] { s.run_energy(); },
       "File to write, .json, or CSV with any other ending (default: CSV on standard output)");
-  energy.add_option("--youngs-modulus", s.youngs_modulus, "Of the grains, MPa (default: the scenario's)")
-      ->check(positive);
-  energy
-      .add_option("--mean-radius", s.mean_radius, "Of the grains, mm (default: from --packing, else from a snapshot)")
-      ->check(positive);
+  add_number(energy, "--youngs-modulus", s.youngs_modulus, moduli, "MPa", "Of the grains (default: the scenario's)");
+  add_number(energy, "--mean-radius", s.mean_radius, lengths, "mm",
+             "Of the grains (default: from --packing, else from a snapshot)");
   energy.add_option("--packing", s.packing, "Packing file (HDF5) to take the mean radius from");
 
   CLI::App& fit = s.add(

@@ -1,6 +1,7 @@
 #include "postproc/snapshot.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -35,6 +36,17 @@ void check_size(const std::vector<float>& values, std::size_t expected, std::str
                 const std::string& path) {
   if (values.size() != expected)
     throw InputError(fmt::format("{}: {} has {} values, expected {}", path, name, values.size(), expected));
+}
+
+/// Pictures and sections of anything else would be drawn for ever.
+void check_places(const Snapshot& s, const std::string& path) {
+  for (std::size_t i = 0; i < s.node.size(); ++i)
+    if (!std::isfinite(s.node[i]))
+      throw InputError(fmt::format("{}: node {} has a place that is not finite", path, i / 3));
+  for (std::size_t axis = 0; axis < 3; ++axis)
+    if (!(s.box_low[axis] < s.box_high[axis]) || !std::isfinite(s.box_high[axis] - s.box_low[axis]))
+      throw InputError(fmt::format("{}: the box goes from {:g} to {:g} mm, allowed: low < high", path, s.box_low[axis],
+                                   s.box_high[axis]));
 }
 
 } // namespace
@@ -83,6 +95,7 @@ Snapshot read_snapshot(const schema::FileReader& file, int number) {
   s.tet = file.read(run::mesh_tet);
   s.tet_grain = grain_of_tets(file.read(run::mesh_grain_tet_offset), s.tets(), path);
   check_tets(s, path);
+  check_places(s, path);
   const auto field = [&](const auto& dataset, const char* name, std::size_t expected) {
     Field result{name, std::string(dataset.unit), file.read(dataset, s.name)};
     check_size(result.values, expected, dataset.path, path);

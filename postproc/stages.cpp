@@ -1,6 +1,7 @@
 #include "postproc/stages.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -29,9 +30,13 @@ ScenarioFacts scenario_facts(const schema::FileReader& file) {
 }
 
 std::vector<StageRows> stages_of(const HistoryTable& history, const ScenarioFacts& facts) {
+  constexpr double largest_number = 1e9;
   std::vector<StageRows> stages;
   const auto& number = history["stage"];
   for (std::size_t row = 0; row < history.rows(); ++row) {
+    if (!(std::abs(number[row]) <= largest_number))
+      throw InputError(
+          fmt::format("/history/stage row {}: found {:g}, allowed: the number of a stage", row, number[row]));
     const int stage = static_cast<int>(number[row]);
     if (stages.empty() || stages.back().number != stage) {
       const auto index = static_cast<std::size_t>(stage);

@@ -5,10 +5,10 @@
 
 #include <malloc.h>
 
-#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
 #include "common/available_cores.hpp"
+#include "common/command_line.hpp"
 #include "common/errors.hpp"
 #include "common/table_reader.hpp"
 #include "common/version.hpp"
@@ -46,12 +46,16 @@ Scenario load_scenario(const Arguments& arguments) {
   return read_scenario(document);
 }
 
+void add_threads(CLI::App& command, Arguments& arguments) {
+  add_number(command, "--threads", arguments.run.threads, thread_numbers, "",
+             "Threads (default: all cores that it may use)");
+}
+
 void add_common(CLI::App& command, Arguments& arguments) {
   command.add_option("scenario", arguments.scenario, "Scenario file (TOML)")->required();
   command.add_option("--set", arguments.assignments, "Override a value: KEY=VALUE, e.g. stages.0.wall_speed=2000")
       ->take_all();
-  command.add_option("--threads", arguments.run.threads, "Threads (default: all cores that it may use)")
-      ->check(CLI::Range(1, 1024));
+  add_threads(command, arguments);
   command.add_flag("--quiet", arguments.run.quiet, "No progress");
 }
 
@@ -75,8 +79,8 @@ CLI::App* add_bond(CLI::App& app, BondProgrammeOptions& options) {
       ->required();
   bond->add_option("-o,--output", options.output, "Table to write (CSV)")->required();
   bond->add_option("--set", options.assignments, "Override a value of the law: KEY=VALUE")->take_all();
-  bond->add_option("--increments", options.increments, "Increments of way points whose row gives none")
-      ->check(CLI::Range(1, 10'000'000))
+  add_number(*bond, "--increments", options.increments, Range::between(1, 1e7), "",
+             "Increments of way points whose row gives none")
       ->capture_default_str();
   bond->add_flag("--quiet", options.quiet, "No summary");
   return bond;
@@ -93,13 +97,10 @@ CLI::App* add_bench(CLI::App& app, Arguments& arguments, BenchOptions& options, 
   bench->add_option("scenario", arguments.scenario, "Scenario to measure instead of the built-in packing (TOML)");
   bench->add_option("--from", from, "Checkpoint whose state is measured")->check(CLI::ExistingFile);
   bench->add_option("--set", arguments.assignments, "Override a value of the scenario: KEY=VALUE")->take_all();
-  bench->add_option("--threads", arguments.run.threads, "Threads (default: all cores that it may use)")
-      ->check(CLI::Range(1, 1024));
-  bench->add_option("--tets", options.tets, "Tetrahedra of the built-in packing, about")
-      ->check(CLI::Range(std::int64_t{8}, std::int64_t{400'000'000}))
+  add_threads(*bench, arguments);
+  add_number(*bench, "--tets", options.tets, Range::between(8, 4e8), "", "Tetrahedra of the built-in packing, about")
       ->capture_default_str();
-  bench->add_option("--grains", options.grains, "Grains of the built-in packing, about")
-      ->check(CLI::Range(1, 10'000'000))
+  add_number(*bench, "--grains", options.grains, Range::between(1, 1e7), "", "Grains of the built-in packing, about")
       ->capture_default_str();
   bench->add_option("--element", options.element, "Element of the built-in packing: tet4, tet4-anp, tet4-patch")
       ->transform(CLI::CheckedTransformer(std::map<std::string, ElementType>{
@@ -108,9 +109,7 @@ CLI::App* add_bench(CLI::App& app, Arguments& arguments, BenchOptions& options, 
       ->transform(CLI::CheckedTransformer(
           std::map<std::string, Precision>{{"double", Precision::full}, {"mixed", Precision::mixed}}));
   bench->add_flag("!--no-bonds", options.bonds, "Built-in packing without bonds");
-  bench->add_option("--steps", options.steps, "Steps to measure")
-      ->check(CLI::Range(5, 1'000'000))
-      ->capture_default_str();
+  add_number(*bench, "--steps", options.steps, Range::between(5, 1e6), "", "Steps to measure")->capture_default_str();
   bench->add_flag("--json", options.json, "Print one JSON object");
   bench->add_flag("--quiet", options.quiet, "No progress");
   return bench;
@@ -142,8 +141,8 @@ int body(int argc, char** argv) {
   run->add_flag("--resume", arguments.run.resume, "Go on from the run's checkpoint if there is one");
   std::string from;
   run->add_option("--from", from, "Begin at the state of this checkpoint")->check(CLI::ExistingFile);
-  run->add_option("--time-limit", arguments.run.time_limit, "Stop resumably after so many seconds of wall-clock time")
-      ->check(CLI::PositiveNumber);
+  add_number(*run, "--time-limit", arguments.run.time_limit, Range::between(1e-9, 1e9), "s",
+             "Stop resumably after so much wall-clock time");
 
   CLI::App* check = app.add_subcommand("check", "Validate a scenario, print its plan and how long it takes here.\n"
                                                 "Examples:\n"
@@ -160,11 +159,7 @@ int body(int argc, char** argv) {
   std::string bench_from;
   const CLI::App* bench = add_bench(app, arguments, bench_options, bench_from);
 
-  try {
-    app.parse(argc, argv);
-  } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? 0 : static_cast<int>(ExitCode::bad_input);
-  }
+  if (const auto done = parse_command_line(app, "mpfem", argc, argv)) return *done;
 
   if (bond->parsed()) {
     run_bond_programme(bond_options);

@@ -44,9 +44,9 @@ std::vector<std::string> check_bonds(const Model& model, const Scenario& scenari
   const double energy = scenario.bond->fracture_energy;
   if (!(energy > 1.01 * r.smallest_fracture_energy))
     throw InputError(
-        fmt::format("[bond] key 'fracture_energy': found {:g} N/mm, allowed > {:.3g} N/mm with this mesh's "
+        fmt::format("{}[bond] key 'fracture_energy': found {:g} N/mm, allowed > {:.3g} N/mm with this mesh's "
                     "penalty (strength^2/(2 K)): raise it, lower the strength or refine the mesh",
-                    energy, 1.01 * r.smallest_fracture_energy));
+                    scenario.bond_places.prefix("fracture_energy"), energy, 1.01 * r.smallest_fracture_energy));
   if (energy < r.steep_fracture_energy)
     warnings.push_back(
         fmt::format("bonds soften more steeply than elements of {:.3g} mm can unload: fracture_energy "

@@ -15,6 +15,7 @@
 #include "results-schema/file.hpp"
 #include "solver/output/bond_laws.hpp"
 #include "solver/output/history.hpp"
+#include "solver/output/other_scenario.hpp"
 
 namespace mpfem {
 
@@ -319,8 +320,8 @@ void read_checkpoint(const std::string& path, Simulation& simulation, RunRecord&
         fmt::format("{}: the checkpoint was written by a version of mpfem that orders nodes and tets otherwise", path));
   check_content_hash(file);
   if (!any_scenario && file.read_scalar(check::scenario) != scenario_text)
-    throw InputError(
-        fmt::format("{}: the checkpoint belongs to another scenario; run without --resume to begin anew", path));
+    throw InputError(fmt::format("{}: the checkpoint belongs to another scenario{}; run without --resume to begin anew",
+                                 path, scenario_difference(file.read_scalar(check::scenario), scenario_text)));
   if (file.read_scalar(check::lanes) != native_lanes)
     throw InputError(
         fmt::format("{}: the checkpoint was written by a build with {} lanes, this one has {}: nodes and tets "

@@ -1,15 +1,14 @@
 #include "solver/run/bond_programme.hpp"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
-#include <optional>
 
 #include <fmt/format.h>
 
+#include "common/csv_reader.hpp"
 #include "common/errors.hpp"
 #include "common/one_line.hpp"
 #include "common/output_file.hpp"
@@ -22,64 +21,17 @@ namespace {
 
 constexpr std::string_view heading = "opening,shear1,shear2[,increments]";
 constexpr const char* column_names[] = {"opening", "shear1", "shear2", "increments"};
-constexpr double largest_separation = 1e6; // mm; its square is still far from the end of the numbers
+constexpr Range separations = Range::between(-1e6, 1e6); // mm; their squares are still far from the end of the numbers
 constexpr long long most_increments = 10'000'000;
+constexpr Range increment_numbers = Range::between(1, most_increments);
 
-std::string_view trimmed(std::string_view text) {
-  const auto first = text.find_first_not_of(" \t\r");
-  return first == std::string_view::npos ? std::string_view()
-                                         : text.substr(first, text.find_last_not_of(" \t\r") - first + 1);
-}
-
-std::vector<std::string_view> cells(std::string_view line) {
-  std::vector<std::string_view> result;
-  for (std::size_t begin = 0;;) {
-    const std::size_t comma = line.find(',', begin);
-    result.push_back(trimmed(line.substr(begin, comma - begin)));
-    if (comma == std::string_view::npos) return result;
-    begin = comma + 1;
-  }
-}
-
-template <typename Number>
-std::optional<Number> as_number(std::string_view cell) {
-  Number value{};
-  const auto [end, error] = std::from_chars(cell.data(), cell.data() + cell.size(), value);
-  return error == std::errc() && end == cell.data() + cell.size() ? std::optional(value) : std::nullopt;
-}
-
-/// Where in the programme a mistake is.
-struct Place {
-  const std::string& path;
-  int line;
-  [[noreturn]] void fail(const std::string& what) const {
-    throw InputError(fmt::format("{}:{}: {}", one_line(path), line, what));
-  }
-};
-
-double separation_of(std::string_view cell, const char* column, const Place& place) {
-  const auto value = as_number<double>(cell);
-  if (!value || !(std::abs(*value) <= largest_separation))
-    place.fail(fmt::format("column {}: found '{}', allowed a number of mm from {:g} to {:g}", column, one_line(cell),
-                           -largest_separation, largest_separation));
-  return *value;
-}
-
-int increments_of(std::string_view cell, const Place& place) {
-  const auto value = as_number<long long>(cell);
-  if (!value || *value < 1 || *value > most_increments)
-    place.fail(fmt::format("column increments: found '{}', allowed a whole number from 1 to {}", one_line(cell),
-                           most_increments));
-  return static_cast<int>(*value);
-}
-
-void check_heading(const std::vector<std::string_view>& names, const Place& place) {
-  if (names.size() < 3 || names.size() > 4)
-    place.fail(fmt::format("found a heading of {} columns, expected {}", names.size(), heading));
-  for (std::size_t i = 0; i < names.size(); ++i)
-    if (names[i] != column_names[i])
-      place.fail(
-          fmt::format("column {}: found the heading '{}', expected {}", column_names[i], one_line(names[i]), heading));
+void check_heading(const CsvReader& reader, const CsvRow& row) {
+  if (row.cells.size() < 3 || row.cells.size() > 4)
+    reader.fail(row, fmt::format("found a heading of {} columns, expected {}", row.cells.size(), heading));
+  for (std::size_t i = 0; i < row.cells.size(); ++i)
+    if (row.cells[i] != column_names[i])
+      reader.fail(row, fmt::format("column {}: found the heading '{}', expected {}", column_names[i],
+                                   shortened(row.cells[i]), heading));
 }
 
 /// A point of the straight line between two separations; exactly its ends at its ends.
@@ -101,7 +53,7 @@ double trapezoid(const Separation& a, const BondedPoint::Response& at_a, const S
 void refuse_overwriting(const std::string& output, const std::string& input) {
   std::error_code ignored; // one of them is not there: not the same
   if (std::filesystem::equivalent(output, input, ignored))
-    throw InputError(fmt::format("{}: is an input, allowed another --output", one_line(output)));
+    throw InputError(fmt::format("{}: is an input, allowed another --output", shown_path(output)));
 }
 
 } // namespace
@@ -152,39 +104,32 @@ BondedPointLaw read_bonded_point_law(const TomlDocument& document) {
       bond.rebond_on_contact};
 }
 
-std::vector<WayPoint> read_bond_programme(const std::string& path, int increments) {
-  std::ifstream file(path);
-  if (!file || std::filesystem::is_directory(path))
-    throw InputError(fmt::format("{}: cannot be opened", one_line(path)));
+std::vector<WayPoint> read_bond_programme(CsvReader reader, int increments) {
+  const auto names = reader.next();
+  if (!names) reader.fail(CsvRow{1, {}}, fmt::format("found no heading, expected {}", heading));
+  check_heading(reader, *names);
+  const std::size_t columns = names->cells.size();
   std::vector<WayPoint> way_points;
-  std::size_t columns = 0;
   long long total = 0;
-  std::string line;
-  for (int number = 1; std::getline(file, line); ++number) {
-    const std::string_view text = trimmed(std::string_view(line).substr(0, line.find('#')));
-    if (text.empty()) continue;
-    const Place place{path, number};
-    const auto found = cells(text);
-    if (columns == 0) {
-      check_heading(found, place);
-      columns = found.size();
-      continue;
-    }
-    if (found.size() != columns)
-      place.fail(fmt::format("found {} columns, expected {} as in the heading", found.size(), columns));
-    WayPoint way_point;
-    way_point.separation = {separation_of(found[0], column_names[0], place),
-                            separation_of(found[1], column_names[1], place),
-                            separation_of(found[2], column_names[2], place)};
-    way_point.increments = columns == 4 && !found[3].empty() ? increments_of(found[3], place) : increments;
+  while (const auto row = reader.next()) {
+    if (row->cells.size() != columns)
+      reader.fail(*row, fmt::format("found {} columns, expected {} as in the heading", row->cells.size(), columns));
+    const auto separation = [&](std::size_t i) { return reader.number(*row, i, column_names[i], separations); };
+    WayPoint way_point{{separation(0), separation(1), separation(2)}, increments};
+    if (columns == 4 && !row->cells[3].empty())
+      way_point.increments = static_cast<int>(reader.integer(*row, 3, column_names[3], increment_numbers));
     total += way_point.increments;
     if (total > most_increments)
-      place.fail(fmt::format("column increments: found {} up to here, allowed {} in all", total, most_increments));
+      reader.fail(*row,
+                  fmt::format("column increments: found {} up to here, allowed {} in all", total, most_increments));
     way_points.push_back(way_point);
   }
-  if (columns == 0) throw InputError(fmt::format("{}:1: found no heading, expected {}", one_line(path), heading));
-  if (way_points.empty()) throw InputError(fmt::format("{}: found no way point below the heading", one_line(path)));
+  if (way_points.empty()) reader.fail("found no way point below the heading");
   return way_points;
+}
+
+std::vector<WayPoint> read_bond_programme(const std::string& path, int increments) {
+  return read_bond_programme(CsvReader::from_file(path), increments);
 }
 
 void run_bond_programme(const BondProgrammeOptions& options) {

@@ -9,6 +9,7 @@
 
 namespace mpfem {
 
+class CsvReader;
 class TomlDocument;
 
 /// Separation of the two sides of a contact point, mm.
@@ -72,6 +73,7 @@ BondedPointLaw read_bonded_point_law(const TomlDocument& document);
 /// Reads way points from a CSV file with the heading "opening,shear1,shear2" (mm) and, if wanted, ",increments" (a whole
 /// number; empty: `increments`). '#' begins a comment. Throws InputError "FILE:LINE: column …".
 std::vector<WayPoint> read_bond_programme(const std::string& path, int increments);
+std::vector<WayPoint> read_bond_programme(CsvReader reader, int increments);
 
 /// Walks a point through the programme and writes a row for the start and for each increment; prints where it ended.
 /// Nothing is written when an input is refused. Throws InputError, StorageError.

@@ -58,14 +58,15 @@ StageMotion::StageMotion(const Stage& stage, const std::array<double, 3>& low, c
     const double length = high[axis] - low[axis];
     end_scale_[axis] = 1.0 + stage.grip->displacement / length;
     if (!(end_scale_[axis] > 0))
-      throw InputError(fmt::format("stage '{}': key 'displacement': found {:g} mm, allowed > {:g} mm, the distance of "
-                                   "the grips",
-                                   stage.name, stage.grip->displacement, -length));
+      throw InputError(
+          fmt::format("{}stage '{}': key 'displacement': found {:g} mm, allowed > {:g} mm, the distance of "
+                      "the grips",
+                      stage.places.prefix("displacement"), stage.name, stage.grip->displacement, -length));
     if (!(2 * stage.grip->depth < length))
       throw InputError(
-          fmt::format("stage '{}': key 'grip_depth': found {:g} mm, allowed < {:g} mm, half the distance of "
+          fmt::format("{}stage '{}': key 'grip_depth': found {:g} mm, allowed < {:g} mm, half the distance of "
                       "the grips",
-                      stage.name, stage.grip->depth, 0.5 * length));
+                      stage.places.prefix("grip_depth"), stage.name, stage.grip->depth, 0.5 * length));
     ramp_ = stage.grip->ramp_fraction;
     const auto& s = stage.grip->sliding;
     const double way = std::hypot(stage.grip->displacement, std::hypot(s[0], s[1], s[2]));
@@ -79,9 +80,10 @@ StageMotion::StageMotion(const Stage& stage, const std::array<double, 3>& low, c
     const double density = solid_volume / volume(low, high);
     // Nearer than this, the walls would move by rounding errors.
     if (!(compaction.relative_density > density * (1 + 1e-9)))
-      throw InputError(fmt::format("stage '{}': key 'relative_density': found {}, allowed more than the density at its "
-                                   "start, {:.4f}",
-                                   stage.name, compaction.relative_density, density));
+      throw InputError(
+          fmt::format("{}stage '{}': key 'relative_density': found {}, allowed more than the density at its "
+                      "start, {:.4f}",
+                      stage.places.prefix("relative_density"), stage.name, compaction.relative_density, density));
     end_scale_.fill(std::cbrt(density / compaction.relative_density));
     ramp_ = compaction.ramp_fraction;
     duration_ = 0.5 * longest_ * (1.0 - end_scale_[0]) / (compaction.wall_speed * (1.0 - ramp_));
@@ -261,9 +263,10 @@ void check_programme(const Scenario& scenario, std::int64_t first_stage, std::ar
     const auto check = [&](const char* key, double speed) {
       if (speed > fastest)
         throw InputError(fmt::format(
-            "stage '{}': key '{}': found {:g} mm/s, allowed at most {:.4g} mm/s here ({} of an element in a "
+            "{}stage '{}': key '{}': found {:g} mm/s, allowed at most {:.4g} mm/s here ({} of an element in a "
             "stable step of {:.3g} s)",
-            stage.name, key, speed, fastest, largest_travel, stable_step));
+            stage.places.prefix(std::string(key).substr(0, std::string(key).find('.'))), stage.name, key, speed,
+            fastest, largest_travel, stable_step));
     };
     if (stage.quasi_static)
       check("quasi_static.fastest_speed", stage.quasi_static->fastest_speed);

@@ -14,11 +14,25 @@ namespace mpfem {
 namespace {
 
 // Ranges that exclude slips of the decimal point or of units; physics sets its own limits where it has any.
-constexpr Range fraction_without_zero{.low = 0, .high = 1, .low_open = true};
+// They also keep finite all that is computed from several of them: squares, ratios, the stable step.
+constexpr Range hardening_exponent = Range::between(1e-3, 1);
 constexpr Range admissible_poissons_ratio{.low = -1, .high = 0.5, .low_open = true, .high_open = true};
 constexpr Range target_density{.low = 0, .high = 1.2, .low_open = true};
-constexpr Range positive{.low = 0, .low_open = true};
-constexpr Range non_negative{.low = 0};
+constexpr Range positive_density = Range::between(1e-18, 1e3);   // tonne/mm^3
+constexpr Range positive_modulus = Range::between(1e-9, 1e12);   // MPa; also strengths and flow stresses
+constexpr Range positive_stress = Range::between(1e-12, 1e12);   // MPa
+constexpr Range stress_or_zero = Range::between(0, 1e12);        // MPa
+constexpr Range any_stress = Range::between(-1e12, 1e12);        // MPa
+constexpr Range positive_speed = Range::between(1e-12, 1e12);    // mm/s
+constexpr Range any_speed = Range::between(-1e12, 1e12);         // mm/s or rad/s
+constexpr Range positive_time = Range::between(1e-15, 1e9);      // s
+constexpr Range positive_length = Range::between(1e-12, 1e9);    // mm
+constexpr Range any_length = Range::between(-1e9, 1e9);          // mm
+constexpr Range rate_or_zero = Range::between(0, 1e15);          // 1/s
+constexpr Range positive_stiffness = Range::between(1e-9, 1e18); // MPa/mm
+constexpr Range positive_energy = Range::between(1e-18, 1e12);   // N/mm
+constexpr Range strain_or_zero = Range::between(0, 1e3);
+constexpr double most_grains = 1e9;
 
 constexpr double smallest_density_step = 0.001; // of checkpoints, whose names have three decimals
 
@@ -96,18 +110,17 @@ HardeningParameters read_hardening(TableReader table, double youngs_modulus, dou
   case HardeningLaw::elastic:
     break;
   case HardeningLaw::power:
-    hardening.yield_stress = table.number("yield_stress", positive);
-    hardening.coefficient = table.number("coefficient", positive);
-    hardening.exponent = table.number("exponent", fraction_without_zero);
+    hardening.yield_stress = table.number("yield_stress", positive_modulus);
+    hardening.coefficient = table.number("coefficient", positive_modulus);
+    hardening.exponent = table.number("exponent", hardening_exponent);
     break;
   case HardeningLaw::total_strain:
-    hardening.coefficient =
-        table.number("coefficient", {.low = 0, .high = youngs_modulus, .low_open = true, .high_open = true});
-    hardening.exponent = table.number("exponent", {.low = 0, .high = 1, .low_open = true, .high_open = true});
+    hardening.coefficient = table.number("coefficient", {.low = 1e-9, .high = youngs_modulus, .high_open = true});
+    hardening.exponent = table.number("exponent", Range::between(1e-3, 0.99));
     break;
   case HardeningLaw::table:
-    hardening.table_plastic_strain = table.numbers("plastic_strain", non_negative);
-    hardening.table_flow_stress = table.numbers("flow_stress", positive);
+    hardening.table_plastic_strain = table.numbers("plastic_strain", strain_or_zero);
+    hardening.table_flow_stress = table.numbers("flow_stress", positive_modulus);
     check_hardening_table(table, hardening, youngs_modulus / (2 * (1 + poissons_ratio)));
     break;
   }
@@ -118,8 +131,8 @@ HardeningParameters read_hardening(TableReader table, double youngs_modulus, dou
 /// Without table.finish(): the table may hold more.
 MaterialParameters read_material(TableReader& table) {
   MaterialParameters material;
-  material.density = table.number("density", positive);
-  material.youngs_modulus = table.number("youngs_modulus", positive);
+  material.density = table.number("density", positive_density);
+  material.youngs_modulus = table.number("youngs_modulus", positive_modulus);
   material.poissons_ratio = table.number("poissons_ratio", admissible_poissons_ratio);
   material.hardening = read_hardening(table.table("hardening"), material.youngs_modulus, material.poissons_ratio);
   return material;
@@ -130,10 +143,7 @@ std::vector<GrainMaterial> read_grain_materials(TableReader& root) {
   std::set<std::int64_t> seen;
   for (TableReader& table : root.tables("grain_material")) {
     GrainMaterial other;
-    for (const double number : table.numbers("grains", non_negative)) {
-      const auto grain = static_cast<std::int64_t>(number);
-      if (static_cast<double>(grain) != number)
-        table.fail("grains", fmt::format("found {:g}, allowed whole numbers", number));
+    for (const std::int64_t grain : table.integers("grains", Range::between(0, most_grains))) {
       if (!seen.insert(grain).second)
         table.fail("grains", fmt::format("found {} twice, allowed one material a grain", grain));
       other.grains.push_back(grain);
@@ -148,11 +158,10 @@ std::vector<GrainMaterial> read_grain_materials(TableReader& root) {
 
 ContactParameters read_contact(TableReader table) {
   ContactParameters contact;
-  contact.stiffness_factor =
-      table.number_or("stiffness_factor", contact.stiffness_factor, {.low = 0, .high = 1e4, .low_open = true});
+  contact.stiffness_factor = table.number_or("stiffness_factor", contact.stiffness_factor, Range::between(1e-6, 1e4));
   if (table.has("stiffness")) {
     if (table.has("stiffness_factor")) table.fail("stiffness", "has no meaning with 'stiffness_factor'");
-    contact.stiffness = table.number("stiffness", positive);
+    contact.stiffness = table.number("stiffness", positive_stiffness);
   }
   contact.search_margin = table.number_or("search_margin", contact.search_margin, Range::between(0.05, 2));
   const std::string surface = table.choice_or("surface", "automatic", {"automatic", "facets", "smooth"});
@@ -183,17 +192,15 @@ void read_element(TableReader table, NumericsParameters& numerics) {
 
 NumericsParameters read_numerics(TableReader table) {
   NumericsParameters numerics;
-  numerics.time_step_factor =
-      table.number_or("time_step_factor", numerics.time_step_factor, {.low = 0, .high = 2, .low_open = true});
+  numerics.time_step_factor = table.number_or("time_step_factor", numerics.time_step_factor, Range::between(1e-9, 2));
   numerics.step_estimate =
       table.choice_or("step_estimate", "grain", {"grain", "tet"}) == "grain" ? StepEstimate::grain : StepEstimate::tet;
   numerics.bulk_viscosity_linear =
       table.number_or("bulk_viscosity_linear", numerics.bulk_viscosity_linear, Range::between(0, 1));
   numerics.bulk_viscosity_quadratic =
       table.number_or("bulk_viscosity_quadratic", numerics.bulk_viscosity_quadratic, Range::between(0, 10));
-  numerics.mass_scaling =
-      table.number_or("mass_scaling", numerics.mass_scaling, {.low = 0, .high = 1e12, .low_open = true});
-  if (table.has("mass_scaling_step")) numerics.mass_scaling_step = table.number("mass_scaling_step", positive);
+  numerics.mass_scaling = table.number_or("mass_scaling", numerics.mass_scaling, Range::between(1e-12, 1e12));
+  if (table.has("mass_scaling_step")) numerics.mass_scaling_step = table.number("mass_scaling_step", positive_time);
   numerics.mass_scaling_lighten = table.boolean_or("mass_scaling_lighten", numerics.mass_scaling_lighten);
   if (numerics.mass_scaling_lighten && numerics.mass_scaling_step == 0)
     table.fail("mass_scaling_lighten", "has no meaning without 'mass_scaling_step'");
@@ -215,24 +222,25 @@ OutputParameters read_output(TableReader table) {
       table.fail("checkpoint_relative_densities", fmt::format("found {} and {}, expected steps of at least {}",
                                                               kept[i - 1], kept[i], smallest_density_step));
   output.snapshot_at_stage_end = table.boolean_or("snapshot_at_stage_end", output.snapshot_at_stage_end);
-  output.checkpoint_interval = table.number_or("checkpoint_interval", output.checkpoint_interval, positive);
+  output.checkpoint_interval =
+      table.number_or("checkpoint_interval", output.checkpoint_interval, Range::between(1e-9, 1e9));
   table.finish();
   return output;
 }
 
 void read_initial(TableReader table, Scenario& scenario) {
-  scenario.initial_velocity = table.vector3_or("velocity", {0, 0, 0});
-  scenario.grain_velocity = table.vectors3("grain_velocity");
-  scenario.grain_angular_velocity = table.vectors3("grain_angular_velocity");
+  scenario.initial_velocity = table.vector3_or("velocity", {0, 0, 0}, any_speed);
+  scenario.grain_velocity = table.vectors3("grain_velocity", any_speed);
+  scenario.grain_angular_velocity = table.vectors3("grain_angular_velocity", any_speed);
   table.finish();
 }
 
 DampingParameters read_damping(TableReader& table) {
   DampingParameters damping;
-  damping.rate = table.number_or("damping_rate", 0, non_negative);
+  damping.rate = table.number_or("damping_rate", 0, rate_or_zero);
   if (table.has("damping_fade_stress") && !table.has("damping_rate"))
     table.fail("damping_fade_stress", "has no meaning without 'damping_rate'");
-  const auto fade_stress = table.optional_number("damping_fade_stress", positive);
+  const auto fade_stress = table.optional_number("damping_fade_stress", positive_stress);
   if (damping.rate > 0 && !fade_stress)
     table.fail("damping_fade_stress", "missing, expected a number > 0, since damping_rate > 0");
   damping.fade_stress = fade_stress.value_or(0);
@@ -243,7 +251,7 @@ DampingParameters read_damping(TableReader& table) {
 std::optional<QuasiStatic> read_quasi_static(TableReader& stage, double speed, double youngs_modulus) {
   constexpr double slower = 0.25, faster = 4; // bounds where none are given, over the stage's own speed
   constexpr double loose = 1e-3;              // stress of a loose packing over the grains' modulus
-  constexpr Range part{.low = 0, .high = 1, .low_open = true};
+  constexpr Range part = Range::between(1e-9, 1);
   std::optional<TableReader> table = stage.optional_table("quasi_static");
   if (!table) return std::nullopt;
   if (!(speed > 0)) stage.fail("quasi_static", "has no meaning where nothing moves");
@@ -252,9 +260,9 @@ std::optional<QuasiStatic> read_quasi_static(TableReader& stage, double speed, d
   QuasiStatic q;
   q.kinetic_tolerance = table->number_or("kinetic_tolerance", q.kinetic_tolerance, part);
   q.stress_tolerance = table->number_or("stress_tolerance", q.stress_tolerance, part);
-  q.slowest_speed = table->number_or("slowest_speed", slower * speed, {.low = 0, .high = speed, .low_open = true});
-  q.fastest_speed = table->number_or("fastest_speed", faster * speed, {.low = speed});
-  q.loose_stress = table->number_or("loose_stress", loose * youngs_modulus, non_negative);
+  q.slowest_speed = table->number_or("slowest_speed", slower * speed, {.low = 1e-13, .high = speed});
+  q.fastest_speed = table->number_or("fastest_speed", faster * speed, {.low = speed, .high = 1e13});
+  q.loose_stress = table->number_or("loose_stress", loose * youngs_modulus, stress_or_zero);
   table->finish();
   return q;
 }
@@ -297,12 +305,12 @@ LoadingEnds read_ends(TableReader& table, std::string_view type) {
   ends.axial_strain = table.optional_number("axial_strain", strain);
   if (ends.axial_strain == 0.0) table.fail("axial_strain", "found 0, allowed > 0 (compression) or < 0 (extension)");
   ends.relative_density = table.optional_number("relative_density", target_density);
-  ends.axial_stress = table.optional_number("axial_stress", non_negative);
-  ends.mean_stress = table.optional_number("mean_stress", non_negative);
-  ends.deviatoric_stress = table.optional_number("deviatoric_stress");
+  ends.axial_stress = table.optional_number("axial_stress", stress_or_zero);
+  ends.mean_stress = table.optional_number("mean_stress", stress_or_zero);
+  ends.deviatoric_stress = table.optional_number("deviatoric_stress", any_stress);
   ends.stress_drop = table.optional_number("stress_drop", {.low = 0, .high = 1, .low_open = true, .high_open = true});
-  ends.dissipation_ratio = table.optional_number("dissipation_ratio", {.low = 1, .low_open = true});
-  ends.duration = table.optional_number("duration", positive);
+  ends.dissipation_ratio = table.optional_number("dissipation_ratio", {.low = 1, .high = 1e9, .low_open = true});
+  ends.duration = table.optional_number("duration", positive_time);
   if (!ends.axial_strain && !ends.relative_density && !ends.axial_stress && !ends.mean_stress &&
       !ends.deviatoric_stress && !ends.stress_drop && !ends.dissipation_ratio && !ends.duration)
     table.fail("type", fmt::format("found '{}' without an end, expected at least one of axial_strain, "
@@ -312,7 +320,7 @@ LoadingEnds read_ends(TableReader& table, std::string_view type) {
 }
 
 std::array<double, 2> read_direction(TableReader& table) {
-  const std::vector<double> direction = table.numbers("direction");
+  const std::vector<double> direction = table.numbers("direction", Range::between(-1e12, 1e12));
   if (direction.size() != 2 || (direction[0] == 0 && direction[1] == 0))
     table.fail("direction", "expected two numbers, [dp, dq], not both 0");
   return {direction[0], direction[1]};
@@ -320,28 +328,29 @@ std::array<double, 2> read_direction(TableReader& table) {
 
 WallLoading read_loading(TableReader& table, std::string_view type) {
   WallLoading loading;
-  loading.wall_speed = table.number("wall_speed", positive);
+  loading.wall_speed = table.number("wall_speed", positive_speed);
   loading.ramp_fraction = table.number_or("ramp_fraction", loading.ramp_fraction, Range::between(0, 0.5));
   if (type == stage_isotropic_compaction) {
     loading.path = LoadingPath::isotropic;
-    loading.ends.mean_stress = table.number("mean_stress", positive);
+    loading.ends.mean_stress = table.number("mean_stress", positive_stress);
   } else if (type == stage_cycles) {
     loading.path = LoadingPath::cycles;
-    loading.highest_mean_stress = table.number("highest_mean_stress", positive);
+    loading.highest_mean_stress = table.number("highest_mean_stress", positive_stress);
     loading.lowest_mean_stress =
         table.number("lowest_mean_stress", {.low = 0, .high = loading.highest_mean_stress, .high_open = true});
     loading.cycles = table.integer("cycles", Range::between(1, 1e4));
   } else {
     // A packing that dilates moves its lateral walls faster than its axial ones; one that bursts under little stress, many times.
     constexpr double servo_speed = 10;
-    loading.servo_speed = table.number_or("servo_speed", servo_speed * loading.wall_speed, positive);
+    loading.servo_speed =
+        table.number_or("servo_speed", servo_speed * loading.wall_speed, {.low = 1e-12, .high = 1e13});
     loading.path = type == stage_unconfined ? LoadingPath::unconfined
                    : type == stage_triaxial ? LoadingPath::triaxial
                    : type == stage_die      ? LoadingPath::die
                                             : LoadingPath::probe;
     if (type == stage_triaxial) {
       loading.hold_force = table.choice_or("hold", "force", {"force", "stress"}) == "force";
-      loading.lateral_stress = table.optional_number("lateral_stress", positive);
+      loading.lateral_stress = table.optional_number("lateral_stress", positive_stress);
     }
     if (type == stage_probe) loading.direction = read_direction(table);
     loading.ends = read_ends(table, type);
@@ -353,17 +362,17 @@ GripMotion read_grip(TableReader& table) {
   GripMotion grip;
   const std::string axis = table.choice_or("axis", "z", {"x", "y", "z"});
   grip.axis = axis[0] - 'x';
-  grip.depth = table.number("grip_depth", positive);
+  grip.depth = table.number("grip_depth", positive_length);
   grip.lateral_fixed = table.choice_or("lateral", "fixed", {"fixed", "free"}) == "fixed";
-  grip.displacement = table.number_or("displacement", 0, {});
-  grip.sliding = table.vector3_or("sliding", {0, 0, 0});
+  grip.displacement = table.number_or("displacement", 0, any_length);
+  grip.sliding = table.vector3_or("sliding", {0, 0, 0}, any_length);
   const bool slides = grip.sliding != std::array<double, 3>{};
   if (slides && !grip.lateral_fixed) table.fail("sliding", "has no meaning with lateral = 'free'");
   if (grip.sliding[static_cast<std::size_t>(grip.axis)] != 0)
     table.fail("sliding", fmt::format("found a part along the axis {}, allowed only across it", axis));
   if (grip.displacement == 0 && !slides)
     table.fail("displacement", "missing or 0, expected a number < 0 (together) or > 0 (apart), or 'sliding'");
-  grip.speed = table.number("speed", positive);
+  grip.speed = table.number("speed", positive_speed);
   grip.ramp_fraction = table.number_or("ramp_fraction", grip.ramp_fraction, Range::between(0, 0.5));
   return grip;
 }
@@ -387,25 +396,25 @@ Stage read_stage(TableReader table, std::size_t number, double youngs_modulus) {
   } else if (type == stage_isotropic_compaction) {
     IsotropicCompaction compaction;
     compaction.relative_density = table.number("relative_density", target_density);
-    compaction.wall_speed = table.number("wall_speed", positive);
+    compaction.wall_speed = table.number("wall_speed", positive_speed);
     compaction.ramp_fraction = table.number_or("ramp_fraction", compaction.ramp_fraction, Range::between(0, 0.5));
     stage.isotropic_compaction = compaction;
   } else if (type == stage_isotropic_unloading) {
     IsotropicUnloading unloading;
-    unloading.mean_stress = table.number("mean_stress", non_negative);
-    unloading.wall_speed = table.number("wall_speed", positive);
+    unloading.mean_stress = table.number("mean_stress", stress_or_zero);
+    unloading.wall_speed = table.number("wall_speed", positive_speed);
     unloading.ramp_fraction = table.number_or("ramp_fraction", unloading.ramp_fraction, Range::between(0, 0.5));
     stage.isotropic_unloading = unloading;
   } else if (type == stage_grip) {
     stage.grip = read_grip(table);
   } else if (type == stage_hold) {
-    const double duration = table.number("duration", positive);
-    if (const auto stress = table.optional_number("mean_stress", positive)) {
+    const double duration = table.number("duration", positive_time);
+    if (const auto stress = table.optional_number("mean_stress", positive_stress)) {
       constexpr double usual_servo_speed = 2000; // mm/s, far above what a packing at rest asks for
       WallLoading loading;
       loading.path = LoadingPath::held;
       loading.held_stress = *stress;
-      loading.servo_speed = table.number_or("servo_speed", usual_servo_speed, positive);
+      loading.servo_speed = table.number_or("servo_speed", usual_servo_speed, positive_speed);
       loading.ends.duration = duration;
       stage.loading = loading;
     } else {
@@ -417,6 +426,7 @@ Stage read_stage(TableReader table, std::size_t number, double youngs_modulus) {
   }
   stage.quasi_static = read_quasi_static(table, stage.speed(), youngs_modulus);
   stage.damping = read_damping(table);
+  stage.places = table.places();
   table.finish();
   return stage;
 }
@@ -477,9 +487,9 @@ const char* precision_name(Precision precision) {
 
 BondParameters read_bond(TableReader table) {
   BondParameters bond;
-  bond.tensile_strength = table.number("tensile_strength", positive);
-  bond.shear_strength = table.number("shear_strength", positive);
-  bond.fracture_energy = table.number("fracture_energy", positive);
+  bond.tensile_strength = table.number("tensile_strength", positive_modulus);
+  bond.shear_strength = table.number("shear_strength", positive_modulus);
+  bond.fracture_energy = table.number("fracture_energy", positive_energy);
   if (table.choice_or("softening", "exponential", {"exponential", "energy"}) == "energy")
     bond.softening = SofteningLaw::energy;
   bond.rebond_on_contact = table.choice_or("rebond", "never", {"never", "on_contact"}) == "on_contact";
@@ -499,7 +509,10 @@ Scenario read_scenario(const TomlDocument& document) {
   material.finish();
   scenario.grain_materials = read_grain_materials(root);
   if (auto table = root.optional_table("contact")) scenario.contact = read_contact(*table);
-  if (auto table = root.optional_table("bond")) scenario.bond = read_bond(*table);
+  if (auto table = root.optional_table("bond")) {
+    scenario.bond_places = table->places();
+    scenario.bond = read_bond(*table);
+  }
   if (auto table = root.optional_table("numerics")) scenario.numerics = read_numerics(*table);
   scenario.numerics.element = default_element;
   scenario.numerics.own_pressure = usual_own_pressure(default_element);

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "common/key_places.hpp"
 #include "solver/physics/bond.hpp"
 
 namespace mpfem {
@@ -218,6 +219,7 @@ struct Stage {
   std::optional<WallLoading> loading;
   std::optional<QuasiStatic> quasi_static; ///< none: the stage keeps its speed
   DampingParameters damping;
+  KeyPlaces places; ///< of its keys
 
   /// mm/s of each driven wall or grip, where nothing else is asked for; 0 where nothing moves.
   double speed() const {
@@ -242,7 +244,8 @@ struct Scenario {
   std::vector<std::array<double, 3>> grain_velocity;         ///< mm/s, of each grain (overrides; empty: none)
   std::vector<std::array<double, 3>> grain_angular_velocity; ///< rad/s, about each grain's centroid (empty: none)
   std::vector<Stage> stages;
-  std::string text; ///< the TOML text, with values set on the command line
+  KeyPlaces bond_places; ///< of the keys of [bond]
+  std::string text;      ///< the TOML text, with values set on the command line
 };
 
 /// Reads the keys of a [bond] table. Throws InputError.

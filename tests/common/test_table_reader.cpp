@@ -258,7 +258,7 @@ TEST_CASE("A file that is missing or a folder is refused with its name") {
   CHECK(input_error([] { TomlDocument::from_file("no/such\nfile.toml"); }) ==
         "no/such\\nfile.toml: cannot be read: No such file or directory");
   const std::string folder = std::filesystem::temp_directory_path().string();
-  CHECK(input_error([&] { TomlDocument::from_file(folder); }) == folder + ": is a folder, expected a TOML file");
+  CHECK(input_error([&] { TomlDocument::from_file(folder); }) == folder + ": is a folder, expected a file");
 }
 
 TEST_CASE("A file is read as its text is") {

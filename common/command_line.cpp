@@ -1,0 +1,52 @@
+#include "common/command_line.hpp"
+
+#include <fmt/format.h>
+
+#include "common/errors.hpp"
+#include "common/number_text.hpp"
+#include "common/one_line.hpp"
+
+namespace mpfem {
+
+namespace {
+
+std::string joined(const std::string& first, const std::string& second) {
+  return first.empty() || second.empty() ? first + second : first + " " + second;
+}
+
+template <class Parse>
+CLI::Validator validator(const Range& range, const std::string& unit, const char* kind, Parse parse) {
+  const std::string limits = joined(range.text(), unit);
+  return {[range, limits, kind, parse](std::string& text) {
+            const auto value = parse(text);
+            if (value && range.contains(static_cast<double>(*value))) return std::string();
+            return fmt::format("found '{}', allowed {}", shortened(text, 40), joined(kind, limits));
+          },
+          limits};
+}
+
+} // namespace
+
+CLI::Validator finite_number_in(const Range& range, const std::string& unit) {
+  return validator(range, unit, "a number", finite_number);
+}
+
+CLI::Validator whole_number_in(const Range& range, const std::string& unit) {
+  return validator(range, unit, "a whole number", whole_number);
+}
+
+std::optional<int> parse_command_line(CLI::App& app, const std::string& program, int argc, char** argv) {
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::Success& success) { // help or version
+    return app.exit(success);
+  } catch (const CLI::ParseError& error) {
+    constexpr std::size_t longest = 240;
+    std::string command = program;
+    for (const CLI::App* parsed : app.get_subcommands()) command += " " + parsed->get_name();
+    throw InputError(fmt::format("{} ({} --help tells more)", shortened(error.what(), longest), command));
+  }
+  return std::nullopt;
+}
+
+} // namespace mpfem

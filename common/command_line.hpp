@@ -1,0 +1,63 @@
+#pragma once
+// Options of the three programs: numbers with their range and unit, and mistakes in one line.
+
+#include <optional>
+#include <string>
+#include <type_traits>
+#include <vector>
+
+#include <CLI/CLI.hpp>
+
+#include "common/range.hpp"
+
+namespace mpfem {
+
+/// Refuses what is no finite number of the range. `unit` stands in the message and in the help; empty: none.
+CLI::Validator finite_number_in(const Range& range, const std::string& unit);
+/// The same for whole numbers.
+CLI::Validator whole_number_in(const Range& range, const std::string& unit);
+
+/// The number in a variable that may be optional or a list.
+template <class T>
+struct NumberOf {
+  using type = T;
+};
+template <class T>
+struct NumberOf<std::optional<T>> {
+  using type = T;
+};
+template <class T>
+struct NumberOf<std::vector<T>> {
+  using type = T;
+};
+
+/// Adds an option that is a number, or a list of numbers. Every such option of the programs is added here, so that no
+/// number is taken that is not finite, out of its range, or followed by other text.
+template <class Variable>
+CLI::Option* add_number(CLI::App& command, const std::string& name, Variable& variable, const Range& range,
+                        const std::string& unit, const std::string& help) {
+  using Number = typename NumberOf<Variable>::type;
+  static_assert(std::is_arithmetic_v<Number>);
+  return command.add_option(name, variable, help)
+      ->check(std::is_integral_v<Number> ? whole_number_in(range, unit) : finite_number_in(range, unit));
+}
+
+/// Largest number that fits in an option's variable, for options without a limit of their own.
+constexpr Range whole_numbers = Range::between(-2147483647.0, 2147483647.0);
+constexpr Range thread_numbers = Range::between(1, 1024);
+/// Seeds of random numbers. Larger whole numbers are not exact in all programs that read them.
+constexpr Range seed_numbers = Range::between(0, 9007199254740991.0);
+/// Lengths, mm.
+constexpr Range lengths = Range::between(1e-12, 1e9);
+/// Moduli and stresses, MPa.
+constexpr Range moduli = Range::between(1e-9, 1e12);
+/// Densities, tonne/mm^3.
+constexpr Range densities = Range::between(1e-18, 1e3);
+/// Any coordinate, strain, angle…
+constexpr Range coordinates = Range::between(-1e9, 1e9);
+
+/// Parses the command line. Gives the exit code where nothing is left to do, since help or version was printed. Throws
+/// InputError for a mistake; its message ends with the command that prints the help.
+std::optional<int> parse_command_line(CLI::App& app, const std::string& program, int argc, char** argv);
+
+} // namespace mpfem

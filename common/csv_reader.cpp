@@ -1,0 +1,110 @@
+#include "common/csv_reader.hpp"
+
+#include <algorithm>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "common/errors.hpp"
+#include "common/number_text.hpp"
+#include "common/one_line.hpp"
+#include "common/text_input.hpp"
+
+namespace mpfem {
+
+namespace {
+
+constexpr std::size_t most_bytes = std::size_t{256} << 20U;
+constexpr std::size_t most_columns = 10'000;
+
+std::string_view trimmed(std::string_view text, std::string_view blanks) {
+  const auto first = text.find_first_not_of(blanks);
+  return first == std::string_view::npos ? std::string_view()
+                                         : text.substr(first, text.find_last_not_of(blanks) - first + 1);
+}
+
+/// The line up to a '#' outside quotes.
+std::string_view without_comment(std::string_view line) {
+  bool quoted = false;
+  for (std::size_t i = 0; i < line.size(); ++i) {
+    if (line[i] == '"') quoted = !quoted;
+    if (line[i] == '#' && !quoted) return line.substr(0, i);
+  }
+  return line;
+}
+
+std::string expected_number(const Range& range, std::string_view kind) {
+  const std::string limits = range.text();
+  return limits.empty() ? std::string(kind) : fmt::format("{} {}", kind, limits);
+}
+
+} // namespace
+
+CsvReader::CsvReader(std::string text, std::string name) : text_(std::move(text)), name_(std::move(name)) {}
+
+CsvReader CsvReader::from_file(const std::string& path) {
+  return {read_text_file(path, most_bytes), path};
+}
+
+CsvReader CsvReader::from_text(std::string text, std::string name) {
+  return {std::move(text), std::move(name)};
+}
+
+std::optional<CsvRow> CsvReader::next() {
+  while (position_ < text_.size()) {
+    const std::size_t end = std::min(text_.find('\n', position_), text_.size());
+    std::string_view line = std::string_view(text_).substr(position_, end - position_);
+    position_ = end + 1;
+    ++line_;
+    constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
+    if (line_ == 1 && line.starts_with(byte_order_mark)) line.remove_prefix(byte_order_mark.size());
+    line = trimmed(without_comment(line), " \t\r");
+    if (line.empty()) continue;
+    CsvRow row{line_, {}};
+    for (std::size_t begin = 0; begin <= line.size();) {
+      const std::size_t comma = std::min(line.find(',', begin), line.size());
+      if (row.cells.size() == most_columns) fail(row, fmt::format("found more than {} columns", most_columns));
+      row.cells.push_back(trimmed(line.substr(begin, comma - begin), " \t\r\""));
+      begin = comma + 1;
+    }
+    return row;
+  }
+  return std::nullopt;
+}
+
+void CsvReader::fail(const CsvRow& row, std::string_view message) const {
+  throw InputError(fmt::format("{}:{}: {}", shown_path(name_), row.line, one_line(message)));
+}
+
+void CsvReader::fail(std::string_view message) const {
+  throw InputError(fmt::format("{}: {}", shown_path(name_), one_line(message)));
+}
+
+void CsvReader::expect_columns(const CsvRow& row, std::size_t columns) const {
+  if (row.cells.size() != columns) fail(row, fmt::format("found {} columns, expected {}", row.cells.size(), columns));
+}
+
+double CsvReader::number(const CsvRow& row, std::size_t cell, std::string_view column, const Range& range) const {
+  const auto value = finite_number(row.cells[cell]);
+  if (!value || !range.contains(*value))
+    fail(row, fmt::format("column {}: found '{}', expected {}", shortened(column), shortened(row.cells[cell]),
+                          expected_number(range, "a number")));
+  return *value;
+}
+
+long long CsvReader::integer(const CsvRow& row, std::size_t cell, std::string_view column, const Range& range) const {
+  const auto value = whole_number(row.cells[cell]);
+  if (!value || !range.contains(static_cast<double>(*value)))
+    fail(row, fmt::format("column {}: found '{}', expected {}", shortened(column), shortened(row.cells[cell]),
+                          expected_number(range, "a whole number")));
+  return *value;
+}
+
+CsvHeading csv_heading(std::string_view cell) {
+  const std::size_t bracket = cell.find('[');
+  if (bracket == std::string_view::npos) return {std::string(cell), ""};
+  const std::string_view unit = cell.substr(bracket + 1);
+  return {std::string(trimmed(cell.substr(0, bracket), " \t")), std::string(unit.substr(0, unit.find(']')))};
+}
+
+} // namespace mpfem

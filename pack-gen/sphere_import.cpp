@@ -1,0 +1,71 @@
+#include "pack-gen/sphere_import.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "common/errors.hpp"
+#include "common/one_line.hpp"
+#include "pack-gen/csv_table.hpp"
+#include "pack-gen/sphere_tree.hpp"
+
+namespace mpfem {
+
+namespace {
+
+std::string body(const SpherePacking& packing, int index) {
+  static constexpr const char* wall[] = {"-x", "+x", "-y", "+y", "-z", "+z"};
+  if (index < 0) return fmt::format("the wall {}", wall[-1 - index]);
+  const auto& c = packing.center[static_cast<std::size_t>(index)];
+  return fmt::format("sphere {} at ({:g}, {:g}, {:g})", index, c[0], c[1], c[2]);
+}
+
+} // namespace
+
+void refuse_overlap(const SpherePacking& packing, const std::string& name) {
+  // Spheres that touch overlap by what the numbers are rounded to.
+  double largest = 0;
+  for (std::size_t i = 0; i < packing.radius.size(); ++i) {
+    largest = std::max(largest, packing.radius[i]);
+    for (const double coordinate : packing.center[i]) largest = std::max(largest, std::abs(coordinate));
+  }
+  const double rounding = 8 * std::numeric_limits<double>::epsilon() * largest;
+  SurfaceGap gap = smallest_wall_gap(packing);
+  if (!(gap.gap < -rounding)) gap = smallest_gap_of_pairs(packing.center, packing.radius, -rounding);
+  if (gap.gap < -rounding)
+    throw InputError(fmt::format("{}: {} and {} overlap by {:.4g} mm; allowed: no overlap", shown_path(name),
+                                 body(packing, gap.first), body(packing, gap.second), -gap.gap));
+}
+
+SpherePacking import_spheres(CsvReader table, const std::optional<Point>& box) {
+  SpherePacking packing;
+  constexpr Range coordinate = Range::between(-1e9, 1e9), radius = Range::between(1e-12, 1e9); // mm
+  for (const auto& row :
+       read_csv(std::move(table), {{"x", coordinate}, {"y", coordinate}, {"z", coordinate}, {"radius", radius}})) {
+    packing.center.push_back({row[0], row[1], row[2]});
+    packing.radius.push_back(row[3]);
+  }
+  if (box) {
+    packing.box = *box;
+  } else {
+    for (std::size_t k = 0; k < 3; ++k) {
+      double low = packing.center[0][k] - packing.radius[0], high = packing.center[0][k] + packing.radius[0];
+      for (std::size_t i = 1; i < packing.radius.size(); ++i) {
+        low = std::min(low, packing.center[i][k] - packing.radius[i]);
+        high = std::max(high, packing.center[i][k] + packing.radius[i]);
+      }
+      packing.box[k] = high - low;
+      for (auto& center : packing.center) center[k] -= low;
+    }
+  }
+  return packing;
+}
+
+SpherePacking import_spheres(const std::string& path, const std::optional<Point>& box) {
+  return import_spheres(CsvReader::from_file(path), box);
+}
+
+} // namespace mpfem

@@ -1,0 +1,21 @@
+#pragma once
+// Spheres from a table, and the check that they do not overlap.
+
+#include <optional>
+#include <string>
+
+#include "common/csv_reader.hpp"
+#include "pack-gen/packing.hpp"
+
+namespace mpfem {
+
+/// Throws InputError, naming the spheres and the overlap, where two spheres or a sphere and a wall overlap by more than
+/// their numbers are rounded to. Ends at the first overlap of two spheres.
+void refuse_overlap(const SpherePacking& packing, const std::string& name);
+
+/// Spheres of a CSV table with the columns x, y, z, radius (mm). Without a box: the tightest around all spheres.
+/// Spheres are moved so that the box begins at the origin. Throws InputError.
+SpherePacking import_spheres(const std::string& path, const std::optional<Point>& box);
+SpherePacking import_spheres(CsvReader table, const std::optional<Point>& box);
+
+} // namespace mpfem

@@ -1,0 +1,65 @@
+// Options of the programs: numbers with their range and unit, and mistakes in one line.
+
+#include <catch2/catch.hpp>
+
+#include "common/command_line.hpp"
+#include "one_line_error.hpp"
+
+using namespace mpfem;
+using test::input_error;
+
+namespace {
+
+struct Options {
+  double size = 0;
+  int threads = 1;
+  std::optional<std::int64_t> seed;
+  std::vector<double> box;
+};
+
+Options parsed(std::vector<std::string> words) {
+  CLI::App app("example");
+  Options options;
+  add_number(app, "--size", options.size, lengths, "mm", "Element size");
+  add_number(app, "--threads", options.threads, thread_numbers, "", "Threads");
+  add_number(app, "--seed", options.seed, seed_numbers, "", "Seed");
+  add_number(app, "--box", options.box, lengths, "mm", "Box")->delimiter(',')->expected(3);
+  words.insert(words.begin(), "example");
+  std::vector<char*> pointers;
+  for (std::string& word : words) pointers.push_back(word.data());
+  parse_command_line(app, "example", static_cast<int>(pointers.size()), pointers.data());
+  return options;
+}
+
+std::string refusal(const std::vector<std::string>& words) {
+  return input_error([&] { (void)parsed(words); });
+}
+
+} // namespace
+
+TEST_CASE("Options take numbers within their range") {
+  const Options options = parsed({"--size", "0.5", "--threads", "4", "--seed", "9007199254740991", "--box", "1,2,3"});
+  CHECK(options.size == 0.5);
+  CHECK(options.threads == 4);
+  CHECK(options.seed == 9007199254740991);
+  CHECK(options.box == std::vector<double>{1, 2, 3});
+}
+
+TEST_CASE("Options refuse what is no finite number of their range, in one line") {
+  CHECK(refusal({"--size", "0"}) == "--size: found '0', allowed a number 1e-12 … 1e+09 mm (example --help tells more)");
+  for (const char* text : {"nan", "-nan", "inf", "1e400", "-1", "0", "abc", "1mm", "", " ", "0x1p3"}) {
+    INFO(text);
+    CHECK_THAT(refusal({"--size", text}), Catch::StartsWith("--size"));
+    CHECK_THAT(refusal({"--threads", text}), Catch::StartsWith("--threads"));
+    CHECK_THAT(refusal({"--box", std::string("1,1,") + text}), Catch::StartsWith("--box"));
+  }
+  CHECK_THAT(refusal({"--threads", "1.5"}), Catch::Contains("found '1.5', allowed a whole number 1 … 1024"));
+  CHECK_THAT(refusal({"--seed", "9223372036854775808"}), Catch::StartsWith("--seed"));
+}
+
+TEST_CASE("A long word on the command line is shortened in the message") {
+  const std::string endless(100'000, 'x');
+  CHECK(refusal({"--size", endless}).size() < 300);
+  CHECK(refusal({"--" + endless}).size() < 300);
+  CHECK(refusal({endless}).size() < 300);
+}

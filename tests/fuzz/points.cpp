@@ -1,0 +1,16 @@
+// Tables of points to fit: CSV text -> columns.
+
+#include "common/csv_reader.hpp"
+#include "postproc/csv_file.hpp"
+#include "refusal.hpp"
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  using namespace mpfem;
+  fuzz::read_or_refuse([&] {
+    const auto columns = read_csv(CsvReader::from_text(std::string(fuzz::text_of(data, size)), "points.csv"));
+    for (const Column& column : columns)
+      if (column.values.size() != columns.front().values.size()) std::abort();
+    csv_column(columns, "x", "points.csv");
+  });
+  return 0;
+}

@@ -1,0 +1,112 @@
+// Every option of the three programs that is a number refuses what is none: the options are those that --help lists.
+
+#include <regex>
+#include <set>
+
+#include <catch2/catch.hpp>
+#include <fmt/format.h>
+
+#include "folder.hpp"
+#include "limited_program.hpp"
+
+using namespace mpfem::test;
+
+namespace {
+
+struct Command {
+  std::string name;
+  std::vector<std::string> required; ///< words without which it does nothing
+};
+
+struct Program {
+  std::string path;
+  std::vector<Command> commands;
+};
+
+const std::vector<Program> programs = {
+    {MPFEM_PACK_GEN,
+     {{"spheres", {"none", "-o", "none.h5"}},
+      {"mesh", {"none", "-o", "none.h5"}},
+      {"import", {"none", "-o", "none.h5"}},
+      {"export", {"none", "-o", "none.h5"}},
+      {"quality", {"none"}},
+      {"hemispheres", {"-o", "none.h5"}}}},
+    {MPFEM_EXECUTABLE,
+     {{"run", {"none", "-o", "none.h5"}},
+      {"check", {"none"}},
+      {"bench", {}},
+      {"bond", {"none", "none", "-o", "n.csv"}}}},
+    {MPFEM_POSTPROC,
+     {{"summary", {"none"}},
+      {"curve", {"none"}},
+      {"contact", {"none"}},
+      {"vtk", {"none", "-o", "none"}},
+      {"section", {"none", "-o", "none.png"}},
+      {"elastic-recovery", {"none"}},
+      {"modulus", {"none"}},
+      {"strength", {"none"}},
+      {"yield", {"none"}},
+      {"hysteresis", {"none"}},
+      {"damage", {"none"}},
+      {"energy", {"none"}},
+      {"fit", {"none", "--x", "a", "--y", "b", "--model", "linear"}},
+      {"validate", {"none"}}}},
+};
+
+/// Options of a command whose value is a number, by its help.
+std::vector<std::string> number_options(const std::string& program, const std::string& command) {
+  const std::string help = run_command(fmt::format("'{}' {} --help", program, command)).output;
+  const std::regex option("\\n  (?:-\\w,)?(--[a-z-]+) (?:FLOAT|INT|UINT)");
+  std::vector<std::string> names;
+  for (std::sregex_iterator it(help.begin(), help.end(), option), end; it != end; ++it) names.push_back((*it)[1]);
+  return names;
+}
+
+} // namespace
+
+TEST_CASE("Every option that is a number refuses what is no finite number within its range") {
+  int options = 0;
+  for (const Program& program : programs) {
+    // Few values where a program takes long to load.
+    const bool slow = program.path == MPFEM_PACK_GEN;
+    for (const Command& command : program.commands)
+      for (const std::string& option : number_options(program.path, command.name)) {
+        ++options;
+        std::vector<std::string> values = {"nan", "1e300"};
+        if (!slow) values.insert(values.end(), {"-inf", "1e400", "12x", "", std::string(100'000, '9')});
+        for (const std::string& value : values) {
+          std::vector<std::string> arguments = {command.name};
+          arguments.insert(arguments.end(), command.required.begin(), command.required.end());
+          arguments.push_back(option + "=" + value);
+          INFO(program.path << " " << command.name << " " << option << "=" << value.substr(0, 40));
+          CHECK(fault_of_refusal(program.path, arguments, {option, "--help"}) == "");
+        }
+      }
+  }
+  CHECK(options >= 40); // so many there are: a help that is laid out otherwise must not pass
+}
+
+TEST_CASE("Words that no program knows are refused in one line that names the help") {
+  const std::string endless(100'000, 'x');
+  for (const Program& program : programs) {
+    std::vector<std::vector<std::string>> lines = {{}, {"nothing"}, {"--nothing"}, {endless}, {"--" + endless}, {"\n"}};
+    for (const Command& command : program.commands) {
+      if (program.path == MPFEM_PACK_GEN && command.name != "mesh") continue;
+      lines.push_back({command.name, "--nothing"});
+      lines.push_back({command.name, "a", "b", "c", "--quiet=maybe" + endless});
+      if (!command.required.empty()) lines.push_back({command.name});
+    }
+    for (const auto& line : lines) {
+      INFO(program.path << " " << fmt::format("{}", line.empty() ? "" : line.back().substr(0, 40)));
+      CHECK(fault_of_refusal(program.path, line, {"--help"}) == "");
+    }
+  }
+}
+
+TEST_CASE("Help and version end with exit code 0") {
+  for (const Program& program : programs) {
+    CHECK(run_limited(program.path, {"--help"}).exit_code == 0);
+    CHECK(run_limited(program.path, {"--version"}).exit_code == 0);
+    CHECK(run_limited(program.path, {program.commands.front().name, "--help"}).exit_code == 0);
+  }
+}
