@@ -22,10 +22,6 @@ struct RunOptions {
 /// was written), Interrupted (checkpoint and run file written), StorageError, InputError.
 void run_scenario(const Scenario& scenario, const RunOptions& options);
 
-/// Prints what a run would do: grains, tets, memory, stages, steps, estimated time from steps measured here; where `from`
-/// names a checkpoint, of a branch that begins there. Throws InputError where the run would be refused.
-void check_scenario(const Scenario& scenario, int threads, const std::optional<std::string>& from);
-
 /// Name of the rolling checkpoint of a run file, of that at the end of a stage, and of that at a relative density.
 std::string checkpoint_path(const std::string& run_file);
 std::string stage_checkpoint_path(const std::string& run_file, const std::string& stage);
