@@ -1,6 +1,7 @@
 #include "solver/kernels/thread_team.hpp"
 
 #include <algorithm>
+#include <chrono>
 #include <stdexcept>
 #include <utility>
 
@@ -20,16 +21,34 @@ void pause_briefly() {
 #endif
 }
 
+using Clock = std::chrono::steady_clock;
+
+/// Until then, threads that wait hardly spin: other programs need the cores. Of all teams, since it is the machine's.
+std::atomic<Clock::rep> short_of_cores_until{0};
+
 /// Returns when the atomic no longer holds `old`. The loops of one time step follow each other within microseconds: a
-/// short spin saves the sleep and wake-up between them, and no more, since other programs may need the core.
+/// short spin saves the sleep and wake-up between them. Where cores are short, a core that is let go at once goes to the
+/// thread that is waited for.
 template <class Value>
 void wait_while_equal(const std::atomic<Value>& atomic, Value old) {
-  constexpr int spins = 2000;
+  const bool cores_are_short =
+      Clock::now().time_since_epoch().count() < short_of_cores_until.load(std::memory_order_relaxed);
+  const int spins = cores_are_short ? 100 : 2000;
   for (int i = 0; i < spins; ++i) {
     if (atomic.load(std::memory_order_acquire) != old) return;
     pause_briefly();
   }
   atomic.wait(old, std::memory_order_acquire);
+}
+
+/// The same, for a thread that waits for others' last items. These take microseconds, unless a thread has lost its core.
+void wait_for_items(const std::atomic<int>& unfinished, int left) {
+  using namespace std::chrono_literals;
+  const auto start = Clock::now();
+  wait_while_equal(unfinished, left);
+  const auto end = Clock::now();
+  if (end - start > 1ms)
+    short_of_cores_until.store((end + 100ms).time_since_epoch().count(), std::memory_order_relaxed);
 }
 
 } // namespace
@@ -76,7 +95,7 @@ void ThreadTeam::for_each(int count, const std::function<void(int item, int thre
   run_items(0);
   for (int left = unfinished_items_.load(std::memory_order_acquire); left != 0;
        left = unfinished_items_.load(std::memory_order_acquire))
-    wait_while_equal(unfinished_items_, left);
+    wait_for_items(unfinished_items_, left);
   if (error_) std::rethrow_exception(std::exchange(error_, nullptr));
 }
 
