@@ -10,6 +10,7 @@
 
 #include <fmt/format.h>
 
+#include "common/available_memory.hpp"
 #include "common/errors.hpp"
 #include "common/hash.hpp"
 #include "common/one_line.hpp"
@@ -20,6 +21,7 @@
 #include "solver/output/run_file.hpp"
 #include "solver/output/run_lock.hpp"
 #include "solver/run/energy_check.hpp"
+#include "solver/run/needs.hpp"
 #include "solver/run/plan_text.hpp"
 #include "solver/run/programme.hpp"
 #include "solver/run/simulation.hpp"
@@ -516,6 +518,9 @@ std::string density_checkpoint_path(const std::string& run_file, double relative
 
 void run_scenario(const Scenario& scenario, const RunOptions& options) {
   check_output(scenario, options);
+  const std::string scarce = check_needs(options.output, needs_of(read_packing_counts(scenario.packing_file), scenario),
+                                         {.memory = available_memory(), .disk = available_disk_space(options.output)});
+  if (!scarce.empty() && !options.quiet) fmt::print(stderr, "mpfem: warning: {}\n", scarce);
   const RunLock lock(options.output);
   Runner(scenario, options).run();
 }
