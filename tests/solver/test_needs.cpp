@@ -24,6 +24,10 @@ constexpr double no_limit = std::numeric_limits<double>::infinity();
 
 Scenario one_stage() {
   Scenario scenario;
+  scenario.material.density = 1.55e-9;
+  scenario.material.youngs_modulus = 5000;
+  scenario.material.poissons_ratio = 0.3;
+  scenario.material.hardening = {HardeningLaw::power, 25, 125, 0.3, {}, {}};
   scenario.stages.emplace_back();
   return scenario;
 }
@@ -54,7 +58,7 @@ rusage usage_of_mpfem(const std::vector<std::string>& arguments) {
   int status = 0;
   wait4(child, &status, 0, &usage);
   CHECK(WIFEXITED(status));
-  CHECK(WEXITSTATUS(status) == 0);
+  CHECK((WEXITSTATUS(status) == 0 || WEXITSTATUS(status) == 5)); // done, or out of time
   return usage;
 }
 
@@ -97,7 +101,7 @@ TEST_CASE("counts of a packing file are those of its mesh") {
 
 TEST_CASE("a run needs more memory than the arrays of its model, and little more where contact is small") {
   const Folder folder;
-  const MeshedPacking packing = eight_grains(12);
+  const MeshedPacking packing = eight_grains(16);
   write_packing(folder / "packing.h5", packing, std::vector<double>(8, 0.1));
   Scenario scenario = one_stage();
   const PackingCounts counts = read_packing_counts(folder / "packing.h5");
@@ -170,7 +174,7 @@ TEST_CASE("a run has at most the memory that is foretold, within 15 %") {
   write_packing(folder / "packing.h5", packing, std::vector<double>(8, 0.1));
   write_text(folder / "scenario.toml", compaction_text);
   const rusage usage = usage_of_mpfem({"run", folder / "scenario.toml", "-o", folder / "run.h5", "--quiet", "--set",
-                                       "stages.0.relative_density=0.48", "--set", "stages.0.wall_speed=40000"});
+                                       "output.history_rows=20", "--time-limit", "2"});
   const Scenario scenario = one_stage();
   const double foretold = needs_of(read_packing_counts(folder / "packing.h5"), scenario).memory;
   CHECK(1024.0 * static_cast<double>(usage.ru_maxrss) == Approx(foretold).epsilon(0.15));
