@@ -16,6 +16,7 @@
 #include "solver/hand_over.hpp"
 #include "solver/run/bond_programme.hpp"
 #include "solver/run/interrupt.hpp"
+#include "solver/run/check_scenario.hpp"
 #include "solver/run/run_scenario.hpp"
 
 namespace {

@@ -1,6 +1,7 @@
 #include "solver/kernels/thread_team.hpp"
 
 #include <algorithm>
+#include <chrono>
 #include <stdexcept>
 #include <utility>
 
@@ -20,16 +21,34 @@ void pause_briefly() {
 #endif
 }
 
+using Clock = std::chrono::steady_clock;
+
+/// Until then, threads that wait hardly spin: other programs need the cores. Of all teams, since it is the machine's.
+std::atomic<Clock::rep> short_of_cores_until{0};
+
 /// Returns when the atomic no longer holds `old`. The loops of one time step follow each other within microseconds: a
-/// short spin saves the sleep and wake-up between them, and no more, since other programs may need the core.
+/// short spin saves the sleep and wake-up between them. Where cores are short, a core that is let go at once goes to the
+/// thread that is waited for.
 template <class Value>
 void wait_while_equal(const std::atomic<Value>& atomic, Value old) {
-  constexpr int spins = 2000;
+  const bool cores_are_short =
+      Clock::now().time_since_epoch().count() < short_of_cores_until.load(std::memory_order_relaxed);
+  const int spins = cores_are_short ? 100 : 2000;
   for (int i = 0; i < spins; ++i) {
     if (atomic.load(std::memory_order_acquire) != old) return;
     pause_briefly();
   }
   atomic.wait(old, std::memory_order_acquire);
+}
+
+/// The same, for a thread that waits for others' last items. These take microseconds, unless a thread has lost its core.
+void wait_for_items(const std::atomic<int>& unfinished, int left) {
+  using namespace std::chrono_literals;
+  const auto start = Clock::now();
+  wait_while_equal(unfinished, left);
+  const auto end = Clock::now();
+  if (end - start > 1ms)
+    short_of_cores_until.store((end + 100ms).time_since_epoch().count(), std::memory_order_relaxed);
 }
 
 } // namespace
@@ -61,38 +80,53 @@ void ThreadTeam::for_each(int count, const std::function<void(int item, int thre
     for (int item = 0; item < count; ++item) body(item, 0);
     return;
   }
+  if (count <= 0) return;
   body_ = &body;
   count_ = count;
-  // Neighbouring items on one thread, as far as the threads still end together.
-  chunk_ = std::clamp(count / (32 * size()), 1, 8);
   error_ = nullptr;
   failed_.store(count, std::memory_order_relaxed);
-  next_.store(0, std::memory_order_relaxed);
-  busy_.store(static_cast<int>(workers_.size()), std::memory_order_relaxed);
-  round_.fetch_add(1, std::memory_order_release); // publishes all of the above
+  unfinished_items_.store(count, std::memory_order_relaxed);
+  const unsigned round = round_.load(std::memory_order_relaxed) + 1;
+  waiting_items_.store(std::uint64_t{round} << 32 | static_cast<std::uint32_t>(count),
+                       std::memory_order_release); // publishes all of the above
+  round_.store(round, std::memory_order_release);
   round_.notify_all();
 
   run_items(0);
-  for (int busy = busy_.load(std::memory_order_acquire); busy != 0; busy = busy_.load(std::memory_order_acquire))
-    wait_while_equal(busy_, busy);
+  for (int left = unfinished_items_.load(std::memory_order_acquire); left != 0;
+       left = unfinished_items_.load(std::memory_order_acquire))
+    wait_for_items(unfinished_items_, left);
   if (error_) std::rethrow_exception(std::exchange(error_, nullptr));
 }
 
 void ThreadTeam::work(int thread) {
   for (unsigned seen = 0;;) {
     wait_while_equal(round_, seen);
-    // A new round begins only when all workers have left the last one, so none is ever skipped.
-    ++seen;
+    seen = round_.load(std::memory_order_acquire); // rounds may have ended without this thread
     if (stop_.load(std::memory_order_relaxed)) return;
     run_items(thread);
-    if (busy_.fetch_sub(1, std::memory_order_acq_rel) == 1) busy_.notify_one();
+  }
+}
+
+/// The next items of the round that is under way, or all that are left; none where there are none.
+ThreadTeam::Items ThreadTeam::take_items(bool all) {
+  std::uint64_t waiting = waiting_items_.load(std::memory_order_acquire);
+  for (;;) {
+    const auto left = static_cast<int>(static_cast<std::uint32_t>(waiting));
+    if (left == 0) return {};
+    // Neighbouring items on one thread, and single ones towards the end, so that the threads end together.
+    const int taken = all ? left : std::clamp(left / (8 * size()), 1, 8);
+    if (waiting_items_.compare_exchange_weak(waiting, waiting - static_cast<std::uint64_t>(taken),
+                                             std::memory_order_acq_rel, std::memory_order_acquire))
+      return {count_ - left, taken};
   }
 }
 
 void ThreadTeam::run_items(int thread) {
-  for (int begin = next_.fetch_add(chunk_, std::memory_order_relaxed); begin < count_;
-       begin = next_.fetch_add(chunk_, std::memory_order_relaxed)) {
-    for (int item = begin; item < std::min(begin + chunk_, count_); ++item) {
+  int finished = 0;
+  for (Items items = take_items(false); items.count > 0; items = take_items(false)) {
+    finished += items.count;
+    for (int item = items.begin; item < items.begin + items.count; ++item) {
       // Items below one that has failed still begin: the lowest failure is to be found.
       if (item > failed_.load(std::memory_order_relaxed)) break;
       try {
@@ -103,10 +137,12 @@ void ThreadTeam::run_items(int thread) {
           error_ = std::current_exception();
           failed_.store(item, std::memory_order_relaxed);
         }
-        next_.store(count_, std::memory_order_relaxed);
+        finished += take_items(true).count; // nobody begins them
       }
     }
   }
+  if (finished > 0 && unfinished_items_.fetch_sub(finished, std::memory_order_acq_rel) == finished)
+    unfinished_items_.notify_one();
 }
 
 } // namespace mpfem

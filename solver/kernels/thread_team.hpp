@@ -2,6 +2,7 @@
 // A team of persistent threads that share a loop over grains. One of the few files that know threads.
 
 #include <atomic>
+#include <cstdint>
 #include <exception>
 #include <functional>
 #include <mutex>
@@ -13,6 +14,9 @@ namespace mpfem {
 /// Runs loops over independent items on a fixed number of threads. Items are handed out few by few, so which thread
 /// runs an item is not determined: an item must write to its own data only, and sums over items are made afterwards in
 /// item order, so that results do not depend on the number of threads.
+///
+/// A loop ends when its items are done. It does not wait for a thread that has none of them, so that a thread whose
+/// core another program holds delays the others by the items that it has begun only.
 class ThreadTeam {
 public:
   /// `threads` >= 1, the calling thread included. Throws std::invalid_argument, or std::system_error where the system
@@ -30,16 +34,23 @@ public:
   void for_each(int count, const std::function<void(int item, int thread)>& body);
 
 private:
+  struct Items {
+    int begin = 0, count = 0;
+  };
   void work(int thread);
   void run_items(int thread);
+  Items take_items(bool all);
   void stop_workers();
 
   std::vector<std::thread> workers_;
   const std::function<void(int, int)>* body_ = nullptr;
-  int count_ = 0, chunk_ = 1;
+  int count_ = 0;
   // Apart, so that handing out items does not disturb threads that wait for the next round.
-  alignas(64) std::atomic<int> next_{0};
-  alignas(64) std::atomic<int> busy_{0};
+  /// Number of the round in the upper half, items that nobody has taken yet in the lower: one number, so that a late
+  /// thread cannot take an item of another round than it means to. Who holds an item holds the round: until the item is
+  /// done, body_ and count_ stay.
+  alignas(64) std::atomic<std::uint64_t> waiting_items_{0};
+  alignas(64) std::atomic<int> unfinished_items_{0};
   alignas(64) std::atomic<unsigned> round_{0};
   std::atomic<bool> stop_{false};
   std::mutex error_mutex_;

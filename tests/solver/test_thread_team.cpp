@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <atomic>
 #include <chrono>
 #include <numeric>
@@ -6,6 +7,9 @@
 #include <string>
 #include <thread>
 #include <vector>
+
+#include <pthread.h>
+#include <signal.h>
 
 #include <catch2/catch.hpp>
 
@@ -31,6 +35,54 @@ std::string message_of_failure(ThreadTeam& team, int count, int failing) {
     return error.what();
   }
   return "nothing thrown";
+}
+
+/// Holds a thread where it is, by a signal whose handler waits, as a busy machine does that gives its core to another
+/// program. The thread goes on when this goes out of scope, or by itself after some seconds.
+class HeldThread {
+public:
+  explicit HeldThread(pthread_t thread) {
+    release_ = false, held_ = false, late_ = false;
+    struct sigaction action {};
+    action.sa_handler = hold;
+    sigaction(SIGUSR1, &action, &before_);
+    pthread_kill(thread, SIGUSR1);
+    while (!held_) std::this_thread::yield();
+  }
+  ~HeldThread() {
+    release_ = true;
+    while (held_) std::this_thread::yield();
+    sigaction(SIGUSR1, &before_, nullptr);
+  }
+  HeldThread(const HeldThread&) = delete;
+  HeldThread& operator=(const HeldThread&) = delete;
+  /// Whether the thread is still held.
+  bool is_held() const { return held_ && !late_; }
+
+private:
+  static void hold(int) {
+    held_ = true;
+    for (int i = 0; i < 5000 && !release_; ++i) {
+      const timespec millisecond{0, 1000000};
+      nanosleep(&millisecond, nullptr);
+    }
+    late_ = !release_;
+    held_ = false;
+  }
+  static inline std::atomic<bool> release_, held_, late_;
+  struct sigaction before_ {};
+};
+
+/// The thread of a team of two that is not the calling one.
+pthread_t other_thread(ThreadTeam& team) {
+  std::atomic<int> arrived{0};
+  pthread_t other{};
+  team.for_each(2, [&](int, int thread) {
+    if (thread == 1) other = pthread_self();
+    ++arrived;
+    while (arrived.load() < 2) std::this_thread::yield();
+  });
+  return other;
 }
 
 } // namespace
@@ -104,6 +156,47 @@ TEST_CASE("No items begin after a failure has been seen, and the team works on a
                   std::runtime_error);
   CHECK(begun.load() <= 2 * team.size());
   CHECK(visits(team, 100) == std::vector<int>(100, 1));
+}
+
+TEST_CASE("A loop does not wait for a thread that has begun none of its items") {
+  ThreadTeam team(2);
+  const HeldThread held(other_thread(team));
+  for (const int count : {1, 2, 100})
+    CHECK(visits(team, count) == std::vector<int>(static_cast<std::size_t>(count), 1));
+  CHECK(message_of_failure(team, 50, 17) == "item 17");
+  CHECK(held.is_held());
+}
+
+TEST_CASE("A thread that comes late to a loop takes items of the present one only") {
+  ThreadTeam team(2);
+  const pthread_t other = other_thread(team);
+  for (int repetition = 0; repetition < 50; ++repetition) {
+    {
+      const HeldThread held(other);
+      for (int round = 0; round < 3; ++round) CHECK(visits(team, 5) == std::vector<int>(5, 1));
+    }
+    // It wakes now, to rounds that have ended and others that begin.
+    for (int round = 0; round < 20; ++round) CHECK(visits(team, 7) == std::vector<int>(7, 1));
+  }
+}
+
+TEST_CASE("A hundred thousand loops of few items on more threads than cores run each item once, in its own loop") {
+  ThreadTeam team(2 * static_cast<int>(std::max(1U, std::thread::hardware_concurrency())));
+  std::atomic<int> present{0};
+  std::atomic<long> runs{0}, strays{0};
+  long expected = 0;
+  for (int round = 0; round < 100000; ++round) {
+    present.store(round);
+    const int count = round % 5;
+    std::vector<int> visited(static_cast<std::size_t>(count), 0);
+    team.for_each(count, [&, round](int item, int) {
+      if (present.load() != round || ++visited[static_cast<std::size_t>(item)] != 1) ++strays;
+      ++runs;
+    });
+    expected += count;
+  }
+  CHECK(runs.load() == expected);
+  CHECK(strays.load() == 0);
 }
 
 TEST_CASE("A team without threads is refused") {

@@ -1,0 +1,186 @@
+#include "solver/run/check_scenario.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include <fmt/format.h>
+
+#include "common/available_memory.hpp"
+#include "common/errors.hpp"
+#include "solver/model/bond_resolution.hpp"
+#include "solver/output/checkpoint.hpp"
+#include "solver/run/needs.hpp"
+#include "solver/run/plan_text.hpp"
+#include "solver/run/programme.hpp"
+#include "solver/run/simulation.hpp"
+
+namespace mpfem {
+
+namespace {
+
+/// What a stage does, for the plan.
+std::string stage_text(const Stage& stage) {
+  if (stage.isotropic_compaction) return "all walls inwards, to a relative density";
+  if (stage.isotropic_unloading) return "all walls outwards, to a mean stress";
+  if (stage.grip) return "grips, to a displacement";
+  if (stage.hold) return "walls at rest, for a time";
+  switch (stage.loading->path) {
+  case LoadingPath::isotropic:
+    return "all walls inwards, to a mean stress";
+  case LoadingPath::cycles:
+    return fmt::format("all walls, {} cycles between two mean stresses", stage.loading->cycles);
+  case LoadingPath::unconfined:
+    return "z walls driven, x and y walls away";
+  case LoadingPath::triaxial:
+    return fmt::format("z walls driven, x and y walls held at constant {}",
+                       stage.loading->hold_force ? "force" : "stress");
+  case LoadingPath::die:
+    return "z walls driven, x and y walls at rest";
+  case LoadingPath::probe:
+    return "all walls held on a straight path of p and q";
+  case LoadingPath::held:
+    return fmt::format("all walls held at {:g} MPa, for a time", stage.loading->held_stress);
+  }
+  return {};
+}
+
+// A packing that begins loose costs more a step later on: points come into contact, and tets that yield take the whole of
+// the element pass. The estimate of the stable step and the contact search follow the deformation, not the number of steps.
+// How much all that is, and how the step shrinks, is measured (docs/performance.md).
+constexpr double dense_cost = 1.45;         // of a step, over that in the loose packing
+constexpr double cost_of_straining = 3000;  // of a length strain of 1, in steps of the loose packing
+constexpr double steps_of_shrinking = 1.02; // over those at the first step, on a way to a relative density of 0.92
+constexpr double density_of_jamming = 0.5;
+
+/// Steps, and the time in that of one step at the start.
+struct StageWork {
+  double steps = 0, cost = 0;
+};
+
+/// A compaction that begins with grains that do not press on each other.
+StageWork work_of_first_compaction(double steps, double density, double end) {
+  const auto strain_to = [density](double to) { return to > density ? std::log(to / density) / 3 : 0.0; };
+  const auto way_to = [density](double to) { return to > density ? 1 - std::cbrt(density / to) : 0.0; };
+  const double flying = std::min(way_to(density_of_jamming) / way_to(end), 1.0); // part of the steps
+  const double straining = std::max(strain_to(end) - strain_to(density_of_jamming), 0.0);
+  steps *= steps_of_shrinking;
+  return {steps, steps * (flying + (1 - flying) * dense_cost) + cost_of_straining * straining};
+}
+
+/// A branch begins dense: its first steps cost what all do.
+std::vector<StageWork> work_of_stages(const Scenario& scenario, const std::vector<StageForecast>& forecasts,
+                                      const Simulation& simulation) {
+  const RunState& state = simulation.state();
+  bool loose = state.plastic_dissipation == 0 && state.mean_stress == 0;
+  double growth = 1;
+  std::vector<StageWork> works;
+  for (std::size_t s = 0; s < forecasts.size(); ++s) {
+    const Stage& stage = scenario.stages[s];
+    const double steps = forecasts[s].duration / state.stable_step;
+    if (loose && stage.isotropic_compaction) {
+      works.push_back(
+          work_of_first_compaction(steps, simulation.relative_density(), stage.isotropic_compaction->relative_density));
+    } else {
+      if (loose && stage.loading) growth = dense_cost;
+      works.push_back({steps, steps * growth});
+    }
+    if (loose && (stage.isotropic_compaction || stage.loading)) loose = false, growth = dense_cost;
+  }
+  return works;
+}
+
+/// Wall-clock time here, s.
+struct MeasuredTimes {
+  double step = 0;
+  double row = 0; ///< of the history
+};
+
+/// The mean of the first steps. The simulation goes on by them.
+MeasuredTimes measure(Simulation& simulation) {
+  MeasuredTimes times;
+  int steps = 0;
+  const auto start = Profile::Clock::now();
+  try {
+    for (; (steps < 20 || Profile::since(start) < 0.5) && steps < 200 && !simulation.stage_complete(); ++steps) {
+      simulation.evaluate_forces();
+      if (steps == 0) {
+        const auto start_of_row = Profile::Clock::now();
+        simulation.observe();
+        times.row = Profile::since(start_of_row);
+      }
+      simulation.advance();
+    }
+  } catch (const SimulationError& error) {
+    fmt::print("warning        step {} failed: {}\n", steps, error.what());
+  }
+  times.step = (Profile::since(start) - times.row) / std::max(steps, 1);
+  return times;
+}
+
+} // namespace
+
+void check_scenario(const Scenario& scenario, int threads, const std::optional<std::string>& from) {
+  const Needs needs = needs_of(read_packing_counts(scenario.packing_file), scenario);
+  const std::string scarce =
+      check_needs(scenario.packing_file, needs, {available_memory(), std::numeric_limits<double>::infinity()});
+  ThreadTeam team(threads);
+  Simulation simulation(build_model(read_packing(scenario.packing_file), scenario, scenario.packing_file), scenario,
+                        team, from.has_value());
+  if (from) begin_branch(*from, simulation, scenario.text);
+  const RunState& state = simulation.state();
+  const Model& model = simulation.model();
+  fmt::print("packing        {}: {} grains, {} tets, {} nodes, {} facets\n", scenario.packing_file, model.grains,
+             model.tets(), model.nodes(), model.facets());
+  fmt::print("elements       {}, {} precision\n", element_name(scenario.numerics.element),
+             precision_name(scenario.numerics.precision));
+  fmt::print("contact        by {}\n",
+             model.smooth_grains == 0 ? "the facets of the grains' meshes"
+             : model.smooth_grains == model.grains
+                 ? "the grains' smooth surfaces"
+                 : fmt::format("the smooth surfaces of {} grains, facets of the others", model.smooth_grains));
+  fmt::print("relative density at the start  {:.4f}\n", simulation.relative_density());
+  fmt::print(
+      "memory         {:.1f} MB of model data ({:.0f} B a tet); the run needs about {:.0f} MB at most, and {:.0f} MB "
+      "of disk space\n",
+      1e-6 * static_cast<double>(model.memory()), static_cast<double>(model.memory()) / model.tets(),
+      1e-6 * needs.memory, 1e-6 * needs.disk);
+  if (!scarce.empty()) fmt::print("warning        {}\n", scarce);
+  fmt::print("stable step    {:.4g} s, set by {}\n", state.stable_step,
+             state.controlled_by_contact ? "contact" : "elements");
+
+  if (const std::string text = mass_scaling_text(scenario, model); !text.empty())
+    fmt::print("masses         {}\n", text);
+  const auto warnings = check_bonds(model, scenario);
+  if (scenario.bond) {
+    const BondResolution r = bond_resolution(model, scenario);
+    fmt::print(
+        "bonds          cohesive zone {:.3g} mm, {:.2g} elements of {:.3g} mm; fracture energy {:g} N/mm, softening "
+        "as steep as the elements at {:.3g}, none left at {:.3g} N/mm\n",
+        r.cohesive_zone, r.cohesive_zone / r.element_size, r.element_size, scenario.bond->fracture_energy,
+        r.steep_fracture_energy, r.smallest_fracture_energy);
+  }
+  for (const std::string& warning : warnings) fmt::print("warning        {}\n", warning);
+  if (const std::string text = earlier_bonds_text(simulation.contact()); !text.empty())
+    fmt::print("               {}\n", text);
+  check_programme(scenario, 0, state.stage_low, state.stage_high, model, state.stable_step);
+  const auto forecasts = forecast(scenario, 0, state.stage_low, state.stage_high, model);
+  const auto works = work_of_stages(scenario, forecasts, simulation);
+  StageWork all;
+  for (std::size_t s = 0; s < works.size(); ++s) {
+    all.steps += works[s].steps;
+    all.cost += works[s].cost;
+    fmt::print("stage          {}: {}{:.4g} s, {:.0f} steps; {}\n", scenario.stages[s].name,
+               forecasts[s].sure ? "" : "about ", forecasts[s].duration, works[s].steps,
+               stage_text(scenario.stages[s]));
+  }
+  const MeasuredTimes measured = measure(simulation);
+  const double rows = scenario.output.history_rows * static_cast<double>(works.size()) * measured.row;
+  fmt::print(
+      "estimate       {:.3g} ms a step measured here on {} threads; {:.0f} steps: {:.3g} s, with {:.3g} ms a step in "
+      "the mean of the run, and {:.2g} s for the history\n",
+      1e3 * measured.step, threads, all.steps, all.cost * measured.step + rows,
+      1e3 * measured.step * all.cost / all.steps, rows);
+}
+
+} // namespace mpfem

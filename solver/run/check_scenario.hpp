@@ -1,0 +1,15 @@
+#pragma once
+// What a run would do and need, told before it starts.
+
+#include <optional>
+#include <string>
+
+#include "solver/scenario/scenario.hpp"
+
+namespace mpfem {
+
+/// Prints what a run would do: grains, tets, memory, stages, steps, estimated time from steps measured here; where `from`
+/// names a checkpoint, of a branch that begins there. Throws InputError where the run would be refused.
+void check_scenario(const Scenario& scenario, int threads, const std::optional<std::string>& from);
+
+} // namespace mpfem

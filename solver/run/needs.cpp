@@ -1,0 +1,128 @@
+#include "solver/run/needs.hpp"
+
+#include <cmath>
+#include <filesystem>
+#include <limits>
+#include <numeric>
+
+#include <sys/statvfs.h>
+
+#include <fmt/format.h>
+
+#include "common/errors.hpp"
+#include "results-schema/descriptors.hpp"
+#include "results-schema/file.hpp"
+#include "solver/model/model.hpp"
+#include "solver/run/simulation.hpp"
+
+namespace mpfem {
+
+namespace {
+
+// The sizes of arrays follow from their types. The other numbers are measured: peak memory and files of nine runs to a
+// relative density of 0.92 (docs/performance.md).
+constexpr double of_program = 19.7e6;   // libraries, code, HDF5
+constexpr double of_contact = 102;      // a facet: points, their forces and candidates, with the search's own
+constexpr double of_bonds = 65;         // a facet more
+constexpr double facets_of_ball = 3.15; // over tets^(2/3)
+constexpr double margin = 0.1;          // of the available memory: the error that the forecast may have
+
+template <class Real>
+double bytes_of_tet() {
+  return static_cast<double>(sizeof(TetBlock<Real>)) / TetBlock<Real>::lanes;
+}
+
+double number(std::int64_t count) {
+  return static_cast<double>(count);
+}
+
+/// "1.64 GB", "59 MB"
+std::string size_text(double bytes) {
+  return bytes < 1e9 ? fmt::format("{:.0f} MB", 1e-6 * bytes) : fmt::format("{:.3g} GB", 1e-9 * bytes);
+}
+
+double memory_of(const PackingCounts& packing, const Scenario& scenario) {
+  const NumericsParameters& numerics = scenario.numerics;
+  // Position, velocity, force and normal; inverse mass, reference area, number in the file; volume and mean of averaged
+  // pressure; the inner node and its share where contact is by the smooth surface.
+  double node = 4 * 4 * sizeof(double) + 2 * sizeof(double) + sizeof(std::int32_t);
+  if (numerics.element == ElementType::tet4_anp) node += 2 * sizeof(double);
+  if (scenario.contact.surface != ContactSurface::facets) node += sizeof(std::int32_t) + sizeof(double);
+  // Its number in the file, and the copy of one array for a checkpoint.
+  const double tet = (numerics.precision == Precision::mixed ? bytes_of_tet<float>() : bytes_of_tet<double>()) +
+                     sizeof(std::int32_t) + sizeof(double);
+  const double facet = 3 * sizeof(std::int32_t) + of_contact + (scenario.bond ? of_bonds : 0.0);
+  const double rows = scenario.output.history_rows * static_cast<double>(scenario.stages.size());
+  return of_program + tet * number(packing.all_tets()) + node * number(packing.nodes) + facet * packing.facets() +
+         2 * sizeof(HistoryRow) * rows;
+}
+
+double disk_of(const PackingCounts& packing, const Scenario& scenario) {
+  const OutputParameters& output = scenario.output;
+  const double tets = number(packing.all_tets()), nodes = number(packing.nodes), facets = packing.facets();
+  const auto stages = static_cast<double>(scenario.stages.size());
+  // Eight numbers of a tet, thirteen of a node, and contact points; measured, since most points have few candidates.
+  const double checkpoint = 64 * tets + 104 * nodes + (scenario.bond ? 43.0 : 20.0) * facets;
+  // Those that stay, the rolling one, and the one that is being written.
+  const double checkpoints = stages + 2 + static_cast<double>(output.checkpoint_relative_densities.size());
+  // Snapshots stand beside the run file until it holds them all.
+  const double snapshots =
+      (output.snapshot_at_stage_end ? stages : 0.0) + static_cast<double>(output.snapshot_relative_densities.size());
+  const double snapshot = 22 * tets, mesh = 11 * tets;
+  return checkpoints * checkpoint + 2 * snapshots * snapshot + mesh + sizeof(HistoryRow) * output.history_rows * stages;
+}
+
+/// "memory", …: empty, a warning, or InputError.
+std::string compare(const std::string& purpose, const char* what, double needed, double available) {
+  if (needed <= (1 - margin) * available) return {};
+  const std::string text = fmt::format("{}: the run needs about {} of {}, {} are available", purpose, size_text(needed),
+                                       what, size_text(available));
+  if (needed > (1 + margin) * available)
+    throw InputError(text + (what[0] == 'm'
+                                 ? "; allowed is a coarser mesh, element.precision = \"mixed\", or a machine "
+                                   "with more"
+                                 : "; allowed are fewer checkpoints and snapshots, or another --output"));
+  return text;
+}
+
+} // namespace
+
+std::int64_t PackingCounts::all_tets() const {
+  return std::accumulate(tets.begin(), tets.end(), std::int64_t{0});
+}
+
+double PackingCounts::facets() const {
+  double facets = 0;
+  for (const std::int64_t of_grain : tets) facets += facets_of_ball * std::pow(number(of_grain), 2.0 / 3.0);
+  return facets;
+}
+
+PackingCounts read_packing_counts(const std::string& path) {
+  const schema::FileReader file(path, schema::FileKind::packing);
+  PackingCounts counts;
+  if (!file.has(schema::packing::mesh_tet)) return counts; // read_packing() says so
+  counts.nodes = static_cast<std::int64_t>(file.rows(schema::packing::mesh_node));
+  const auto offset = file.read(schema::packing::mesh_grain_tet_offset);
+  for (std::size_t g = 0; g + 1 < offset.size(); ++g)
+    counts.tets.push_back(std::max<std::int64_t>(std::int64_t{offset[g + 1]} - offset[g], 0));
+  return counts;
+}
+
+Needs needs_of(const PackingCounts& packing, const Scenario& scenario) {
+  return {memory_of(packing, scenario), disk_of(packing, scenario)};
+}
+
+double available_disk_space(const std::string& file) {
+  struct statvfs system {};
+  const auto folder = std::filesystem::absolute(file).parent_path();
+  if (statvfs(folder.c_str(), &system) != 0) return std::numeric_limits<double>::infinity();
+  return static_cast<double>(system.f_bavail) * static_cast<double>(system.f_frsize);
+}
+
+std::string check_needs(const std::string& purpose, const Needs& needs, const Needs& available) {
+  const std::string memory = compare(purpose, "memory", needs.memory, available.memory),
+                    disk = compare(purpose, "disk space", needs.disk, available.disk);
+  return memory.empty() || disk.empty() ? memory + disk : memory + "; " + disk;
+}
+
+} // namespace mpfem

@@ -1,0 +1,36 @@
+#include "solver/run/plan_text.hpp"
+
+#include <cmath>
+
+#include <fmt/format.h>
+
+namespace mpfem {
+
+std::string mass_scaling_text(const Scenario& scenario, const Model& model) {
+  std::string text;
+  if (const double factor = scenario.numerics.mass_scaling; factor != 1)
+    text = fmt::format("all masses times {:g}: steps {:.3g} times as long, inertia as at {:.3g} times the speed",
+                       factor, std::sqrt(factor), std::sqrt(factor));
+  if (model.added_mass != 0)
+    text += fmt::format("{}mass scaled for the step: {:+.3g} % of the packing's, at most {:+.3g} % of a grain's",
+                        text.empty() ? "" : "; ", 100 * model.added_mass, 100 * model.largest_added_mass);
+  return text;
+}
+
+std::string earlier_bonds_text(const Contact& contact) {
+  if (contact.bond_laws.size() < 2) return {};
+  const auto law_text = [](const BondLaw& law) {
+    return fmt::format("{:g} and {:g} MPa, {:g} N/mm, softening {}", law.tensile_strength, law.shear_strength,
+                       law.fracture_energy, law.softening == SofteningLaw::energy ? "energy" : "exponential");
+  };
+  std::vector<std::int64_t> formed(contact.bond_laws.size(), 0);
+  for (const PointBond& bond : contact.bond)
+    if (bond.exists()) ++formed[static_cast<std::size_t>(bond.law)];
+  std::string text;
+  for (std::size_t i = 0; i + 1 < formed.size(); ++i)
+    text += fmt::format("{}{} bonds formed earlier keep their law ({})", i == 0 ? "" : ", ", formed[i],
+                        law_text(contact.bond_laws[i]));
+  return text + fmt::format("; those to come have {}", law_text(contact.bond_laws.back()));
+}
+
+} // namespace mpfem

@@ -1,0 +1,17 @@
+#pragma once
+// Sentences that the plan of a run and the run itself both print.
+
+#include <string>
+
+#include "solver/kernels/contact_forces.hpp"
+#include "solver/model/model.hpp"
+#include "solver/scenario/scenario.hpp"
+
+namespace mpfem {
+
+/// What mass scaling does; empty where there is none.
+std::string mass_scaling_text(const Scenario& scenario, const Model& model);
+/// Which bonds have another law than those to come; empty where all have the scenario's.
+std::string earlier_bonds_text(const Contact& contact);
+
+} // namespace mpfem
