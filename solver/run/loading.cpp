@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "common/errors.hpp"
+#include "solver/physics/smooth_step.hpp"
 
 namespace mpfem {
 
@@ -37,11 +38,6 @@ constexpr double slowest_path = 0.2;
 /// Strain and density are met when they are so near: walls arrive but for rounding.
 constexpr double arrived = 1e-9;
 constexpr std::int64_t steps_between_damages = 20; // all bonds are visited
-
-double smooth_step(double s) {
-  s = std::clamp(s, 0.0, 1.0);
-  return s * s * (3.0 - 2.0 * s);
-}
 
 } // namespace
 

@@ -5,7 +5,9 @@
 #include <catch2/catch.hpp>
 
 #include "solver/kernels/element_forces.hpp"
-#include "solver/kernels/integrate.hpp"
+#include "solver/kernels/element_step.hpp"
+#include "solver/kernels/grain_state.hpp"
+#include "solver/kernels/node_motion.hpp"
 #include "solver/physics/tet4_patch.hpp"
 #include "solver/run/simulation.hpp"
 #include "tests/support/meshes.hpp"

@@ -61,12 +61,12 @@ TEST_CASE("contact points of a sphere that is meshed with its volume lie on the 
       of_points += distance / count;
       scatter += (distance - radius) * (distance - radius) / count;
     }
-    CAPTURE(size_ratio, of_nodes / radius - 1, of_points / radius - 1, largest_stand_out(model) / radius);
+    CAPTURE(size_ratio, of_nodes / radius - 1, of_points / radius - 1, max_contact_offset(model) / radius);
     CHECK(of_nodes > radius);
     // Nodal normals come from facets, and a node in twenty may stay where it is: good to a fifth of the correction.
     CHECK(std::abs(of_points - radius) < 0.2 * (of_nodes - radius));
     CHECK(std::sqrt(scatter) < 0.7 * (of_nodes - radius));
-    CHECK(largest_stand_out(model) < 4 * (of_nodes - radius));
+    CHECK(max_contact_offset(model) < 4 * (of_nodes - radius));
   }
 }
 

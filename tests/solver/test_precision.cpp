@@ -6,6 +6,8 @@
 
 #include "common/errors.hpp"
 #include "solver/kernels/element_forces.hpp"
+#include "solver/kernels/element_step.hpp"
+#include "solver/kernels/grain_state.hpp"
 #include "solver/kernels/rows.hpp"
 #include "solver/physics/plasticity.hpp"
 #include "solver/run/simulation.hpp"

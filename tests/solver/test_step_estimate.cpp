@@ -5,7 +5,9 @@
 #include <numeric>
 
 #include "solver/kernels/element_forces.hpp"
-#include "solver/kernels/integrate.hpp"
+#include "solver/kernels/element_step.hpp"
+#include "solver/kernels/grain_state.hpp"
+#include "solver/kernels/node_motion.hpp"
 #include "solver/kernels/largest_frequency.hpp"
 #include "tests/support/frequencies.hpp"
 #include "tests/support/meshes.hpp"

@@ -8,7 +8,7 @@
 
 #include <Eigen/Dense>
 
-#include "solver/kernels/element_forces.hpp"
+#include "solver/kernels/element_step.hpp"
 #include "solver/model/model.hpp"
 
 namespace mpfem::test {
