@@ -219,7 +219,8 @@ Model make_model(const BenchOptions& options, Scenario& scenario) {
   return model;
 }
 
-/// Takes the simulation to the state that is measured: the checkpoint `options.from`, or a packing that has begun to flow.
+/// Takes the simulation to the state that is measured: the checkpoint `options.from`, or a packing that has begun to
+/// flow.
 void prepare(const BenchOptions& options, Scenario& scenario, Simulation& simulation) {
   if (!options.scenario) {
     set_initial_hardening(simulation.model());
