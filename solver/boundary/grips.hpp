@@ -40,9 +40,9 @@ struct GripSums {
   double work_ahead = 0;         ///< mJ, half of the forces times the step that follows
 };
 
-/// Sets model.force of the gripped nodes so that the velocity update with these parameters takes them to where the grips at
-/// `next` hold them, the high one having slid across the axis by `sliding` (mm) against the low one. `last_step` in s, the step
-/// that led here.
+/// Sets model.force of the gripped nodes so that the velocity update with these parameters takes them to where the
+/// grips at `next` hold them, the high one having slid across the axis by `sliding` (mm) against the low one.
+/// `last_step` in s, the step that led here.
 GripSums grip_forces(Model& model, const Grips& grips, const Walls& next, const std::array<double, 3>& sliding,
                      const Advance& parameters, double last_step, int grain);
 

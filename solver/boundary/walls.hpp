@@ -27,8 +27,8 @@ struct WallSums {
   double penetration = 0;              ///< largest over h
 };
 
-/// Adds the penalty forces of the walls (solver/physics/wall.hpp) on the grain's surface nodes to model.force. `bounds` is the
-/// present bounding box of the grain's surface.
+/// Adds the penalty forces of the walls (solver/physics/wall.hpp) on the grain's surface nodes to model.force. `bounds`
+/// is the present bounding box of the grain's surface.
 WallSums wall_forces(Model& model, const Walls& walls, const Bounds& bounds, int grain);
 
 /// Adds K A/m (1/s^2) of the walls that each node touches to `rate` [nodes]: what they add to the frequency squared.

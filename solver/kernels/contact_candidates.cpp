@@ -36,7 +36,8 @@ struct PairCursor {
                                                : Pair(none, none);
   }
   bool left() const { return pair < candidates.pair_first.size(); }
-  /// The points of these two grains, none where the present pair is another one. Moves on to the next pair where it is not.
+  /// The points of these two grains, none where the present pair is another one. Moves on to the next pair where it is
+  /// not.
   PointRange take(const Pair& wanted) {
     if (!left() || grains() != wanted) return {};
     ++pair;
@@ -50,8 +51,8 @@ struct BondedCandidates {
   std::vector<PointBond> bond; ///< [points]
 };
 
-/// Appends the points of one pair, found and old, by ascending node. Old points without a bond and without the energy of former
-/// bonds are left out. A point that is in both lists has the found facets and the old bond.
+/// Appends the points of one pair, found and old, by ascending node. Old points without a bond and without the energy
+/// of former bonds are left out. A point that is in both lists has the found facets and the old bond.
 void merge_points(const ContactCandidates& found, PointRange new_points, const ContactCandidates& old,
                   const std::vector<PointBond>& old_bond, PointRange old_points, BondedCandidates& merged) {
   const auto is_kept = [&](std::int32_t point) {

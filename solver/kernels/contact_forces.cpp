@@ -72,7 +72,8 @@ private:
     const std::int32_t node = contact_.candidates.point_node[at(point)];
     const Vector3<double> x = model_.contact_point(at(node));
     if constexpr (bonding) {
-      // The mode in which damage begins depends on the gap. A damaged bond needs no gap, so that of an open point is not evaluated.
+      // The mode in which damage begins depends on the gap. A damaged bond needs no gap, so that of an open point is
+      // not evaluated.
       PointBond& bond = contact_.bond[at(point)];
       if (bond.state.initiation > 0 && pair.travel < contact_.point_open_until[at(point)])
         return pull(pair, bond, node, x, contact_.margin);
@@ -140,8 +141,8 @@ private:
     }
   }
 
-  /// The bond of a point that is closed by `distance` (mm) at the closest point of `facet`: formed where there is none. Gives the part
-  /// of the penalty that the bond leaves to the point.
+  /// The bond of a point that is closed by `distance` (mm) at the closest point of `facet`: formed where there is none.
+  /// Gives the part of the penalty that the bond leaves to the point.
   double evaluate_closed_bond(PairOfGrains& pair, PointBond& bond, std::int32_t node, const Vector3<double>& x,
                               std::int32_t facet, const ClosestPoint<double>& closest, double distance) {
     const bool normal_only = contact_.bond_laws.back().normal_only;

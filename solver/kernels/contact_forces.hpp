@@ -1,8 +1,8 @@
 #pragma once
 // The forces of contact between grains.
 //
-// Every grain writes to its own nodes only: it evaluates the points of its own nodes, and after a barrier it collects the reactions
-// on its facets in a fixed order. A facet's nodes receive -w_i f, so that action equals reaction exactly.
+// Every grain writes to its own nodes only: it evaluates the points of its own nodes, and after a barrier it collects
+// the reactions on its facets in a fixed order. A facet's nodes receive -w_i f, so that action equals reaction exactly.
 
 #include "solver/kernels/contact_candidates.hpp"
 #include "solver/kernels/contact_state.hpp"

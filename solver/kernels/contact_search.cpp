@@ -9,8 +9,8 @@
 #include "common/index.hpp"
 #include "solver/physics/gap.hpp"
 
-// Three sieves, each of which passes everything that could be near: boxes of grains swept along x, boxes of facets against a grid of
-// the other grain's nodes, and the exact distance. What a sieve passes needlessly only costs time.
+// Three sieves, each of which passes everything that could be near: boxes of grains swept along x, boxes of facets
+// against a grid of the other grain's nodes, and the exact distance. What a sieve passes needlessly only costs time.
 
 namespace mpfem {
 

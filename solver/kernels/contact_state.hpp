@@ -2,8 +2,8 @@
 // Contact between grains: every surface node against the facets of the grains near it, both surfaces alike.
 //
 // Each of the two passes (nodes of A on facets of B, nodes of B on facets of A) carries half of the penalty stiffness
-// (solver/physics/penalty.hpp). Bonds belong to the same points (solver/physics/bond_kinematics.hpp); an unbroken bond keeps its
-// point among the candidates however far it has opened.
+// (solver/physics/penalty.hpp). Bonds belong to the same points (solver/physics/bond_kinematics.hpp); an unbroken bond
+// keeps its point among the candidates however far it has opened.
 
 #include <cstdint>
 #include <span>
@@ -29,14 +29,16 @@ struct Contact {
   ContactCandidates candidates;
   double margin = 0;                     ///< mm, of the search that made the candidates
   std::vector<std::int32_t> point_facet; ///< [points]: closest facet when last looked at, -1 none
-  // A gap cannot close faster than both grains travel. So a point that is open by 10 um need not be looked at before the travel of
-  // the two grains has grown by 10 um; nor can another facet become the closest before they have travelled half of its lead.
+  // A gap cannot close faster than both grains travel. So a point that is open by 10 um need not be looked at before
+  // the travel of the two grains has grown by 10 um; nor can another facet become the closest before they have
+  // travelled half of its lead.
   std::vector<double> point_open_until;  ///< [points], mm: open until the two grains' travel adds up to this
   std::vector<double> point_facet_until; ///< [points], mm: point_facet is the closest until travel adds up to this
   std::vector<ContactForce> force;       ///< [points]: active points first within every pair's range
   std::vector<std::int32_t> active;      ///< [pairs]: number of active points
-  /// Laws by which bonds formed; empty: no bonds, and the arrays below stay empty. New bonds form by the last one, which in a branch
-  /// may differ from that of the bonds of its checkpoint. Their stiffness is unset: it is the point's (bond_law).
+  /// Laws by which bonds formed; empty: no bonds, and the arrays below stay empty. New bonds form by the last one,
+  /// which in a branch may differ from that of the bonds of its checkpoint. Their stiffness is unset: it is the point's
+  /// (bond_law).
   std::vector<BondLaw> bond_laws;
   bool rebond_on_contact = false;       ///< a broken bond's point bonds anew when it has opened and closes again
   std::vector<PointBond> bond;          ///< [points]

@@ -36,8 +36,8 @@ void contact_stiffness_rate(const Model& model, const Contact& contact, int grai
 
 namespace {
 
-/// A node of a grain that is r times as coarse adds r^2/(1 + r) times what a node of an equal grain adds (the harmonic mean of both
-/// penalties, r^2 times the area). Below r = 1.5 that is less.
+/// A node of a grain that is r times as coarse adds r^2/(1 + r) times what a node of an equal grain adds (the harmonic
+/// mean of both penalties, r^2 times the area). Below r = 1.5 that is less.
 void raise_near_coarser_grains(const Model& model, const Contact& contact, int grain, std::span<double> rate) {
   constexpr double coarser = 1.5;
   const ContactCandidates& candidates = contact.candidates;
@@ -58,9 +58,9 @@ void raise_near_coarser_grains(const Model& model, const Contact& contact, int g
   }
 }
 
-/// Against a much stiffer neighbour a grain meets up to twice the stiffness that it meets in an equal grain: the harmonic mean of
-/// both penalties over its own. Smaller contrasts, such as those between grains of different size, are left to the estimates that
-/// follow.
+/// Against a much stiffer neighbour a grain meets up to twice the stiffness that it meets in an equal grain: the
+/// harmonic mean of both penalties over its own. Smaller contrasts, such as those between grains of different size, are
+/// left to the estimates that follow.
 double stiffness_contrast(const Model& model, const Contact& contact, int grain) {
   constexpr double least_contrast = 1.5;
   const ContactCandidates& candidates = contact.candidates;

@@ -12,8 +12,8 @@ namespace mpfem {
 /// squared (contact_stiffness_bound in solver/physics/penalty.hpp).
 void contact_stiffness_rate(const Model& model, const Contact& contact, int grain, std::span<double> rate);
 
-/// Raises `rate` to what a node in contact usually has, so that the step does not jump when one comes into contact. Nodes near a
-/// coarser grain get what one of its nodes would add, which has a larger area.
+/// Raises `rate` to what a node in contact usually has, so that the step does not jump when one comes into contact.
+/// Nodes near a coarser grain get what one of its nodes would add, which has a larger area.
 void raise_to_expected_rate(const Model& model, const Contact& contact, int grain, std::span<double> rate);
 
 } // namespace mpfem

@@ -10,10 +10,10 @@
 
 namespace mpfem {
 
-/// The points of a grain that must be evaluated in this step, their data prefetched. What a point needs lies scattered over the
-/// memory of two grains. Without prefetching, waiting for it takes two thirds of the time of contact. So the due points are listed
-/// first, and what their indices point at is prefetched. A few points before a point's turn that data has arrived, and the nodes of
-/// its facet are prefetched.
+/// The points of a grain that must be evaluated in this step, their data prefetched. What a point needs lies scattered
+/// over the memory of two grains. Without prefetching, waiting for it takes two thirds of the time of contact. So the
+/// due points are listed first, and what their indices point at is prefetched. A few points before a point's turn that
+/// data has arrived, and the nodes of its facet are prefetched.
 class DuePoints {
 public:
   DuePoints(const Model& model, const Contact& contact, std::size_t expected) : model_(model), contact_(contact) {

@@ -39,11 +39,13 @@ MPFEM_FLATTEN StableStep stable_step_in(Model& model, int grain, std::span<const
     S element = largest_frequency_squared(material.moduli, S(material.density) / ratio, geometry);
     S length = S(2.0 * material.wave_speed) / sqrt(element);
     if (!model.mass_factor.empty()) {
-      // By the same inequality: an element's share of its nodes' mass has grown at least as much as that of the least scaled node.
+      // By the same inequality: an element's share of its nodes' mass has grown at least as much as that of the least
+      // scaled node.
       const S factor = pick_of_nodes(block, first_node, model.mass_factor, std::numeric_limits<double>::infinity(),
                                      [](Real x, Real y) { return std::min(x, y); });
       element = element / factor;
-      // Viscosity belongs to the true mass: it damps nodes less that were made heavier, and is reduced where nodes are lighter.
+      // Viscosity belongs to the true mass: it damps nodes less that were made heavier, and is reduced where nodes are
+      // lighter.
       length = length * sqrt(min(factor, S(1.0)));
     }
     const S relative = S::load(block.length) / length; // of the frequencies, now to then

@@ -1,5 +1,6 @@
 #pragma once
-// What gives the tets of a grain their mean stress: the tet's own volume, the volumes around its nodes, or that of its patch.
+// What gives the tets of a grain their mean stress: the tet's own volume, the volumes around its nodes, or that of its
+// patch.
 
 #include <algorithm>
 #include <cstdint>
@@ -121,8 +122,8 @@ private:
   }
 };
 
-/// f(pressure) with what gives the tets of a grain their mean stress, for its present positions. `nodal` [nodes of the grain] is
-/// written where nodes take part; it must live as long as f needs it.
+/// f(pressure) with what gives the tets of a grain their mean stress, for its present positions. `nodal` [nodes of the
+/// grain] is written where nodes take part; it must live as long as f needs it.
 template <class Real, class F>
 auto with_pressure(const Model& model, int grain, double* nodal, F&& f) {
   const ElasticModuli moduli = model.material_of(grain).moduli;

@@ -40,7 +40,8 @@ std::vector<Face> sorted_faces(const std::vector<Index>& tet, Index begin, Index
   return faces;
 }
 
-/// True where every edge is there once in each direction, or as often in both where parts of the surface touch along it.
+/// True where every edge is there once in each direction, or as often in both where parts of the surface touch along
+/// it.
 bool is_closed(const std::vector<Triangle>& boundary) {
   std::vector<std::pair<Index, Index>> forward, backward;
   for (const auto& face : boundary)

@@ -76,7 +76,8 @@ std::vector<Index> block_offsets(const Model& model, int lanes) {
   return offset;
 }
 
-/// The tets of all grains in the order of model.file_tet, and model.block_offset. `new_index` maps nodes of the file to the model's.
+/// The tets of all grains in the order of model.file_tet, and model.block_offset. `new_index` maps nodes of the file to
+/// the model's.
 template <class Real>
 std::vector<TetBlock<Real>> make_blocks(const MeshedPacking& packing, const std::vector<Index>& new_index,
                                         Model& model) {
@@ -149,7 +150,8 @@ Model empty_model(const MeshedPacking& packing, const Scenario& scenario, const 
   return model;
 }
 
-/// Nodes of a grain in the order of the model: surface nodes first, each group along a Morton curve through the grain's box.
+/// Nodes of a grain in the order of the model: surface nodes first, each group along a Morton curve through the grain's
+/// box.
 std::vector<Index> order_nodes(const MeshedPacking& packing, const GrainRange& range,
                                const std::vector<char>& on_surface) {
   Vector3<double> low = point(packing.node, range.first_node), high = low;
@@ -235,7 +237,8 @@ void lump_masses(const MeshedPacking& packing, const GrainRange& range, double d
   }
 }
 
-/// Sets the volumes around nodes, where pressures are averaged there. Masses must be as lumped: density times that volume.
+/// Sets the volumes around nodes, where pressures are averaged there. Masses must be as lumped: density times that
+/// volume.
 void set_nodal_volumes(Model& model) {
   if (model.element != ElementType::tet4_anp) return;
   for (int g = 0; g < model.grains; ++g)

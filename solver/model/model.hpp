@@ -92,8 +92,8 @@ struct Model {
   }
   /// Nodes of tet `tet` of a grain, both counted from the grain's first.
   std::array<std::int32_t, 4> nodes_of_tet(int grain, std::int32_t tet) const;
-  /// How much stiffer than its grain's mean the penalty of a surface node is: K = factor E / h with the h around the node.
-  /// 1 where the scenario gives K itself.
+  /// How much stiffer than its grain's mean the penalty of a surface node is: K = factor E / h with the h around the
+  /// node. 1 where the scenario gives K itself.
   double local_stiffness(std::size_t node) const {
     return refinement.empty() || uniform_penalty ? 1.0 : refinement[node];
   }
@@ -142,7 +142,7 @@ struct MeshedPacking {
 /// Reads a meshed packing file. Throws InputError where it is missing, damaged or not meshed.
 MeshedPacking read_packing(const std::string& path);
 
-/// Makes nodes heavier until no tet, with contact as it is as a rule, asks for a smaller step than `step` (s) in the
+/// Makes nodes heavier until no tet, with the usual share of contact, requires a smaller step than `step` (s) in the
 /// reference state; with `lighten`, also lighter where the tets leave room: then every node is as heavy as the step
 /// needs, and no more. Sets mass_factor, added_mass and largest_added_mass.
 void scale_masses(Model& model, double step, bool lighten);

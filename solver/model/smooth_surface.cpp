@@ -15,7 +15,8 @@ namespace {
 
 /// Largest share of the inner node in a contact point: more would no longer be a small correction.
 constexpr double largest_share = 0.25;
-/// Least cosine between the normal and the way to the inner node: a node without a node so straight beneath it keeps its place.
+/// Least cosine between the normal and the way to the inner node: a node without a node so straight beneath it keeps
+/// its place.
 constexpr double least_cosine = 0.5;
 
 Vector3<double> position(const Model& model, std::size_t node) {
@@ -59,8 +60,8 @@ bool is_sphere_of_that_volume(const Model& model, std::size_t grain, const Vecto
   return true;
 }
 
-/// Chooses for each surface node of a grain the node of its tets that lies straightest beneath it, and sets how far its contact point
-/// lies towards that node: `height` [nodes], mm, along the normal.
+/// Chooses for each surface node of a grain the node of its tets that lies straightest beneath it, and sets how far its
+/// contact point lies towards that node: `height` [nodes], mm, along the normal.
 void place_contact_points(Model& model, std::size_t grain, const std::vector<double>& height) {
   const auto first = static_cast<std::size_t>(model.node_offset[grain]),
              count = static_cast<std::size_t>(model.surface_node_count[grain]);

@@ -1,6 +1,6 @@
 #pragma once
-// How the tets of a grain lie in memory. Kernels stream through these blocks; apart from them only solver/model/tets.hpp knows that
-// tets come in packs.
+// How the tets of a grain lie in memory. Kernels stream through these blocks; apart from them only
+// solver/model/tets.hpp knows that tets come in packs.
 
 #include <cstdint>
 #include <variant>

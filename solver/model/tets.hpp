@@ -8,8 +8,8 @@
 
 namespace mpfem {
 
-/// Calls f(block, lane, tet) for every tet of the model, in the order of the blocks: its values are block.NAME[lane], its number is
-/// `tet`.
+/// Calls f(block, lane, tet) for every tet of the model, in the order of the blocks: its values are block.NAME[lane],
+/// its number is `tet`.
 template <class ModelType, class F>
 void for_each_tet(ModelType& model, F&& f) {
   with_tet_numbers(model, [&](auto number) {
@@ -24,7 +24,8 @@ void for_each_tet(ModelType& model, F&& f) {
   });
 }
 
-/// Unused lanes of a grain's last block repeat the state of its last tet. To be called after the tets were set one by one.
+/// Unused lanes of a grain's last block repeat the state of its last tet. To be called after the tets were set one by
+/// one.
 void fill_unused_lanes(Model& model);
 
 } // namespace mpfem

@@ -6,11 +6,12 @@
 // g = |node - c|, the energy of a point with penalty stiffness k (N/mm) is
 //   open:     (1 - D) k |d|^2 / 2
 //   closed:   (1 - D) k |d|^2 / 2 + D k g^2 / 2   =   k g^2 / 2 + (1 - D) k (|d|^2 - g^2) / 2
-// that is, the undamaged penalty against closing and a bond whose effective separation delta^2 = |d|^2 - g^2 is the drift
-// along the surface. (|d| >= g, since c is the closest point of all.) Both terms are central forces between material
-// points: linear and angular momentum are kept exactly, a rigid rotation of both grains does nothing, and no tangent plane
-// has to be followed as the node slides over facets and edges. The force is continuous where the point opens or closes.
-// A chord between distant points of a curved surface is not along the surface; the bond then pulls along the chord.
+// that is, the undamaged penalty against closing and a bond whose effective separation delta^2 = |d|^2 - g^2 is the
+// drift along the surface. (|d| >= g, since c is the closest point of all.) Both terms are central forces between
+// material points: linear and angular momentum are kept exactly, a rigid rotation of both grains does nothing, and no
+// tangent plane has to be followed as the node slides over facets and edges. The force is continuous where the point
+// opens or closes. A chord between distant points of a curved surface is not along the surface; the bond then pulls
+// along the chord.
 
 #include <algorithm>
 #include <cmath>
@@ -48,9 +49,9 @@ struct BondPull {
   double weight1, weight2; ///< shape functions of the attachment facet's second and third node
 };
 
-/// Pull of a bond that holds in all directions. `x` are the corners of its facet, mm. `gap` is the distance (mm) of the node from
-/// the other surface, negative inside. Where the node is too far for its gap to be known, pass any larger number: the opening is at
-/// most the distance to the attachment.
+/// Pull of a bond that holds in all directions. `x` are the corners of its facet, mm. `gap` is the distance (mm) of the
+/// node from the other surface, negative inside. Where the node is too far for its gap to be known, pass any larger
+/// number: the opening is at most the distance to the attachment.
 inline BondPull pull_of_bond(const BondLaw& law, PointBond& bond, const Vector3<double>& node,
                              const Vector3<double> (&x)[3], double gap) {
   const Vector3<double> d = node - (x[0] + bond.weight1 * (x[1] - x[0]) + bond.weight2 * (x[2] - x[0]));

@@ -1,8 +1,8 @@
 #pragma once
 // The velocity update of central differences with mass-proportional damping.
 //
-// Damping acts on the motion relative to the affine velocity field that the walls impose, so that it does not resist compaction
-// itself. With the rate c (1/s) and that field's velocity t at the centre of a node's grain,
+// Damping acts on the motion relative to the affine velocity field that the walls impose, so that it does not resist
+// compaction itself. With the rate c (1/s) and that field's velocity t at the centre of a node's grain,
 //   m dv/dt = f - c m (v - t).
 // With dt the mean of the two steps around the time of the forces, and the mean of v- and v+ in the damping term,
 //   v+ = (1 - b)/(1 + b) v- + dt/(1 + b) f/m + 2 b/(1 + b) t,   b = c dt / 2.
