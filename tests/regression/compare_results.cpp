@@ -1,8 +1,8 @@
 // compare-results FILE FILE: whether two result files hold bitwise the same numbers.
 //
-// Compares every dataset below /history, /snapshots, /mesh, /spheres and /box of both files by name, shape, type and bytes.
-// Provenance is left out: it holds dates, versions and times of the computer. Exit code 0: all the same; 1: they differ, and the
-// datasets that do are printed; 2: a file cannot be read.
+// Compares every dataset below /history, /snapshots, /mesh, /spheres and /box of both files by name, shape, type and
+// bytes. Provenance is left out: it holds dates, versions and times of the computer. Exit code 0: all the same; 1: they
+// differ, and the datasets that do are printed; 2: a file cannot be read.
 
 #include <cstdio>
 #include <map>

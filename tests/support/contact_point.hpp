@@ -1,6 +1,6 @@
 #pragma once
-// Mesh-free driver of one contact point: a node and a facet of another grain, with the penalty and, if there is a law, a bond. It
-// calls the same functions in the same order as the kernel.
+// Mesh-free driver of one contact point: a node and a facet of another grain, with the penalty and, if there is a law,
+// a bond. It calls the same functions in the same order as the kernel.
 
 #include <optional>
 

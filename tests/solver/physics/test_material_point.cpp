@@ -67,8 +67,9 @@ TEST_CASE("hydrostatic response is exactly -K ln J") {
 }
 
 TEST_CASE("elastic Jaumann simple shear converges to G sin gamma with the second order") {
-  // sigma_xy = G sin gamma, sigma_xx = -sigma_yy = G (1 - cos gamma). One half of the strain increment is added before the rotation
-  // and one half after; the whole of it on one side would be an error of half a step's rotation, of the first order.
+  // sigma_xy = G sin gamma, sigma_xx = -sigma_yy = G (1 - cos gamma). One half of the strain increment is added before
+  // the rotation and one half after; the whole of it on one side would be an error of half a step's rotation, of the
+  // first order.
   double previous_error = 0;
   for (const int steps : {250, 500, 1000}) {
     double error = 0;

@@ -1,4 +1,5 @@
-// Contact force against Hertz. The whole table over mesh size: tests/benchmarks/hertz_convergence.cpp, docs/numerics.md.
+// Contact force against Hertz. The whole table over mesh size: tests/benchmarks/hertz_convergence.cpp,
+// docs/numerics.md.
 
 #include <catch2/catch.hpp>
 
@@ -96,8 +97,9 @@ TEST_CASE("a smooth contact surface takes most of the error out of the first tou
 
 TEST_CASE(
     "pressure on a flattened contact differs by less than 28 % from node to node, by facets and by smooth surfaces") {
-  // The level of docs/numerics.md, 12 to 28 % of the mean pressure over elements, meshes and penalties: it belongs to the elements.
-  // Contact that excited an oscillation would show half of the nodes bare and the others at twice the pressure, 100 %.
+  // The level of docs/numerics.md, 12 to 28 % of the mean pressure over elements, meshes and penalties: it belongs to
+  // the elements. Contact that excited an oscillation would show half of the nodes bare and the others at twice the
+  // pressure, 100 %.
   constexpr double radius = 0.1;
   for (const auto surface : {mpfem::ContactSurface::facets, mpfem::ContactSurface::smooth}) {
     GrainMesh lower = sphere_mesh(5, radius, 1), upper = lower;
@@ -146,7 +148,8 @@ TEST_CASE("unequal meshes: action equals reaction, and the grains' order in the 
       CHECK(std::abs(surface.net_moment[a]) < 1e-12 * state.pair_force); // arms of up to 1 mm
     }
   }
-  // The same bodies at the same places: sums in another order, so equal but for rounding, which impacts of nodes amplify.
+  // The same bodies at the same places: sums in another order, so equal but for rounding, which impacts of nodes
+  // amplify.
   CAPTURE(states[0].pair_force, states[1].pair_force);
   CHECK(std::abs(states[1].pair_force - states[0].pair_force) < 1e-6 * states[0].pair_force);
   CHECK(std::abs(states[1].pair_approach - states[0].pair_approach) < 1e-6 * states[0].pair_approach);

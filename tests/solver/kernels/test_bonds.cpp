@@ -153,7 +153,8 @@ TEST_CASE("a broken bond stays broken, or bonds again on the next contact, as th
 TEST_CASE("normal-only bonds do not resist sliding") {
   BondParameters bond = table_1(0.5);
   bond.normal_only = true;
-  // A bond that resisted would be half spent after 0.01 mm. Edges slide past each other with more: nodes beyond the last facet snap.
+  // A bond that resisted would be half spent after 0.01 mm. Edges slide past each other with more: nodes beyond the
+  // last facet snap.
   Scenario scenario = bonded_scenario(
       bond, {grip("press", -6e-4, 500), grip("slide", 0, 2000, {0.01, 0, 0}), grip("pull", 3e-3, 1000)});
   for (const double factor : {0.9, 0.7, 0.5}) {

@@ -88,7 +88,8 @@ TEST_CASE(
     ThreadTeam team(1);
     Simulation simulation(build_model(pair.packing, pair.scenario, "test"), pair.scenario, team);
     const Record record = run_stages(simulation, pair.scenario);
-    // F/(E R^2) = 2.7810e-3 at h/R = 0.04 (studies/fig05/finite-elements.csv); plain tets are too stiff by some 8 % here.
+    // F/(E R^2) = 2.7810e-3 at h/R = 0.04 (studies/fig05/finite-elements.csv); plain tets are too stiff by some 8 %
+    // here.
     error[element == ElementType::tet4 ? 0 : 1] = grip_force(record.last[0]) / (2.7810e-3 * 5000 * sphere * sphere) - 1;
     CHECK(record.worst_residual < 0.01);
   }

@@ -130,8 +130,8 @@ TEST_CASE("every lane of a pack of floats gives the scalar answer within a few r
 }
 
 TEST_CASE("a strain too small for a float does not keep a point elastic for ever") {
-  // Plastic strain is below 1e-38 until the stress has risen by 2e-4 of k where m = 0.1, by 0.013 k where m = 0.05, and grows as
-  // its tenth or twentieth power; steps of both take part in it, larger and smaller than that.
+  // Plastic strain is below 1e-38 until the stress has risen by 2e-4 of k where m = 0.1, by 0.013 k where m = 0.05, and
+  // grows as its tenth or twentieth power; steps of both take part in it, larger and smaller than that.
   using S = Pack<native_lanes_of<float>, float>;
   const double three_shear = 3 * 1923.0;
   for (const double exponent : {0.05, 0.1, 0.3})
@@ -168,8 +168,8 @@ TEST_CASE("the energy of a small change of volume is resolved") {
   }
 }
 
-// Stresses are sums of some thousand increments, each rounded to 6e-8 of the stress: 1e-5 if they all added up, less by chance.
-// Contacts that open or close a step earlier or later scatter by more.
+// Stresses are sums of some thousand increments, each rounded to 6e-8 of the stress: 1e-5 if they all added up, less by
+// chance. Contacts that open or close a step earlier or later scatter by more.
 TEST_CASE("a compaction in mixed precision is that in doubles") {
   for (const ElementType element : {ElementType::tet4, ElementType::tet4_anp, ElementType::tet4_patch}) {
     const HistoryRow full = compacted(Precision::full, element), mixed = compacted(Precision::mixed, element);

@@ -116,8 +116,8 @@ TEST_CASE("an oblique collision of two elastic grains keeps momentum, angular mo
     CHECK(std::abs(end.momentum[a] - start.momentum[a]) < accumulated_rounding * scale);
     CHECK(std::abs(end.angular[a] - start.angular[a]) < 1e-7 * angular_scale);
   }
-  // Once apart, what is left is the error of time integration, second order of the step. In contact the ledger takes the
-  // penalty energy at the step and the kinetic energy as a mean of half steps: good to 0.1 %, and it cancels.
+  // Once apart, what is left is the error of time integration, second order of the step. In contact the ledger takes
+  // the penalty energy at the step and the kinetic energy as a mean of half steps: good to 0.1 %, and it cancels.
   CHECK(std::abs(simulation.observe().energy_residual) < 2e-5 * initial);
   CHECK(worst < 2e-3 * initial);
 }

@@ -1,4 +1,5 @@
-// Pressures averaged around nodes or over patches have no weak modes: spectrum and free vibration of one elastic grain, against Lamb's sphere.
+// Pressures averaged around nodes or over patches have no weak modes: spectrum and free vibration of one elastic grain,
+// against Lamb's sphere.
 
 #include <catch2/catch.hpp>
 
@@ -62,7 +63,8 @@ TEST_CASE("shared pressures have six rigid modes and no weak one: the next are t
     CHECK(std::sqrt(averaged[i]) < 1.1 * ellipsoidal);
   }
   CHECK(std::sqrt(averaged[16]) > 1.1 * ellipsoidal);
-  // Never stiffer than plain tets, mode by mode (Cauchy's inequality and the minimum-maximum principle), nor much softer.
+  // Never stiffer than plain tets, mode by mode (Cauchy's inequality and the minimum-maximum principle), nor much
+  // softer.
   double ratio = 1;
   for (Eigen::Index i = 6; i < averaged.size(); ++i) {
     CHECK(averaged[i] <= plain[i] * (1 + 1e-6));

@@ -7,8 +7,8 @@
 #include "solver/kernels/element_forces.hpp"
 #include "solver/kernels/element_step.hpp"
 #include "solver/kernels/grain_state.hpp"
-#include "solver/kernels/node_motion.hpp"
 #include "solver/kernels/largest_frequency.hpp"
+#include "solver/kernels/node_motion.hpp"
 #include "tests/support/frequencies.hpp"
 #include "tests/support/meshes.hpp"
 
@@ -116,15 +116,16 @@ TEST_CASE("single tets are stable at their own step whatever share of their moti
       Model model = build_model(pack({mesh}, {1, 1, 1}), scenario, "test");
       const double step = stable_step(model, 0, {}, 0).step;
       CAPTURE(poissons_ratio, viscosity);
-      // Below the limit, at which it would be infinite, the velocity of a mode swings up to 1/sqrt(1 - 0.98^2) = 5 times as far.
+      // Below the limit, at which it would be infinite, the velocity of a mode swings up to 1/sqrt(1 - 0.98^2) = 5
+      // times as far.
       CHECK(growth(model, 0.98 * step) < 26);
       CHECK(growth(model, 1.02 * step) > 1e6);
     }
 }
 
 TEST_CASE("frequencies of a grain grow by no more than those of the tet that grows most") {
-  // Pressed flat by a third in small moves, with the estimates of a run between: the sliver, which sets the step of single tets,
-  // strains like the rest, but others come to set that of the whole.
+  // Pressed flat by a third in small moves, with the estimates of a run between: the sliver, which sets the step of
+  // single tets, strains like the rest, but others come to set that of the whole.
   Model model = free_grain(ball_with_sliver(), ElementType::tet4, 0.06);
   StableStep of_tets = stable_step(model, 0, {}, 0);
   const double first = largest_frequency(model, 0, no_contact(model), of_tets.step, 0).squared;

@@ -176,8 +176,8 @@ TEST_CASE("the pressure of nodes or of patches is the gradient of its energy, wi
       GENERATE(std::pair(ElementType::tet4_anp, 0.0), std::pair(ElementType::tet4_anp, 0.3),
                std::pair(ElementType::tet4_patch, 0.0), std::pair(ElementType::tet4_patch, 0.03));
   CAPTURE(element_name(element), own);
-  // Without a deviator (a fresh grain, moved in no step) forces come from the pressure alone: compare with differences of
-  // the energy over small moves of single coordinates.
+  // Without a deviator (a fresh grain, moved in no step) forces come from the pressure alone: compare with differences
+  // of the energy over small moves of single coordinates.
   GrainMesh mesh = ball_mesh(3, 1.0);
   for (auto& x : mesh.node) x[0] *= 1 + 0.02 * x[1], x[2] *= 1 - 0.03 * x[0];
   Model model = single_grain(mesh, HardeningLaw::elastic, element);
@@ -235,8 +235,8 @@ TEST_CASE("patches are eight tets that lie together, and the last of a grain wha
   double total = 0;
   for (const double inverse : model.inverse_patch_volume) total += 1 / inverse;
   CHECK(total == Approx(model.reference_volume[0]).epsilon(1e-12));
-  // The centres of a patch spread about theirs no further than eight tets that fill a cube of their volume do, with some
-  // allowance for shape: a root mean square of half its edge for points spread evenly.
+  // The centres of a patch spread about theirs no further than eight tets that fill a cube of their volume do, with
+  // some allowance for shape: a root mean square of half its edge for points spread evenly.
   double worst = 0;
   for (std::size_t patch = 0; patch < model.inverse_patch_volume.size(); ++patch) {
     std::vector<std::array<double, 3>> centres;
