@@ -82,20 +82,68 @@ UnitBall make_unit_ball(int n) {
   return ball;
 }
 
+using Site = std::array<int, 3>; // indices of a lattice point
+
+/// Layers of lattice points along each axis of a block that holds `grains` of them: points i, j, k with an even sum are
+/// half of all.
+Site lattice_layers(double grains) {
+  Site layers{};
+  double left = 2.0 * grains;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    layers[axis] = std::max(1, static_cast<int>(std::lround(std::pow(left, 1.0 / static_cast<double>(3 - axis)))));
+    left /= layers[axis];
+  }
+  return layers;
+}
+
+/// Directions in which a grain is cut: towards the neighbours that exist and towards walls.
+std::vector<Point> cut_directions(const Site& site, const Site& layers) {
+  std::vector<Point> cut;
+  for (int direction = 0; direction < 27; ++direction) {
+    const Site step{direction % 3 - 1, direction / 3 % 3 - 1, direction / 9 - 1};
+    const int length = std::abs(step[0]) + std::abs(step[1]) + std::abs(step[2]);
+    bool beyond = false;
+    for (std::size_t axis = 0; axis < 3; ++axis)
+      beyond = beyond || site[axis] + step[axis] < 0 || site[axis] + step[axis] >= layers[axis];
+    if ((length == 2 && !beyond) || (length == 1 && beyond))
+      cut.push_back(Point(step[0], step[1], step[2]).normalized());
+  }
+  return cut;
+}
+
+/// Appends the ball, turned, cut flat in the given directions, with its centre at `centre` (mm). Returns its volume,
+/// mm^3.
+double add_grain(const UnitBall& ball, const Eigen::Matrix3d& turn, const std::vector<Point>& cut, const Point& centre,
+                 MeshedPacking& packing) {
+  const auto first = static_cast<std::int32_t>(packing.node.size() / 3);
+  for (const Point& unit : ball.node) {
+    const Point turned = turn * unit;
+    double reach = 1;
+    for (const Point& direction : cut)
+      if (const double along = turned.dot(direction); along > 0)
+        reach = std::min(reach, flat * turned.norm() / (ball.radius * along));
+    const Point x = centre + radius * (1 - shrink) * reach * turned;
+    packing.node.insert(packing.node.end(), {x[0], x[1], x[2]});
+  }
+  for (const auto& tet : ball.tet)
+    for (const std::int32_t node : tet) packing.tet.push_back(first + node);
+  packing.grain_node_offset.push_back(static_cast<std::int32_t>(packing.node.size() / 3));
+  packing.grain_tet_offset.push_back(static_cast<std::int32_t>(packing.tet.size() / 4));
+  const auto x = [&](std::int32_t n) {
+    return Eigen::Map<const Point>(&packing.node[3 * static_cast<std::size_t>(first + n)]);
+  };
+  double volume = 0;
+  for (const auto& t : ball.tet) volume += (x(t[1]) - x(t[0])).dot((x(t[2]) - x(t[0])).cross(x(t[3]) - x(t[0]))) / 6;
+  return volume;
+}
+
 } // namespace
 
 DensePacking make_dense_packing(std::int64_t tets, int grains, std::uint64_t seed) {
   const double per_octant = static_cast<double>(tets) / (8.0 * grains);
   const UnitBall ball = make_unit_ball(std::max(1, static_cast<int>(std::lround(std::cbrt(per_octant)))));
-
-  // Lattice points i, j, k with an even sum, at distances sqrt(2) of the spacing: half of those in a block of layers.
-  const double wanted = 2.0 * static_cast<double>(tets) / static_cast<double>(ball.tet.size());
-  std::array<int, 3> layers{};
-  double left = wanted;
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    layers[axis] = std::max(1, static_cast<int>(std::lround(std::pow(left, 1.0 / static_cast<double>(3 - axis)))));
-    left /= layers[axis];
-  }
+  // Neighbours on the lattice are sqrt(2) of the spacing apart.
+  const Site layers = lattice_layers(static_cast<double>(tets) / static_cast<double>(ball.tet.size()));
   const double half_distance = flat * radius, spacing = std::sqrt(2.0) * half_distance;
 
   DensePacking result;
@@ -113,41 +161,11 @@ DensePacking make_dense_packing(std::int64_t tets, int grains, std::uint64_t see
     for (int j = 0; j < layers[1]; ++j)
       for (int k = 0; k < layers[2]; ++k) {
         if ((i + j + k) % 2 != 0) continue;
-        const std::array<int, 3> site{i, j, k};
-        // Directions in which the grain is cut: towards the neighbours that exist and towards walls.
-        std::vector<Point> cut;
-        for (int direction = 0; direction < 27; ++direction) {
-          const std::array<int, 3> step{direction % 3 - 1, direction / 3 % 3 - 1, direction / 9 - 1};
-          const int length = std::abs(step[0]) + std::abs(step[1]) + std::abs(step[2]);
-          bool beyond = false;
-          for (std::size_t axis = 0; axis < 3; ++axis)
-            beyond = beyond || site[axis] + step[axis] < 0 || site[axis] + step[axis] >= layers[axis];
-          if ((length == 2 && !beyond) || (length == 1 && beyond))
-            cut.push_back(Point(step[0], step[1], step[2]).normalized());
-        }
         const Eigen::Matrix3d turn = Eigen::Quaterniond(normal(random), normal(random), normal(random), normal(random))
                                          .normalized()
                                          .toRotationMatrix();
-        const auto first = static_cast<std::int32_t>(packing.node.size() / 3);
-        for (const Point& unit : ball.node) {
-          const Point turned = turn * unit;
-          double reach = 1;
-          for (const Point& direction : cut)
-            if (const double along = turned.dot(direction); along > 0)
-              reach = std::min(reach, flat * turned.norm() / (ball.radius * along));
-          const Point x = radius * (1 - shrink) * reach * turned;
-          for (std::size_t axis = 0; axis < 3; ++axis)
-            packing.node.push_back(half_distance + site[axis] * spacing + x[static_cast<Eigen::Index>(axis)]);
-        }
-        for (const auto& tet : ball.tet)
-          for (const std::int32_t node : tet) packing.tet.push_back(first + node);
-        packing.grain_node_offset.push_back(static_cast<std::int32_t>(packing.node.size() / 3));
-        packing.grain_tet_offset.push_back(static_cast<std::int32_t>(packing.tet.size() / 4));
-        const auto x = [&](std::int32_t n) {
-          return Eigen::Map<const Point>(&packing.node[3 * static_cast<std::size_t>(first + n)]);
-        };
-        for (const auto& t : ball.tet)
-          volume += (x(t[1]) - x(t[0])).dot((x(t[2]) - x(t[0])).cross(x(t[3]) - x(t[0]))) / 6;
+        const Point centre(half_distance + i * spacing, half_distance + j * spacing, half_distance + k * spacing);
+        volume += add_grain(ball, turn, cut_directions({i, j, k}, layers), centre, packing);
       }
   result.relative_density = volume / (packing.box_lengths[0] * packing.box_lengths[1] * packing.box_lengths[2]);
   return result;

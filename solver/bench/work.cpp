@@ -6,6 +6,7 @@
 
 #include "solver/physics/counted.hpp"
 #include "solver/physics/gap.hpp"
+#include "solver/physics/penalty.hpp"
 #include "solver/physics/tet4.hpp"
 
 namespace mpfem {
@@ -32,17 +33,17 @@ double operations_of_distance() {
 
 double operations_of_point() {
   return operations_of([] {
-    // As forces_of_points() does it for a point without bond that touches,
+    // As contact_forces() does it for a point without bond that touches,
     const ClosestPoint<Counted> closest = closest_point_on_triangle(node, facet);
     const Vector3<Counted> offset = node - closest.point;
     const Counted distance = norm(offset), h = 1.0, pass_stiffness = 1.0, area = 1.0;
     Counted energy = 0.0, depth = 0.0;
     dot(offset, facet_direction(facet));
     const Counted k = pass_stiffness * Counted(1.0) * area;
-    const Vector3<Counted> push = -(k * offset);
+    const Vector3<Counted> push = penalty_force(k, offset);
     Vector3<Counted> force[4] = {};
     force[0] = force[0] + push;
-    energy = energy + Counted(0.5) * k * distance * distance;
+    energy = energy + penalty_energy(k, distance);
     depth = max(depth, distance / h);
     // and contact_reactions() for the three nodes of its facet.
     const Counted weight[3] = {Counted(1.0) - closest.weight1 - closest.weight2, closest.weight1, closest.weight2};
@@ -66,7 +67,8 @@ Work work_of_tet(const Model& model) {
     update_tet(law, TetConstants{moduli, {0.06, 1.2}, 2e6, 1.55e-9, 1e-4}, edge, velocity, state, Counted(6.0),
                Counted(1.0), [&](const Counted& ratio) { return mean_stress(moduli, ratio); });
   });
-  // A block read, deviator, flow stress and plastic strain written; positions and velocities of nodes read, forces written.
+  // A block read, deviator, flow stress and plastic strain written; positions and velocities of nodes read, forces
+  // written.
   work.bytes = with_tet_numbers(model, [](auto number) {
     using Block = TetBlock<decltype(number)>;
     return static_cast<double>(sizeof(Block) + sizeof(Block::deviator) + sizeof(Block::flow_stress) +
@@ -85,8 +87,8 @@ Work work_of_contact(const Contact& contact) {
                             (sizeof(double) + (contact.bond.empty() ? 0 : sizeof(PointBond::facet) + sizeof(double)));
   // A record of a force is written, and read for the reactions.
   const double record = 2 * sizeof(ContactForce);
-  // Of a point: its node, facet and how long that is the closest; the node's position, force and area; the facet, its nodes'
-  // positions and forces. A bond lies on the same nodes as a rule, and adds its state.
+  // Of a point: its node, facet and how long that is the closest; the node's position, force and area; the facet, its
+  // nodes' positions and forces. A bond lies on the same nodes as a rule, and adds its state.
   const double point =
       2 * sizeof(std::int32_t) + sizeof(double) + 3 * row_bytes + sizeof(double) + facet_bytes + 9 * row_bytes + record;
   const double bond = 2 * sizeof(PointBond) + record;

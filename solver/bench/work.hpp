@@ -1,9 +1,10 @@
 #pragma once
-// What the parts of a step have to do at least, in operations and bytes, to set their times against the machine's limits.
+// What the parts of a step have to do at least, in operations and bytes, so that their times can be compared with the
+// machine's limits.
 //
 // Operations are additions, multiplications, divisions and square roots, counted by letting the laws of physics compute
-// with Counted. Bytes are what must be read and written when nothing is left in a cache from one part to the next, and
-// nothing comes along that was not asked for: of records and rows, not of cache lines.
+// with Counted. Bytes are what must be read and written when no part finds anything in a cache that another part
+// left there, and nothing is read that is not needed: records and rows are counted, not cache lines.
 
 #include "solver/kernels/contact_forces.hpp"
 #include "solver/model/model.hpp"
@@ -15,15 +16,16 @@ struct Work {
   double bytes = 0;
 };
 
-/// One tet in one step while it hardens by the power law, its blocks as the model holds them. Averaged pressures are left out.
+/// One tet in one step while it hardens by the power law, its blocks as the model holds them. Averaged pressures are
+/// left out.
 Work work_of_tet(const Model& model);
 
-/// All points and bonds of one evaluation of contact forces, with their reactions. Operations: of the points that touch,
-/// inside a facet, alone; the bonds' own and the looks at points that prove open are left out.
+/// All points and bonds of one evaluation of contact forces, with their reactions. Operations: only
+/// those of the points that touch, inside a facet; those of bonds and of points that turn out to be open are left out.
 Work work_of_contact(const Contact& contact);
 
-/// One contact search: both surfaces of every pair of grains that has candidates read once, candidates written. Operations:
-/// the distances between the nodes and facets that are found alone.
+/// One contact search: both surfaces of every pair of grains that has candidates read once, candidates written.
+/// Operations: only the distances between the nodes and facets that are found.
 Work work_of_search(const Model& model, const ContactCandidates& candidates);
 
 /// The update of velocities and positions of all nodes.

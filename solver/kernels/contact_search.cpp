@@ -6,18 +6,15 @@
 #include <limits>
 #include <utility>
 
+#include "common/index.hpp"
 #include "solver/physics/gap.hpp"
 
-// Three sieves, each of which lets through everything that could be near: boxes of grains swept along x, boxes of facets
-// against a grid of the other grain's nodes, and the exact distance. What a sieve lets through too much costs time only.
+// Three sieves, each of which passes everything that could be near: boxes of grains swept along x, boxes of facets
+// against a grid of the other grain's nodes, and the exact distance. What a sieve passes needlessly only costs time.
 
 namespace mpfem {
 
 namespace {
-
-std::size_t at(std::int32_t i) {
-  return static_cast<std::size_t>(i);
-}
 
 struct Box {
   std::array<double, 3> low{std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity(),
@@ -53,7 +50,7 @@ Box facet_box(const SurfaceView& surface, std::int32_t facet) {
   return box;
 }
 
-/// A little more than asked for, so that rounding in the sieves cannot lose a node at exactly the margin.
+/// A little more than the margin, so that rounding in the sieves cannot lose a node at exactly the margin.
 double safe(double margin) {
   return margin * (1 + 1e-9);
 }
@@ -146,7 +143,7 @@ void near_points(const SurfaceView& surface, std::int32_t first, std::int32_t se
     }
   if (grid.node.empty()) return;
 
-  // Cells as large as the boxes that will ask: the mean facet box of the second grain.
+  // Cells about as large as the boxes that are looked up: the mean facet box of the second grain.
   const Box& other = box[at(second)];
   const auto facets = static_cast<double>(surface.facet_offset[at(second) + 1] - surface.facet_offset[at(second)]);
   const double extent =

@@ -2,22 +2,12 @@
 // Which surface nodes may touch which facets of other grains before the next search.
 
 #include <cstdint>
-#include <span>
 #include <vector>
 
 #include "solver/kernels/thread_team.hpp"
+#include "solver/model/surface_view.hpp"
 
 namespace mpfem {
-
-/// Surfaces of all grains as the search sees them. Nodes are rows of four doubles (x, y, z, unused) in mm. The surface
-/// nodes of a grain are its first nodes.
-struct SurfaceView {
-  std::span<const double> position;                 ///< [nodes * 4], mm
-  std::span<const std::int32_t> node_offset;        ///< [grains + 1]
-  std::span<const std::int32_t> surface_node_count; ///< [grains]: nodes node_offset[g] … + count are on the surface
-  std::span<const std::int32_t> facet;              ///< [facets * 3], node indices, outward counter-clockwise
-  std::span<const std::int32_t> facet_offset;       ///< [grains + 1]
-};
 
 /// Candidate contact points. A contact point is a surface node of one grain and an opposing grain; it carries the
 /// facets of that grain that the node may meet. Points are grouped by ordered grain pair (first: the node's grain,

@@ -16,7 +16,8 @@ namespace {
 constexpr double tolerance = 0.02;
 constexpr int most_iterations = 80, iterations_between_looks = 4;
 
-/// What single tets answer with. Viscous pressure over strain rate is density * length * (linear + quadratic * length), MPa s.
+/// What single tets answer with. Viscous pressure over strain rate is density * length * (linear + quadratic * length),
+/// MPa s.
 struct LinearResponse {
   ElasticModuli moduli;
   double density;    ///< tonne/mm^3, in the reference state

@@ -1,7 +1,8 @@
 #pragma once
-// The largest eigenfrequency of a whole grain, by Lanczos' method (Golub & Van Loan, Matrix Computations, section 10.1): what
-// the stable step is about. The bound of single tets (solver/physics/stable_step.hpp) is proven and cheap, but no grain
-// vibrates as its worst tet would by itself: neighbours share their masses, and their largest modes do not fit together.
+// The largest eigenfrequency of a whole grain, by Lanczos' method (Golub & Van Loan, Matrix Computations, section
+// 10.1). It decides the stable step. The bound of single tets (solver/physics/stable_step.hpp) is proven and cheap, but
+// no grain vibrates as its worst tet would by itself: neighbours share their masses, and their highest modes do not fit
+// together.
 
 #include <span>
 
@@ -15,11 +16,11 @@ struct LargestFrequency {
   int iterations;
 };
 
-/// Largest eigenvalue of M^-1 (K + 2/dt C) + D of a grain: K its elastic stiffness in the present shape, C its bulk viscosity,
-/// D = `nodal_stiffness_rate` (1/s^2, [nodes of the model]) a bound of contact as a diagonal matrix. With lagged
-/// viscous forces central differences are stable where it is at most 4/dt^2, and `step` (s) may be any dt not longer than the one that
-/// is asked for: viscosity is overestimated then. The elastic stiffness is that of plain tets, which shared pressures
-/// do not exceed. `strain_rate` (1/s) bounds the volumetric rate for quadratic viscosity.
+/// Largest eigenvalue of M^-1 (K + 2/dt C) + D of a grain: K its elastic stiffness in the present shape, C its bulk
+/// viscosity, D = `nodal_stiffness_rate` (1/s^2, [nodes of the model]) a bound of contact as a diagonal matrix. With
+/// lagged viscous forces central differences are stable where it is at most 4/dt^2, and `step` (s) may be any dt not
+/// longer than the one that is looked for: then viscosity is overestimated. The elastic stiffness is that of plain tets,
+/// which shared pressures do not exceed. `strain_rate` (1/s) bounds the volumetric rate for quadratic viscosity.
 LargestFrequency largest_frequency(const Model& model, int grain, std::span<const double> nodal_stiffness_rate,
                                    double step, double strain_rate);
 

@@ -62,8 +62,8 @@ inline void add_balanced4(double* rows, const std::int32_t* const (&index)[4], c
   for (int k = 0; k < 4; ++k) add_row(rows, index[0][k], -total[k]);
 }
 
-/// Rows of W = 4, 8 or 16 cells' nodes 1 … N relative to node 0 as floats; the differences are taken in doubles. A lane of 128 bits
-/// holds four cells, so that one transpose serves all of them.
+/// Rows of W = 4, 8 or 16 cells' nodes 1 … N relative to node 0 as floats; the differences are taken in doubles. A lane
+/// of 128 bits holds four cells, so that one transpose serves all of them.
 template <int W>
 using Floats = typename NativeVector<W, float>::Numbers;
 inline Floats<4> narrow(Row row) {
@@ -124,7 +124,8 @@ void float_edges(const double* rows, const std::int32_t (&index)[N + 1][W], Vect
   }
 }
 
-/// Adds to W tets' nodes 1, 2, 3 the vectors f and to node 0 minus their sum, which is taken in doubles: momentum is kept exactly.
+/// Adds to W tets' nodes 1, 2, 3 the vectors f and to node 0 minus their sum, which is taken in doubles: momentum is
+/// kept exactly.
 template <int W>
 void add_balanced_floats(double* rows, const std::int32_t (&index)[4][W], const Vector3<Pack<W, float>> (&f)[3]) {
   Row total[W] = {};

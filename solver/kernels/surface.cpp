@@ -1,4 +1,4 @@
-#include "solver/kernels/surface.hpp"
+#include "solver/model/surface.hpp"
 
 #include <algorithm>
 #include <cmath>

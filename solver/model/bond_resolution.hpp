@@ -22,8 +22,8 @@ struct BondResolution {
 /// G^c = t^2 h/E + t^2/(2K).
 BondResolution bond_resolution(const Model& model, const Scenario& scenario);
 
-/// Throws InputError where the mesh's penalty leaves no softening branch; gives warnings, one a line, where the cohesive
-/// zone has fewer than three elements or the softening is steeper than the elements.
+/// Throws InputError where the mesh's penalty leaves no softening branch; gives warnings, one a line, where the
+/// cohesive zone has fewer than three elements or the softening is steeper than the elements.
 std::vector<std::string> check_bonds(const Model& model, const Scenario& scenario);
 
 } // namespace mpfem

@@ -7,39 +7,15 @@
 #include <variant>
 #include <vector>
 
-#include "solver/kernels/contact_search.hpp"
 #include "solver/model/aligned.hpp"
-#include "solver/physics/elasticity.hpp"
-#include "solver/physics/hardening.hpp"
+#include "solver/model/material.hpp"
+#include "solver/model/surface_view.hpp"
+#include "solver/model/tet_block.hpp"
 #include "solver/physics/stable_step.hpp"
+#include "solver/physics/tensor.hpp"
 #include "solver/scenario/scenario.hpp"
 
 namespace mpfem {
-
-/// One pack of tetrahedra: connectivity and state side by side, so that an element pass streams through memory once.
-/// 88 bytes a tet in doubles, 52 in floats. The last block of a grain repeats its last tet in unused lanes.
-template <class Real>
-struct alignas(native_lanes_of<Real> * sizeof(Real)) TetBlock {
-  static constexpr int lanes = native_lanes_of<Real>;
-  std::int32_t node[4][lanes]; ///< relative to the grain's first node
-  Real inverse_volume[lanes];  ///< 1/mm^3, of the reference volume
-  Real deviator[5][lanes];     ///< Cauchy deviator xx, yy, xy, yz, zx, MPa
-  Real flow_stress[lanes];     ///< MPa
-  Real plastic_strain[lanes];
-  Real length[lanes]; ///< c_d times the undamped critical step 2/omega_e, mm; set at each step estimate
-};
-
-/// In double precision, or in single where the scenario's precision is mixed.
-using TetBlocks = std::variant<std::vector<TetBlock<double>>, std::vector<TetBlock<float>>>;
-
-using FlowLaw = std::variant<ElasticLaw, PowerLaw, TotalStrainLaw, TableLaw>;
-
-struct Material {
-  ElasticModuli moduli; ///< MPa
-  double density;       ///< tonne/mm^3, mass scaling included
-  double wave_speed;    ///< dilatational, mm/s, with the scaled density
-  FlowLaw flow;
-};
 
 /// Node arrays hold rows of four doubles (x, y, z, spare); the surface nodes of a grain are its first ones.
 struct Model {
@@ -116,8 +92,8 @@ struct Model {
   }
   /// Nodes of tet `tet` of a grain, both counted from the grain's first.
   std::array<std::int32_t, 4> nodes_of_tet(int grain, std::int32_t tet) const;
-  /// How much stiffer than its grain's mean the penalty of a surface node is: K = factor E / h with the h around the node.
-  /// 1 where the scenario gives K itself.
+  /// How much stiffer than its grain's mean the penalty of a surface node is: K = factor E / h with the h around the
+  /// node. 1 where the scenario gives K itself.
   double local_stiffness(std::size_t node) const {
     return refinement.empty() || uniform_penalty ? 1.0 : refinement[node];
   }
@@ -166,10 +142,7 @@ struct MeshedPacking {
 /// Reads a meshed packing file. Throws InputError where it is missing, damaged or not meshed.
 MeshedPacking read_packing(const std::string& path);
 
-/// Material constants of the kernels from the scenario's.
-Material make_material(const MaterialParameters& parameters, double mass_scaling);
-
-/// Makes nodes heavier until no tet, with contact as it is as a rule, asks for a smaller step than `step` (s) in the
+/// Makes nodes heavier until no tet, with the usual share of contact, requires a smaller step than `step` (s) in the
 /// reference state; with `lighten`, also lighter where the tets leave room: then every node is as heavy as the step
 /// needs, and no more. Sets mass_factor, added_mass and largest_added_mass.
 void scale_masses(Model& model, double step, bool lighten);

@@ -4,17 +4,19 @@
 #include <cmath>
 #include <cstdint>
 #include <numbers>
+#include <numeric>
 #include <vector>
 
-#include "solver/kernels/surface.hpp"
+#include "solver/model/surface.hpp"
 
 namespace mpfem {
 
 namespace {
 
-/// What a contact point may take from the inner node: more would be no small correction any more.
+/// Largest share of the inner node in a contact point: more would no longer be a small correction.
 constexpr double largest_share = 0.25;
-/// Least cosine of the way to the inner node with the normal: a node that has none so straight beneath it stays as it is.
+/// Least cosine between the normal and the way to the inner node: a node without a node so straight beneath it keeps
+/// its place.
 constexpr double least_cosine = 0.5;
 
 Vector3<double> position(const Model& model, std::size_t node) {
@@ -46,15 +48,41 @@ std::vector<double> heights(const Model& model) {
   return height;
 }
 
+/// True where a grain is the mesh of a sphere, with its volume and its nodes near its surface.
 bool is_sphere_of_that_volume(const Model& model, std::size_t grain, const Vector3<double>& center, double radius) {
   constexpr double same_volume = 1e-6; // rounding; a sphere with its nodes on it lacks 1e-3 and more
-  constexpr double round = 0.1;        // nodes of the coarsest useful mesh stand out by less
+  constexpr double round = 0.1;        // nodes of the coarsest useful mesh are less far outside
   const double sphere = 4.0 / 3.0 * std::numbers::pi * radius * radius * radius;
   if (!(std::abs(model.reference_volume[grain] - sphere) <= same_volume * sphere)) return false; // nor NaN
   const auto first = static_cast<std::size_t>(model.node_offset[grain]);
   for (std::size_t n = first; n < first + static_cast<std::size_t>(model.surface_node_count[grain]); ++n)
     if (!(std::abs(norm(position(model, n) - center) - radius) <= round * radius)) return false;
   return true;
+}
+
+/// Chooses for each surface node of a grain the node of its tets that lies straightest beneath it, and sets how far its
+/// contact point lies towards that node: `height` [nodes], mm, along the normal.
+void place_contact_points(Model& model, std::size_t grain, const std::vector<double>& height) {
+  const auto first = static_cast<std::size_t>(model.node_offset[grain]),
+             count = static_cast<std::size_t>(model.surface_node_count[grain]);
+  std::vector<double> cosine(count, 0.0); // between the normal and the way to the inner node, reversed
+  for (std::int32_t t = 0; t < model.tet_offset[grain + 1] - model.tet_offset[grain]; ++t) {
+    const auto corner = model.nodes_of_tet(static_cast<int>(grain), t);
+    for (const std::int32_t a : corner)
+      for (const std::int32_t b : corner) {
+        if (static_cast<std::size_t>(a) >= count || a == b) continue;
+        const std::size_t n = first + static_cast<std::size_t>(a), inner = first + static_cast<std::size_t>(b);
+        const Vector3<double> way = position(model, n) - position(model, inner);
+        const double along = dot(way, normal(model, n)) / norm(way);
+        if (along > cosine[n - first])
+          cosine[n - first] = along, model.inner_node[n] = static_cast<std::int32_t>(inner);
+      }
+  }
+  for (std::size_t n = first; n < first + count; ++n) {
+    if (cosine[n - first] < least_cosine) continue;
+    const double way = norm(position(model, n) - position(model, static_cast<std::size_t>(model.inner_node[n])));
+    model.inward[n] = std::clamp(height[n] / (cosine[n - first] * way), 0.0, largest_share);
+  }
 }
 
 } // namespace
@@ -77,34 +105,13 @@ void find_smooth_surface(Model& model, const std::vector<bool>& grains) {
   const std::vector<double> height = heights(model);
   const auto nodes = static_cast<std::size_t>(model.nodes());
   model.inner_node.resize(nodes);
-  for (std::size_t n = 0; n < nodes; ++n) model.inner_node[n] = static_cast<std::int32_t>(n);
+  std::iota(model.inner_node.begin(), model.inner_node.end(), 0);
   model.inward.assign(nodes, 0.0);
-  std::vector<double> cosine(nodes, 0.0); // with the inward normal, of the way to the inner node
-  for (int grain = 0; grain < model.grains; ++grain) {
-    const auto g = static_cast<std::size_t>(grain);
-    if (!grains[g]) continue;
-    const auto first = static_cast<std::size_t>(model.node_offset[g]),
-               surface_end = first + static_cast<std::size_t>(model.surface_node_count[g]);
-    for (std::int32_t t = 0; t < model.tet_offset[g + 1] - model.tet_offset[g]; ++t) {
-      const auto corner = model.nodes_of_tet(grain, t);
-      for (const std::int32_t a : corner)
-        for (const std::int32_t b : corner) {
-          const std::size_t n = first + static_cast<std::size_t>(a), inner = first + static_cast<std::size_t>(b);
-          if (n >= surface_end || n == inner) continue;
-          const Vector3<double> way = position(model, n) - position(model, inner);
-          const double along = dot(way, normal(model, n)) / norm(way);
-          if (along > cosine[n]) cosine[n] = along, model.inner_node[n] = static_cast<std::int32_t>(inner);
-        }
-    }
-    for (std::size_t n = first; n < surface_end; ++n) {
-      if (cosine[n] < least_cosine) continue;
-      const double way = norm(position(model, n) - position(model, static_cast<std::size_t>(model.inner_node[n])));
-      model.inward[n] = std::clamp(height[n] / (cosine[n] * way), 0.0, largest_share);
-    }
-  }
+  for (std::size_t g = 0; g < grains.size(); ++g)
+    if (grains[g]) place_contact_points(model, g, height);
 }
 
-double largest_stand_out(const Model& model) {
+double max_contact_offset(const Model& model) {
   double largest = 0;
   for (std::size_t n = 0; n < model.inner_node.size(); ++n)
     if (model.inward[n] > 0) largest = std::max(largest, norm(position(model, n) - model.contact_point(n)));

@@ -13,6 +13,7 @@
 #include "common/version.hpp"
 #include "results-schema/descriptors.hpp"
 #include "results-schema/file.hpp"
+#include "solver/model/tets.hpp"
 #include "solver/output/bond_laws.hpp"
 #include "solver/output/history.hpp"
 #include "solver/output/other_scenario.hpp"
@@ -66,23 +67,7 @@ void for_each_number(State& s, Record& r, F&& f) {
   each_of(s.loading), each_of(s.pace);
 }
 
-/// Calls f(block, lane, tet) for every tet of the model.
-template <class ModelType, class F>
-void for_each_tet(ModelType& model, F&& f) {
-  with_tet_numbers(model, [&](auto number) {
-    using Real = decltype(number);
-    for (int grain = 0; grain < model.grains; ++grain) {
-      const auto g = static_cast<std::size_t>(grain);
-      for (std::int32_t b = model.block_offset[g]; b < model.block_offset[g + 1]; ++b)
-        for (int lane = 0; lane < model.template tets_in_block<Real>(grain, b); ++lane)
-          f(model.template block<Real>(b), lane,
-            static_cast<std::size_t>(model.tet_offset[g] + (b - model.block_offset[g]) * TetBlock<Real>::lanes + lane));
-    }
-  });
-}
-
-/// Of a tet's deviator, in the order of TetBlock. One array each: a copy of all five would be the most that a run
-/// holds.
+/// Of a tet's deviator, in the order of TetBlock. One array each: a copy of all five would be the most that a run holds.
 constexpr std::array deviator_components = {check::tet_deviator_xx, check::tet_deviator_yy, check::tet_deviator_xy,
                                             check::tet_deviator_yz, check::tet_deviator_zx};
 
@@ -122,24 +107,6 @@ std::vector<double> of_tets(const Model& model, Values&& values) {
   std::vector<double> result(static_cast<std::size_t>(model.tets()));
   for_each_tet(model, [&](const auto& block, int lane, std::size_t tet) { result[tet] = values(block)[lane]; });
   return result;
-}
-
-/// Unused lanes of a grain's last block repeat its last tet.
-void fill_unused_lanes(Model& model) {
-  with_tet_numbers(model, [&](auto number) {
-    using Real = decltype(number);
-    for (int grain = 0; grain < model.grains; ++grain) {
-      const std::int32_t last = model.block_offset[static_cast<std::size_t>(grain) + 1] - 1;
-      TetBlock<Real>& block = model.block<Real>(last);
-      const int used = model.tets_in_block<Real>(grain, last);
-      for (int lane = used; lane < TetBlock<Real>::lanes; ++lane) {
-        for (auto& component : block.deviator) component[lane] = component[used - 1];
-        block.flow_stress[lane] = block.flow_stress[used - 1];
-        block.plastic_strain[lane] = block.plastic_strain[used - 1];
-        block.length[lane] = block.length[used - 1];
-      }
-    }
-  });
 }
 
 } // namespace
@@ -197,8 +164,8 @@ void write_checkpoint(const std::string& path, const Simulation& simulation, con
   write(check::node_step_contact, simulation.grain_steps().contact);
   write(check::grain_travel, contact.travel);
   write(check::grain_travel_at_search, contact.travel_at_search);
-  write(check::contact_point_wake, contact.point_wake);
-  write(check::contact_point_sure, contact.point_sure);
+  write(check::contact_point_wake, contact.point_open_until);
+  write(check::contact_point_sure, contact.point_facet_until);
   write(check::contact_pair_first, candidates.pair_first);
   write(check::contact_pair_second, candidates.pair_second);
   write(check::contact_pair_point_offset, candidates.pair_point_offset);
@@ -437,8 +404,8 @@ void read_checkpoint(const std::string& path, Simulation& simulation, RunRecord&
   contact.travel = take(check::grain_travel, grains);
   contact.travel_at_search = take(check::grain_travel_at_search, grains);
   contact.point_facet = take(check::contact_point_facet, points);
-  contact.point_wake = take(check::contact_point_wake, points);
-  contact.point_sure = take(check::contact_point_sure, points);
+  contact.point_open_until = take(check::contact_point_wake, points);
+  contact.point_facet_until = take(check::contact_point_sure, points);
   contact.force.resize(points);
   contact.active.assign(pairs, 0);
   if (contact.bonding()) {

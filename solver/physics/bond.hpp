@@ -2,10 +2,10 @@
 // The traction-separation law of a bond at one point of a contact, per unit of area (paper Eqs. 2-7).
 //
 // Undamaged, traction is K times separation, normal and tangential alike, up to a quadratic criterion in the tractions.
-// Then the effective separation delta = sqrt(<delta_n>^2 + delta_t^2) softens it: t = (1 - D) K delta, D a function of the
-// largest effective separation so far. Both laws are in closed form, so that the area under the curve is exactly G^c,
-// whatever the size of a step. Unloading goes to the origin; a closing separation is carried by the contact's own penalty,
-// undamaged.
+// Then the effective separation delta = sqrt(<delta_n>^2 + delta_t^2) softens it: t = (1 - D) K delta, D a function of
+// the largest effective separation so far. Both laws are in closed form, so that the area under the curve is exactly
+// G^c, whatever the size of a step. Unloading goes to the origin; a closing separation is carried by the contact's own
+// penalty, undamaged.
 
 #include <cmath>
 
@@ -34,7 +34,8 @@ struct BondState {
   double largest = 0;    ///< largest effective separation, mm; counts from delta_0 on
 };
 
-/// Effective separation (mm) at which damage begins in a mode given by its share of opening: `opening` = <delta_n>/delta.
+/// Effective separation (mm) at which damage begins in a mode given by its share of opening: `opening` =
+/// <delta_n>/delta.
 inline double initiation_separation(const BondLaw& law, double opening) {
   const double normal = opening / law.tensile_strength;
   const double shear_square =
@@ -51,8 +52,8 @@ inline double softening_exponent(const BondLaw& law, const BondState& state) {
                                                     : 0.5 * law.stiffness * (d - d0) * (d + d0) / b;
 }
 
-/// True when the bond has failed completely. The exponential never ends: where less than e^-16 = 1.1e-7 of the energy is
-/// left to spend, the rest counts as spent.
+/// True when the bond has failed completely. The exponential never ends: where less than e^-16 = 1.1e-7 of the energy
+/// is left to spend, the rest counts as spent.
 inline bool is_broken(const BondLaw& law, const BondState& state) {
   return softening_exponent(law, state) > 16;
 }

@@ -53,8 +53,8 @@ S mean_stress(const ElasticModuli& moduli, const S& volume_ratio) {
   return S(moduli.bulk) * log_of_volume_ratio(volume_ratio);
 }
 
-/// Energy per reference volume (MPa) whose derivative with respect to J is K ln J:   K (J ln J - J + 1). Near J = 1, where its
-/// terms cancel, by the series of the logarithm,   K 2 w (1 + z (1 + z) t) / (1 - z).
+/// Energy per reference volume (MPa) whose derivative with respect to J is K ln J:   K (J ln J - J + 1). Near J = 1,
+/// where its terms cancel, by the series of the logarithm,   K 2 w (1 + z (1 + z) t) / (1 - z).
 template <class S>
 S volumetric_energy(const ElasticModuli& moduli, const S& volume_ratio) {
   const S bulk(moduli.bulk);

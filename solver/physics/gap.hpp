@@ -21,8 +21,8 @@ struct ClosestPoint {
 };
 
 /// Closest point of the triangle x0 x1 x2 to `p`, by the Voronoi regions of its corners, edges and face (Ericson,
-/// Real-Time Collision Detection, 2005, section 5.1.5). One point at a time, no packs: the regions branch. `inline`, since a
-/// template alone is not small enough for the compiler to inline it where it is hot.
+/// Real-Time Collision Detection, 2005, section 5.1.5). One point at a time, no packs: the regions branch. `inline`,
+/// since a template alone is not small enough for the compiler to inline it where it is hot.
 template <class S>
 inline ClosestPoint<S> closest_point_on_triangle(const Vector3<S>& p, const Vector3<S> (&x)[3]) {
   const auto result = [&x](const S& weight1, const S& weight2, bool inside = false) {

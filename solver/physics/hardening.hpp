@@ -43,8 +43,8 @@ struct PowerLaw {
     const S tiny(Resolution<S>::tiny);
     const S inverse = S(1.0) / max(elastic + slope_strain, tiny);
     const S first = excess * inverse; // relative increment r = d eps_p / eps_p, explicit
-    // Other lanes of a pack keep their state and have no say in how these are returned: of the packs that yield while a packing jams
-    // most have fresh points too, and took ten times as long.
+    // Other lanes of a pack keep their state and have no say in how these are returned: of the packs that yield while a
+    // packing jams most have fresh points too, and took ten times as long.
     const auto loaded = excess > S(0.0);
     // 1. Small relative increments, nearly always: with (1 + r)^m by its binomial series the equation is
     //    r + b2 r^2 + b3 r^3 + … = first. Its inverted series gives r to the fourth power, one Newton step the rest to
@@ -75,8 +75,9 @@ struct PowerLaw {
       y = max(y - step, tiny);
       if (!any(loaded & (max(step, -step) > S(Resolution<S>::settled) * y))) break;
     }
-    // The strain, from either side of the equation: the difference of stresses is rounded to the last digit of these, the curve to
-    // that of the strain over m. Early on a curve with small m the strain may be less than any digit of the stress.
+    // The strain, from either side of the equation: the difference of stresses is rounded to the last digit of these,
+    // the curve to that of the strain over m. Early on a curve with small m the strain may be less than any digit of
+    // the stress.
     const S on_curve = exp(log(y * S(1.0 / coefficient)) * S(1.0 / exponent));
     const S strain = select(S(three_shear) * on_curve < S(exponent) * y, max(on_curve, old.plastic_strain),
                             old.plastic_strain + (distance - y) * S(1.0 / three_shear));

@@ -12,16 +12,17 @@
 #include <immintrin.h>
 #endif
 
-/// Before functions whose calls are all to be inlined: packs passed to functions go through memory. Builds with sanitizers do
-/// without (cmake/compiler.cmake): inlined and instrumented, the element pass takes gcc longer than all else together.
+/// Before functions whose calls are all to be inlined: packs passed to functions go through memory. Builds with
+/// sanitizers do without (cmake/compiler.cmake): inlined and instrumented, the element pass takes gcc longer than all
+/// else together.
 #ifndef MPFEM_FLATTEN
 #define MPFEM_FLATTEN [[gnu::flatten]]
 #endif
 
 namespace mpfem {
 
-/// Bytes of a native pack on the machine that the program is built for, and lanes of one of doubles or floats. A scalar build, for
-/// comparison, has packs of one double; kernels of floats work on fours at least.
+/// Bytes of a native pack on the machine that the program is built for, and lanes of one of doubles or floats. A scalar
+/// build, for comparison, has packs of one double; kernels of floats work on fours at least.
 #if defined(MPFEM_SCALAR)
 inline constexpr int native_bytes = 8;
 #elif defined(__AVX512F__)
@@ -35,7 +36,8 @@ template <class Real>
 inline constexpr int native_lanes_of = sizeof(Real) == 4 && native_bytes < 16 ? 4 : native_bytes / int{sizeof(Real)};
 inline constexpr int native_lanes = native_lanes_of<double>;
 
-/// The compiler's vector types. Written out one by one: gcc drops the attribute where the width is a template parameter.
+/// The compiler's vector types. Written out one by one: gcc drops the attribute where the width is a template
+/// parameter.
 template <int W, class Real>
 struct NativeVector;
 template <>
@@ -204,7 +206,8 @@ double smallest(Pack<W, Real> a) {
   return value;
 }
 
-/// A sum of many packs that is good to the rounding of its terms, in floats too: these are put into a double now and then.
+/// A sum of many packs that is good to the rounding of its terms, in floats too: these are put into a double now and
+/// then.
 template <class S>
 class LongSum {
 public:

@@ -15,8 +15,8 @@ struct ReturnedStress {
   S plastic_work; ///< plastic work per volume in the increment, MPa
 };
 
-/// 1. trial von Mises stress; 2. admissible where it does not exceed the flow stress; 3. else scale the deviator back to
-/// the flow stress at the end of the increment. `shear` in MPa.
+/// 1. trial von Mises stress; 2. admissible where it does not exceed the flow stress; 3. else scale the deviator back
+/// to the flow stress at the end of the increment. `shear` in MPa.
 template <class S, class Law>
 ReturnedStress<S> radial_return(const Law& law, double shear, const Deviator<S>& trial, const HardeningState<S>& old) {
   if constexpr (!Law::yields) {
@@ -36,10 +36,10 @@ ReturnedStress<S> radial_return(const Law& law, double shear, const Deviator<S>&
   }
 }
 
-/// The constitutive step of a material point: the elastic predictor, one half of it added before the deviator is rotated with the
-/// material (Hughes-Winget) and one half after; then return. The increment of strain is seen in the half-step configuration, half a
-/// rotation behind the end of the step: added there as a whole it would be askew by that angle, an elasticity without symmetry
-/// that pumps energy into the vibrations of a spinning grain.
+/// The constitutive step of a material point: the elastic predictor, one half of it added before the deviator is
+/// rotated with the material (Hughes-Winget) and one half after; then return. The increment of strain is seen in the
+/// half-step configuration, half a rotation behind the end of the step: added there as a whole it would be askew by
+/// that angle, an elasticity without symmetry that pumps energy into the vibrations of a spinning grain.
 template <class S, class Law>
 ReturnedStress<S> update_deviator(const Law& law, const ElasticModuli& moduli, const Deviator<S>& old,
                                   const HardeningState<S>& hardening, const Increment<S>& increment) {

@@ -9,9 +9,9 @@ namespace mpfem {
 /// Upper bound of the largest eigenfrequency squared (1/s^2) of a linear tetrahedron with lumped mass rho V/4 a node:
 ///   omega^2 <= (4/rho) (lambda tr M + 2 mu lambda_max(M)),   M = sum over nodes of grad N (x) grad N.
 /// Derivation: for nodal displacements u_a with gradient L = sum u_a (x) grad N_a, the smallest kinetic norm is
-/// sum |u_a|^2 = tr(L M^-1 L^T); in the eigenbasis of M the diagonal part of sym L gives at most lambda tr M + 2 mu m_max
-/// and the shear part at most 2 mu m_max. lambda_max is bounded from tr M and tr M^2 (tight when two eigenvalues agree).
-/// `density` in tonne/mm^3 as used for the mass, referred to the current volume.
+/// sum |u_a|^2 = tr(L M^-1 L^T); in the eigenbasis of M the diagonal part of sym L gives at most lambda tr M + 2 mu
+/// m_max and the shear part at most 2 mu m_max. lambda_max is bounded from tr M and tr M^2 (tight when two eigenvalues
+/// agree). `density` in tonne/mm^3 as used for the mass, referred to the current volume.
 template <class S>
 S largest_frequency_squared(const ElasticModuli& moduli, const S& density, const TetGeometry<S>& geometry) {
   const S inverse = S(1.0) / (geometry.det * geometry.det);

@@ -37,10 +37,10 @@ struct TetUpdate {
   S strain_increment_square;
 };
 
-/// One step of a tet. `edge` are nodes 1, 2, 3 relative to node 0 at the end of the step (mm), `velocity` theirs relative
-/// to node 0 in the half step that led there (mm/s); `inverse_volume` 1 over the reference volume (1/mm^3); `length` that
-/// of bulk viscosity (mm). `elastic_mean` gives the elastic mean stress (MPa) for the tet's own volume ratio: this is
-/// where elements that average pressure differ.
+/// One step of a tet. `edge` are nodes 1, 2, 3 relative to node 0 at the end of the step (mm), `velocity` theirs
+/// relative to node 0 in the half step that led there (mm/s); `inverse_volume` 1 over the reference volume (1/mm^3);
+/// `length` that of bulk viscosity (mm). `elastic_mean` gives the elastic mean stress (MPa) for the tet's own volume
+/// ratio: this is where elements that average pressure differ.
 template <class S, class Law, class ElasticMean>
 TetUpdate<S> update_tet(const Law& law, const TetConstants& c, const Vector3<S> (&edge)[3],
                         const Vector3<S> (&velocity)[3], const TetState<S>& old, const S& inverse_volume,

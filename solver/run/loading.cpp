@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "common/errors.hpp"
+#include "solver/physics/smooth_step.hpp"
 
 namespace mpfem {
 
@@ -41,11 +42,6 @@ constexpr std::int64_t steps_between_damages = 20; // all bonds are visited
 constexpr double already_there = 0.01;
 /// Part of a held stress by which a hold may miss it at its end.
 constexpr double hold_tolerance = 0.1;
-
-double smooth_step(double s) {
-  s = std::clamp(s, 0.0, 1.0);
-  return s * s * (3.0 - 2.0 * s);
-}
 
 } // namespace
 

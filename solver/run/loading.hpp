@@ -13,7 +13,7 @@
 #include <optional>
 #include <string>
 
-#include "solver/kernels/integrate.hpp"
+#include "solver/boundary/walls.hpp"
 #include "solver/model/model.hpp"
 #include "solver/scenario/scenario.hpp"
 

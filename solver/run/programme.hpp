@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "solver/kernels/integrate.hpp"
+#include "solver/boundary/walls.hpp"
 #include "solver/model/model.hpp"
 #include "solver/run/loading.hpp"
 #include "solver/scenario/scenario.hpp"

@@ -10,6 +10,7 @@
 
 #include "common/errors.hpp"
 #include "solver/kernels/largest_frequency.hpp"
+#include "solver/physics/smooth_step.hpp"
 
 namespace mpfem {
 
@@ -39,8 +40,7 @@ double largest_quadratic_damping(const Model& model, double rate) {
 
 double smooth_fade(double value, double full) {
   if (full <= 0) return value > 0 ? 0.0 : 1.0;
-  const double s = std::clamp(value / full, 0.0, 1.0);
-  return 1.0 - s * s * (3.0 - 2.0 * s);
+  return 1.0 - smooth_step(value / full);
 }
 
 } // namespace

@@ -12,10 +12,14 @@
 #include <string>
 #include <vector>
 
+#include "solver/boundary/grips.hpp"
+#include "solver/boundary/walls.hpp"
 #include "solver/kernels/contact_forces.hpp"
 #include "solver/kernels/element_forces.hpp"
-#include "solver/kernels/integrate.hpp"
-#include "solver/kernels/surface.hpp"
+#include "solver/kernels/element_step.hpp"
+#include "solver/kernels/grain_state.hpp"
+#include "solver/kernels/node_motion.hpp"
+#include "solver/model/surface.hpp"
 #include "solver/kernels/thread_team.hpp"
 #include "solver/model/model.hpp"
 #include "solver/run/loading.hpp"

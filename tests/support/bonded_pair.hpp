@@ -48,8 +48,8 @@ inline Stage grip(const std::string& name, double displacement, double speed, st
   return stage;
 }
 
-/// Grains of Table 1: elastic ones would come to strains at which a hypoelastic energy depends on the path (1.5 % of the
-/// work when balls are pressed and slid, bonded or not; 0.02 % with yielding).
+/// Grains of Table 1: elastic ones would come to strains at which a hypoelastic energy depends on the path (1.5 % of
+/// the work when balls are pressed and slid, bonded or not; 0.02 % with yielding).
 inline Scenario bonded_scenario(const BondParameters& bond, std::vector<Stage> stages) {
   Scenario scenario = holding_scenario(1e-6);
   scenario.bond = bond;

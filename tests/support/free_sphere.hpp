@@ -1,6 +1,6 @@
 #pragma once
-// Eigenfrequencies of a free, homogeneous, isotropic elastic sphere (Lamb 1882), from its frequency equations. Derivation:
-// tests/reference/README.md.
+// Eigenfrequencies of a free, homogeneous, isotropic elastic sphere (Lamb 1882), from its frequency equations.
+// Derivation: tests/reference/README.md.
 
 #include <cmath>
 #include <stdexcept>

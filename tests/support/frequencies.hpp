@@ -8,13 +8,14 @@
 
 #include <Eigen/Dense>
 
-#include "solver/kernels/element_forces.hpp"
+#include "solver/kernels/element_step.hpp"
 #include "solver/model/model.hpp"
 
 namespace mpfem::test {
 
-/// Angular frequencies squared (1/s^2) of all modes of a free elastic grain, ascending: eigenvalues of its stiffness, taken
-/// from the forces of small moves of every coordinate, with its lumped masses. `added` 1/s^2, [nodes]: to each node's own.
+/// Angular frequencies squared (1/s^2) of all modes of a free elastic grain, ascending: eigenvalues of its stiffness,
+/// taken from the forces of small moves of every coordinate, with its lumped masses. `added` 1/s^2, [nodes]: to each
+/// node's own.
 inline Eigen::VectorXd squared_frequencies(Model model, const std::vector<double>& added = {}) {
   const auto nodes = static_cast<std::size_t>(model.nodes());
   const auto size = static_cast<Eigen::Index>(3 * nodes);

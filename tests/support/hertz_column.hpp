@@ -41,8 +41,8 @@ struct ColumnResult {
   double kinetic_over_elastic = 0, residual_over_work = 0, wall_imbalance = 0;
 };
 
-/// Presses `spheres` (1 or 2) spheres of radius 0.1 mm until every contact has approached by about `approach` mm as seen
-/// from a sphere's centre. `size_ratio`: R/h.
+/// Presses `spheres` (1 or 2) spheres of radius 0.1 mm until every contact has approached by about `approach` mm as
+/// seen from a sphere's centre. `size_ratio`: R/h.
 inline ColumnResult press_column(int spheres, double size_ratio, double approach, double stiffness_factor) {
   constexpr double radius = 0.1, youngs_modulus = 5000, poissons_ratio = 0.3;
   const double start = 1.04 * radius; // a coarse mesh's nodes lie up to 3.5 % outside the sphere

@@ -35,8 +35,8 @@ struct MaterialPoint {
   double stress_yy() const { return deviator.yy + mean(); }
   double stress_zz() const { return deviator.zz() + mean(); }
 
-  /// One step; the trace of a half-step gradient is the logarithmic volume increment to third order, and exactly for the
-  /// logarithmic strains that the drivers below prescribe.
+  /// One step; the trace of a half-step gradient is the logarithmic volume increment to third order, and exactly for
+  /// the logarithmic strains that the drivers below prescribe.
   void step(const Gradient& gradient) {
     const auto increment = increment_of(gradient);
     const auto returned = update_deviator(law, moduli, deviator, hardening, increment);

@@ -1,6 +1,6 @@
 #pragma once
-// Spheres in a column, pressed between two walls through a list of approaches: forces, approaches and the surface state of
-// every contact.
+// Spheres in a column, pressed between two walls through a list of approaches: forces, approaches and the surface state
+// of every contact.
 
 #include <algorithm>
 #include <array>
@@ -26,8 +26,8 @@ struct ColumnSetup {
   bool listed_from_top = false;   ///< grains stand in the packing from the top down instead of from the bottom up
 };
 
-/// What a column shows at rest. Approaches (mm) are those of a sphere's centre towards the contact; between two spheres,
-/// half of the approach of both centres.
+/// What a column shows at rest. Approaches (mm) are those of a sphere's centre towards the contact; between two
+/// spheres, half of the approach of both centres.
 struct ColumnState {
   double low_force = 0, high_force = 0, pair_force = 0;                     ///< N, axial, compression positive
   double low_approach = 0, high_approach = 0, pair_approach = 0;            ///< mm

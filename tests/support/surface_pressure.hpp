@@ -86,7 +86,8 @@ inline SurfacePressure wall_pressure(const Simulation& simulation, SurfacePressu
   return surface;
 }
 
-/// How much a pressure differs from what its neighbours say, over inner contact nodes: those whose neighbours all touch.
+/// How much a pressure differs from what its neighbours say, over inner contact nodes: those whose neighbours all
+/// touch.
 struct PressureOscillation {
   int nodes = 0;
   double mean = 0;       ///< MPa, over inner nodes

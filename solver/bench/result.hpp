@@ -1,0 +1,88 @@
+#pragma once
+// What `mpfem bench` has measured, and how it is printed.
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <string>
+
+#include "solver/bench/work.hpp"
+#include "solver/run/profile.hpp"
+
+namespace mpfem {
+
+/// What was measured: the state of the packing.
+struct BenchScene {
+  std::string element, precision;
+  int threads = 1;
+  int lanes = 1; ///< tets in a pack
+  std::int32_t tets = 0;
+  int grains = 0;
+  int steps = 0; ///< requested
+  double relative_density = 0;
+  double bonds = 0;
+  double contact_points = 0;
+  std::size_t candidate_points = 0;
+};
+
+/// Cost of a step, in ns per tet and step.
+struct StepCost {
+  double whole = 0;
+  std::array<double, profile_parts> part{};
+  double of(Part p) const { return part[static_cast<std::size_t>(p)]; }
+};
+
+/// The element pass alone, over all grains, while most tets harden.
+struct ElementCost {
+  double nanoseconds = 0; ///< per tet and step
+  double hardening = 0;   ///< part of the tets that yielded in the last pass
+};
+
+/// A contact search.
+struct SearchCost {
+  double seconds = 0;
+  double steps = 0; ///< that one search lasts at the present speeds of the grains
+};
+
+/// A row of the history and a checkpoint.
+struct OutputCost {
+  double row_seconds = 0, checkpoint_seconds = 0, checkpoint_bytes = 0;
+  double steps_per_row = 0, checkpoint_interval = 0; ///< s
+};
+
+/// What the machine does at best.
+struct MachineLimits {
+  double triad = 0; ///< GB/s
+  double fma = 0;   ///< GFlop/s
+};
+
+/// Everything that is printed.
+struct BenchResult {
+  BenchScene scene;
+  StepCost step;
+  ElementCost elements;
+  SearchCost search;
+  OutputCost output;
+  MachineLimits machine;
+  Work tet, contact, search_work, integration; ///< of a tet; of all points; of a search; of all nodes
+  double memory = 0;                           ///< bytes, at most
+
+  /// ns per tet, of some seconds.
+  double per_tet(double seconds) const { return 1e9 * seconds / scene.tets; }
+  /// ns per contact point, of ns per tet; 0 without contact.
+  double per_point(double per_tet_step) const {
+    return scene.contact_points > 0 ? per_tet_step * scene.tets / scene.contact_points : 0.0;
+  }
+  /// ns per tet and step: a search over the steps that it lasts.
+  double search_per_step() const;
+  /// ns per tet and step: rows over the steps between two, checkpoints over the time between two.
+  double output_per_step() const;
+};
+
+/// One JSON object.
+std::string json_text(const BenchResult& result);
+
+/// Tables of the costs and of what was moved and computed beside the machine's limits.
+std::string table_text(const BenchResult& result);
+
+} // namespace mpfem

@@ -1,0 +1,136 @@
+#include "solver/kernels/contact_candidates.hpp"
+
+#include <algorithm>
+#include <limits>
+#include <utility>
+
+#include "common/index.hpp"
+#include "solver/model/smooth_surface.hpp"
+
+namespace mpfem {
+
+namespace {
+
+using Pair = std::pair<std::int32_t, std::int32_t>;
+
+/// Points [point, end) of one pair in a list of candidates, by ascending node.
+struct PointRange {
+  std::int32_t point = 0, end = 0;
+  bool left() const { return point < end; }
+};
+
+/// The node of the range's next point; larger than any node where none is left.
+std::int32_t next_node(const ContactCandidates& candidates, const PointRange& range) {
+  return range.left() ? candidates.point_node[at(range.point)] : std::numeric_limits<std::int32_t>::max();
+}
+
+/// The pairs of a list of candidates, one after another.
+struct PairCursor {
+  const ContactCandidates& candidates;
+  std::size_t pair = 0;
+
+  /// The present pair; larger than any other where none is left.
+  Pair grains() const {
+    constexpr std::int32_t none = std::numeric_limits<std::int32_t>::max();
+    return pair < candidates.pair_first.size() ? Pair(candidates.pair_first[pair], candidates.pair_second[pair])
+                                               : Pair(none, none);
+  }
+  bool left() const { return pair < candidates.pair_first.size(); }
+  /// The points of these two grains, none where the present pair is another one. Moves on to the next pair where it is
+  /// not.
+  PointRange take(const Pair& wanted) {
+    if (!left() || grains() != wanted) return {};
+    ++pair;
+    return {candidates.pair_point_offset[pair - 1], candidates.pair_point_offset[pair]};
+  }
+};
+
+/// New candidates together with the points of the old ones that have, or had, a bond.
+struct BondedCandidates {
+  ContactCandidates candidates;
+  std::vector<PointBond> bond; ///< [points]
+};
+
+/// Appends the points of one pair, found and old, by ascending node. Old points without a bond and without the energy
+/// of former bonds are left out. A point that is in both lists has the found facets and the old bond.
+void merge_points(const ContactCandidates& found, PointRange new_points, const ContactCandidates& old,
+                  const std::vector<PointBond>& old_bond, PointRange old_points, BondedCandidates& merged) {
+  const auto is_kept = [&](std::int32_t point) {
+    return old_bond[at(point)].exists() || old_bond[at(point)].spent > 0;
+  };
+  ContactCandidates& candidates = merged.candidates;
+  while (new_points.left() || old_points.left()) {
+    if (old_points.left() && !is_kept(old_points.point)) {
+      ++old_points.point;
+      continue;
+    }
+    const std::int32_t new_node = next_node(found, new_points), old_node = next_node(old, old_points);
+    candidates.point_node.push_back(std::min(new_node, old_node));
+    merged.bond.push_back(old_node <= new_node ? old_bond[at(old_points.point)] : PointBond{});
+    if (new_node <= old_node) {
+      candidates.point_facet.insert(candidates.point_facet.end(),
+                                    found.point_facet.begin() + found.point_facet_offset[at(new_points.point)],
+                                    found.point_facet.begin() + found.point_facet_offset[at(new_points.point) + 1]);
+      ++new_points.point;
+    }
+    if (old_node <= new_node) ++old_points.point;
+    candidates.point_facet_offset.push_back(static_cast<std::int32_t>(candidates.point_facet.size()));
+  }
+}
+
+/// Candidates just found, with the points of the old ones that have, or had, a bond.
+BondedCandidates keep_bonded_points(const ContactCandidates& found, const ContactCandidates& old,
+                                    const std::vector<PointBond>& old_bond, int grains) {
+  BondedCandidates merged;
+  ContactCandidates& candidates = merged.candidates;
+  candidates.pair_point_offset.push_back(0);
+  candidates.point_facet_offset.push_back(0);
+  PairCursor next_found{found}, next_old{old};
+  while (next_found.left() || next_old.left()) {
+    const Pair pair = std::min(next_found.grains(), next_old.grains());
+    const std::size_t before = candidates.point_node.size();
+    const PointRange new_points = next_found.take(pair), old_points = next_old.take(pair);
+    merge_points(found, new_points, old, old_bond, old_points, merged);
+    if (candidates.point_node.size() == before) continue;
+    candidates.pair_first.push_back(pair.first);
+    candidates.pair_second.push_back(pair.second);
+    candidates.pair_point_offset.push_back(static_cast<std::int32_t>(candidates.point_node.size()));
+  }
+  index_pairs(candidates, grains);
+  return merged;
+}
+
+} // namespace
+
+void renew_candidates(const Model& model, double margin, ThreadTeam& team, Contact& contact) {
+  // The search looks for nodes. Contact points lie behind their nodes, and travel counts from where the points are now.
+  ContactCandidates candidates = find_contact_candidates(model.surface(), margin + max_contact_offset(model), team);
+  if (contact.bonding()) {
+    BondedCandidates merged = keep_bonded_points(candidates, contact.candidates, contact.bond, model.grains);
+    candidates = std::move(merged.candidates);
+    contact.bond = std::move(merged.bond);
+    contact.bond_force = {};
+    contact.bond_force.resize(contact.bond.size());
+    contact.pulling.assign(candidates.pair_first.size(), 0);
+  }
+  contact.candidates = std::move(candidates);
+  contact.margin = margin;
+  const std::size_t points = contact.candidates.point_node.size();
+  contact.point_facet.assign(points, -1);
+  contact.point_open_until.assign(points, -1.0);
+  contact.point_facet_until.assign(points, -1.0);
+  contact.force = {}; // before its successor: never both in memory
+  contact.force.resize(points);
+  contact.active.assign(contact.candidates.pair_first.size(), 0);
+  if (contact.travel.empty()) contact.travel.assign(static_cast<std::size_t>(model.grains), 0.0);
+  contact.travel_at_search = contact.travel;
+}
+
+bool search_is_due(const Contact& contact) {
+  double largest = 0;
+  for (std::size_t g = 0; g < contact.travel.size(); ++g)
+    largest = std::max(largest, contact.travel[g] - contact.travel_at_search[g]);
+  return 2.0 * largest > 0.9 * contact.margin;
+}
+
+} // namespace mpfem

@@ -1,0 +1,71 @@
+#pragma once
+// Facets of a model as contact sees them: gathered corners, the closest of several, and which side a node is on.
+
+#include <algorithm>
+#include <cstdint>
+#include <limits>
+#include <span>
+
+#include "common/index.hpp"
+#include "solver/model/model.hpp"
+#include "solver/physics/gap.hpp"
+
+namespace mpfem {
+
+/// The first three numbers of a node's row.
+inline Vector3<double> vector_of(const AlignedVector<double>& rows, std::int32_t node) {
+  const double* r = rows.data() + 4 * at(node);
+  return {r[0], r[1], r[2]};
+}
+
+/// A facet with the present positions of its nodes, mm.
+struct Facet {
+  std::int32_t node[3];
+  Vector3<double> x[3];
+};
+
+inline Facet facet_geometry(const Model& model, std::int32_t facet) {
+  Facet result;
+  for (int c = 0; c < 3; ++c) {
+    const std::int32_t node = result.node[c] = model.facet[3 * at(facet) + static_cast<std::size_t>(c)];
+    result.x[c] = vector_of(model.position, node);
+  }
+  return result;
+}
+
+/// True where a node is on the outer side of the facet's surface. `offset` is node minus closest point, mm. Nodal
+/// normals, which lie in memory of their own, are only read where the closest point is on an edge or corner.
+inline bool is_outside(const Model& model, const Vector3<double>& offset, const ClosestPoint<double>& closest,
+                       const Facet& facet) {
+  if (closest.inside) return dot(offset, facet_direction(facet.x)) >= 0;
+  const Vector3<double> normal[3] = {vector_of(model.normal, facet.node[0]), vector_of(model.normal, facet.node[1]),
+                                     vector_of(model.normal, facet.node[2])};
+  return dot(offset, edge_direction(closest, normal)) >= 0;
+}
+
+/// The closest of some facets, and how far the second closest is.
+struct ClosestFacet {
+  std::int32_t facet = -1;                                          ///< -1 where there are none
+  double distance = std::numeric_limits<double>::infinity();        ///< mm
+  double second_distance = std::numeric_limits<double>::infinity(); ///< mm
+};
+
+/// The facet of `facets` that is closest to a node at `node` (mm).
+inline ClosestFacet closest_facet(const Model& model, const Vector3<double>& node,
+                                  std::span<const std::int32_t> facets) {
+  ClosestFacet closest;
+  for (const std::int32_t facet : facets) {
+    const Facet geometry = facet_geometry(model, facet);
+    const double distance = norm(node - closest_point_on_triangle(node, geometry.x).point);
+    if (distance < closest.distance) {
+      closest.second_distance = closest.distance;
+      closest.distance = distance;
+      closest.facet = facet;
+    } else {
+      closest.second_distance = std::min(closest.second_distance, distance);
+    }
+  }
+  return closest;
+}
+
+} // namespace mpfem

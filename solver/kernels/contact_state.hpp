@@ -1,0 +1,69 @@
+#pragma once
+// Contact between grains: every surface node against the facets of the grains near it, both surfaces alike.
+//
+// Each of the two passes (nodes of A on facets of B, nodes of B on facets of A) carries half of the penalty stiffness
+// (solver/physics/penalty.hpp). Bonds belong to the same points (solver/physics/bond_kinematics.hpp); an unbroken bond
+// keeps its point among the candidates however far it has opened.
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "solver/kernels/contact_search.hpp"
+#include "solver/physics/bond_kinematics.hpp"
+
+namespace mpfem {
+
+/// Force of one contact point, of the penalty or of its bond.
+struct ContactForce {
+  double force[3];         ///< N, on the node
+  double weight1, weight2; ///< shape functions of the facet's second and third node where the reaction acts
+  double stiffness;        ///< N/mm
+  std::int32_t node;       ///< 64 bytes with the facet's nodes: one cache line, and no look-up where they react
+  std::int32_t facet_node[3];
+  double weight(int corner) const { return corner == 0 ? 1.0 - weight1 - weight2 : corner == 1 ? weight1 : weight2; }
+};
+
+/// Candidates and the running state of contact points.
+struct Contact {
+  ContactCandidates candidates;
+  double margin = 0;                     ///< mm, of the search that made the candidates
+  std::vector<std::int32_t> point_facet; ///< [points]: closest facet when last looked at, -1 none
+  // A gap cannot close faster than both grains travel. So a point that is open by 10 um need not be looked at before
+  // the travel of the two grains has grown by 10 um; nor can another facet become the closest before they have
+  // travelled half of its lead.
+  std::vector<double> point_open_until;  ///< [points], mm: open until the two grains' travel adds up to this
+  std::vector<double> point_facet_until; ///< [points], mm: point_facet is the closest until travel adds up to this
+  std::vector<ContactForce> force;       ///< [points]: active points first within every pair's range
+  std::vector<std::int32_t> active;      ///< [pairs]: number of active points
+  /// Laws by which bonds formed; empty: no bonds, and the arrays below stay empty. New bonds form by the last one,
+  /// which in a branch may differ from that of the bonds of its checkpoint. Their stiffness is unset: it is the point's
+  /// (bond_law).
+  std::vector<BondLaw> bond_laws;
+  bool rebond_on_contact = false;       ///< a broken bond's point bonds anew when it has opened and closes again
+  std::vector<PointBond> bond;          ///< [points]
+  std::vector<ContactForce> bond_force; ///< [points]: pulling bonds first within every pair's range
+  std::vector<std::int32_t> pulling;    ///< [pairs]: number of pulling bonds
+  std::vector<double> travel;           ///< [grains], mm: bound of any node's path length since the run began
+  std::vector<double> travel_at_search; ///< [grains], mm
+
+  bool bonding() const { return !bond_laws.empty(); }
+  std::span<const ContactForce> active_points(std::int32_t pair) const {
+    const auto p = static_cast<std::size_t>(pair);
+    return {force.data() + candidates.pair_point_offset[p], static_cast<std::size_t>(active[p])};
+  }
+  std::span<const ContactForce> pulling_bonds(std::int32_t pair) const {
+    if (bond.empty()) return {};
+    const auto p = static_cast<std::size_t>(pair);
+    return {bond_force.data() + candidates.pair_point_offset[p], static_cast<std::size_t>(pulling[p])};
+  }
+};
+
+/// Law by which a bond formed, at a point with this penalty stiffness (MPa/mm, of both passes together).
+inline BondLaw bond_law(const Contact& contact, const PointBond& bond, double stiffness) {
+  BondLaw law = contact.bond_laws[static_cast<std::size_t>(bond.law)];
+  law.stiffness = stiffness;
+  return law;
+}
+
+} // namespace mpfem

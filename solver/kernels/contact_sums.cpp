@@ -1,0 +1,71 @@
+#include "solver/kernels/contact_sums.hpp"
+
+#include <algorithm>
+#include <map>
+#include <utility>
+
+#include "common/index.hpp"
+#include "solver/physics/penalty.hpp"
+
+namespace mpfem {
+
+double contact_area(const Model& model, const Contact& contact, int grain) {
+  double area = 0;
+  const ContactCandidates& candidates = contact.candidates;
+  const auto g = static_cast<std::size_t>(grain);
+  for (std::int32_t pair = candidates.outgoing_offset[g]; pair < candidates.outgoing_offset[g + 1]; ++pair)
+    for (const ContactForce& point : contact.active_points(pair)) area += model.normal[4 * at(point.node) + 3];
+  return area;
+}
+
+BondSums bond_sums(const Model& model, const Contact& contact, std::int32_t pair) {
+  BondSums sums;
+  if (contact.bond.empty()) return sums;
+  const ContactCandidates& candidates = contact.candidates;
+  const double stiffness = 2 * pass_stiffness(model.penalty_stiffness[at(candidates.pair_first[at(pair)])],
+                                              model.penalty_stiffness[at(candidates.pair_second[at(pair)])]);
+  for (std::int32_t p = candidates.pair_point_offset[at(pair)]; p < candidates.pair_point_offset[at(pair) + 1]; ++p) {
+    const PointBond& bond = contact.bond[at(p)];
+    if (!bond.exists() && bond.spent == 0) continue;
+    const double area = model.reference_area[at(candidates.point_node[at(p)])];
+    const BondLaw law = bond_law(contact, bond, stiffness * model.local_stiffness(at(candidates.point_node[at(p)])));
+    // Each of the two passes carries half of the traction, so half of the energy.
+    const double share = 0.5 * area;
+    sums.formed_area += area;
+    sums.damaged_area += bond.exists() ? (1.0 - bond.remaining) * area : area;
+    sums.dissipated += share * bond.spent;
+    if (!bond.exists()) continue;
+    sums.dissipated += share * damage_dissipation(law, bond.state);
+    sums.stored += 0.5 * share * bond.remaining * law.stiffness * bond.separation * bond.separation;
+    if (!bond.intact()) continue;
+    sums.bonded_area += area;
+    ++sums.bonds;
+  }
+  return sums;
+}
+
+std::vector<PairContact> pair_contacts(const Model& model, const Contact& contact) {
+  std::map<std::pair<std::int32_t, std::int32_t>, PairContact> pairs;
+  const ContactCandidates& candidates = contact.candidates;
+  for (std::size_t p = 0; p < candidates.pair_first.size(); ++p) {
+    const std::int32_t a = candidates.pair_first[p], b = candidates.pair_second[p];
+    const auto pair = static_cast<std::int32_t>(p);
+    const BondSums bonds = bond_sums(model, contact, pair);
+    const auto touching = contact.active_points(pair), pulling = contact.pulling_bonds(pair);
+    if (touching.empty() && bonds.formed_area == 0) continue;
+    auto& entry =
+        pairs.try_emplace({std::min(a, b), std::max(a, b)}, PairContact{std::min(a, b), std::max(a, b), {}, 0, {}})
+            .first->second;
+    const double sign = a < b ? 1.0 : -1.0;
+    for (const auto points : {touching, pulling})
+      for (const ContactForce& point : points)
+        for (int axis = 0; axis < 3; ++axis) entry.force[axis] += sign * point.force[axis];
+    for (const ContactForce& point : touching) entry.area += 0.5 * model.normal[4 * at(point.node) + 3];
+    entry.bonds.add(bonds);
+  }
+  std::vector<PairContact> result;
+  for (const auto& [key, pair] : pairs) result.push_back(pair);
+  return result;
+}
+
+} // namespace mpfem

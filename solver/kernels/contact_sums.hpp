@@ -1,0 +1,45 @@
+#pragma once
+// What is observed of contact between grains: areas, bonds, and the force between two grains.
+
+#include <cstdint>
+#include <vector>
+
+#include "solver/kernels/contact_state.hpp"
+#include "solver/model/model.hpp"
+
+namespace mpfem {
+
+/// mm^2 of a grain's surface in contact with other grains.
+double contact_area(const Model& model, const Contact& contact, int grain);
+
+/// Sums over bonds at the present time level.
+struct BondSums {
+  double stored = 0;       ///< mJ
+  double dissipated = 0;   ///< mJ, lost to damage so far
+  double bonded_area = 0;  ///< mm^2 of both sides carrying unbroken bonds, at the start of the run
+  double formed_area = 0;  ///< mm^2 of both sides where a bond was ever formed
+  double damaged_area = 0; ///< mm^2, integral of the damage over formed_area
+  std::int64_t bonds = 0;  ///< unbroken
+
+  void add(const BondSums& other) {
+    stored += other.stored;
+    dissipated += other.dissipated;
+    bonded_area += other.bonded_area;
+    formed_area += other.formed_area;
+    damaged_area += other.damaged_area;
+    bonds += other.bonds;
+  }
+};
+BondSums bond_sums(const Model& model, const Contact& contact, std::int32_t pair);
+
+/// Contact of one pair of grains at this moment.
+struct PairContact {
+  std::int32_t first, second;
+  double force[3]; ///< N, of second on first, bonds included
+  double area;     ///< mm^2, mean of both sides
+  BondSums bonds;
+};
+/// Pairs in contact or bonded, first < second.
+std::vector<PairContact> pair_contacts(const Model& model, const Contact& contact);
+
+} // namespace mpfem

@@ -1,0 +1,32 @@
+#pragma once
+// What is observed of a grain's tets: energy, volume, fields for output, and the first tet that is not admissible.
+
+#include <cstdint>
+#include <vector>
+
+#include "solver/model/model.hpp"
+
+namespace mpfem {
+
+/// Elastic energy of a grain, mJ.
+double elastic_energy(const Model& model, int grain);
+
+/// Current volume of a grain, mm^3.
+double current_volume(const Model& model, int grain);
+
+/// Index in the packing file of the first inverted (or not finite) tet of a grain, and its volume ratio.
+struct BadTet {
+  std::int32_t file_tet = -1;
+  double volume_ratio = 0;
+};
+BadTet find_bad_tet(const Model& model, int grain);
+
+/// Fields of one tet for output, in file order of the whole packing.
+struct TetFields {
+  std::vector<float> von_mises; ///< MPa
+  std::vector<float> pressure;  ///< MPa, compression positive
+  std::vector<float> plastic_strain;
+};
+TetFields tet_fields(const Model& model);
+
+} // namespace mpfem

@@ -1,0 +1,79 @@
+#include "solver/kernels/node_motion.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "solver/model/damping_target.hpp"
+
+namespace mpfem {
+
+AdvanceSums advance(Model& model, int grain, const Advance& p) {
+  const auto g = static_cast<std::size_t>(grain);
+  const auto first = static_cast<std::size_t>(model.node_offset[g]);
+  const auto end = static_cast<std::size_t>(model.node_offset[g + 1]);
+  double* x = model.position.data();
+  double* v = model.velocity.data();
+  const double* f = model.force.data();
+  const double* inverse_mass = model.inverse_mass.data();
+
+  const bool damped = p.damping_rate > 0;
+  const auto target = damping_target(model, grain, p);
+  const DampedUpdate update = damped_update(p);
+
+  AdvanceSums sums;
+  double largest = 0;
+  for (std::size_t n = first; n < end; ++n) {
+    double square = 0, drag_work = 0, drag_square = 0;
+    for (std::size_t axis = 0; axis < 4; ++axis) {
+      const std::size_t i = 4 * n + axis;
+      const double before = v[i];
+      const double after = update.velocity(before, inverse_mass[n], f[i], target[axis]);
+      square += after * after;
+      if (damped) {
+        const double mean = 0.5 * (before + after), drag = mean - target[axis];
+        drag_work += drag * mean;
+        drag_square += drag * drag;
+      }
+      v[i] = after;
+      x[i] += p.step * after;
+    }
+    if (damped) {
+      const double mass = 1.0 / inverse_mass[n];
+      sums.damping_work += p.damping_rate * p.step_mean * mass * drag_work;
+      sums.damping_force += p.damping_rate * mass * std::sqrt(drag_square);
+    }
+    largest = std::max(largest, square);
+  }
+  sums.largest_speed = std::sqrt(largest);
+  return sums;
+}
+
+ForceMoments force_moments(const Model& model, const std::array<double, 3>& centre, int grain) {
+  const auto g = static_cast<std::size_t>(grain);
+  ForceMoments sums;
+  for (auto n = static_cast<std::size_t>(model.node_offset[g]); n < static_cast<std::size_t>(model.node_offset[g + 1]);
+       ++n)
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const double force = model.force[4 * n + axis];
+      sums.force[axis] += force;
+      sums.moment[axis] += force * (model.position[4 * n + axis] - centre[axis]);
+    }
+  return sums;
+}
+
+double kinetic_energy(const Model& model, int grain, double step_mean) {
+  const auto g = static_cast<std::size_t>(grain);
+  double energy = 0;
+  for (auto n = static_cast<std::size_t>(model.node_offset[g]); n < static_cast<std::size_t>(model.node_offset[g + 1]);
+       ++n) {
+    double square = 0, work = 0;
+    for (std::size_t i = 4 * n; i < 4 * n + 3; ++i) {
+      square += model.velocity[i] * model.velocity[i];
+      work += model.velocity[i] * model.force[i];
+    }
+    energy += 0.5 * (square / model.inverse_mass[n] + step_mean * work);
+  }
+  return energy;
+}
+
+} // namespace mpfem

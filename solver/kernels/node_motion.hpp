@@ -1,0 +1,33 @@
+#pragma once
+// Central differences for the nodes of one grain, and what their motion and forces add up to.
+
+#include <array>
+
+#include "solver/model/model.hpp"
+#include "solver/physics/damping.hpp"
+
+namespace mpfem {
+
+/// Sums over the nodes of one grain in one velocity update.
+struct AdvanceSums {
+  double damping_work = 0;  ///< mJ dissipated in this update
+  double damping_force = 0; ///< N, sum of nodal magnitudes
+  double largest_speed = 0; ///< mm/s
+};
+
+/// v+ = v- + dt f/m with damping (solver/physics/damping.hpp), then x + dt v+.
+AdvanceSums advance(Model& model, int grain, const Advance& parameters);
+
+/// Kinetic energy (mJ) at the time of the positions: sum of m v- . v+ / 2, the form that central differences conserve,
+/// with the v+ that `advance` would reach from the present forces without damping. `step_mean` in s.
+double kinetic_energy(const Model& model, int grain, double step_mean);
+
+/// What the total forces on a grain's nodes add up to: zero in equilibrium, both of them, over all grains.
+struct ForceMoments {
+  std::array<double, 3> force{};  ///< N
+  std::array<double, 3> moment{}; ///< N mm: along each axis, force times distance from `centre`
+};
+/// With `centre` in mm, after contact and walls were added.
+ForceMoments force_moments(const Model& model, const std::array<double, 3>& centre, int grain);
+
+} // namespace mpfem

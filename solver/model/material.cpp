@@ -1,0 +1,54 @@
+#include "solver/model/material.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "common/errors.hpp"
+
+namespace mpfem {
+
+namespace {
+
+FlowLaw make_flow_law(const MaterialParameters& p) {
+  const HardeningParameters& h = p.hardening;
+  switch (h.law) {
+  case HardeningLaw::elastic:
+    return ElasticLaw{};
+  case HardeningLaw::power:
+    return PowerLaw{h.yield_stress, h.coefficient, h.exponent};
+  case HardeningLaw::total_strain:
+    return TotalStrainLaw{h.coefficient, h.exponent, p.youngs_modulus};
+  case HardeningLaw::table: {
+    if (h.table_plastic_strain.size() > static_cast<std::size_t>(TableLaw::max_points))
+      throw InputError(fmt::format("material.hardening: the table has {} points, allowed at most {}",
+                                   h.table_plastic_strain.size(), TableLaw::max_points));
+    TableLaw law;
+    law.points = static_cast<int>(h.table_plastic_strain.size());
+    std::copy(h.table_plastic_strain.begin(), h.table_plastic_strain.end(), law.strain.begin());
+    std::copy(h.table_flow_stress.begin(), h.table_flow_stress.end(), law.stress.begin());
+    return law;
+  }
+  }
+  return ElasticLaw{};
+}
+
+} // namespace
+
+Material make_material(const MaterialParameters& parameters, double mass_scaling) {
+  const ElasticModuli moduli = elastic_moduli(parameters.youngs_modulus, parameters.poissons_ratio);
+  const double density = parameters.density * mass_scaling;
+  return {moduli, density, std::sqrt(moduli.dilatational() / density), make_flow_law(parameters)};
+}
+
+BondLaw law_of_bonds(const BondParameters& parameters) {
+  return {.stiffness = 0,
+          .tensile_strength = parameters.tensile_strength,
+          .shear_strength = parameters.shear_strength,
+          .fracture_energy = parameters.fracture_energy,
+          .softening = parameters.softening,
+          .normal_only = parameters.normal_only};
+}
+
+} // namespace mpfem

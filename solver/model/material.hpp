@@ -1,0 +1,28 @@
+#pragma once
+// The constants of a material, of contact and of bonds as the kernels take them, from the parameters of a scenario.
+
+#include <variant>
+
+#include "solver/physics/bond.hpp"
+#include "solver/physics/elasticity.hpp"
+#include "solver/physics/hardening.hpp"
+#include "solver/scenario/scenario.hpp"
+
+namespace mpfem {
+
+using FlowLaw = std::variant<ElasticLaw, PowerLaw, TotalStrainLaw, TableLaw>;
+
+struct Material {
+  ElasticModuli moduli; ///< MPa
+  double density;       ///< tonne/mm^3, mass scaling included
+  double wave_speed;    ///< dilatational, mm/s, with the scaled density
+  FlowLaw flow;
+};
+
+/// Throws InputError where a table of the flow curve has too many points.
+Material make_material(const MaterialParameters& parameters, double mass_scaling);
+
+/// The law of bonds to form. Its stiffness is unset: it is that of the point.
+BondLaw law_of_bonds(const BondParameters& parameters);
+
+} // namespace mpfem

@@ -1,0 +1,24 @@
+#pragma once
+// Orders in which neighbours in space become neighbours in memory.
+
+#include <cstdint>
+#include <functional>
+#include <span>
+#include <vector>
+
+#include "solver/model/model.hpp"
+
+namespace mpfem {
+
+/// Key of a point x on a Morton curve through the cube of edge length `size` (mm) at `low`. 30 bits.
+std::uint64_t morton_key(const Vector3<double>& x, const Vector3<double>& low, double size);
+
+/// Orders tets so that every eight that follow each other lie together: they are halved into whole eights across the
+/// longest side of the box of their centres, and so are the halves, down to eights. Only the last has fewer.
+void order_in_patches(std::span<std::int32_t> tets, const std::function<const Vector3<double>&(std::int32_t)>& centre);
+
+/// The grains along a Morton curve through the box. Contact, which reads every grain's neighbours, finds them in the
+/// cache when it takes the grains in this order.
+std::vector<std::int32_t> spatial_order(const Model& model);
+
+} // namespace mpfem

@@ -1,0 +1,79 @@
+#pragma once
+// Bonds of contact points: where they are attached, how far they are separated, their energy and their force.
+//
+// A bond forms when its node first comes inside the other grain, and is attached to the material point of the surface
+// where that happens. With d = node - attachment, c the point of the surface that is closest to the node now, and
+// g = |node - c|, the energy of a point with penalty stiffness k (N/mm) is
+//   open:     (1 - D) k |d|^2 / 2
+//   closed:   (1 - D) k |d|^2 / 2 + D k g^2 / 2   =   k g^2 / 2 + (1 - D) k (|d|^2 - g^2) / 2
+// that is, the undamaged penalty against closing and a bond whose effective separation delta^2 = |d|^2 - g^2 is the
+// drift along the surface. (|d| >= g, since c is the closest point of all.) Both terms are central forces between
+// material points: linear and angular momentum are kept exactly, a rigid rotation of both grains does nothing, and no
+// tangent plane has to be followed as the node slides over facets and edges. The force is continuous where the point
+// opens or closes. A chord between distant points of a curved surface is not along the surface; the bond then pulls
+// along the chord.
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+
+#include "solver/physics/bond.hpp"
+#include "solver/physics/tensor.hpp"
+
+namespace mpfem {
+
+/// The bond of one contact point.
+struct PointBond {
+  std::int32_t facet = -1;            ///< where it is attached, -1: none
+  std::int32_t law = 0;               ///< number of the law by which it, or the one before it, formed
+  double weight1 = 0, weight2 = 0;    ///< shape functions of the facet's second and third node
+  BondState state;                    ///< separations at first damage and largest, mm
+  double remaining = 1;               ///< 1 - D
+  double spent = 0;                   ///< N/mm, dissipated by the bonds that this point had before
+  double opening = 0, separation = 0; ///< mm, at the present time level
+  bool exists() const { return facet >= 0; }
+  bool intact() const { return facet >= 0 && remaining > 0; }
+};
+
+/// Takes the bond to a new separation, and its damage with it. `open` and `effective` (separation) in mm, both >= 0.
+inline void update_bond(const BondLaw& law, PointBond& bond, double open, double effective) {
+  bond.opening = open;
+  bond.separation = effective;
+  if (advance_damage(law, bond.state, open, effective)) bond.remaining = remaining_stiffness(law, bond.state);
+  if (bond.remaining == 0) bond.opening = bond.separation = 0; // broken: no longer followed
+}
+
+/// Force of a bond on its node per unit of point stiffness, and where the reaction acts on the facet.
+struct BondPull {
+  Vector3<double> pull;    ///< mm: times point stiffness gives N
+  double weight1, weight2; ///< shape functions of the attachment facet's second and third node
+};
+
+/// Pull of a bond that holds in all directions. `x` are the corners of its facet, mm. `gap` is the distance (mm) of the
+/// node from the other surface, negative inside. Where the node is too far for its gap to be known, pass any larger
+/// number: the opening is at most the distance to the attachment.
+inline BondPull pull_of_bond(const BondLaw& law, PointBond& bond, const Vector3<double>& node,
+                             const Vector3<double> (&x)[3], double gap) {
+  const Vector3<double> d = node - (x[0] + bond.weight1 * (x[1] - x[0]) + bond.weight2 * (x[2] - x[0]));
+  const double square = dot(d, d);
+  if (gap < 0)
+    update_bond(law, bond, 0.0, std::sqrt(std::max(square - gap * gap, 0.0)));
+  else
+    update_bond(law, bond, std::min(gap, std::sqrt(square)), std::sqrt(square));
+  return {-bond.remaining * d, bond.weight1, bond.weight2};
+}
+
+/// Pull of an open bond that does not resist sliding: along the normal of the facet where it was last closed, between
+/// the node and the point of the facet's plane beneath it. `x` are the corners of that facet, mm.
+inline BondPull pull_of_normal_bond(const BondLaw& law, PointBond& bond, const Vector3<double>& node,
+                                    const Vector3<double> (&x)[3]) {
+  const Vector3<double> e1 = x[1] - x[0], e2 = x[2] - x[0], area = cross(e1, e2), r = node - x[0];
+  const double square = dot(area, area);
+  const double height = dot(r, area) / square; // in units of |area|
+  const double weight1 = dot(cross(r, e2), area) / square, weight2 = dot(cross(e1, r), area) / square;
+  const double open = std::max(height, 0.0) * std::sqrt(square);
+  update_bond(law, bond, open, open);
+  return {-(bond.remaining * std::max(height, 0.0)) * area, weight1, weight2};
+}
+
+} // namespace mpfem

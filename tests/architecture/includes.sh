@@ -1,0 +1,65 @@
+#!/usr/bin/env bash
+# Includes point one way: a folder includes its own files and those that the table below allows, nothing else.
+#
+#   includes.sh [ROOT]     ROOT: folder of the sources, the repository if not given
+#
+# Exit code 0: as the table says; 1: an include that it does not allow, or an exception that nothing needs any more.
+set -euo pipefail
+cd "${1:-$(dirname "${BASH_SOURCE[0]}")/../..}"
+
+# FOLDER: the folders that it may include.
+allowed='
+common:
+results-schema: common
+pack-gen: common results-schema solver/physics
+postproc: common results-schema
+solver/physics:
+solver/scenario: common solver/physics
+solver/model: common results-schema solver/physics solver/scenario
+solver/kernels: common solver/physics solver/model
+solver/boundary: common solver/physics solver/model
+solver/output: common results-schema solver/physics
+solver/run: common solver/physics solver/scenario solver/model solver/kernels solver/boundary solver/output
+solver/bench: common solver/physics solver/scenario solver/model solver/kernels solver/boundary solver/output solver/run
+solver: common solver/scenario solver/model solver/output solver/run solver/bench
+'
+# FOLDER FOLDER: an include that is still there and shall go.
+open='
+solver/output solver/run
+solver/output solver/model
+'
+
+grep -rnE --include='*.cpp' --include='*.hpp' '^ *# *include +"' common results-schema pack-gen postproc solver |
+  awk -v allowed="$allowed" -v open="$open" '
+    function folder(path) { # of a file: its first two parts in solver/, its first part elsewhere
+      n = split(path, part, "/")
+      return n == 1 ? "" : part[1] == "solver" && n > 2 ? part[1] "/" part[2] : part[1]
+    }
+    BEGIN {
+      lines = split(allowed, line, "\n")
+      for (i = 1; i <= lines; ++i) {
+        words = split(line[i], word, " ")
+        sub(":", "", word[1])
+        for (j = 1; j <= words; ++j) may[word[1], word[j]] = 1
+      }
+      lines = split(open, line, "\n")
+      for (i = 1; i <= lines; ++i) if (line[i] != "") is_open[line[i]] = 1
+    }
+    {
+      split($0, field, ":")
+      from = folder(field[1])
+      match($0, /"[^"]*"/)
+      to = folder(substr($0, RSTART + 1, RLENGTH - 2))
+      if (to == "" || (from, to) in may) next # a file beside it, or allowed
+      if ((from " " to) in is_open) { ++used[from " " to]; next }
+      print field[1] ":" field[2] ": " from " must not include " to
+      failed = 1
+    }
+    END {
+      for (pair in is_open) {
+        if (pair in used) { print "still open: " pair " (" used[pair] " includes)"; continue }
+        print "no longer needed, remove it from the exceptions: " pair
+        failed = 1
+      }
+      exit failed
+    }'

@@ -1,0 +1,229 @@
+#pragma once
+// Short runs of eight grains through the executable: their scenarios, how they are run, and whether two of them are the same.
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include <catch2/catch.hpp>
+#include <fmt/format.h>
+
+#include "results-schema/file.hpp"
+#include "tests/support/folder.hpp"
+#include "tests/support/packing_file.hpp"
+
+namespace mpfem::test {
+
+inline Outcome mpfem_command(const std::string& arguments) {
+  return run_command(fmt::format("'{}' {}", MPFEM_EXECUTABLE, arguments));
+}
+
+inline const std::string grains_text = R"(packing = "packing.h5"
+[material]
+density = 1.55e-9
+youngs_modulus = 5000
+poissons_ratio = 0.3
+[material.hardening]
+law = "power"
+yield_stress = 25
+coefficient = 125
+exponent = 0.3
+)";
+
+inline const std::string scenario_text = grains_text + R"([output]
+history_rows = 20
+snapshot_relative_densities = [0.52]
+[[stages]]
+name = "compaction"
+type = "isotropic_compaction"
+relative_density = 0.62
+wall_speed = 20000
+damping_rate = 1e6
+damping_fade_stress = 5
+)";
+
+/// The same with bonds, unloaded and torn apart by grips.
+inline const std::string bonded_text = scenario_text + R"(
+[[stages]]
+name = "unloading"
+type = "isotropic_unloading"
+mean_stress = 0
+wall_speed = 20000
+[[stages]]
+name = "tearing"
+type = "grip"
+grip_depth = 0.03
+displacement = 0.015
+sliding = [0.01, 0, 0]
+speed = 20000
+[element]
+type = "tet4-anp"
+[bond]
+tensile_strength = 25
+shear_strength = 18
+fracture_energy = 0.05
+rebond = "on_contact"
+)";
+
+/// With bonds and every kind of loading: walls held by servos, taken away, and back.
+inline const std::string loading_text = grains_text + R"([bond]
+tensile_strength = 25
+shear_strength = 18
+fracture_energy = 0.05
+[output]
+history_rows = 10
+checkpoint_relative_densities = [0.5, 0.61]
+[[stages]]
+name = "compaction"
+type = "isotropic_compaction"
+mean_stress = 20
+wall_speed = 20000
+damping_rate = 1e6
+damping_fade_stress = 5
+[[stages]]
+name = "cycles"
+type = "stress_cycles"
+lowest_mean_stress = 5
+highest_mean_stress = 20
+cycles = 1
+wall_speed = 10000
+quasi_static = { kinetic_tolerance = 0.02, stress_tolerance = 0.1 }
+[[stages]]
+name = "triaxial"
+type = "triaxial_compression"
+wall_speed = 5000
+axial_strain = 0.02
+[[stages]]
+name = "probe"
+type = "probe"
+direction = [1, -1]
+wall_speed = 3000
+dissipation_ratio = 1.005
+[[stages]]
+name = "unconfined"
+type = "unconfined_compression"
+wall_speed = 10000
+axial_strain = 0.03
+stress_drop = 0.5
+[[stages]]
+name = "die"
+type = "die_compression"
+wall_speed = 10000
+duration = 2e-6
+[[stages]]
+name = "held"
+type = "hold"
+mean_stress = 15
+duration = 1e-6
+)";
+
+/// Packing and scenario of eight grains in a folder.
+inline void prepare(const Folder& folder, int cells = 4, const std::string& text = scenario_text) {
+  write_packing(folder / "packing.h5", eight_grains(cells), std::vector<double>(8, 0.1));
+  write_text(folder / "scenario.toml", text);
+}
+
+inline std::string replaced(std::string text, const std::string& from, const std::string& to) {
+  const std::size_t at = text.find(from);
+  REQUIRE(at != std::string::npos);
+  return text.replace(at, from.size(), to);
+}
+
+/// Every number of history and snapshots, in order.
+inline std::vector<double> results(const std::string& path) {
+  const schema::FileReader file(path, schema::FileKind::run);
+  std::vector<double> all;
+  const auto take = [&](const auto& dataset, const std::string& snapshot) {
+    for (const auto value : file.read(dataset, snapshot)) all.push_back(static_cast<double>(value));
+  };
+  namespace run = schema::run;
+  take(run::history_time, "");
+  take(run::history_wall_stress, "");
+  take(run::history_kinetic_energy, "");
+  take(run::history_elastic_energy, "");
+  take(run::history_plastic_dissipation, "");
+  take(run::history_contact_energy, "");
+  take(run::history_energy_residual, "");
+  take(run::history_contact_area, "");
+  take(run::history_bonds, "");
+  take(run::history_damage_dissipation, "");
+  for (const std::string& name : file.snapshots()) {
+    take(run::snapshots_node, name);
+    take(run::snapshots_velocity, name);
+    take(run::snapshots_von_mises, name);
+    take(run::snapshots_contact_pressure, name);
+    take(run::snapshots_pair_force, name);
+    if (!file.has(run::snapshots_bond_damage, name)) continue;
+    take(run::snapshots_bond_damage, name);
+    take(run::snapshots_bond_separation, name);
+    take(run::snapshots_pair_damage_dissipation, name);
+  }
+  return all;
+}
+
+inline void check_threads(const std::string& text, int cells) {
+  const Folder folder;
+  prepare(folder, cells, text);
+  std::vector<std::vector<double>> all;
+  for (const int threads : {1, 2, 4}) {
+    const std::string run = folder / fmt::format("run{}.h5", threads);
+    const Outcome outcome =
+        mpfem_command(fmt::format("run {} -o {} --threads {} --quiet", folder / "scenario.toml", run, threads));
+    REQUIRE(outcome.exit_code == 0);
+    CHECK(outcome.messages.empty()); // --quiet
+    all.push_back(results(run));
+  }
+  REQUIRE(all[0].size() > 1000);
+  CHECK(all[0] == all[1]);
+  CHECK(all[0] == all[2]);
+}
+
+/// Runs a command that writes `output`, stopping it and resuming, twice at least. Where the machine has become faster since
+/// the whole run took its `seconds`, it begins anew with shorter parts.
+inline void run_in_parts(const std::string& command, const std::string& output, double seconds) {
+  int stops = 0;
+  for (double limit = seconds / 5; stops < 2; limit /= 2) {
+    REQUIRE(limit > seconds / 100);
+    std::filesystem::remove(output);
+    stops = 0;
+    for (int code = 5; code == 5; stops += code == 5 ? 1 : 0) {
+      const Outcome outcome = mpfem_command(fmt::format("{} --resume --time-limit {}", command, limit));
+      code = outcome.exit_code;
+      INFO(outcome.messages);
+      REQUIRE((code == 0 || code == 5));
+      CHECK(schema::validate(output).empty()); // readable at every stop
+      REQUIRE(stops < 200);
+    }
+  }
+}
+
+inline void check_resuming(const std::string& text, int cells) {
+  const Folder folder;
+  prepare(folder, cells, text);
+  const std::string common = fmt::format("run {} --threads 2 --quiet -o ", folder / "scenario.toml");
+  const Outcome whole = mpfem_command(common + (folder / "whole.h5"));
+  REQUIRE(whole.exit_code == 0);
+  run_in_parts(common + (folder / "parts.h5"), folder / "parts.h5", whole.seconds);
+  CHECK(results(folder / "whole.h5") == results(folder / "parts.h5"));
+  const schema::FileReader in_one(folder / "whole.h5"), in_parts(folder / "parts.h5");
+  for (const auto& dataset : {schema::run::provenance_stage_overshoot, schema::run::provenance_stage_hold_error,
+                              schema::run::provenance_stage_hold_rms})
+    CHECK(in_one.read(dataset) == in_parts.read(dataset));
+  CHECK_FALSE(std::filesystem::exists(folder / "parts.checkpoint.h5"));
+  CHECK(std::filesystem::exists(folder / "parts.compaction.checkpoint.h5"));
+}
+
+/// A scenario that is bitwise the same on any number of threads and when it is resumed, and whose plan says `what` it has.
+inline void check_variant(const std::string& text, const std::string& what) {
+  check_threads(text, 4);
+  check_resuming(text, 4);
+  const Folder folder;
+  prepare(folder, 3, text);
+  CHECK_THAT(mpfem_command(fmt::format("check {}", folder / "scenario.toml")).output, Catch::Contains(what));
+}
+
+inline std::string with_smooth_surface(const std::string& text) {
+  return replaced(text, "[output]", "[contact]\nsurface = \"smooth\"\n[output]");
+}
+
+} // namespace mpfem::test
