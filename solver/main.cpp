@@ -15,8 +15,8 @@
 #include "solver/bench/bench.hpp"
 #include "solver/hand_over.hpp"
 #include "solver/run/bond_programme.hpp"
-#include "solver/run/interrupt.hpp"
 #include "solver/run/check_scenario.hpp"
+#include "solver/run/interrupt.hpp"
 #include "solver/run/run_scenario.hpp"
 
 namespace {

@@ -20,7 +20,8 @@
 #include "solver/bench/work.hpp"
 #include "solver/model/bond_resolution.hpp"
 #include "solver/model/tets.hpp"
-#include "solver/output/checkpoint.hpp"
+#include "solver/run/programme.hpp"
+#include "solver/run/resume.hpp"
 #include "solver/run/simulation.hpp"
 
 namespace mpfem {
@@ -50,7 +51,7 @@ Scenario built_in_scenario(const BenchOptions& options) {
   scenario.numerics.precision = options.precision;
   Stage stage;
   stage.name = "compaction";
-  stage.isotropic_compaction.emplace();
+  stage.type = IsotropicCompaction{};
   scenario.stages.push_back(stage);
   return scenario;
 }
@@ -76,11 +77,11 @@ void set_initial_hardening(Model& model) {
 
 /// Walls and grains approach by one affine motion from the start on.
 void approach_affinely(Simulation& simulation, Scenario& scenario) {
-  Model& model = simulation.model();
-  const double rate = strain_per_step / simulation.state().stable_step;
-  scenario.stages[0].isotropic_compaction->wall_speed =
+  Model& model = simulation.model_to_disturb();
+  const double rate = strain_per_step / simulation.step_estimate().stable_step();
+  std::get<IsotropicCompaction>(scenario.stages[0].type).wall_speed =
       0.5 * rate * *std::max_element(model.box_high.begin(), model.box_high.end());
-  simulation.begin_stage();
+  simulation.begin_stage(0);
   for (std::size_t n = 0; n < model.position.size(); n += 4)
     for (std::size_t axis = 0; axis < 3; ++axis)
       model.velocity[n + axis] = -rate * (model.position[n + axis] - 0.5 * model.box_high[axis]);
@@ -175,13 +176,12 @@ OutputCost measure_output(Simulation& simulation, const Scenario& scenario) {
   OutputCost cost;
   cost.row_seconds = median_time(3, [&] { simulation.observe(); });
   const auto scratch = std::filesystem::temp_directory_path() / fmt::format("mpfem-bench-{}.checkpoint.h5", getpid());
-  cost.checkpoint_seconds =
-      median_time(1, [&] { write_checkpoint(scratch.string(), simulation, RunRecord{}, scenario.text); });
+  cost.checkpoint_seconds = median_time(1, [&] { save_checkpoint(scratch.string(), simulation, RunRecord{}); });
   cost.checkpoint_bytes = static_cast<double>(std::filesystem::file_size(scratch));
   std::error_code ignored;
   std::filesystem::remove(scratch, ignored);
-  cost.steps_per_row = simulation.stage_duration() /
-                       (simulation.state().stable_step * static_cast<double>(scenario.output.history_rows));
+  cost.steps_per_row = simulation.stage_run().expected_duration() /
+                       (simulation.step_estimate().stable_step() * static_cast<double>(scenario.output.history_rows));
   cost.checkpoint_interval = scenario.output.checkpoint_interval;
   return cost;
 }
@@ -215,7 +215,7 @@ Model make_model(const BenchOptions& options, Scenario& scenario) {
   scenario = built_in_scenario(options);
   const DensePacking dense = make_dense_packing(options.tets, options.grains, 1);
   Model model = build_model(dense.packing, scenario, scenario.packing_file);
-  scenario.stages[0].isotropic_compaction = {std::min(0.999, 1.15 * dense.relative_density), 1.0, 0.01};
+  scenario.stages[0].type = IsotropicCompaction{std::min(0.999, 1.15 * dense.relative_density), 1.0, 0.01};
   return model;
 }
 
@@ -223,12 +223,13 @@ Model make_model(const BenchOptions& options, Scenario& scenario) {
 /// flow.
 void prepare(const BenchOptions& options, Scenario& scenario, Simulation& simulation) {
   if (!options.scenario) {
-    set_initial_hardening(simulation.model());
+    set_initial_hardening(simulation.model_to_disturb());
     approach_affinely(simulation, scenario);
   }
-  if (options.from) begin_branch(*options.from, simulation, scenario.text);
-  const RunState& state = simulation.state();
-  check_programme(scenario, state.stage, state.stage_low, state.stage_high, simulation.model(), state.stable_step);
+  if (options.from) begin_branch(*options.from, simulation);
+  const StageRun::State& stage = simulation.stage_run().state();
+  check_programme(scenario, simulation.state().stage, stage.start_low, stage.start_high, simulation.model(),
+                  simulation.step_estimate().stable_step());
   const int steps = options.scenario ? 20 : warm_up_steps;
   for (int i = 0; i < steps && !simulation.stage_complete(); ++i) {
     simulation.evaluate_forces();
@@ -261,7 +262,7 @@ void run_bench(const BenchOptions& options) {
   result.search = measure_search(simulation, team);
   result.memory = peak_memory();
   say("measuring the element pass");
-  result.elements = measure_elements(simulation.model(), simulation.state().stable_step, team);
+  result.elements = measure_elements(simulation.model_to_disturb(), simulation.step_estimate().stable_step(), team);
   say("measuring the machine");
   result.machine = {measure_triad(team), measure_fma(team)};
   result.tet = work_of_tet(model);

@@ -63,4 +63,11 @@ void wall_stiffness_rate(const Model& model, const Walls& walls, const Bounds& b
   });
 }
 
+std::array<double, 6> wall_work(const std::array<double, 6>& force_before, const std::array<double, 6>& force,
+                                const std::array<double, 6>& movement) {
+  std::array<double, 6> work{};
+  for (std::size_t side = 0; side < 6; ++side) work[side] = 0.5 * (force[side] + force_before[side]) * movement[side];
+  return work;
+}
+
 } // namespace mpfem

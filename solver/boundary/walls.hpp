@@ -31,6 +31,11 @@ struct WallSums {
 /// is the present bounding box of the grain's surface.
 WallSums wall_forces(Model& model, const Walls& walls, const Bounds& bounds, int grain);
 
+/// mJ, of each wall in a step: by the trapezoidal rule, which central differences conserve. Forces (N) at its beginning and
+/// end, `movement` (mm) inward.
+std::array<double, 6> wall_work(const std::array<double, 6>& force_before, const std::array<double, 6>& force,
+                                const std::array<double, 6>& movement);
+
 /// Adds K A/m (1/s^2) of the walls that each node touches to `rate` [nodes]: what they add to the frequency squared.
 void wall_stiffness_rate(const Model& model, const Walls& walls, const Bounds& bounds, int grain,
                          std::span<double> rate);

@@ -1,10 +1,22 @@
 #pragma once
 // The complete state of a run on disk. A resumed run goes on bitwise as if nothing had happened.
 
+#include <array>
+#include <optional>
 #include <string>
 #include <vector>
 
-#include "solver/run/simulation.hpp"
+#include "common/fields.hpp"
+#include "results-schema/file.hpp"
+#include "solver/boundary/grips.hpp"
+#include "solver/boundary/walls.hpp"
+#include "solver/kernels/contact_forces.hpp"
+#include "solver/kernels/node_motion.hpp"
+#include "solver/model/grain_steps.hpp"
+#include "solver/model/model.hpp"
+#include "solver/output/history_row.hpp"
+#include "solver/output/profile_parts.hpp"
+#include "solver/output/stage_result.hpp"
 
 namespace mpfem {
 
@@ -12,24 +24,72 @@ namespace mpfem {
 struct RunRecord {
   std::vector<HistoryRow> history;
   std::vector<std::string> snapshot_files;
-  std::vector<StageResult> stages; ///< those that are complete
-  std::string from;                ///< where the run began: checksum of a checkpoint, "packing", or empty: not known
-  double wall_time = 0;            ///< s, of all parts of the run so far
+  std::vector<StageResult> stages;   ///< those that are complete
+  std::string from;                  ///< where the run began: checksum of a checkpoint, "packing", or empty: not known
+  std::int64_t rows_in_stage = 0;    ///< history rows written in this stage
+  std::int64_t snapshots_passed = 0; ///< relative densities of output.snapshot_relative_densities already passed
+  std::int64_t checkpoints_passed = 0; ///< the same of output.checkpoint_relative_densities
+  double wall_time = 0;                ///< s, of all parts of the run so far
   std::array<double, profile_parts> profile_seconds{};
+
+  /// What stands among the fields of a checkpoint; the rest has datasets of its own.
+  template <class Self, class Visitor>
+  static void for_each_field(Self& s, Visitor&& visit) {
+    visit("record.rows_in_stage", s.rows_in_stage), visit("record.snapshots_passed", s.snapshots_passed);
+    visit("record.checkpoints_passed", s.checkpoints_passed), visit("record.wall_time", s.wall_time);
+    visit("record.profile_seconds", s.profile_seconds);
+  }
 };
 
-/// Writes the state after an advance() (before the next evaluate_forces()). Written beside and renamed.
-void write_checkpoint(const std::string& path, const Simulation& simulation, const RunRecord& record,
+/// What a checkpoint is made of, after an advance() and before the next evaluate_forces().
+struct CheckpointState {
+  const Model& model;
+  const Contact& contact;
+  const Grips& grips;
+  const GrainSteps& grain_steps;
+  FieldValues fields; ///< of the simulation, whose first whole number is the step, then of the record
+};
+
+/// Written beside and renamed. Throws StorageError.
+void write_checkpoint(const std::string& path, const CheckpointState& state, const RunRecord& record,
                       const std::string& scenario_text);
 
-/// Replaces the simulation's state. Throws InputError where the file is damaged (checksum), belongs to another mesh, to
-/// another scenario text (unless `any_scenario`), or was written by a build with another block width.
-void read_checkpoint(const std::string& path, Simulation& simulation, RunRecord& record,
-                     const std::string& scenario_text, bool any_scenario);
+/// An open checkpoint. Every function throws InputError where the file is damaged.
+class CheckpointReader {
+public:
+  explicit CheckpointReader(const std::string& path);
 
-/// Begins the scenario's first stage at the state of an earlier run. Bonds keep the law by which they formed, the scenario's is
-/// that of bonds to come. Throws InputError as read_checkpoint, and where the scenario is one of other matter.
-void begin_branch(const std::string& path, Simulation& simulation, const std::string& scenario_text);
+  const std::string& path() const { return file_.path(); }
+  /// What tells its content from others.
+  std::string content_hash() const;
+  std::string scenario_text() const;
+  std::string packing_hash() const;
+  std::string from() const; ///< where the run began; empty: not known
+  std::int64_t step() const;
+  /// Whether a bond has formed by then.
+  bool has_bonds() const;
+
+  /// Throws InputError where the checkpoint belongs to another mesh or was written by a build whose arrays stand otherwise.
+  void check_model(const Model& model) const;
+
+  RunRecord record() const; ///< without what stands among the fields
+  FieldValues fields() const;
+  /// Replaces the state of nodes, tets and contact points. Bonds keep the laws by which they formed; whether they resist
+  /// sliding is said by `bond_parameters`, of the run that wrote the checkpoint. The last law in `contact` stays that of
+  /// bonds to come.
+  /// `grips`: of a stage that grips, its axis set, or none.
+  void take_arrays(Model& model, Contact& contact, GrainSteps& grain_steps, Grips* grips,
+                   const std::optional<BondParameters>& bond_parameters) const;
+
+private:
+  void take_tets(Model& model) const;
+  void take_candidates(const Model& model, Contact& contact) const;
+  void take_bonds(const Model& model, Contact& contact, const BondParameters& parameters) const;
+  void take_grips(const Model& model, Grips& grips) const;
+  [[noreturn]] void fail_damaged() const;
+
+  schema::FileReader file_;
+};
 
 /// Reads all arrays of a checkpoint. Throws InputError where they do not match its checksum or cannot be read.
 void verify_checkpoint(const std::string& path);

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "results-schema/file.hpp"
-#include "solver/run/simulation.hpp"
+#include "solver/output/history_row.hpp"
 
 namespace mpfem {
 

@@ -1,13 +1,17 @@
 #include "solver/output/run_file.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include <fmt/format.h>
 
+#include "common/errors.hpp"
 #include "common/hash.hpp"
+#include "common/one_line.hpp"
 #include "common/physical_host.hpp"
 #include "common/version.hpp"
 #include "results-schema/descriptors.hpp"
+#include "solver/kernels/grain_state.hpp"
 #include "solver/output/bond_laws.hpp"
 
 namespace mpfem {
@@ -26,10 +30,7 @@ std::vector<float> in_file_order(const Model& model, const AlignedVector<double>
 }
 
 /// Normal traction at surface nodes: the sum of contact and bond forces along the inward normal over the tributary area.
-std::vector<float> contact_pressure(const Simulation& simulation) {
-  const Model& model = simulation.model();
-  const Contact& contact = simulation.contact();
-  const RunState& state = simulation.state();
+std::vector<float> contact_pressure(const Model& model, const Contact& contact, const Walls& walls) {
   std::vector<double> force(static_cast<std::size_t>(model.nodes()), 0.0);
   const auto add = [&](std::int32_t node, double share, const ContactForce& point) {
     const double* normal = &model.normal[4 * static_cast<std::size_t>(node)];
@@ -51,10 +52,10 @@ std::vector<float> contact_pressure(const Simulation& simulation) {
       const double area = model.normal[4 * node + 3];
       double value = area > 0 ? force[node] / area : 0.0;
       for (std::size_t axis = 0; axis < 3; ++axis)
-        if (simulation.walls().stand(axis)) {
+        if (walls.stand(axis)) {
           const double x = model.contact_coordinate(node, axis);
           value += model.penalty_stiffness[g] * model.local_stiffness(node) * model.reference_area[node] /
-                   std::max(area, 1e-300) * (std::max(state.low[axis] - x, 0.0) + std::max(x - state.high[axis], 0.0));
+                   std::max(area, 1e-300) * (std::max(walls.low[axis] - x, 0.0) + std::max(x - walls.high[axis], 0.0));
         }
       pressure[static_cast<std::size_t>(model.file_node[node])] = static_cast<float>(value);
     }
@@ -63,10 +64,8 @@ std::vector<float> contact_pressure(const Simulation& simulation) {
 }
 
 /// Writes the bonds of a snapshot: pairs, nodes, and every bond.
-void write_bonds(schema::FileWriter& file, const std::string& name, const Simulation& simulation,
+void write_bonds(schema::FileWriter& file, const std::string& name, const Model& model, const Contact& contact,
                  const std::vector<PairContact>& pairs) {
-  const Model& model = simulation.model();
-  const Contact& contact = simulation.contact();
   std::vector<double> bonded_area, pair_damage, energy, dissipation;
   for (const PairContact& pair : pairs) {
     const BondSums& b = pair.bonds;
@@ -124,17 +123,16 @@ void write_bonds(schema::FileWriter& file, const std::string& name, const Simula
 
 } // namespace
 
-void write_snapshot_file(const std::string& path, Simulation& simulation) {
-  const Model& model = simulation.model();
-  const RunState& state = simulation.state();
+void write_snapshot_file(const std::string& path, const SnapshotState& state) {
+  const Model& model = state.model;
   const std::string name = "0000";
   schema::FileWriter file(path, schema::FileKind::run, fmt::format("mpfem {}", version_and_commit()));
   file.write_scalar(run::snapshots_time, state.time, name);
   file.write_scalar(run::snapshots_step, state.step, name);
-  file.write_scalar(run::snapshots_relative_density, simulation.relative_density(), name);
+  file.write_scalar(run::snapshots_relative_density, state.relative_density, name);
   file.write_scalar(run::snapshots_mean_stress, state.mean_stress, name);
-  file.write(run::snapshots_box_low, std::span<const double>(state.low), 3, name);
-  file.write(run::snapshots_box_high, std::span<const double>(state.high), 3, name);
+  file.write(run::snapshots_box_low, std::span<const double>(state.walls.low), 3, name);
+  file.write(run::snapshots_box_high, std::span<const double>(state.walls.high), 3, name);
   const auto nodes = static_cast<std::size_t>(model.nodes()), tets = static_cast<std::size_t>(model.tets());
   const auto position = in_file_order(model, model.position), velocity = in_file_order(model, model.velocity);
   file.write(run::snapshots_node, std::span<const float>(position), nodes, name);
@@ -143,11 +141,11 @@ void write_snapshot_file(const std::string& path, Simulation& simulation) {
   file.write(run::snapshots_von_mises, std::span<const float>(fields.von_mises), tets, name);
   file.write(run::snapshots_pressure, std::span<const float>(fields.pressure), tets, name);
   file.write(run::snapshots_plastic_strain, std::span<const float>(fields.plastic_strain), tets, name);
-  const auto pressure = contact_pressure(simulation);
+  const auto pressure = contact_pressure(model, state.contact, state.walls);
   file.write(run::snapshots_contact_pressure, std::span<const float>(pressure), nodes, name);
   std::vector<std::int32_t> grains;
   std::vector<double> force, area;
-  const auto pairs = pair_contacts(model, simulation.contact());
+  const auto pairs = pair_contacts(model, state.contact);
   for (const PairContact& pair : pairs) {
     grains.insert(grains.end(), {pair.first, pair.second});
     force.insert(force.end(), std::begin(pair.force), std::end(pair.force));
@@ -156,7 +154,7 @@ void write_snapshot_file(const std::string& path, Simulation& simulation) {
   file.write(run::snapshots_pair_grains, std::span<const std::int32_t>(grains), area.size(), name);
   file.write(run::snapshots_pair_force, std::span<const double>(force), area.size(), name);
   file.write(run::snapshots_pair_area, std::span<const double>(area), area.size(), name);
-  if (simulation.contact().bonding()) write_bonds(file, name, simulation, pairs);
+  if (state.contact.bonding()) write_bonds(file, name, model, state.contact, pairs);
   file.commit();
 }
 
@@ -214,6 +212,18 @@ void write_run_file(const std::string& path, const Model& model, const std::vect
   file.write(run::provenance_stage_hold_rms, std::span<const double>(hold_rms), hold_rms.size());
   if (!provenance.from.empty()) file.write_scalar(run::provenance_from, provenance.from);
   file.commit();
+}
+
+RunSummary read_run_summary(const std::string& path) {
+  const schema::FileReader file(path, schema::FileKind::run);
+  const auto density = file.read(run::history_relative_density);
+  if (density.empty()) throw InputError(fmt::format("{}: the history has no rows", one_line(path)));
+  return {.status = file.read_scalar(run::provenance_status),
+          .scenario_text = file.read_scalar(run::provenance_scenario),
+          .packing_hash = file.read_scalar(run::provenance_packing_hash),
+          .from = file.has(run::provenance_from) ? file.read_scalar(run::provenance_from) : "",
+          .first_density = density.front(),
+          .largest_density = *std::max_element(density.begin(), density.end())};
 }
 
 } // namespace mpfem

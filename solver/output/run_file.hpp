@@ -7,13 +7,28 @@
 #include <string>
 #include <vector>
 
+#include "solver/boundary/grips.hpp"
+#include "solver/boundary/walls.hpp"
+#include "solver/kernels/contact_forces.hpp"
+#include "solver/kernels/node_motion.hpp"
 #include "solver/output/history.hpp"
-#include "solver/run/simulation.hpp"
+#include "solver/output/stage_result.hpp"
 
 namespace mpfem {
 
-/// Writes a snapshot of the present time level to its own file.
-void write_snapshot_file(const std::string& path, Simulation& simulation);
+/// What a snapshot is made of, between evaluate_forces() and advance().
+struct SnapshotState {
+  const Model& model;
+  const Contact& contact;
+  const Walls& walls;
+  double time = 0; ///< s
+  std::int64_t step = 0;
+  double relative_density = 0;
+  double mean_stress = 0; ///< MPa
+};
+
+/// Writes a snapshot to its own file. Throws StorageError.
+void write_snapshot_file(const std::string& path, const SnapshotState& state);
 
 struct Provenance {
   std::string scenario_text;
@@ -29,5 +44,15 @@ struct Provenance {
 /// Writes RUN.h5 from history, snapshot files and provenance. Throws StorageError.
 void write_run_file(const std::string& path, const Model& model, const std::vector<HistoryRow>& history,
                     const std::vector<std::string>& snapshot_files, const Provenance& provenance);
+
+/// What a run file says of its run.
+struct RunSummary {
+  std::string status, scenario_text, packing_hash;
+  std::string from;           ///< empty: not known
+  double first_density = 0;   ///< relative density of the first row
+  double largest_density = 0; ///< of all rows
+};
+/// Throws InputError where the file is none of a run.
+RunSummary read_run_summary(const std::string& path);
 
 } // namespace mpfem

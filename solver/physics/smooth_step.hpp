@@ -11,4 +11,9 @@ inline double smooth_step(double s) {
   return s * s * (3.0 - 2.0 * s);
 }
 
+/// Integral of smooth_step from 0 to s, for s in [0, 1].
+inline double smooth_step_integral(double s) {
+  return s * s * s - 0.5 * s * s * s * s;
+}
+
 } // namespace mpfem

@@ -13,6 +13,7 @@
 #include "common/one_line.hpp"
 #include "common/output_file.hpp"
 #include "common/table_reader.hpp"
+#include "solver/scenario/ranges.hpp"
 #include "solver/scenario/scenario.hpp"
 
 namespace mpfem {
@@ -88,7 +89,7 @@ BondedPoint::Response BondedPoint::move_to(const Separation& separation) {
 
 BondedPointLaw read_bonded_point_law(const TomlDocument& document) {
   TableReader root(document);
-  const double stiffness = root.number("stiffness", Range::positive());
+  const double stiffness = root.number("stiffness", positive_stiffness);
   TableReader table = root.table("bond");
   const BondParameters bond = read_bond(table);
   root.finish();

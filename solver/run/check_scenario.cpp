@@ -13,37 +13,12 @@
 #include "solver/run/needs.hpp"
 #include "solver/run/plan_text.hpp"
 #include "solver/run/programme.hpp"
+#include "solver/run/resume.hpp"
 #include "solver/run/simulation.hpp"
 
 namespace mpfem {
 
 namespace {
-
-/// What a stage does, for the plan.
-std::string stage_text(const Stage& stage) {
-  if (stage.isotropic_compaction) return "all walls inwards, to a relative density";
-  if (stage.isotropic_unloading) return "all walls outwards, to a mean stress";
-  if (stage.grip) return "grips, to a displacement";
-  if (stage.hold) return "walls at rest, for a time";
-  switch (stage.loading->path) {
-  case LoadingPath::isotropic:
-    return "all walls inwards, to a mean stress";
-  case LoadingPath::cycles:
-    return fmt::format("all walls, {} cycles between two mean stresses", stage.loading->cycles);
-  case LoadingPath::unconfined:
-    return "z walls driven, x and y walls away";
-  case LoadingPath::triaxial:
-    return fmt::format("z walls driven, x and y walls held at constant {}",
-                       stage.loading->hold_force ? "force" : "stress");
-  case LoadingPath::die:
-    return "z walls driven, x and y walls at rest";
-  case LoadingPath::probe:
-    return "all walls held on a straight path of p and q";
-  case LoadingPath::held:
-    return fmt::format("all walls held at {:g} MPa, for a time", stage.loading->held_stress);
-  }
-  return {};
-}
 
 // A packing that begins loose costs more a step later on: points come into contact, and tets that yield take the whole of
 // the element pass. The estimate of the stable step and the contact search follow the deformation, not the number of steps.
@@ -72,20 +47,21 @@ StageWork work_of_first_compaction(double steps, double density, double end) {
 std::vector<StageWork> work_of_stages(const Scenario& scenario, const std::vector<StageForecast>& forecasts,
                                       const Simulation& simulation) {
   const RunState& state = simulation.state();
-  bool loose = state.plastic_dissipation == 0 && state.mean_stress == 0;
+  bool loose = simulation.energies().plastic_dissipation == 0 && state.mean_stress == 0;
   double growth = 1;
   std::vector<StageWork> works;
   for (std::size_t s = 0; s < forecasts.size(); ++s) {
-    const Stage& stage = scenario.stages[s];
-    const double steps = forecasts[s].duration / state.stable_step;
-    if (loose && stage.isotropic_compaction) {
-      works.push_back(
-          work_of_first_compaction(steps, simulation.relative_density(), stage.isotropic_compaction->relative_density));
+    const StageType& type = scenario.stages[s].type;
+    const auto* compaction = std::get_if<IsotropicCompaction>(&type);
+    const bool loads = moves_walls(type) && !std::holds_alternative<IsotropicUnloading>(type);
+    const double steps = forecasts[s].duration / simulation.step_estimate().stable_step();
+    if (loose && compaction) {
+      works.push_back(work_of_first_compaction(steps, simulation.relative_density(), compaction->relative_density));
     } else {
-      if (loose && stage.loading) growth = dense_cost;
+      if (loose && loads) growth = dense_cost;
       works.push_back({steps, steps * growth});
     }
-    if (loose && (stage.isotropic_compaction || stage.loading)) loose = false, growth = dense_cost;
+    if (loose && loads) loose = false, growth = dense_cost;
   }
   return works;
 }
@@ -127,8 +103,9 @@ void check_scenario(const Scenario& scenario, int threads, const std::optional<s
   ThreadTeam team(threads);
   Simulation simulation(build_model(read_packing(scenario.packing_file), scenario, scenario.packing_file), scenario,
                         team, from.has_value());
-  if (from) begin_branch(*from, simulation, scenario.text);
-  const RunState& state = simulation.state();
+  if (from) begin_branch(*from, simulation);
+  const StepEstimate::State& step = simulation.step_estimate().state();
+  const StageRun::State& stage = simulation.stage_run().state();
   const Model& model = simulation.model();
   fmt::print("packing        {}: {} grains, {} tets, {} nodes, {} facets\n", scenario.packing_file, model.grains,
              model.tets(), model.nodes(), model.facets());
@@ -146,8 +123,8 @@ void check_scenario(const Scenario& scenario, int threads, const std::optional<s
       1e-6 * static_cast<double>(model.memory()), static_cast<double>(model.memory()) / model.tets(),
       1e-6 * needs.memory, 1e-6 * needs.disk);
   if (!scarce.empty()) fmt::print("warning        {}\n", scarce);
-  fmt::print("stable step    {:.4g} s, set by {}\n", state.stable_step,
-             state.controlled_by_contact ? "contact" : "elements");
+  fmt::print("stable step    {:.4g} s, set by {}\n", step.stable_step,
+             step.controlled_by_contact ? "contact" : "elements");
 
   if (const std::string text = mass_scaling_text(scenario, model); !text.empty())
     fmt::print("masses         {}\n", text);
@@ -163,16 +140,15 @@ void check_scenario(const Scenario& scenario, int threads, const std::optional<s
   for (const std::string& warning : warnings) fmt::print("warning        {}\n", warning);
   if (const std::string text = earlier_bonds_text(simulation.contact()); !text.empty())
     fmt::print("               {}\n", text);
-  check_programme(scenario, 0, state.stage_low, state.stage_high, model, state.stable_step);
-  const auto forecasts = forecast(scenario, 0, state.stage_low, state.stage_high, model);
+  check_programme(scenario, 0, stage.start_low, stage.start_high, model, step.stable_step);
+  const auto forecasts = forecast(scenario, 0, stage.start_low, stage.start_high, model);
   const auto works = work_of_stages(scenario, forecasts, simulation);
   StageWork all;
   for (std::size_t s = 0; s < works.size(); ++s) {
     all.steps += works[s].steps;
     all.cost += works[s].cost;
     fmt::print("stage          {}: {}{:.4g} s, {:.0f} steps; {}\n", scenario.stages[s].name,
-               forecasts[s].sure ? "" : "about ", forecasts[s].duration, works[s].steps,
-               stage_text(scenario.stages[s]));
+               forecasts[s].sure ? "" : "about ", forecasts[s].duration, works[s].steps, forecasts[s].description);
   }
   const MeasuredTimes measured = measure(simulation);
   const double rows = scenario.output.history_rows * static_cast<double>(works.size()) * measured.row;

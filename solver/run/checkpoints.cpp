@@ -7,8 +7,6 @@
 
 #include "common/errors.hpp"
 #include "common/one_line.hpp"
-#include "results-schema/descriptors.hpp"
-#include "results-schema/file.hpp"
 
 namespace mpfem {
 
@@ -73,13 +71,11 @@ std::string parts_folder(const std::string& run_file) {
 }
 
 bool is_checkpoint_of(const std::string& path, const RunIdentity& run) {
-  namespace check = schema::checkpoint;
   if (!fs::exists(path)) return false;
   try {
-    const schema::FileReader file(path, schema::FileKind::checkpoint);
-    const std::string from = file.has(check::run_from) ? file.read_scalar(check::run_from) : "";
-    return file.read_scalar(check::scenario) == run.scenario_text &&
-           file.read_scalar(check::packing_hash) == run.packing_hash && (run.from.empty() || run.from == from);
+    const CheckpointReader file(path);
+    return file.scenario_text() == run.scenario_text && file.packing_hash() == run.packing_hash &&
+           (run.from.empty() || run.from == file.from());
   } catch (const InputError&) {
     return false;
   }
@@ -102,12 +98,13 @@ void replace_rolling_checkpoint(const std::string& run_file, const std::function
   fs::rename(next, rolling);
 }
 
-std::vector<std::string> promised_checkpoints(const Scenario& scenario, const std::string& run_file,
-                                              const RunState& state, bool stage_complete, double start_density) {
+std::vector<std::string> promised_checkpoints(const Scenario& scenario, const std::string& run_file, std::int64_t stage,
+                                              bool stage_complete, std::int64_t densities_passed,
+                                              double start_density) {
   auto paths =
-      of_stages(scenario, run_file, static_cast<std::size_t>(state.stage) + static_cast<std::size_t>(stage_complete));
+      of_stages(scenario, run_file, static_cast<std::size_t>(stage) + static_cast<std::size_t>(stage_complete));
   const auto& densities = scenario.output.checkpoint_relative_densities;
-  for (std::size_t i = 0; i < std::min(densities.size(), static_cast<std::size_t>(state.checkpoints_passed)); ++i)
+  for (std::size_t i = 0; i < std::min(densities.size(), static_cast<std::size_t>(densities_passed)); ++i)
     if (start_density < densities[i] * nearly) paths.push_back(density_checkpoint_path(run_file, densities[i]));
   return paths;
 }
@@ -142,9 +139,7 @@ std::vector<std::string> resumable_checkpoints(const Scenario& scenario, const R
   for (const double density : scenario.output.checkpoint_relative_densities)
     all.push_back(density_checkpoint_path(run.run_file, density));
   for (const std::string& path : all) {
-    if (!is_checkpoint_of(path, run)) continue;
-    const auto counters = schema::FileReader(path, schema::FileKind::checkpoint).read(schema::checkpoint::run_integers);
-    if (!counters.empty()) kept.emplace_back(counters[0], path);
+    if (is_checkpoint_of(path, run)) kept.emplace_back(CheckpointReader(path).step(), path);
   }
   std::sort(kept.rbegin(), kept.rend());
   for (const auto& [step, path] : kept) paths.push_back(path);

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "solver/output/checkpoint.hpp"
-#include "solver/run/simulation.hpp"
+#include "solver/scenario/scenario.hpp"
 
 namespace mpfem {
 
@@ -38,10 +38,10 @@ bool is_checkpoint_of(const std::string& path, const RunIdentity& run);
 /// was written cannot be read back; the checkpoint before then stays.
 void replace_rolling_checkpoint(const std::string& run_file, const std::function<void(const std::string&)>& write);
 
-/// Checkpoints of stages and densities that a run must have written when it is in this state. `start_density`: relative
-/// density at which it began.
-std::vector<std::string> promised_checkpoints(const Scenario& scenario, const std::string& run_file,
-                                              const RunState& state, bool stage_complete, double start_density);
+/// Checkpoints of stages and densities that a run must have written when it is in this stage. `densities_passed`: of
+/// output.checkpoint_relative_densities; `start_density`: relative density at which it began.
+std::vector<std::string> promised_checkpoints(const Scenario& scenario, const std::string& run_file, std::int64_t stage,
+                                              bool stage_complete, std::int64_t densities_passed, double start_density);
 /// The same of a run that is complete; `largest_density`: the largest relative density of its steps.
 std::vector<std::string> promised_checkpoints(const Scenario& scenario, const std::string& run_file,
                                               double start_density, double largest_density);

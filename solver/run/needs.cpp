@@ -10,8 +10,6 @@
 #include <fmt/format.h>
 
 #include "common/errors.hpp"
-#include "results-schema/descriptors.hpp"
-#include "results-schema/file.hpp"
 #include "solver/model/model.hpp"
 #include "solver/run/simulation.hpp"
 
@@ -21,11 +19,10 @@ namespace {
 
 // The sizes of arrays follow from their types. The other numbers are measured: peak memory and files of nine runs to a
 // relative density of 0.92 (docs/performance.md).
-constexpr double of_program = 19.7e6;   // libraries, code, HDF5
-constexpr double of_contact = 102;      // a facet: points, their forces and candidates, with the search's own
-constexpr double of_bonds = 65;         // a facet more
-constexpr double facets_of_ball = 3.15; // over tets^(2/3)
-constexpr double margin = 0.1;          // of the available memory: the error that the forecast may have
+constexpr double of_program = 19.7e6; // libraries, code, HDF5
+constexpr double of_contact = 102;    // a facet: points, their forces and candidates, with the search's own
+constexpr double of_bonds = 65;       // a facet more
+constexpr double margin = 0.1;        // of the available memory: the error that the forecast may have
 
 template <class Real>
 double bytes_of_tet() {
@@ -86,27 +83,6 @@ std::string compare(const std::string& purpose, const char* what, double needed,
 }
 
 } // namespace
-
-std::int64_t PackingCounts::all_tets() const {
-  return std::accumulate(tets.begin(), tets.end(), std::int64_t{0});
-}
-
-double PackingCounts::facets() const {
-  double facets = 0;
-  for (const std::int64_t of_grain : tets) facets += facets_of_ball * std::pow(number(of_grain), 2.0 / 3.0);
-  return facets;
-}
-
-PackingCounts read_packing_counts(const std::string& path) {
-  const schema::FileReader file(path, schema::FileKind::packing);
-  PackingCounts counts;
-  if (!file.has(schema::packing::mesh_tet)) return counts; // read_packing() says so
-  counts.nodes = static_cast<std::int64_t>(file.rows(schema::packing::mesh_node));
-  const auto offset = file.read(schema::packing::mesh_grain_tet_offset);
-  for (std::size_t g = 0; g + 1 < offset.size(); ++g)
-    counts.tets.push_back(std::max<std::int64_t>(std::int64_t{offset[g + 1]} - offset[g], 0));
-  return counts;
-}
 
 Needs needs_of(const PackingCounts& packing, const Scenario& scenario) {
   return {memory_of(packing, scenario), disk_of(packing, scenario)};

@@ -6,13 +6,9 @@
 #include <cstddef>
 #include <vector>
 
-namespace mpfem {
+#include "solver/output/profile_parts.hpp"
 
-enum class Part : std::size_t { elements, contact, contact_search, integration, surface, step_estimate, output };
-inline constexpr std::size_t profile_parts = 7;
-inline constexpr std::array<const char*, profile_parts> part_names = {
-    "element forces",  "contact forces", "contact search", "integration and walls",
-    "surface normals", "step estimate",  "output"};
+namespace mpfem {
 
 /// Adds up seconds per part and thread. Parts that run on the calling thread alone count for all threads (the others
 /// wait), so that the sum over parts, divided by the threads, plus waiting, is the wall-clock time.

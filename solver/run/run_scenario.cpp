@@ -16,7 +16,6 @@
 #include "common/progress.hpp"
 #include "common/run_quality.hpp"
 #include "solver/model/bond_resolution.hpp"
-#include "solver/output/checkpoint.hpp"
 #include "solver/output/history.hpp"
 #include "solver/output/run_file.hpp"
 #include "solver/output/run_lock.hpp"
@@ -27,6 +26,7 @@
 #include "solver/run/needs.hpp"
 #include "solver/run/plan_text.hpp"
 #include "solver/run/programme.hpp"
+#include "solver/run/resume.hpp"
 #include "solver/run/simulation.hpp"
 
 namespace mpfem {
@@ -81,9 +81,11 @@ public:
         fmt::print(stderr, "mpfem: {}\n", text);
     }
     const RunState& state = simulation_.state();
-    check_programme(scenario_, state.stage, state.stage_low, state.stage_high, simulation_.model(), state.stable_step);
+    const StageRun::State& stage = simulation_.stage_run().state();
+    check_programme(scenario_, state.stage, stage.start_low, stage.start_high, simulation_.model(),
+                    simulation_.step_estimate().stable_step());
     for (const HistoryRow& row : record_.history) energy_check_.take(row);
-    expected_ = forecast(scenario_, state.stage, state.stage_low, state.stage_high, simulation_.model());
+    expected_ = forecast(scenario_, state.stage, stage.start_low, stage.start_high, simulation_.model());
     first_expected_ = state.stage;
     if (begins_anew_) pass_densities();
   }
@@ -134,7 +136,7 @@ private:
     if (options_.resume && resume()) return;
     if (must_begin_anew_) return;
     if (options_.from) {
-      begin_branch(*options_.from, simulation_, scenario_.text);
+      begin_branch(*options_.from, simulation_);
       first_step_ = simulation_.state().step;
     }
     record_.from = from;
@@ -182,7 +184,7 @@ private:
     const bool rolling = path == checkpoint_path(options_.output);
     taken_up_ = true;
     record_ = {};
-    read_checkpoint(path, simulation_, record_, scenario_.text, false);
+    mpfem::resume(path, simulation_, record_);
     if (options_.from && !record_.from.empty() && record_.from != identity_.from)
       throw InputError(fmt::format("{}: the run did not begin at {}; run without --resume to begin anew", path,
                                    one_line(*options_.from)));
@@ -206,7 +208,8 @@ private:
   std::vector<std::string> promised_now() const {
     const double start =
         record_.history.empty() ? simulation_.relative_density() : record_.history.front().relative_density;
-    return promised_checkpoints(scenario_, options_.output, simulation_.state(), simulation_.stage_complete(), start);
+    return promised_checkpoints(scenario_, options_.output, simulation_.state().stage, simulation_.stage_complete(),
+                                record_.checkpoints_passed, start);
   }
 
   /// Before a run is called complete: whatever it has written may have been taken away meanwhile.
@@ -237,19 +240,13 @@ private:
   /// named), and all its checkpoints stand; those that do not are added to `lost`.
   bool is_complete(std::vector<std::string>& lost) const {
     if (!std::filesystem::exists(options_.output)) return false;
-    const schema::FileReader file(options_.output, schema::FileKind::run);
-    const std::string from =
-        file.has(schema::run::provenance_from) ? file.read_scalar(schema::run::provenance_from) : "";
-    const bool complete = file.read_scalar(schema::run::provenance_status) == "complete" &&
-                          file.read_scalar(schema::run::provenance_scenario) == scenario_.text &&
-                          file.read_scalar(schema::run::provenance_packing_hash) == identity_.packing_hash &&
-                          (!options_.from || from.empty() || from == identity_.from);
-    if (!complete) return false;
+    const RunSummary run = read_run_summary(options_.output);
+    if (run.status != "complete" || run.scenario_text != scenario_.text || run.packing_hash != identity_.packing_hash ||
+        (options_.from && !run.from.empty() && run.from != identity_.from))
+      return false;
     RunIdentity itself = identity_;
-    itself.from = from;
-    const auto density = file.read(schema::run::history_relative_density);
-    lost = missing_checkpoints(promised_checkpoints(scenario_, options_.output, density.front(),
-                                                    *std::max_element(density.begin(), density.end())),
+    itself.from = run.from;
+    lost = missing_checkpoints(promised_checkpoints(scenario_, options_.output, run.first_density, run.largest_density),
                                itself);
     return lost.empty();
   }
@@ -257,16 +254,14 @@ private:
   void loop() {
     for (;;) {
       simulation_.evaluate_forces();
-      RunState& state = simulation_.state();
       warn_of_slowest_speed();
       const bool stage_end = simulation_.stage_complete();
       if (stage_end || row_due()) record_row();
       take_snapshots(stage_end);
       if (stage_end) {
         report_stage_end();
-        if (state.stage + 1 == static_cast<std::int64_t>(scenario_.stages.size())) return;
-        ++state.stage;
-        begin_stage();
+        if (simulation_.state().stage + 1 == static_cast<std::int64_t>(scenario_.stages.size())) return;
+        begin_next_stage();
       }
       simulation_.advance();
       save_checkpoints();
@@ -275,9 +270,10 @@ private:
   }
 
   /// What a stage needs may have been done away with by the one before: that is a failure of the run, whose state is saved.
-  void begin_stage() {
+  void begin_next_stage() {
     try {
-      simulation_.begin_stage();
+      simulation_.begin_next_stage();
+      record_.rows_in_stage = 0;
     } catch (const InputError& error) {
       throw SimulationError(error.what());
     }
@@ -286,7 +282,7 @@ private:
   /// Once a stage: the tolerances ask for less speed than the scenario allows.
   void warn_of_slowest_speed() {
     const RunState& state = simulation_.state();
-    if (state.pace.at_slowest == 0 || warned_of_stage_ == state.stage) return;
+    if (!simulation_.stage_run().loading_rate().at_slowest || warned_of_stage_ == state.stage) return;
     warned_of_stage_ = state.stage;
     if (!options_.quiet)
       fmt::print(stderr,
@@ -319,17 +315,17 @@ private:
   }
 
   bool row_due() const {
-    const RunState& state = simulation_.state();
-    return state.stage_time >=
-           next_row_time(simulation_.stage_duration(), state.rows_in_stage, scenario_.output.history_rows);
+    const StageRun& stage = simulation_.stage_run();
+    return stage.state().time >=
+           next_row_time(stage.expected_duration(), record_.rows_in_stage, scenario_.output.history_rows);
   }
 
   void record_row() {
     const auto start = Profile::Clock::now();
     record_.history.push_back(simulation_.observe());
-    RunState& state = simulation_.state();
-    do ++state.rows_in_stage;
-    while (row_due() && simulation_.stage_duration() > 0);
+    simulation_.reset_energy_balance(record_.history.back());
+    do ++record_.rows_in_stage;
+    while (row_due() && simulation_.stage_run().expected_duration() > 0);
     simulation_.profile().add_serial(Part::output, Profile::since(start));
     if (!options_.quiet) report_row(record_.history.back());
     check_energy(record_.history.back());
@@ -350,12 +346,12 @@ private:
   }
 
   void take_snapshots(bool stage_end) {
-    RunState& state = simulation_.state();
     const auto& densities = scenario_.output.snapshot_relative_densities;
+    auto& passed = record_.snapshots_passed;
     bool due = stage_end && scenario_.output.snapshot_at_stage_end;
-    while (state.snapshots_passed < static_cast<std::int64_t>(densities.size()) &&
-           simulation_.relative_density() >= densities[static_cast<std::size_t>(state.snapshots_passed)] * (1 - 1e-9)) {
-      ++state.snapshots_passed;
+    while (passed < static_cast<std::int64_t>(densities.size()) &&
+           simulation_.relative_density() >= densities[static_cast<std::size_t>(passed)] * (1 - 1e-9)) {
+      ++passed;
       due = true;
     }
     if (due) save_snapshot();
@@ -365,7 +361,10 @@ private:
     const auto start = Profile::Clock::now();
     std::filesystem::create_directories(parts_folder(options_.output));
     const std::string name = snapshot_name(record_.snapshot_files.size());
-    write_snapshot_file(snapshot_path(name), simulation_);
+    const RunState& state = simulation_.state();
+    write_snapshot_file(snapshot_path(name),
+                        {simulation_.model(), simulation_.contact(), simulation_.walls(), state.time, state.step,
+                         simulation_.relative_density(), state.mean_stress});
     record_.snapshot_files.push_back(name); // the name alone: a run may be resumed from another folder
     simulation_.profile().add_serial(Part::output, Profile::since(start));
   }
@@ -398,7 +397,7 @@ private:
   /// Densities of output.checkpoint_relative_densities that the packing has now passed for the first time.
   std::vector<double> pass_densities() {
     const auto& densities = scenario_.output.checkpoint_relative_densities;
-    auto& count = simulation_.state().checkpoints_passed;
+    auto& count = record_.checkpoints_passed;
     std::vector<double> passed;
     while (count < static_cast<std::int64_t>(densities.size()) &&
            simulation_.relative_density() >= densities[static_cast<std::size_t>(count)] * (1 - 1e-9))
@@ -409,7 +408,7 @@ private:
   void save_checkpoint(const std::string& path) {
     RunRecord record = record_;
     add_times(record);
-    write_checkpoint(path, simulation_, record, scenario_.text);
+    mpfem::save_checkpoint(path, simulation_, record);
   }
 
   /// Adds this process's share of wall-clock time to what earlier parts of the run took.
@@ -452,7 +451,7 @@ private:
       const std::int64_t stage = first_expected_ + static_cast<std::int64_t>(i);
       all += expected_[i].duration;
       done += expected_[i].duration * (stage < state.stage    ? 1.0
-                                       : stage == state.stage ? simulation_.stage_fraction_done()
+                                       : stage == state.stage ? simulation_.stage_run().fraction_done(state.mean_stress)
                                                               : 0.0);
     }
     return all > 0 ? done / all : 0.0;
@@ -469,7 +468,7 @@ private:
 
   /// Once: a run that crawls writes no rows that would tell.
   void warn_of_small_step() {
-    const double step = simulation_.state().stable_step;
+    const double step = simulation_.step_estimate().stable_step();
     if (first_stable_step_ == 0) first_stable_step_ = step;
     if (step >= doubtful_step_share * first_stable_step_ || warned_of_step_) return;
     warned_of_step_ = true;
@@ -484,7 +483,7 @@ private:
   /// Fixed-width report lines, twenty a stage.
   void report_row(const HistoryRow& row) {
     const std::int64_t every = std::max(1, scenario_.output.history_rows / 20);
-    if ((simulation_.state().rows_in_stage - 1) % every != 0 && !simulation_.stage_complete()) return;
+    if ((record_.rows_in_stage - 1) % every != 0 && !simulation_.stage_complete()) return;
     if (reported_lines_++ % 20 == 0)
       fmt::print(stderr, "{:>8} {:>10} {:>10} {:>8} {:>7} {:>9} {:>9} {:>8} {:>9} {:>7} {:>8}\n", "step", "t/us",
                  "dt/ns", "limit", "D_r", "p/MPa", "q/MPa", "KE/IE", "residual", "pen/h", "ns/tet");
@@ -492,8 +491,8 @@ private:
     fmt::print(stderr,
                "{:>8.0f} {:>10.4f} {:>10.4f} {:>8} {:>7.4f} {:>9.4g} {:>9.3g} {:>8} {:>9.2e} {:>7.4f} {:>8.1f}\n",
                row.step, row.time * 1e6, row.time_step * 1e9,
-               simulation_.state().controlled_by_contact ? "contact" : "element", row.relative_density, row.mean_stress,
-               row.deviatoric_stress,
+               simulation_.step_estimate().state().controlled_by_contact ? "contact" : "element", row.relative_density,
+               row.mean_stress, row.deviatoric_stress,
                row.kinetic_energy < 1e3 * internal ? fmt::format("{:.2e}", row.kinetic_energy / internal) : "-",
                row.external_work > 0 ? row.energy_residual / row.external_work : 0.0, row.max_penetration,
                nanoseconds_per_tet_step());

@@ -22,5 +22,4 @@ struct RunOptions {
 /// was written), Interrupted (checkpoint and run file written), StorageError, InputError.
 void run_scenario(const Scenario& scenario, const RunOptions& options);
 
-
 } // namespace mpfem

@@ -1,5 +1,5 @@
 #pragma once
-// The explicit time integration of a packing: state, one step, and what can be observed between two halves of a step.
+// The explicit time integration of a packing: its state and one step.
 //
 // Time level n: positions x_n, stresses and internal forces at x_n, velocities of the half step n - 1/2. A step is
 //   evaluate_forces()   contact and walls at x_n added to the internal forces
@@ -9,7 +9,6 @@
 #include <array>
 #include <cstdint>
 #include <optional>
-#include <string>
 #include <vector>
 
 #include "solver/boundary/grips.hpp"
@@ -19,187 +18,156 @@
 #include "solver/kernels/element_step.hpp"
 #include "solver/kernels/grain_state.hpp"
 #include "solver/kernels/node_motion.hpp"
-#include "solver/model/surface.hpp"
 #include "solver/kernels/thread_team.hpp"
 #include "solver/model/model.hpp"
-#include "solver/run/loading.hpp"
-#include "solver/run/pace.hpp"
+#include "solver/model/surface.hpp"
+#include "solver/output/history_row.hpp"
+#include "solver/run/energy_ledger.hpp"
 #include "solver/run/profile.hpp"
-#include "solver/run/programme.hpp"
+#include "solver/run/stage_run.hpp"
+#include "solver/run/step_estimate.hpp"
 #include "solver/scenario/scenario.hpp"
 
 namespace mpfem {
 
-/// Everything of a run besides the model and its contact points. Plain numbers: a checkpoint stores them as they are.
+/// Where the run is, and what its last step left that no other part keeps.
 struct RunState {
-  // counters
   std::int64_t step = 0;
-  std::int64_t stage = 0;
-  std::int64_t rows_in_stage = 0;         ///< history rows written in this stage
-  std::int64_t snapshots_passed = 0;      ///< relative densities of output.snapshot_relative_densities already passed
-  std::int64_t steps_since_estimate = 0;  ///< since the stable step was estimated
-  std::int64_t controlled_by_contact = 0; ///< 1: contact lowers the step by more than 5 %
-  std::int64_t searches = 0;
-  std::int64_t stage_ended = 0;              ///< 1: the stage has reached what ends it
-  std::int64_t absent_axes = 0;              ///< axes whose walls are away, as bits 1 (x), 2 (y), 4 (z)
-  std::int64_t checkpoints_passed = 0;       ///< of output.checkpoint_relative_densities
-  std::int64_t estimates_since_spectrum = 0; ///< of the stable step, since the frequencies of whole grains were found
-  // times
-  double time = 0;        ///< s
-  double stage_time = 0;  ///< s, since the stage began, by the stage's clock (solver/run/pace.hpp)
-  double stable_step = 0; ///< s, estimate times safety factor
-  double last_step = 0;   ///< s, the step that led to the present positions; 0 at the start
-  double strain_since_estimate = 0;
-  double strain_rate = 0;   ///< 1/s, largest in the last step
-  double spectrum_rate = 0; ///< 1/s, volumetric, when the frequencies of whole grains were last found
-  // energies, mJ
-  double initial_energy = 0;
-  double plastic_dissipation = 0;
-  double viscous_dissipation = 0;
-  double damping_dissipation = 0;
-  double external_work = 0;
-  double grip_work_ahead = 0;   ///< half of the grips' forces times the step that follows
-  double damping_force = 0;     ///< N, sum of magnitudes at the last advance
-  double mean_stress = 0;       ///< MPa, at the last evaluation
-  double stage_mean_stress = 0; ///< MPa, when the stage began
-  // walls
-  std::array<double, 3> initial_lengths{}; ///< mm
-  std::array<double, 3> stage_low{};       ///< mm, box when the stage began
-  std::array<double, 3> stage_high{};
-  std::array<double, 3> low{}; ///< mm, now
-  std::array<double, 3> high{};
-  std::array<double, 6> last_wall_force{}; ///< N, at the time level before
-  std::array<double, 6> last_wall_move{};  ///< mm inward, in the last step
-  LoadingState loading;                    ///< of the stage, where its walls are driven or held by stresses
-  PaceState pace;                          ///< of the stage, where it chooses its speed
+  std::int64_t stage = 0;                  ///< index
+  std::int64_t searches = 0;               ///< for contacts, so far
+  double time = 0;                         ///< s
+  double last_step = 0;                    ///< s, the step that led to the present positions; 0 at the start
+  double damping_force = 0;                ///< N, sum of magnitudes at the last advance
+  double mean_stress = 0;                  ///< MPa, at the last evaluation
+  Axes withdrawn{};                        ///< axes whose walls are away
+  std::array<double, 3> initial_lengths{}; ///< mm, of the box
+
+  template <class Self, class Visitor>
+  static void for_each_field(Self& s, Visitor&& visit) {
+    visit("run.step", s.step), visit("run.stage", s.stage), visit("run.searches", s.searches);
+    visit("run.time", s.time), visit("run.last_step", s.last_step), visit("run.damping_force", s.damping_force);
+    visit("run.mean_stress", s.mean_stress), visit("run.withdrawn", s.withdrawn);
+    visit("run.initial_lengths", s.initial_lengths);
+  }
 };
 
-/// Grains when the largest frequency of each as a whole was last found, and how much that may have grown since; [grains] but for one.
-struct GrainSteps {
-  std::vector<double> whole;   ///< s, stable step
-  std::vector<double> growth;  ///< factor by which single tets' frequencies squared have grown since, at most
-  std::vector<double> contact; ///< 1/s^2, [nodes]: share of contact in the frequency squared, then
-};
-
-/// How a stage ended.
-struct StageResult {
-  std::string name;
-  std::string ended_by;   ///< "relative density 0.92", and which speed it chose where it was to
-  double overshoot = 0;   ///< MPa by which a stress that ended or turned the stage was passed
-  double hold_error = 0;  ///< MPa, largest deviation of a held stress, averaged over a transit of the box
-  double hold_stress = 0; ///< MPa, the largest stress to be held
-  double hold_rms = 0;    ///< MPa, root mean square of the deviation at every step
-};
-
-/// One line of the history; the columns are those of /history in results-schema.
-struct HistoryRow {
-  double time, step, stage, relative_density, relative_density_current;
-  std::array<double, 3> box_lengths;
-  std::array<double, 6> wall_stress;
-  double mean_stress, deviatoric_stress, axial_strain, volumetric_strain;
-  double kinetic_energy, elastic_energy, plastic_dissipation, damage_dissipation, bond_energy, contact_energy,
-      viscous_dissipation, damping_dissipation, external_work, energy_residual;
-  double contact_area, surface_area, bonded_area, bonds, mean_damage, coordination_number, max_penetration,
-      damping_drag_ratio, time_step;
+/// Sums of one grain over the last pass of each kind.
+struct GrainSums {
+  ContactSums contact;
+  WallSums walls;
+  AdvanceSums advance;
+  ElementSums elements;
 };
 
 class Simulation {
 public:
   /// Begins at rest apart from the scenario's initial velocities. With `branch`, the first stage is not begun: that waits
-  /// for a checkpoint and begin_branch(). Throws InputError where grains overlap at the start.
+  /// for restore() and begin_branch(). `scenario` and `team` must outlive the simulation. Throws InputError where grains
+  /// overlap at the start.
   Simulation(Model model, const Scenario& scenario, ThreadTeam& team, bool branch = false);
 
-  Model& model() { return model_; }
-  const Model& model() const { return model_; }
-  Contact& contact() { return contact_; }
-  const Contact& contact() const { return contact_; }
-  RunState& state() { return state_; }
-  const RunState& state() const { return state_; }
-  GrainSteps& grain_steps() { return grain_steps_; }
-  const GrainSteps& grain_steps() const { return grain_steps_; }
-  Profile& profile() { return profile_; }
-  const Profile& profile() const { return profile_; }
-
-  /// Takes up model, contact and state that were replaced from a checkpoint.
-  void restored(Grips grips);
-
-  /// Begins the stage `state().stage` at the present box.
-  void begin_stage();
-  /// After a checkpoint of another run: its state is the beginning of this scenario's first stage. Candidates and step
-  /// are found anew with this scenario's settings; what energies jump by, where those differ, is not in the residual.
-  void begin_branch();
-  /// s: how long the stage takes, or is expected to take.
-  double stage_duration() const { return loading_ ? loading_->expected_duration() : motion_->expected_duration(); }
-  double stage_fraction_done() const {
-    return loading_ ? state_.loading.fraction_done : motion_->fraction_done(state_.stage_time, state_.mean_stress);
-  }
-  /// True when the present time level is the stage's last.
-  bool stage_complete() const { return state_.stage_ended != 0 || state_.stage_time >= motion_->duration(); }
-
-  /// Adds contact and wall forces at the present positions.
+  // ---- the step
+  /// Adds contact and wall forces at the present positions. Throws SimulationError where contact cannot hold.
   void evaluate_forces();
   /// One step of central differences. Throws SimulationError naming the element or grain that failed.
   void advance();
 
-  /// All observed quantities; valid between evaluate_forces() and advance().
-  HistoryRow observe();
-  double relative_density() const;
-  const Walls& walls() const { return walls_; }
+  // ---- stages
+  /// Begins the stage of this index at the present box.
+  void begin_stage(std::int64_t stage);
+  void begin_next_stage() { begin_stage(state_.stage + 1); }
+  bool stage_complete() const { return stage_run_->complete(); }
   /// What is to be said of a stage that is complete, after evaluate_forces().
-  StageResult stage_result();
+  StageResult stage_result() const;
+
+  // ---- what can be observed, between evaluate_forces() and advance()
+  HistoryRow observe() const;
+  double relative_density() const;
+  /// After a branch began: what energies jump by, where its settings differ, is not in the balance. Takes the residual of
+  /// the branch's first row out of it.
+  void reset_energy_balance(HistoryRow& first_row);
+
+  const Scenario& scenario() const { return *scenario_; }
+  const Model& model() const { return model_; }
+  const Contact& contact() const { return contact_; }
+  const Walls& walls() const { return walls_; }
   const Grips& grips() const { return grips_; }
-  const Stage& stage() const { return scenario_.stages[static_cast<std::size_t>(state_.stage)]; }
+  const RunState& state() const { return state_; }
+  const EnergyLedger& energies() const { return energies_; }
+  const StepEstimate& step_estimate() const { return step_estimate_; }
+  const StageRun& stage_run() const { return *stage_run_; }
+  const Stage& stage() const { return stage_run_->stage(); }
+  const Profile& profile() const { return profile_; }
+  Profile& profile() { return profile_; }
+
+  // ---- checkpoints
+  void write(FieldWriter& to) const;
+  /// What a checkpoint's arrays replace.
+  struct Arrays {
+    Model& model;
+    Contact& contact;
+    GrainSteps& grain_steps;
+    Grips* grips; ///< of a stage that grips, its axis set, or none
+  };
+  /// Takes up the state of a checkpoint: `take(arrays)` replaces the arrays, `fields` the rest. As the state of `stage`
+  /// where that is given (a branch), else of the checkpoint's own. Throws std::invalid_argument where the fields are of
+  /// another version.
+  template <class Take>
+  void restore(FieldReader& fields, std::optional<std::int64_t> stage, Take&& take) {
+    read(fields, stage);
+    GrainSteps grain_steps;
+    take(Arrays{model_, contact_, grain_steps, prepare_grips()});
+    take_up(std::move(grain_steps));
+  }
+  /// After restore(): its state is the beginning of this scenario's first stage. Candidates and step are found anew with
+  /// this scenario's settings.
+  void begin_branch();
+  /// For tests and benchmarks that change positions, velocities or strains by hand.
+  Model& model_to_disturb() { return model_; }
 
 private:
-  /// What the next advance does: its step, where the walls go, and the constants of the velocity update.
-  struct Plan {
-    double step;
-    double stage_time; ///< s, by which the stage's clock moves on
-    Walls walls;
-    std::array<double, 3> sliding; ///< mm, of the grips
-    Advance advance;
-  };
-  Plan plan_step() const;
-  BondSums total_bonds();
-  void make_motion();
-  void change_walls();
+  void read(FieldReader& fields, std::optional<std::int64_t> stage);
+  Grips* prepare_grips();
+  void take_up(GrainSteps grain_steps);
+  void search();
+  void add_contact_and_walls();
+  void check_penetration() const;
+  std::array<double, 2> add_grips();
+  void measure_walls(const std::array<double, 2>& grip_force);
+  void regulate_loading_rate();
+  Advance velocity_update(const StepPlan& plan) const;
+  void move_and_strain(const Advance& update);
+  double add_up_step(double step);
+  void update_surfaces();
+  void change_walls(const Axes& withdrawn);
+  void place_walls(const Axes& withdrawn);
   void return_walls(std::size_t axis);
-  LoadingObservation observe_loading();
-  std::array<double, 6> wall_stress() const;
-  void regulate_pace();
-  double next_step() const;
-  /// `anew`: with the frequencies of whole grains, whenever they were last found.
-  void estimate_stable_step(bool anew = false);
+  void grip_faces();
+  void renew_step_estimate(bool anew);
+  StageObservation observation() const;
   double damping_rate() const;
   [[noreturn]] void report_bad_grain(int grain) const;
-  void refuse_overlap(int grain);
 
+  const Scenario* scenario_;
+  ThreadTeam* team_;
+  Profile profile_;
   Model model_;
-  const Scenario& scenario_;
-  ThreadTeam& team_;
   Contact contact_;
   Walls walls_;
-  RunState state_;
-  Profile profile_;
-  std::optional<StageMotion> motion_;
-  std::optional<LoadingControl> loading_;
-  std::optional<PaceControl> pace_;
   Grips grips_;
-  double margin_ = 0;       ///< mm, of the contact search
-  double damping_rate_ = 0; ///< 1/s, of the next advance
-  bool rebase_ledger_ = false;
-
-  // per grain, summed in grain order
-  std::vector<Bounds> bounds_;
-  std::vector<ContactSums> contact_sums_;
-  std::vector<WallSums> wall_sums_;
-  std::vector<GripSums> grip_sums_;
-  std::vector<AdvanceSums> advance_sums_;
-  std::vector<ElementSums> element_sums_;
-  std::vector<StableStep> stable_steps_;
-  GrainSteps grain_steps_;
-  std::optional<PaceState> regulated_; ///< takes over when the step has been made that is planned at the old pace
-  std::vector<double> stiffness_rate_;
+  RunState state_;
+  EnergyLedger energies_;
+  StepEstimate step_estimate_;
+  std::optional<StageRun> stage_run_;
+  std::vector<Bounds> bounds_;       ///< [grains]
+  std::vector<GrainSums> sums_;      ///< [grains]
+  std::optional<StepPlan> plan_;     ///< of the next step, where grips need it before
+  double margin_ = 0;                ///< mm, of the contact search
+  double damping_rate_ = 0;          ///< 1/s, of the next advance
+  bool energy_balance_open_ = false; ///< until the first row of a branch
 };
+
+/// MPa, of all six walls, from the forces on them (N); compression positive.
+std::array<double, 6> wall_stress(const std::array<double, 6>& force, const Walls& walls);
 
 } // namespace mpfem

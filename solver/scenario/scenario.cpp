@@ -8,53 +8,16 @@
 #include <fmt/format.h>
 
 #include "common/table_reader.hpp"
+#include "solver/scenario/ranges.hpp"
+#include "solver/scenario/read_stages.hpp"
 
 namespace mpfem {
 
 namespace {
 
-// Ranges that exclude slips of the decimal point or of units; physics sets its own limits where it has any.
-// They also keep finite all that is computed from several of them: squares, ratios, the stable step.
-constexpr Range hardening_exponent = Range::between(1e-3, 1);
-constexpr Range admissible_poissons_ratio{.low = -1, .high = 0.5, .low_open = true, .high_open = true};
-constexpr Range target_density{.low = 0, .high = 1.2, .low_open = true};
-constexpr Range positive_density = Range::between(1e-18, 1e3);   // tonne/mm^3
-constexpr Range positive_modulus = Range::between(1e-9, 1e12);   // MPa; also strengths and flow stresses
-constexpr Range positive_stress = Range::between(1e-12, 1e12);   // MPa
-constexpr Range stress_or_zero = Range::between(0, 1e12);        // MPa
-constexpr Range any_stress = Range::between(-1e12, 1e12);        // MPa
-constexpr Range positive_speed = Range::between(1e-12, 1e12);    // mm/s
-constexpr Range any_speed = Range::between(-1e12, 1e12);         // mm/s or rad/s
-constexpr Range positive_time = Range::between(1e-15, 1e9);      // s
-constexpr Range positive_length = Range::between(1e-12, 1e9);    // mm
-constexpr Range any_length = Range::between(-1e9, 1e9);          // mm
-constexpr Range rate_or_zero = Range::between(0, 1e15);          // 1/s
-constexpr Range positive_stiffness = Range::between(1e-9, 1e18); // MPa/mm
-constexpr Range positive_energy = Range::between(1e-18, 1e12);   // N/mm
-constexpr Range strain_or_zero = Range::between(0, 1e3);
-constexpr double most_grains = 1e9;
-
 constexpr double smallest_density_step = 0.001; // of checkpoints, whose names have three decimals
 
 constexpr std::size_t largest_hardening_table = 64; // TableLaw::max_points
-
-constexpr std::string_view stage_isotropic_compaction = "isotropic_compaction";
-constexpr std::string_view stage_isotropic_unloading = "isotropic_unloading";
-constexpr std::string_view stage_grip = "grip";
-constexpr std::string_view stage_hold = "hold";
-constexpr std::string_view stage_unconfined = "unconfined_compression";
-constexpr std::string_view stage_triaxial = "triaxial_compression";
-constexpr std::string_view stage_die = "die_compression";
-constexpr std::string_view stage_probe = "probe";
-constexpr std::string_view stage_cycles = "stress_cycles";
-
-/// Refuses keys of `all` that are given but do not belong to the choice made ("law = 'elastic'").
-void refuse_foreign_keys(const TableReader& table, const std::vector<std::string>& all,
-                         const std::vector<std::string>& meaningful, std::string_view choice) {
-  for (const std::string& key : all)
-    if (table.has(key) && std::find(meaningful.begin(), meaningful.end(), key) == meaningful.end())
-      table.fail(key, fmt::format("has no meaning with {}", choice));
-}
 
 HardeningLaw hardening_law(const std::string& name) {
   if (name == "elastic") return HardeningLaw::elastic;
@@ -193,8 +156,9 @@ void read_element(TableReader table, NumericsParameters& numerics) {
 NumericsParameters read_numerics(TableReader table) {
   NumericsParameters numerics;
   numerics.time_step_factor = table.number_or("time_step_factor", numerics.time_step_factor, Range::between(1e-9, 2));
-  numerics.step_estimate =
-      table.choice_or("step_estimate", "grain", {"grain", "tet"}) == "grain" ? StepEstimate::grain : StepEstimate::tet;
+  numerics.step_estimate = table.choice_or("step_estimate", "grain", {"grain", "tet"}) == "grain"
+                               ? StepEstimateMethod::grain
+                               : StepEstimateMethod::tet;
   numerics.bulk_viscosity_linear =
       table.number_or("bulk_viscosity_linear", numerics.bulk_viscosity_linear, Range::between(0, 1));
   numerics.bulk_viscosity_quadratic =
@@ -235,222 +199,10 @@ void read_initial(TableReader table, Scenario& scenario) {
   table.finish();
 }
 
-DampingParameters read_damping(TableReader& table) {
-  DampingParameters damping;
-  damping.rate = table.number_or("damping_rate", 0, rate_or_zero);
-  if (table.has("damping_fade_stress") && !table.has("damping_rate"))
-    table.fail("damping_fade_stress", "has no meaning without 'damping_rate'");
-  const auto fade_stress = table.optional_number("damping_fade_stress", positive_stress);
-  if (damping.rate > 0 && !fade_stress)
-    table.fail("damping_fade_stress", "missing, expected a number > 0, since damping_rate > 0");
-  damping.fade_stress = fade_stress.value_or(0);
-  return damping;
-}
-
-/// `speed`: mm/s, the stage's own; `youngs_modulus`: MPa, of the grains.
-std::optional<QuasiStatic> read_quasi_static(TableReader& stage, double speed, double youngs_modulus) {
-  constexpr double slower = 0.25, faster = 4; // bounds where none are given, over the stage's own speed
-  constexpr double loose = 1e-3;              // stress of a loose packing over the grains' modulus
-  constexpr Range part = Range::between(1e-9, 1);
-  std::optional<TableReader> table = stage.optional_table("quasi_static");
-  if (!table) return std::nullopt;
-  if (!(speed > 0)) stage.fail("quasi_static", "has no meaning where nothing moves");
-  if (stage.has("duration"))
-    stage.fail("duration", "has no meaning with quasi_static, which stretches the stage's time");
-  QuasiStatic q;
-  q.kinetic_tolerance = table->number_or("kinetic_tolerance", q.kinetic_tolerance, part);
-  q.stress_tolerance = table->number_or("stress_tolerance", q.stress_tolerance, part);
-  q.slowest_speed = table->number_or("slowest_speed", slower * speed, {.low = 1e-13, .high = speed});
-  q.fastest_speed = table->number_or("fastest_speed", faster * speed, {.low = speed, .high = 1e13});
-  q.loose_stress = table->number_or("loose_stress", loose * youngs_modulus, stress_or_zero);
-  table->finish();
-  return q;
-}
-
-/// The name stands in file names, so it is a plain word.
-void check_stage_name(const TableReader& table, const std::string& name) {
-  const bool plain = std::all_of(name.begin(), name.end(), [](char c) {
-    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '-' || c == '_';
-  });
-  constexpr std::size_t longest = 64;
-  if (name.empty() || name.size() > longest || !plain)
-    table.fail("name", fmt::format("found '{}', allowed 1 … {} letters (a … z), digits, '-' and '_'",
-                                   name.size() > longest ? "a longer text" : name, longest));
-}
-
-/// Keys of each type of stage, besides those that all have.
-const std::vector<std::pair<std::string, std::vector<std::string>>> stage_keys = {
-    {std::string(stage_isotropic_compaction), {"relative_density", "mean_stress", "wall_speed", "ramp_fraction"}},
-    {std::string(stage_isotropic_unloading), {"mean_stress", "wall_speed", "ramp_fraction"}},
-    {std::string(stage_grip), {"axis", "grip_depth", "lateral", "displacement", "sliding", "speed", "ramp_fraction"}},
-    {std::string(stage_hold), {"duration", "mean_stress", "servo_speed"}},
-    {std::string(stage_unconfined),
-     {"wall_speed", "ramp_fraction", "axial_strain", "axial_stress", "stress_drop", "dissipation_ratio", "duration"}},
-    {std::string(stage_triaxial),
-     {"wall_speed", "servo_speed", "ramp_fraction", "hold", "lateral_stress", "axial_strain", "axial_stress",
-      "deviatoric_stress", "stress_drop", "dissipation_ratio", "duration"}},
-    {std::string(stage_die),
-     {"wall_speed", "ramp_fraction", "axial_strain", "relative_density", "axial_stress", "dissipation_ratio",
-      "duration"}},
-    {std::string(stage_probe),
-     {"wall_speed", "servo_speed", "ramp_fraction", "direction", "axial_strain", "mean_stress", "deviatoric_stress",
-      "dissipation_ratio", "duration"}},
-    {std::string(stage_cycles), {"wall_speed", "ramp_fraction", "lowest_mean_stress", "highest_mean_stress", "cycles"}},
-};
-
-/// The keys that end a loading, of those that the stage's type allows.
-LoadingEnds read_ends(TableReader& table, std::string_view type) {
-  constexpr Range strain{.low = -0.5, .high = 0.5}; // beyond, walls that were never to come so far are a slip
-  LoadingEnds ends;
-  ends.axial_strain = table.optional_number("axial_strain", strain);
-  if (ends.axial_strain == 0.0) table.fail("axial_strain", "found 0, allowed > 0 (compression) or < 0 (extension)");
-  ends.relative_density = table.optional_number("relative_density", target_density);
-  ends.axial_stress = table.optional_number("axial_stress", stress_or_zero);
-  ends.mean_stress = table.optional_number("mean_stress", stress_or_zero);
-  ends.deviatoric_stress = table.optional_number("deviatoric_stress", any_stress);
-  ends.stress_drop = table.optional_number("stress_drop", {.low = 0, .high = 1, .low_open = true, .high_open = true});
-  ends.dissipation_ratio = table.optional_number("dissipation_ratio", {.low = 1, .high = 1e9, .low_open = true});
-  ends.duration = table.optional_number("duration", positive_time);
-  if (!ends.axial_strain && !ends.relative_density && !ends.axial_stress && !ends.mean_stress &&
-      !ends.deviatoric_stress && !ends.stress_drop && !ends.dissipation_ratio && !ends.duration)
-    table.fail("type", fmt::format("found '{}' without an end, expected at least one of axial_strain, "
-                                   "dissipation_ratio, duration and the other ends of that type",
-                                   type));
-  return ends;
-}
-
-std::array<double, 2> read_direction(TableReader& table) {
-  const std::vector<double> direction = table.numbers("direction", Range::between(-1e12, 1e12));
-  if (direction.size() != 2 || (direction[0] == 0 && direction[1] == 0))
-    table.fail("direction", "expected two numbers, [dp, dq], not both 0");
-  return {direction[0], direction[1]};
-}
-
-WallLoading read_loading(TableReader& table, std::string_view type) {
-  WallLoading loading;
-  loading.wall_speed = table.number("wall_speed", positive_speed);
-  loading.ramp_fraction = table.number_or("ramp_fraction", loading.ramp_fraction, Range::between(0, 0.5));
-  if (type == stage_isotropic_compaction) {
-    loading.path = LoadingPath::isotropic;
-    loading.ends.mean_stress = table.number("mean_stress", positive_stress);
-  } else if (type == stage_cycles) {
-    loading.path = LoadingPath::cycles;
-    loading.highest_mean_stress = table.number("highest_mean_stress", positive_stress);
-    loading.lowest_mean_stress =
-        table.number("lowest_mean_stress", {.low = 0, .high = loading.highest_mean_stress, .high_open = true});
-    loading.cycles = table.integer("cycles", Range::between(1, 1e4));
-  } else {
-    // A packing that dilates moves its lateral walls faster than its axial ones; one that bursts under little stress, many times.
-    constexpr double servo_speed = 10;
-    loading.servo_speed =
-        table.number_or("servo_speed", servo_speed * loading.wall_speed, {.low = 1e-12, .high = 1e13});
-    loading.path = type == stage_unconfined ? LoadingPath::unconfined
-                   : type == stage_triaxial ? LoadingPath::triaxial
-                   : type == stage_die      ? LoadingPath::die
-                                            : LoadingPath::probe;
-    if (type == stage_triaxial) {
-      loading.hold_force = table.choice_or("hold", "force", {"force", "stress"}) == "force";
-      loading.lateral_stress = table.optional_number("lateral_stress", positive_stress);
-    }
-    if (type == stage_probe) loading.direction = read_direction(table);
-    loading.ends = read_ends(table, type);
-  }
-  return loading;
-}
-
-GripMotion read_grip(TableReader& table) {
-  GripMotion grip;
-  const std::string axis = table.choice_or("axis", "z", {"x", "y", "z"});
-  grip.axis = axis[0] - 'x';
-  grip.depth = table.number("grip_depth", positive_length);
-  grip.lateral_fixed = table.choice_or("lateral", "fixed", {"fixed", "free"}) == "fixed";
-  grip.displacement = table.number_or("displacement", 0, any_length);
-  grip.sliding = table.vector3_or("sliding", {0, 0, 0}, any_length);
-  const bool slides = grip.sliding != std::array<double, 3>{};
-  if (slides && !grip.lateral_fixed) table.fail("sliding", "has no meaning with lateral = 'free'");
-  if (grip.sliding[static_cast<std::size_t>(grip.axis)] != 0)
-    table.fail("sliding", fmt::format("found a part along the axis {}, allowed only across it", axis));
-  if (grip.displacement == 0 && !slides)
-    table.fail("displacement", "missing or 0, expected a number < 0 (together) or > 0 (apart), or 'sliding'");
-  grip.speed = table.number("speed", positive_speed);
-  grip.ramp_fraction = table.number_or("ramp_fraction", grip.ramp_fraction, Range::between(0, 0.5));
-  return grip;
-}
-
-Stage read_stage(TableReader table, std::size_t number, double youngs_modulus) {
-  Stage stage;
-  std::vector<std::string> types, all_keys;
-  for (const auto& [name, keys] : stage_keys) {
-    types.push_back(name);
-    all_keys.insert(all_keys.end(), keys.begin(), keys.end());
-  }
-  const std::string type = table.choice("type", types);
-  stage.name = table.string_or("name", fmt::format("{}-{}", type, number));
-  check_stage_name(table, stage.name);
-  for (const auto& [name, keys] : stage_keys)
-    if (name == type) refuse_foreign_keys(table, all_keys, keys, fmt::format("type = '{}'", type));
-
-  if (type == stage_isotropic_compaction && table.has("mean_stress")) {
-    if (table.has("relative_density")) table.fail("mean_stress", "has no meaning with 'relative_density'");
-    stage.loading = read_loading(table, type);
-  } else if (type == stage_isotropic_compaction) {
-    IsotropicCompaction compaction;
-    compaction.relative_density = table.number("relative_density", target_density);
-    compaction.wall_speed = table.number("wall_speed", positive_speed);
-    compaction.ramp_fraction = table.number_or("ramp_fraction", compaction.ramp_fraction, Range::between(0, 0.5));
-    stage.isotropic_compaction = compaction;
-  } else if (type == stage_isotropic_unloading) {
-    IsotropicUnloading unloading;
-    unloading.mean_stress = table.number("mean_stress", stress_or_zero);
-    unloading.wall_speed = table.number("wall_speed", positive_speed);
-    unloading.ramp_fraction = table.number_or("ramp_fraction", unloading.ramp_fraction, Range::between(0, 0.5));
-    stage.isotropic_unloading = unloading;
-  } else if (type == stage_grip) {
-    stage.grip = read_grip(table);
-  } else if (type == stage_hold) {
-    const double duration = table.number("duration", positive_time);
-    if (const auto stress = table.optional_number("mean_stress", positive_stress)) {
-      constexpr double usual_servo_speed = 2000; // mm/s, far above what a packing at rest asks for
-      WallLoading loading;
-      loading.path = LoadingPath::held;
-      loading.held_stress = *stress;
-      loading.servo_speed = table.number_or("servo_speed", usual_servo_speed, positive_speed);
-      loading.ends.duration = duration;
-      stage.loading = loading;
-    } else {
-      if (table.has("servo_speed")) table.fail("servo_speed", "has no meaning without 'mean_stress'");
-      stage.hold = Hold{.duration = duration};
-    }
-  } else {
-    stage.loading = read_loading(table, type);
-  }
-  stage.quasi_static = read_quasi_static(table, stage.speed(), youngs_modulus);
-  stage.damping = read_damping(table);
-  stage.places = table.places();
-  table.finish();
-  return stage;
-}
-
-std::vector<Stage> read_stages(TableReader& root, double youngs_modulus) {
-  std::vector<TableReader> tables = root.tables("stages");
-  if (tables.empty())
-    root.fail("stages", root.has("stages") ? "found no stage, expected at least one [[stages]]"
-                                           : "missing, expected at least one [[stages]]");
-  std::vector<Stage> stages;
-  std::set<std::string> names;
-  for (TableReader& table : tables) {
-    stages.push_back(read_stage(table, stages.size() + 1, youngs_modulus));
-    const std::string& name = stages.back().name;
-    if (!names.insert(name).second)
-      table.fail("name", fmt::format("found '{}', which an earlier stage has, expected different names", name));
-  }
-  return stages;
-}
-
 void check_walls(const TableReader& root, const Scenario& scenario) {
   if (scenario.walls) return;
   for (const Stage& stage : scenario.stages)
-    if (stage.isotropic_compaction || stage.isotropic_unloading || stage.loading)
+    if (moves_walls(stage.type))
       root.fail("walls", fmt::format("found false, expected true, since stage '{}' moves the walls", stage.name));
 }
 

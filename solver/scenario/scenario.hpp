@@ -10,6 +10,7 @@
 
 #include "common/key_places.hpp"
 #include "solver/physics/bond.hpp"
+#include "solver/scenario/stages.hpp"
 
 namespace mpfem {
 
@@ -98,7 +99,7 @@ enum class Precision {
 const char* precision_name(Precision precision);
 
 /// Whose largest frequency sets the stable step.
-enum class StepEstimate {
+enum class StepEstimateMethod {
   grain, ///< that of each grain as a whole, found by iteration
   tet,   ///< that of the worst tet by itself, a proven bound, some quarter shorter
 };
@@ -108,7 +109,7 @@ struct NumericsParameters {
   double own_pressure = 0; ///< tet4_anp, tet4_patch: share of each tet's own pressure, [0, 1]; 1 is tet4
   Precision precision = Precision::full;
   double time_step_factor = 0.9; ///< safety factor on the stable step, (0, 2]; beyond 1 nothing is proven
-  StepEstimate step_estimate = StepEstimate::grain;
+  StepEstimateMethod step_estimate = StepEstimateMethod::grain;
   double bulk_viscosity_linear = 0.06;
   double bulk_viscosity_quadratic = 1.2;
   double mass_scaling = 1;      ///< uniform factor on the density
@@ -122,113 +123,6 @@ struct OutputParameters {
   bool snapshot_at_stage_end = true;
   std::vector<double> checkpoint_relative_densities; ///< a checkpoint that stays when the density first passes each
   double checkpoint_interval = 60;                   ///< s of wall-clock time between rolling checkpoints
-};
-
-/// Isotropic compaction by six walls to a relative density; smooth start and end.
-struct IsotropicCompaction {
-  double relative_density = 0; ///< target, reference grain volume over box volume
-  double wall_speed = 0;       ///< plateau speed of every wall, mm/s
-  double ramp_fraction = 0.1;  ///< fraction of the stage's time spent in each of the smooth start and end
-};
-
-/// Six walls move apart until the mean stress has fallen to a target. They slow down as they come near it.
-struct IsotropicUnloading {
-  double mean_stress = 0;     ///< target, MPa
-  double wall_speed = 0;      ///< largest speed of every wall, mm/s
-  double ramp_fraction = 0.1; ///< smooth start, as a fraction of the time in which the box would grow by 3 % in length
-};
-
-/// The nodes near two opposite faces of the box are gripped and moved along the box's axis. Walls take no part.
-struct GripMotion {
-  int axis = 2;                    ///< 0 x, 1 y, 2 z
-  double depth = 0;                ///< mm: nodes so near to a face of the box when the stage begins
-  bool lateral_fixed = true;       ///< gripped nodes do not move across the axis
-  double displacement = 0;         ///< mm, change of the distance between both grips; positive apart
-  std::array<double, 3> sliding{}; ///< mm, of the high grip against the low one, across the axis
-  double speed = 0;                ///< plateau speed of each grip, mm/s
-  double ramp_fraction = 0.1;
-};
-
-/// Nothing moves: free flight, vibration, settling.
-struct Hold {
-  double duration = 0; ///< s
-};
-
-/// What the walls of a stage do whose end is not a matter of time: some are driven, some are held at a stress.
-enum class LoadingPath {
-  isotropic,  ///< all walls together, to a mean stress
-  cycles,     ///< all walls together, between two mean stresses
-  unconfined, ///< x and y walls away, z walls driven
-  triaxial,   ///< x and y walls held at a stress or force, z walls driven
-  die,        ///< x and y walls at rest, z walls driven
-  probe,      ///< all walls held on a straight path of mean and deviatoric stress
-  held,       ///< all walls held at one stress, for a time
-};
-
-/// What ends a loading: the first of those that are given. Strains are logarithmic, since the stage began, compression
-/// positive; stresses are those of the walls, MPa.
-struct LoadingEnds {
-  std::optional<double> axial_strain;      ///< negative: the walls move apart
-  std::optional<double> relative_density;  ///< reference grain volume over box volume
-  std::optional<double> axial_stress;      ///< MPa
-  std::optional<double> mean_stress;       ///< MPa
-  std::optional<double> deviatoric_stress; ///< MPa
-  std::optional<double> stress_drop; ///< fall below the peak of the axial stress (unconfined) or of |q|, over the peak
-  std::optional<double> dissipation_ratio; ///< plastic and damage dissipation over its value when the stage began
-  std::optional<double> duration;          ///< s
-};
-
-/// Driven and servo-held walls.
-struct WallLoading {
-  LoadingPath path = LoadingPath::isotropic;
-  double wall_speed = 0;      ///< largest speed of every driven wall, and of a probe, mm/s
-  double servo_speed = 0;     ///< largest speed of every held wall, mm/s
-  double ramp_fraction = 0.1; ///< of the time of the whole way (of 5 % of strain where that is not known) to full speed
-  bool hold_force = true;     ///< triaxial: the lateral walls' force is held; false: their stress
-  std::optional<double> lateral_stress; ///< triaxial, MPa: to be held; none: what acts when the stage begins
-  double held_stress = 0;               ///< held, MPa
-  std::array<double, 2> direction{};    ///< probe: of the path, in mean and deviatoric stress
-  double lowest_mean_stress = 0;        ///< cycles, MPa
-  double highest_mean_stress = 0;       ///< cycles, MPa
-  std::int64_t cycles = 0;              ///< up and down again
-  LoadingEnds ends;
-};
-
-/// Mass-proportional damping of each grain's velocity relative to the affine velocity at the grain's centre. It fades
-/// from full at mean stress 0 to nothing at `fade_stress`.
-struct DampingParameters {
-  double rate = 0;        ///< 1/s; force = -rate * m * (v - v_affine)
-  double fade_stress = 0; ///< MPa
-};
-
-/// Tolerances of quasi-static loading, between whose bounds a stage chooses its speed (solver/run/pace.hpp).
-struct QuasiStatic {
-  double kinetic_tolerance = 0.01; ///< kinetic energy over internal energy gained in the stage or stored at its start
-  double stress_tolerance = 0.02;  ///< what inertia bears of the wall stresses, over the largest of them
-  double slowest_speed = 0;        ///< mm/s
-  double fastest_speed = 0;        ///< mm/s
-  double loose_stress = 0;         ///< MPa: below this wall stress the packing is loose and the speed stays as it is
-};
-
-struct Stage {
-  std::string name;
-  std::optional<IsotropicCompaction> isotropic_compaction; ///< exactly one of these is set
-  std::optional<IsotropicUnloading> isotropic_unloading;
-  std::optional<GripMotion> grip;
-  std::optional<Hold> hold;
-  std::optional<WallLoading> loading;
-  std::optional<QuasiStatic> quasi_static; ///< none: the stage keeps its speed
-  DampingParameters damping;
-  KeyPlaces places; ///< of its keys
-
-  /// mm/s of each driven wall or grip, where nothing else is asked for; 0 where nothing moves.
-  double speed() const {
-    return isotropic_compaction  ? isotropic_compaction->wall_speed
-           : isotropic_unloading ? isotropic_unloading->wall_speed
-           : grip                ? grip->speed
-           : loading             ? loading->wall_speed
-                                 : 0.0;
-  }
 };
 
 struct Scenario {

@@ -209,7 +209,7 @@ void packing(const std::string& element, const std::string& file, double factor)
   for (const double density : {0.7, 0.8, 0.9}) {
     Stage stage;
     stage.name = "compaction";
-    stage.isotropic_compaction = IsotropicCompaction{density, 4000, 0.1};
+    stage.type = IsotropicCompaction{density, 4000, 0.1};
     stage.damping = {2e6, 0.25};
     scenario.stages.push_back(stage);
   }
@@ -217,8 +217,7 @@ void packing(const std::string& element, const std::string& file, double factor)
   Simulation simulation(build_model(read_packing(file), scenario, file), scenario, team);
   for (std::size_t s = 0; s < scenario.stages.size(); ++s) {
     if (s > 0) {
-      ++simulation.state().stage;
-      simulation.begin_stage();
+      simulation.begin_next_stage();
       simulation.advance();
     }
     for (;;) {

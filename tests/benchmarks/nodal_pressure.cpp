@@ -97,7 +97,7 @@ void vibration(const std::string& element, double size_ratio, const std::string&
   GrainMesh mesh = sphere_mesh(size_ratio, radius, 1);
   move(mesh, {0.5, 0.5, 0.5});
   Simulation simulation(build_model(pack({mesh}, {1, 1, 1}), scenario, "sphere"), scenario, team);
-  Model& model = simulation.model();
+  Model& model = simulation.model_to_disturb();
   const auto neighbours = tet_neighbours(model);
   const auto nodes = static_cast<std::size_t>(model.nodes());
   std::vector<double> shape(3 * nodes);
@@ -169,22 +169,21 @@ void cycles(const std::string& element, const std::string& file, int count) {
   scenario.stages.clear();
   Stage stage;
   stage.name = "compaction";
-  stage.isotropic_compaction = IsotropicCompaction{0.84, 4000, 0.1};
+  stage.type = IsotropicCompaction{0.84, 4000, 0.1};
   stage.damping = {2e6, 0.25};
   scenario.stages.push_back(stage);
-  WallLoading loading;
-  loading.path = LoadingPath::cycles;
+  StressCycles loading;
   loading.wall_speed = 4000;
   loading.lowest_mean_stress = 1;
   loading.highest_mean_stress = 60;
   loading.cycles = count;
   stage = {};
   stage.name = "cycles";
-  stage.loading = loading;
+  stage.type = loading;
   scenario.stages.push_back(stage);
   ThreadTeam team(1);
   Simulation simulation(build_model(read_packing(file), scenario, file), scenario, team);
-  const Model& model = simulation.model();
+  const Model& model = simulation.model_to_disturb();
   const auto neighbours = tet_neighbours(model);
   fmt::print(
       "element,stage,half_cycle,time [s],relative_density,mean_stress [MPa],pressure [MPa],pressure_rms [MPa],"
@@ -203,18 +202,19 @@ void cycles(const std::string& element, const std::string& file, int count) {
   };
   for (std::size_t s = 0; s < 2; ++s) {
     if (s > 0) {
-      ++simulation.state().stage;
-      simulation.begin_stage();
+      simulation.begin_next_stage();
       simulation.advance();
     }
-    double legs = 0;
+    std::int64_t legs = 0;
     for (;;) {
       simulation.evaluate_forces();
-      if (s == 1 && simulation.state().loading.legs > legs) print(legs = simulation.state().loading.legs);
+      if (const auto* cycles = dynamic_cast<const StressCyclesControl*>(&simulation.stage_run().control());
+          cycles && cycles->half_cycles() > legs)
+        print(static_cast<double>(legs = cycles->half_cycles()));
       if (simulation.stage_complete()) break;
       simulation.advance();
     }
-    print(s == 0 ? 0 : legs + 1);
+    print(s == 0 ? 0.0 : static_cast<double>(legs + 1));
   }
 }
 

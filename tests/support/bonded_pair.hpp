@@ -44,7 +44,7 @@ inline Stage grip(const std::string& name, double displacement, double speed, st
   Stage stage;
   stage.name = name;
   // Balls are gripped by a cap, cubes by their faces.
-  stage.grip = GripMotion{2, 0.03, true, displacement, sliding, speed, 0.2};
+  stage.type = GripMotion{2, 0.03, true, displacement, sliding, speed, 0.2};
   return stage;
 }
 
@@ -84,8 +84,7 @@ inline Record run_stages(Simulation& simulation, const Scenario& scenario, int o
       simulation.advance();
     }
     if (s + 1 == scenario.stages.size()) break;
-    ++simulation.state().stage;
-    simulation.begin_stage();
+    simulation.begin_next_stage();
     simulation.advance();
   }
   record.worst_residual = largest_residual / largest_work;
@@ -111,7 +110,7 @@ inline std::array<double, 3> angular_momentum(const Model& m) {
 
 /// Gives all grains one rigid rotation about the middle of the box, in place of the velocities that they have.
 inline void spin(Simulation& simulation, const std::array<double, 3>& rate) {
-  Model& m = simulation.model();
+  Model& m = simulation.model_to_disturb();
   for (std::size_t n = 0; n < static_cast<std::size_t>(m.nodes()); ++n) {
     std::array<double, 3> r{};
     for (std::size_t a = 0; a < 3; ++a) r[a] = m.position[4 * n + a] - 0.5 * (m.box_low[a] + m.box_high[a]);

@@ -60,15 +60,15 @@ inline ColumnResult press_column(int spheres, double size_ratio, double approach
   const double shrink = (radius - approach) / start;
   Stage stage;
   stage.name = "press";
-  stage.isotropic_compaction = IsotropicCompaction{0, 2000.0 * spheres * 0.4 / height * 2, 0.3};
+  stage.type = IsotropicCompaction{0, 2000.0 * spheres * 0.4 / height * 2, 0.3};
   stage.damping = {4e6, 1e9};
   const MeshedPacking packing = pack(grains, {0.4, 0.4, height});
   ThreadTeam team(2);
   scenario.stages = {stage};
-  scenario.stages[0].isotropic_compaction->relative_density =
+  std::get<IsotropicCompaction>(scenario.stages[0].type).relative_density =
       build_model(packing, scenario, "test").total_reference_volume() / (0.4 * 0.4 * height * std::pow(shrink, 3));
   Simulation simulation(build_model(packing, scenario, "test"), scenario, team);
-  Model& model = simulation.model();
+  Model& model = simulation.model_to_disturb();
   const auto nodes_of = [&model](int g) {
     return std::pair{static_cast<std::size_t>(model.node_offset[static_cast<std::size_t>(g)]),
                      static_cast<std::size_t>(model.node_offset[static_cast<std::size_t>(g) + 1])};
@@ -101,9 +101,9 @@ inline ColumnResult press_column(int spheres, double size_ratio, double approach
   const double area = row.box_lengths[0] * row.box_lengths[1];
   const double low_force = row.wall_stress[4] * area, high_force = row.wall_stress[5] * area;
   result.wall_imbalance = (high_force - low_force) / (high_force + low_force);
-  const auto& state = simulation.state();
-  const double low_approach = radius - (mean(model.position, 0, 2) - state.low[2]);
-  const double high_approach = radius - (state.high[2] - mean(model.position, spheres - 1, 2));
+  const Walls& walls = simulation.walls();
+  const double low_approach = radius - (mean(model.position, 0, 2) - walls.low[2]);
+  const double high_approach = radius - (walls.high[2] - mean(model.position, spheres - 1, 2));
   result.wall_error = (low_force + high_force) / (reference(low_approach) + reference(high_approach)) - 1;
   result.contact_radius_over_size = std::sqrt(radius * low_approach) * size_ratio / radius;
   if (spheres == 2) {

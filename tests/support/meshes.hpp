@@ -102,7 +102,7 @@ inline Scenario holding_scenario(double duration, HardeningLaw law = HardeningLa
   scenario.material = {1.55e-9, 5000, 0.3, {law, 25, 125, 0.3, {}, {}}};
   Stage stage;
   stage.name = "hold";
-  stage.hold = Hold{duration};
+  stage.type = Rest{duration};
   scenario.stages = {stage};
   return scenario;
 }

@@ -1,6 +1,7 @@
 #pragma once
 // Meshed packing files for tests, without a mesher.
 
+#include <algorithm>
 #include <string>
 #include <vector>
 
@@ -9,7 +10,8 @@
 
 namespace mpfem::test {
 
-/// Writes a meshed packing as pack-gen would; sphere radii (mm) as given, centres at the grains' mean node.
+/// Writes a meshed packing as pack-gen would; sphere radii (mm) as given, centres at the grains' mean node. Offsets may be
+/// wrong.
 inline void write_packing(const std::string& path, const MeshedPacking& packing, const std::vector<double>& radius) {
   namespace file = schema::packing;
   using Doubles = std::span<const double>;
@@ -19,7 +21,7 @@ inline void write_packing(const std::string& path, const MeshedPacking& packing,
   for (std::size_t g = 0; g < grains; ++g) {
     const auto first = static_cast<std::size_t>(packing.grain_node_offset[g]),
                last = static_cast<std::size_t>(packing.grain_node_offset[g + 1]);
-    for (std::size_t n = first; n < last; ++n)
+    for (std::size_t n = first; n < std::min(last, packing.node.size() / 3); ++n)
       for (std::size_t a = 0; a < 3; ++a)
         center[3 * g + a] += packing.node[3 * n + a] / static_cast<double>(last - first);
   }

@@ -61,20 +61,19 @@ public:
     double before = height;
     for (const double approach : setup.approaches) {
       const double after = 2 * static_cast<double>(count) * (setup.radius - approach);
-      WallLoading loading;
-      loading.path = LoadingPath::unconfined;
+      UnconfinedCompression loading;
       loading.wall_speed = setup.wall_speed;
       loading.ramp_fraction = 0.3;
       loading.ends.axial_strain = std::log(before / after);
       Stage stage;
       stage.name = "press";
-      stage.loading = loading;
+      stage.type = loading;
       // Near the critical damping of a sphere's resonance on its contacts: what moves is at rest after a microsecond.
       stage.damping = {1e7, 1e9};
       scenario_.stages.push_back(stage);
       Stage rest;
       rest.name = "rest";
-      rest.hold = Hold{setup.rest};
+      rest.type = Rest{setup.rest};
       rest.damping = stage.damping;
       scenario_.stages.push_back(rest);
       before = after;
@@ -93,12 +92,12 @@ public:
   ColumnState state() {
     const HistoryRow row = simulation_->observe();
     const double area = row.box_lengths[0] * row.box_lengths[1];
-    const auto& state = simulation_->state();
+    const Walls& walls = simulation_->walls();
     ColumnState result;
     result.low_force = row.wall_stress[4] * area;
     result.high_force = row.wall_stress[5] * area;
-    result.low_approach = setup_.radius - (center(0) - state.low[2]);
-    result.high_approach = setup_.radius - (state.high[2] - center(count() - 1));
+    result.low_approach = setup_.radius - (center(0) - walls.low[2]);
+    result.high_approach = setup_.radius - (walls.high[2] - center(count() - 1));
     if (count() == 2) {
       result.pair_approach = setup_.radius - 0.5 * (center(1) - center(0));
       const auto pairs = pair_contacts(model(), simulation_->contact());
@@ -113,14 +112,13 @@ public:
   std::size_t count() const { return static_cast<std::size_t>(simulation_->model().grains); }
   /// Grain of the model that is sphere `i` from the bottom.
   std::size_t grain(std::size_t i) const { return setup_.listed_from_top ? count() - 1 - i : i; }
-  Model& model() { return simulation_->model(); }
+  Model& model() { return simulation_->model_to_disturb(); }
   Simulation& simulation() { return *simulation_; }
 
 private:
   void run_stage() {
     if (started_) {
-      ++simulation_->state().stage;
-      simulation_->begin_stage();
+      simulation_->begin_next_stage();
       simulation_->advance();
     }
     started_ = true;

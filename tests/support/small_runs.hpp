@@ -114,7 +114,7 @@ duration = 2e-6
 name = "held"
 type = "hold"
 mean_stress = 15
-duration = 1e-6
+duration = 6e-6
 )";
 
 /// Packing and scenario of eight grains in a folder.

@@ -66,7 +66,7 @@ inline SurfacePressure surface_pressure(const Model& model, const Contact& conta
 /// The same for what the walls press, in place of other grains: rigid planes, so that no facets take part.
 inline SurfacePressure wall_pressure(const Simulation& simulation, SurfacePressure surface) {
   const Model& model = simulation.model();
-  const RunState& state = simulation.state();
+  const Walls& walls = simulation.walls();
   std::fill(surface.total.begin(), surface.total.end(), 0.0);
   std::fill(surface.touching.begin(), surface.touching.end(), 0);
   for (int grain = 0; grain < model.grains; ++grain) {
@@ -75,8 +75,8 @@ inline SurfacePressure wall_pressure(const Simulation& simulation, SurfacePressu
          n < static_cast<std::size_t>(model.node_offset[g + 1]); ++n)
       for (std::size_t axis = 0; axis < 3; ++axis) {
         const double x = model.contact_coordinate(n, axis), area = model.normal[4 * n + 3];
-        const double gap = std::max(state.low[axis] - x, x - state.high[axis]);
-        if (!simulation.walls().stand(axis) || gap <= 0 || area <= 0) continue;
+        const double gap = std::max(walls.low[axis] - x, x - walls.high[axis]);
+        if (!walls.stand(axis) || gap <= 0 || area <= 0) continue;
         surface.touching[n] = 1;
         surface.total[n] +=
             model.penalty_stiffness[g] * model.local_stiffness(n) * model.reference_area[n] / area * gap;

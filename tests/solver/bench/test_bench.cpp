@@ -45,7 +45,6 @@ TEST_CASE("the work of contact is that of the points that touch, and of a search
   ThreadTeam team(1);
   const DensePacking dense = make_dense_packing(2'000, 4, 1);
   Simulation simulation(build_model(dense.packing, scenario, "dense"), scenario, team);
-  simulation.begin_stage();
   simulation.evaluate_forces();
   Contact contact = simulation.contact();
   REQUIRE(contact.candidates.point_facet.size() > 0);

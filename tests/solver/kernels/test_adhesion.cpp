@@ -37,11 +37,10 @@ Pair hemispheres(double size, double contact_radius, double approach, double ope
   pair.packing.grain_tet_offset = meshes.mesh.grain_tet_offset;
   pair.scenario = holding_scenario(1);
   Stage press = pair.scenario.stages[0], pull;
-  press.hold.reset();
-  press.grip = GripMotion{2, 1e-6, true, -(approach + 1e-6), {}, speed, 0.5};
+  press.type = GripMotion{2, 1e-6, true, -(approach + 1e-6), {}, speed, 0.5};
   pull = press;
   pull.name = "pull";
-  pull.grip->displacement = opening;
+  std::get<GripMotion>(pull.type).displacement = opening;
   pair.scenario.stages = {press, pull};
   pair.scenario.numerics.mass_scaling_step = 4e-7 * size;
   pair.scenario.numerics.mass_scaling_lighten = true;

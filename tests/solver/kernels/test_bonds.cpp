@@ -68,19 +68,18 @@ TEST_CASE("a bonded pair that turns by a quarter shows no spurious traction and 
   scenario.numerics.bulk_viscosity_linear = scenario.numerics.bulk_viscosity_quadratic = 0;
   Stage settle;
   settle.name = "settle";
-  settle.hold = Hold{2e-5};
+  settle.type = Rest{2e-5};
   settle.damping = {3e6, 1e9};
   scenario.stages.push_back(settle);
   Stage turn;
   turn.name = "turn";
-  turn.hold = Hold{2e-5};
+  turn.type = Rest{2e-5};
   Scenario turning = scenario;
   turning.stages.push_back(turn);
   ThreadTeam team(1);
   Simulation simulation(build_model(two_cubes(4), turning, "test"), turning, team);
   run_stages(simulation, scenario);
-  ++simulation.state().stage;
-  simulation.begin_stage();
+  simulation.begin_next_stage();
   simulation.advance(); // the grips' last forces
   simulation.evaluate_forces();
   const double rate = 0.5 * M_PI / 2e-5;
@@ -191,7 +190,7 @@ TEST_CASE("nodes at the edge between three bonded grains hold to both neighbours
   scenario.numerics.time_step_factor = 0.45;
   ThreadTeam team(1);
   Simulation simulation(build_model(pack(grains, {0.8, 0.8, 0.8}), scenario, "test"), scenario, team);
-  const double initial = simulation.state().initial_energy;
+  const double initial = simulation.energies().initial;
   double worst = 0;
   while (!simulation.stage_complete()) {
     simulation.evaluate_forces();

@@ -82,7 +82,7 @@ TEST_CASE("an oblique collision of two elastic grains keeps momentum, angular mo
   scenario.grain_velocity = {{5e3, 0, 0}, {-5e3, 0, 1e3}}; // 5 m/s each
   scenario.numerics.bulk_viscosity_linear = 0;
   scenario.numerics.bulk_viscosity_quadratic = 0;
-  scenario.numerics.step_estimate = StepEstimate::tet; // whose steps the errors of second order below belong to
+  scenario.numerics.step_estimate = StepEstimateMethod::tet; // whose steps the errors of second order below belong to
   ThreadTeam team(1);
   MeshedPacking packing = pack({first, second}, {1, 1, 1});
   if (scenario.contact.surface == ContactSurface::automatic) { // one of each kind: only the first is known as a sphere
@@ -95,7 +95,7 @@ TEST_CASE("an oblique collision of two elastic grains keeps momentum, angular mo
                                              : scenario.contact.surface == ContactSurface::smooth ? 2
                                                                                                   : 1));
   const Totals start = totals(simulation.model());
-  const double initial = simulation.state().initial_energy;
+  const double initial = simulation.energies().initial;
   double worst = 0, largest_contact = 0;
   while (!simulation.stage_complete()) {
     simulation.evaluate_forces();

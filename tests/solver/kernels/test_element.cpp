@@ -155,7 +155,7 @@ TEST_CASE("a freely spinning grain keeps its energy and angular momentum over ma
     return l;
   };
   const auto start = momentum();
-  const double initial = simulation.state().initial_energy;
+  const double initial = simulation.energies().initial;
   double worst = 0;
   while (!simulation.stage_complete()) {
     simulation.evaluate_forces();

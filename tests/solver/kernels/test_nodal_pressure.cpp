@@ -84,7 +84,7 @@ TEST_CASE(
   move(mesh, {0.5, 0.5, 0.5});
   ThreadTeam team(1);
   Simulation simulation(build_model(pack({mesh}, {1, 1, 1}), scenario, "test"), scenario, team);
-  Model& model = simulation.model();
+  Model& model = simulation.model_to_disturb();
   for (std::size_t n = 0; n < static_cast<std::size_t>(model.nodes()); ++n)
     for (std::size_t a = 0; a < 3; ++a)
       model.velocity[4 * n + a] = (a == 2 ? -4e4 : 2e4) * (model.position[4 * n + a] - 0.5); // 4 m/s at the poles

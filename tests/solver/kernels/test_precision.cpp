@@ -61,7 +61,7 @@ Scenario compaction(Precision precision, ElementType element) {
   scenario.walls = true;
   Stage stage;
   stage.name = "compaction";
-  stage.isotropic_compaction = IsotropicCompaction{.relative_density = 0.75, .wall_speed = 20000};
+  stage.type = IsotropicCompaction{.relative_density = 0.75, .wall_speed = 20000};
   scenario.stages = {stage};
   return scenario;
 }
@@ -70,7 +70,6 @@ HistoryRow compacted(Precision precision, ElementType element) {
   const Scenario scenario = compaction(precision, element);
   ThreadTeam team(1);
   Simulation simulation(build_model(eight_grains(4), scenario, "test"), scenario, team);
-  simulation.begin_stage();
   while (true) {
     simulation.evaluate_forces();
     if (simulation.stage_complete()) return simulation.observe();

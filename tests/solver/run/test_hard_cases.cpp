@@ -137,7 +137,7 @@ TEST_CASE("a packing of badly shaped tets is compacted to the stress of one of g
     scenario.walls = true;
     Stage stage;
     stage.name = "compaction";
-    stage.isotropic_compaction = IsotropicCompaction{0.62, 20000, 0.1};
+    stage.type = IsotropicCompaction{0.62, 20000, 0.1};
     stage.damping = {1e6, 5};
     scenario.stages = {stage};
     ThreadTeam team(1);
@@ -159,19 +159,18 @@ TEST_CASE("a bonded pair of grains spins for a hundred turns and keeps its angul
   scenario.material.hardening.law = HardeningLaw::elastic;
   Stage settle;
   settle.name = "settle";
-  settle.hold = Hold{2e-5};
+  settle.type = Rest{2e-5};
   settle.damping = {3e6, 1e9};
   scenario.stages.push_back(settle);
   Stage turn;
   turn.name = "turn";
-  turn.hold = Hold{turns * 2 * M_PI / rate};
+  turn.type = Rest{turns * 2 * M_PI / rate};
   Scenario turning = scenario;
   turning.stages.push_back(turn);
   ThreadTeam team(1);
   Simulation simulation(build_model(two_cubes(3), turning, "test"), turning, team);
   run_stages(simulation, scenario);
-  ++simulation.state().stage;
-  simulation.begin_stage();
+  simulation.begin_next_stage();
   simulation.advance(); // the grips' last forces
   simulation.evaluate_forces();
   spin(simulation, {rate, 0, 0});
@@ -245,10 +244,7 @@ TEST_CASE("a compaction to a stress beyond all densities ends with a message") {
   scenario.walls = true;
   Stage stage;
   stage.name = "squeeze";
-  stage.loading = WallLoading{};
-  stage.loading->path = LoadingPath::isotropic;
-  stage.loading->wall_speed = 20000;
-  stage.loading->ends.mean_stress = 1e7;
+  stage.type = IsotropicLoading{.mean_stress = 1e7, .wall_speed = 20000};
   scenario.stages = {stage};
   ThreadTeam team(1);
   Simulation simulation(build_model(eight_grains(2), scenario, "test"), scenario, team);

@@ -28,26 +28,27 @@ Scenario scenario_of(const std::vector<Stage>& stages, HardeningLaw law = Harden
   return scenario;
 }
 
-Stage loading_stage(const std::string& name, const WallLoading& loading) {
+Stage loading_stage(const std::string& name, const StageType& loading) {
   Stage stage;
   stage.name = name;
-  stage.loading = loading;
+  stage.type = loading;
   return stage;
 }
 
-WallLoading loading_of(LoadingPath path, double speed) {
-  WallLoading loading;
-  loading.path = path;
+/// A type of loading at a wall speed, its servos three times as fast.
+template <class Loading>
+Loading loading_at(double speed) {
+  Loading loading;
   loading.wall_speed = speed;
-  loading.servo_speed = 3 * speed;
+  if constexpr (requires { loading.servo_speed; }) loading.servo_speed = 3 * speed;
   return loading;
 }
 
 /// Compaction of eight_grains to a mean stress, fast and damped: eight grains vibrate between their walls for long, and
 /// what follows is to be measured.
 Stage compaction(double mean_stress) {
-  WallLoading loading = loading_of(LoadingPath::isotropic, 10000);
-  loading.ends.mean_stress = mean_stress;
+  auto loading = loading_at<IsotropicLoading>(10000);
+  loading.mean_stress = mean_stress;
   Stage stage = loading_stage("compaction", loading);
   stage.damping = {1e6, 1000};
   return stage;
@@ -56,7 +57,7 @@ Stage compaction(double mean_stress) {
 Stage unloading(double mean_stress) {
   Stage stage;
   stage.name = "unloading";
-  stage.isotropic_unloading = IsotropicUnloading{mean_stress, 3000, 0.1};
+  stage.type = IsotropicUnloading{mean_stress, 3000, 0.1};
   stage.damping = {1e6, 1000};
   return stage;
 }
@@ -65,13 +66,13 @@ Stage unloading(double mean_stress) {
 Stage rest() {
   Stage stage;
   stage.name = "rest";
-  stage.hold = Hold{4e-6};
+  stage.type = Rest{4e-6};
   stage.damping = {1e6, 1000};
   return stage;
 }
 
 Stage unconfined(double axial_strain, double speed) {
-  WallLoading loading = loading_of(LoadingPath::unconfined, speed);
+  auto loading = loading_at<UnconfinedCompression>(speed);
   loading.ends.axial_strain = axial_strain;
   return loading_stage("unconfined", loading);
 }
@@ -95,8 +96,7 @@ struct Bench {
     return rows;
   }
   void begin_next_stage() {
-    ++simulation.state().stage;
-    simulation.begin_stage();
+    simulation.begin_next_stage();
     simulation.advance();
   }
   std::vector<HistoryRow> next_stage(int every = 20) {
@@ -136,7 +136,7 @@ TEST_CASE("unconfined compression of an elastic block measures Young's modulus, 
 
 TEST_CASE("lateral walls hold a constant stress or force within 1 % while an elastic block is compressed") {
   const bool force = GENERATE(false, true);
-  WallLoading loading = loading_of(LoadingPath::triaxial, 300);
+  auto loading = loading_at<TriaxialCompression>(300);
   loading.hold_force = force;
   loading.lateral_stress = 20;
   loading.ramp_fraction = 0.3;
@@ -166,7 +166,7 @@ TEST_CASE("held walls stay stable on a block in full contact, however stiff the 
                                                                          {10, 2, false},
                                                                          {10, 4, true},
                                                                          {100, 4, true}}));
-  WallLoading loading = loading_of(LoadingPath::triaxial, 300);
+  auto loading = loading_at<TriaxialCompression>(300);
   loading.hold_force = false;
   loading.lateral_stress = 20;
   loading.ramp_fraction = 0.3;
@@ -188,7 +188,7 @@ TEST_CASE("held walls stay stable on a block in full contact, however stiff the 
 }
 
 TEST_CASE("a fixed die presses an elastic block to the stress of uniaxial strain") {
-  WallLoading loading = loading_of(LoadingPath::die, 300);
+  auto loading = loading_at<DieCompression>(300);
   loading.ends.axial_stress = 100;
   Bench bench(cube_in_its_box(), scenario_of({loading_stage("die", loading)}, HardeningLaw::elastic));
   const HistoryRow row = bench.finish_stage().back();
@@ -224,7 +224,7 @@ TEST_CASE("a soft block on a wider one a hundred times as stiff gives way by its
 }
 
 TEST_CASE("a packing is compacted to a mean stress and cycles between two, meeting each within 2 % of the range") {
-  WallLoading loading = loading_of(LoadingPath::cycles, 3000);
+  auto loading = loading_at<StressCycles>(3000);
   loading.lowest_mean_stress = 1;
   loading.highest_mean_stress = 20;
   loading.cycles = 2;
@@ -253,7 +253,7 @@ TEST_CASE("a packing is compacted to a mean stress and cycles between two, meeti
 }
 
 TEST_CASE("lateral walls hold the force that acts within 1 % while a packing is compressed, sheared and dilates") {
-  WallLoading loading = loading_of(LoadingPath::triaxial, 1000);
+  auto loading = loading_at<TriaxialCompression>(1000);
   loading.ends.axial_strain = 0.05;
   Bench bench(eight_grains(4), scenario_of({compaction(30), unloading(15), loading_stage("triaxial", loading)}));
   bench.finish_stage();
@@ -271,11 +271,7 @@ TEST_CASE("lateral walls hold the force that acts within 1 % while a packing is 
 
 TEST_CASE("a packing is held at a mean stress within 1 %, and is brought to it, up or down") {
   const double stress = GENERATE(8.0, 25.0);
-  WallLoading loading;
-  loading.path = LoadingPath::held;
-  loading.servo_speed = 6000;
-  loading.held_stress = stress;
-  loading.ends.duration = 4e-6;
+  const HeldStress loading{.mean_stress = stress, .duration = 4e-6, .servo_speed = 6000};
   Stage held = loading_stage("held", loading);
   held.damping = {2e6, 1e4};
   Bench bench(eight_grains(4), scenario_of({compaction(30), unloading(15), held}));
@@ -297,7 +293,7 @@ TEST_CASE("a packing is held at a mean stress within 1 %, and is brought to it, 
 
 TEST_CASE("a probe stays within 1 % of its line of p and q, in compression and in extension, until it dissipates") {
   const double dq = GENERATE(1.5, -1.0);
-  WallLoading loading = loading_of(LoadingPath::probe, 500);
+  auto loading = loading_at<StressProbe>(500);
   loading.direction = {1, dq};
   loading.ends.dissipation_ratio = 1.01;
   Bench bench(eight_grains(4), scenario_of({compaction(30), unloading(20), rest(), loading_stage("probe", loading)}));
@@ -318,8 +314,9 @@ TEST_CASE("a probe stays within 1 % of its line of p and q, in compression and i
 
 TEST_CASE("unconfined compression ends when the axial stress has fallen from its peak") {
   Stage stage = unconfined(0.3, 2000);
-  stage.loading->ends.stress_drop = 0.3;
-  stage.loading->ramp_fraction = 0.02;
+  auto& loading = std::get<UnconfinedCompression>(stage.type);
+  loading.ends.stress_drop = 0.3;
+  loading.ramp_fraction = 0.02;
   Scenario scenario = scenario_of({compaction(30), unloading(1), stage});
   scenario.bond = BondParameters{25, 18, 0.05};
   Bench bench(eight_grains(4), scenario);
@@ -335,7 +332,7 @@ TEST_CASE("unconfined compression ends when the axial stress has fallen from its
 }
 
 TEST_CASE("the ledger closes when lateral walls are taken away, and when they return") {
-  WallLoading again = loading_of(LoadingPath::triaxial, 1000);
+  auto again = loading_at<TriaxialCompression>(1000);
   again.lateral_stress = 5;
   again.ends.duration = 1e-5;
   Scenario scenario = scenario_of({compaction(20), unconfined(0.01, 500), loading_stage("again", again)});
@@ -345,8 +342,7 @@ TEST_CASE("the ledger closes when lateral walls are taken away, and when they re
   REQUIRE(loaded.wall_stress[0] > 10); // walls leave while they are pressed
   const HistoryRow freed = bench.next_stage().back();
   CHECK(std::abs(freed.energy_residual - loaded.energy_residual) < 0.002 * loaded.external_work);
-  ++bench.simulation.state().stage;
-  bench.simulation.begin_stage();
+  bench.simulation.begin_next_stage();
   // Grains have moved out; the walls return where they touch nothing.
   const Model& model = bench.simulation.model();
   const Walls& walls = bench.simulation.walls();
@@ -364,7 +360,7 @@ TEST_CASE("the ledger closes when lateral walls are taken away, and when they re
 
 TEST_CASE("a loading that cannot reach its end is a failed simulation") {
   SECTION("walls that would have to pull") {
-    WallLoading loading = loading_of(LoadingPath::probe, 3000);
+    auto loading = loading_at<StressProbe>(3000);
     loading.direction = {-1, 0};
     loading.ends.dissipation_ratio = 100;
     Bench bench(eight_grains(3), scenario_of({compaction(10), loading_stage("probe", loading)}));
@@ -372,20 +368,20 @@ TEST_CASE("a loading that cannot reach its end is a failed simulation") {
     CHECK_THROWS_WITH(bench.next_stage(), Catch::Contains("'probe'") && Catch::Contains("pull"));
   }
   SECTION("a peak that does not come") {
-    WallLoading loading = loading_of(LoadingPath::die, 3000);
+    auto loading = loading_at<DieCompression>(3000);
     loading.ends.axial_stress = 1e6;
     Bench bench(cube_in_its_box(), scenario_of({loading_stage("die", loading)}, HardeningLaw::elastic));
     CHECK_THROWS_WITH(bench.finish_stage(), Catch::Contains("'die'") && Catch::Contains("not reached"));
   }
   SECTION("a compaction to less than what acts") {
-    WallLoading loading = loading_of(LoadingPath::isotropic, 3000);
-    loading.ends.mean_stress = 5;
+    auto loading = loading_at<IsotropicLoading>(3000);
+    loading.mean_stress = 5;
     Bench bench(eight_grains(3), scenario_of({compaction(10), loading_stage("again", loading)}));
     bench.finish_stage();
     CHECK_THROWS_WITH(bench.next_stage(), Catch::Contains("'again'") && Catch::Contains("mean_stress"));
   }
   SECTION("a dissipation to be compared with nothing") {
-    WallLoading loading = loading_of(LoadingPath::die, 300);
+    auto loading = loading_at<DieCompression>(300);
     loading.ends.dissipation_ratio = 1.1;
     Bench bench(cube_in_its_box(), scenario_of({loading_stage("die", loading)}, HardeningLaw::elastic));
     CHECK_THROWS_WITH(bench.finish_stage(), Catch::Contains("dissipation_ratio"));

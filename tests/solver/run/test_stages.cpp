@@ -4,6 +4,7 @@
 
 #include "common/errors.hpp"
 #include "solver/run/simulation.hpp"
+#include "solver/run/stages/isotropic_unloading.hpp"
 #include "tests/support/meshes.hpp"
 #include "tests/support/packing_file.hpp"
 
@@ -22,8 +23,7 @@ GrainMesh single_cube() {
 /// Pulls one elastic cube between grips on its two faces to a strain of 1 %.
 Scenario pulling_scenario(double speed) {
   Scenario scenario = holding_scenario(1e-6);
-  scenario.stages[0].hold.reset();
-  scenario.stages[0].grip = GripMotion{2, 1e-6, false, 0.002, {}, speed, 0.5};
+  scenario.stages[0].type = GripMotion{2, 1e-6, false, 0.002, {}, speed, 0.5};
   return scenario;
 }
 
@@ -64,17 +64,16 @@ TEST_CASE("a packing unloads to zero stress, expands, and keeps its ledger") {
   scenario.walls = true;
   Stage load, unload;
   load.name = "load";
-  load.isotropic_compaction = IsotropicCompaction{0.62, 20000, 0.1};
+  load.type = IsotropicCompaction{0.62, 20000, 0.1};
   load.damping = {1e6, 5};
   unload.name = "unload";
-  unload.isotropic_unloading = IsotropicUnloading{0, 10000, 0.1};
+  unload.type = IsotropicUnloading{0, 10000, 0.1};
   scenario.stages = {load, unload};
   ThreadTeam team(2);
   Simulation simulation(build_model(eight_grains(4), scenario, "test"), scenario, team);
   const HistoryRow loaded = run_stage(simulation);
   REQUIRE(loaded.mean_stress > 5);
-  ++simulation.state().stage;
-  simulation.begin_stage();
+  simulation.begin_next_stage();
   simulation.advance();
   const HistoryRow unloaded = run_stage(simulation);
   CHECK(unloaded.mean_stress <= 1e-2 * loaded.mean_stress); // one step after the target was met
@@ -85,18 +84,24 @@ TEST_CASE("a packing unloads to zero stress, expands, and keeps its ledger") {
 }
 
 TEST_CASE("an unloading that begins at its target or below ends there, whatever the stress does next") {
-  Stage stage;
-  stage.isotropic_unloading = IsotropicUnloading{1.0, 1000, 0.1};
-  const std::array<double, 3> low{}, high{1, 1, 1};
-  const Walls walls{.low = low, .high = high};
+  const IsotropicUnloading unloading{1.0, 1000, 0.1};
+  const auto observe = [](double stress) { return StageObservation{.high = {1, 1, 1}, .mean_stress = stress}; };
   for (const double start : {0.5, 0.9999, 1.0}) {
-    const StageMotion motion(stage, low, high, 0.8, start);
-    for (const double stress : {0.9, 1.0, 1.1}) CHECK(motion.reached(walls, stress));
-    CHECK(motion.fraction_done(0, start) == 1);
+    for (const double stress : {0.9, 1.0, 1.1}) {
+      IsotropicUnloadingControl control(unloading, {"unloading"}, {.high = {1, 1, 1}, .mean_stress = start});
+      CHECK(control.ended());
+      control.observe(observe(stress));
+      CHECK(control.ended());
+    }
+    IsotropicUnloadingControl control(unloading, {"unloading"}, {.high = {1, 1, 1}, .mean_stress = start});
+    CHECK(control.fraction_done(0, start) == 1);
   }
-  const StageMotion motion(stage, low, high, 0.8, 2.0);
-  CHECK_FALSE(motion.reached(walls, 1.1));
-  CHECK(motion.reached(walls, 1.0005));
+  IsotropicUnloadingControl control(unloading, {"unloading"}, {.high = {1, 1, 1}, .mean_stress = 2.0});
+  CHECK_FALSE(control.ended());
+  control.observe(observe(1.1));
+  CHECK_FALSE(control.ended());
+  control.observe(observe(1.0005));
+  CHECK(control.ended());
 }
 
 TEST_CASE("masses scaled to a step allow that step and report what they added") {
@@ -105,7 +110,7 @@ TEST_CASE("masses scaled to a step allow that step and report what they added") 
   const auto stable_step = [&] {
     ThreadTeam team(1);
     Simulation simulation(build_model(packing, scenario, "test"), scenario, team);
-    return std::pair{simulation.state().stable_step, simulation.model().added_mass};
+    return std::pair{simulation.step_estimate().stable_step(), simulation.model().added_mass};
   };
   const double own = stable_step().first;
   scenario.numerics.mass_scaling_step = 2 * own;

@@ -70,7 +70,7 @@ TEST_CASE("keys of loadings are checked like all others") {
        {"cycles", "0"}},
       {"type = 'hold'\nduration = 1e-6\nquasi_static = {}", {"quasi_static", "nothing moves"}},
       {"type = 'die_compression'\nwall_speed = 5\naxial_strain = 0.1\nquasi_static = { fastest_speed = 4 }",
-       {"quasi_static.fastest_speed", "4", "≥ 5"}},
+       {"quasi_static.fastest_speed", "4", "5 …"}},
       {"type = 'die_compression'\nwall_speed = 5\naxial_strain = 0.1\nquasi_static = { kinetic = 0.1 }",
        {"quasi_static.kinetic", "kinetic_tolerance"}},
       {"type = 'die_compression'\nwall_speed = 5\nduration = 1\nquasi_static = {}", {"duration", "no meaning"}},
@@ -122,7 +122,7 @@ TEST_CASE("every bad input is refused with one clear line and exit code 2") {
   const std::vector<Case> cases = {
       {"density = 1.55e-9", "density = = 1", {"scenario.toml:3"}},
       {"exponent = 0.3", "exponent = 0.3\nexponnent = 1", {"scenario.toml:11", "exponnent", "exponent"}},
-      {"exponent = 0.3", "exponent = 1.3", {"scenario.toml:10", "exponent", "1.3", "> 0 and ≤ 1"}},
+      {"exponent = 0.3", "exponent = 1.3", {"scenario.toml:10", "exponent", "1.3", "0.001 … 1"}},
       {"youngs_modulus = 5000", "youngs_modulus = nan", {"youngs_modulus", "nan"}},
       {"youngs_modulus = 5000", "", {"youngs_modulus", "missing"}},
       {"packing.h5", "absent.h5", {"absent.h5", "no such file"}},
@@ -142,11 +142,12 @@ TEST_CASE("every bad input is refused with one clear line and exit code 2") {
        "damping_fade_stress = 5\n[[stages]]\ntype = \"isotropic_compaction\"\nrelative_density = 0.61\nwall_speed = "
        "1e4",
        {"0.61", "0.6200"}},
-      {"wall_speed = 20000", "wall_speed = 1e300", {"wall_speed", "allowed at most"}},
+      {"wall_speed = 20000", "wall_speed = 1e300", {"wall_speed", "1e+300", "… 1e+12"}},
+      {"wall_speed = 20000", "wall_speed = 1e9", {"wall_speed", "allowed at most"}},
       {"relative_density = 0.62", "relative_density = 1.4", {"relative_density", "1.4"}},
       {"relative_density = 0.62", "relative_density = 0.1", {"relative_density", "0.1", "0.3467"}},
       {"\"isotropic_compaction\"", "\"squeeze\"", {"squeeze", "isotropic_compaction", "hold"}},
-      {"wall_speed = 20000", "wall_speed = -1", {"wall_speed", "-1", "> 0"}},
+      {"wall_speed = 20000", "wall_speed = -1", {"wall_speed", "-1", "1e-12 …"}},
   };
   for (const Case& c : cases) {
     write_text(folder / "scenario.toml", replaced(scenario_text, c.from, c.to));

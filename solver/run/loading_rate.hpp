@@ -1,7 +1,7 @@
 #pragma once
 // A stage that chooses its own speed: as fast as its tolerances of quasi-static loading allow.
 //
-// Two signs of inertia are looked at while the packing bears load. One is kinetic energy over internal energy. The other
+// Two signs of inertia are watched while the packing bears load. One is kinetic energy over internal energy. The other
 // is the stress that inertia bears: along each axis, with f the total force on a node and x its distance from the box's
 // centre,
 //   sum f / A                the difference of opposite walls' stresses,
@@ -9,9 +9,9 @@
 // both of which vanish in equilibrium. (The second sees what the first cannot: packings that are shaken symmetrically.)
 // Kinetic energy grows with the square of the speed, stresses with the speed; the larger of
 //   sqrt(kinetic / (tolerance internal)),   stress / (tolerance largest wall stress)
-// is the load, and the pace r, the present speed over the stage's own, follows d ln r/dt = (aim - load) / transit,
+// is the load L. The rate factor r, the present speed over the stage's own, follows d ln r/dt = (aim - L) / transit,
 // between the bounds: waves need about a transit to tell of a change. The stage's clock runs r times as fast as time.
-// Where walls are about to stop, the pace comes back to 1: how gently they stop is the stage's own affair.
+// Where walls are about to stop, r comes back to 1: how gently they stop is decided by the stage.
 
 #include <array>
 #include <cstdint>
@@ -21,22 +21,32 @@
 
 namespace mpfem {
 
-/// State of the control. Numbers only: a checkpoint stores them as they are.
-struct PaceState {
-  double pace = 1;                   ///< present speed over the stage's own
+/// State of the control.
+struct LoadingRateState {
+  double factor = 1;                 ///< present speed over the stage's own
   double dissipation_at_start = 0;   ///< mJ, plastic, when the stage began
-  double slowest = 1, fastest = 1;   ///< of `pace` so far
+  double slowest = 1, fastest = 1;   ///< of `factor` so far
   std::array<double, 3> imbalance{}; ///< MPa, of opposite walls across each axis, averaged over a transit
   std::array<double, 3> dynamic{};   ///< MPa, walls' stresses less those inside the grains, likewise
   double largest_kinetic = 0;        ///< largest kinetic over internal energy while the packing bore load
   double largest_stress = 0;         ///< largest stress borne by inertia over the largest wall stress, likewise
   double time_loaded = 0;            ///< s, in which the packing bore load
   double time_beyond = 0;            ///< s, of it beyond a tolerance
-  double at_slowest = 0;             ///< 1: the tolerances asked for less than the slowest pace
+  bool at_slowest = false;           ///< the tolerances required less than the slowest speed
+
+  template <class Self, class Visitor>
+  static void for_each_field(Self& s, Visitor&& visit) {
+    visit("loading_rate.factor", s.factor), visit("loading_rate.dissipation_at_start", s.dissipation_at_start);
+    visit("loading_rate.slowest", s.slowest), visit("loading_rate.fastest", s.fastest);
+    visit("loading_rate.imbalance", s.imbalance), visit("loading_rate.dynamic", s.dynamic);
+    visit("loading_rate.largest_kinetic", s.largest_kinetic), visit("loading_rate.largest_stress", s.largest_stress);
+    visit("loading_rate.time_loaded", s.time_loaded), visit("loading_rate.time_beyond", s.time_beyond);
+    visit("loading_rate.at_slowest", s.at_slowest);
+  }
 };
 
-/// What is seen now and then.
-struct PaceObservation {
+/// What is observed every `steps_between_observations` steps.
+struct LoadingRateObservation {
   double elapsed = 0;                  ///< s since the observation before
   double kinetic_energy = 0;           ///< mJ
   double elastic_energy = 0;           ///< mJ, of the grains
@@ -48,16 +58,16 @@ struct PaceObservation {
 };
 
 /// The control of one stage.
-class PaceControl {
+class LoadingRateControl {
 public:
-  static constexpr std::int64_t steps_between_looks = 25;
+  static constexpr std::int64_t steps_between_observations = 25;
 
   /// `transit`: s, in which waves cross the packing.
-  PaceControl(const QuasiStatic& tolerances, double wall_speed, double transit);
-  /// Looks at the packing and changes the pace.
-  void update(PaceState& state, const PaceObservation& seen) const;
+  LoadingRateControl(const QuasiStatic& tolerances, double wall_speed, double transit);
+  /// Takes in an observation and changes the rate factor.
+  void update(LoadingRateState& state, const LoadingRateObservation& seen) const;
   /// "wall speed chosen between 900 and 8000 mm/s; kinetic/internal at most 0.8 %, ...".
-  std::string text(const PaceState& state) const;
+  std::string text(const LoadingRateState& state) const;
 
 private:
   QuasiStatic tolerances_;

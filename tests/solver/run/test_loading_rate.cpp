@@ -2,7 +2,7 @@
 
 #include <catch2/catch.hpp>
 
-#include "solver/run/pace.hpp"
+#include "solver/run/loading_rate.hpp"
 #include "solver/run/simulation.hpp"
 #include "tests/support/meshes.hpp"
 #include "tests/support/packing_file.hpp"
@@ -23,11 +23,11 @@ QuasiStatic tolerances() {
           .loose_stress = 0.5};
 }
 
-/// A packing whose kinetic energy is `kinetic` times its internal energy at pace 1, and which bears 10 MPa.
-PaceObservation seen(double pace, double kinetic) {
-  PaceObservation seen;
+/// A packing whose kinetic energy is `kinetic` times its internal energy at its own speed, and which bears 10 MPa.
+LoadingRateObservation seen(double factor, double kinetic) {
+  LoadingRateObservation seen;
   seen.elapsed = 0.05 * transit;
-  seen.kinetic_energy = kinetic * pace * pace;
+  seen.kinetic_energy = kinetic * factor * factor;
   seen.elastic_energy = 0.25;
   seen.plastic_dissipation = 0.75;
   seen.wall_stress.fill(10);
@@ -37,14 +37,14 @@ PaceObservation seen(double pace, double kinetic) {
 /// The compaction of eight grains, to a density at which they bear load.
 struct Compaction {
   std::vector<HistoryRow> rows;
-  PaceState pace;
+  LoadingRateState rate;
 };
 Compaction compact(std::optional<QuasiStatic> quasi_static, double wall_speed) {
   Scenario scenario = holding_scenario(1e-6, HardeningLaw::power);
   scenario.walls = true;
   Stage stage;
   stage.name = "compaction";
-  stage.isotropic_compaction = IsotropicCompaction{.relative_density = 0.75, .wall_speed = wall_speed};
+  stage.type = IsotropicCompaction{.relative_density = 0.75, .wall_speed = wall_speed};
   stage.quasi_static = quasi_static;
   scenario.stages = {stage};
   ThreadTeam team(2);
@@ -57,99 +57,100 @@ Compaction compact(std::optional<QuasiStatic> quasi_static, double wall_speed) {
     if (end) break;
     simulation.advance();
   }
-  result.pace = simulation.state().pace;
+  result.rate = simulation.stage_run().loading_rate();
   return result;
 }
 
 } // namespace
 
-TEST_CASE("the pace settles where kinetic energy is within its tolerance, whether it began too fast or too slow") {
-  const PaceControl control(tolerances(), 1000, transit);
+TEST_CASE(
+    "the loading rate settles where kinetic energy is within its tolerance, whether it began too fast or too slow") {
+  const LoadingRateControl control(tolerances(), 1000, transit);
   for (const double kinetic : {0.0025, 0.09}) {
-    PaceState state;
-    for (int look = 0; look < 1000; ++look) control.update(state, seen(state.pace, kinetic));
-    CHECK(kinetic * state.pace * state.pace < 0.01);
-    CHECK(kinetic * state.pace * state.pace > 0.004); // and no slower than it has to be
+    LoadingRateState state;
+    for (int i = 0; i < 1000; ++i) control.update(state, seen(state.factor, kinetic));
+    CHECK(kinetic * state.factor * state.factor < 0.01);
+    CHECK(kinetic * state.factor * state.factor > 0.004); // and no slower than it has to be
   }
 }
 
-TEST_CASE("the pace settles where inertia bears no more of the stress than it may, between walls or within") {
-  const PaceControl control(tolerances(), 1000, transit);
-  for (const auto borne : {&PaceObservation::imbalance, &PaceObservation::dynamic}) {
-    PaceState state;
-    for (int look = 0; look < 1000; ++look) {
-      PaceObservation now = seen(state.pace, 1e-6);
-      (now.*borne)[1] = -0.5 * state.pace; // 5 % of the walls' stress
+TEST_CASE("the loading rate settles where inertia bears no more of the stress than it may, between walls or within") {
+  const LoadingRateControl control(tolerances(), 1000, transit);
+  for (const auto borne : {&LoadingRateObservation::imbalance, &LoadingRateObservation::dynamic}) {
+    LoadingRateState state;
+    for (int i = 0; i < 1000; ++i) {
+      LoadingRateObservation now = seen(state.factor, 1e-6);
+      (now.*borne)[1] = -0.5 * state.factor; // 5 % of the walls' stress
       control.update(state, now);
     }
-    CHECK(state.pace * 0.05 < 0.02);
-    CHECK(state.pace * 0.05 > 0.01);
+    CHECK(state.factor * 0.05 < 0.02);
+    CHECK(state.factor * 0.05 > 0.01);
     CHECK(state.largest_stress > 0.02); // at the beginning
   }
 }
 
 TEST_CASE("walls that are about to stop are not hurried") {
-  const PaceControl control(tolerances(), 1000, transit);
-  PaceState state{.pace = 3};
+  const LoadingRateControl control(tolerances(), 1000, transit);
+  LoadingRateState state{.factor = 3};
   for (int look = 0; look < 40; ++look) {
-    PaceObservation now = seen(state.pace, 1e-9);
+    LoadingRateObservation now = seen(state.factor, 1e-9);
     now.stopping = true;
     control.update(state, now);
   }
-  CHECK(state.pace == 1);
+  CHECK(state.factor == 1);
 }
 
 TEST_CASE("walls that are about to stop are slowed down where nothing presses on them any more") {
-  const PaceControl control(tolerances(), 1000, transit);
-  PaceState state{.pace = 3};
+  const LoadingRateControl control(tolerances(), 1000, transit);
+  LoadingRateState state{.factor = 3};
   for (int look = 0; look < 40; ++look) {
-    PaceObservation now = seen(state.pace, 1e-9);
+    LoadingRateObservation now = seen(state.factor, 1e-9);
     now.wall_stress.fill(0.1);
     now.stopping = true;
     control.update(state, now);
   }
-  CHECK(state.pace == 1);
+  CHECK(state.factor == 1);
 }
 
 TEST_CASE("grips that pull bear load as walls that press do") {
-  const PaceControl control(tolerances(), 1000, transit);
-  PaceState state;
-  for (int look = 0; look < 1000; ++look) {
-    PaceObservation now = seen(state.pace, 0.09);
+  const LoadingRateControl control(tolerances(), 1000, transit);
+  LoadingRateState state;
+  for (int i = 0; i < 1000; ++i) {
+    LoadingRateObservation now = seen(state.factor, 0.09);
     now.wall_stress = {0, 0, -10};
     control.update(state, now);
   }
-  CHECK(state.pace < 0.4);
+  CHECK(state.factor < 0.4);
   CHECK(state.time_loaded > 0);
 }
 
-TEST_CASE("the pace keeps to its bounds, and says when the slowest is not slow enough") {
-  const PaceControl control(tolerances(), 1000, transit);
-  PaceState hot, calm;
-  for (int look = 0; look < 1000; ++look) {
+TEST_CASE("the loading rate keeps to its bounds, and says when the slowest is not slow enough") {
+  const LoadingRateControl control(tolerances(), 1000, transit);
+  LoadingRateState hot, calm;
+  for (int i = 0; i < 1000; ++i) {
     control.update(hot, seen(1, 10.0));
     control.update(calm, seen(1, 1e-9));
   }
-  CHECK(within(hot.pace, 0.1, accumulated_rounding));
+  CHECK(within(hot.factor, 0.1, accumulated_rounding));
   CHECK(hot.at_slowest == 1);
   CHECK(within(hot.time_beyond, hot.time_loaded, accumulated_rounding));
-  CHECK(within(calm.pace, 4, accumulated_rounding));
+  CHECK(within(calm.factor, 4, accumulated_rounding));
   CHECK(calm.at_slowest == 0);
   CHECK(calm.time_beyond == 0);
 }
 
 TEST_CASE("a loose packing, and one whose elapsed dissipation is another stage's, are told apart") {
-  const PaceControl control(tolerances(), 1000, transit);
-  PaceState loose;
-  PaceObservation flight = seen(1, 10.0);
+  const LoadingRateControl control(tolerances(), 1000, transit);
+  LoadingRateState loose;
+  LoadingRateObservation flight = seen(1, 10.0);
   flight.wall_stress.fill(0.4);
   for (int look = 0; look < 100; ++look) control.update(loose, flight);
-  CHECK(loose.pace == 1);
+  CHECK(loose.factor == 1);
   // What was dissipated before the stage does not count as internal energy: 0.0039 over 0.25 is beyond 1 %.
-  PaceState later{.dissipation_at_start = 0.75};
+  LoadingRateState later{.dissipation_at_start = 0.75};
   control.update(later, seen(1, 0.0039));
   CHECK(within(later.largest_kinetic, 0.0039 / 0.25, accumulated_rounding));
-  CHECK(later.pace < 1);
+  CHECK(later.factor < 1);
 }
 
 TEST_CASE("a compaction that chooses its speed meets its target, slows down while it jams and hurries when it may") {
@@ -160,10 +161,10 @@ TEST_CASE("a compaction that chooses its speed meets its target, slows down whil
                 .loose_stress = 0.5};
   const Compaction chosen = compact(q, 5000), fast = compact({}, q.fastest_speed);
   CHECK(chosen.rows.back().relative_density == Approx(0.75).epsilon(1e-9));
-  CHECK(chosen.pace.slowest < 1);
-  CHECK(chosen.pace.fastest > 1);
-  CHECK(chosen.pace.time_loaded > 0);
-  CHECK(fast.pace.pace == 1);
+  CHECK(chosen.rate.slowest < 1);
+  CHECK(chosen.rate.fastest > 1);
+  CHECK(chosen.rate.time_loaded > 0);
+  CHECK(fast.rate.factor == 1);
   CHECK(std::abs(chosen.rows.back().energy_residual) < 0.01 * chosen.rows.back().external_work);
   // Under load it keeps within the tolerance, which its largest speed all the way does not.
   const auto largest_ratio = [](const Compaction& c) {

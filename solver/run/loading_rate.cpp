@@ -1,4 +1,4 @@
-#include "solver/run/pace.hpp"
+#include "solver/run/loading_rate.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -11,17 +11,17 @@ namespace {
 
 /// Part of the tolerances that is aimed at: what is seen scatters around its mean.
 constexpr double aim = 0.7;
-/// Transits in which the pace changes by a factor of e where the load is off its aim by one.
+/// Transits in which the rate changes by a factor of e where the load is off its aim by one.
 constexpr double transits_to_respond = 1;
 /// Bounds on the load's distance from its aim: walls brake within a transit, and gather speed more gently.
 constexpr double hardest_braking = 2, strongest_acceleration = 0.5;
 
 } // namespace
 
-PaceControl::PaceControl(const QuasiStatic& tolerances, double wall_speed, double transit)
+LoadingRateControl::LoadingRateControl(const QuasiStatic& tolerances, double wall_speed, double transit)
     : tolerances_(tolerances), wall_speed_(wall_speed), transit_(transit) {}
 
-void PaceControl::update(PaceState& s, const PaceObservation& seen) const {
+void LoadingRateControl::update(LoadingRateState& s, const LoadingRateObservation& seen) const {
   double wall_stress = 0, stress = 0;
   const double weight = seen.elapsed / (transit_ + seen.elapsed);
   for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -31,9 +31,9 @@ void PaceControl::update(PaceState& s, const PaceObservation& seen) const {
     stress = std::max({stress, std::abs(s.imbalance[axis]), std::abs(s.dynamic[axis])});
   }
   const double response = seen.elapsed / (transits_to_respond * transit_);
-  const double braked = std::max(1.0, s.pace * std::exp(-hardest_braking * response));
+  const double braked = std::max(1.0, s.factor * std::exp(-hardest_braking * response));
   if (!(wall_stress > tolerances_.loose_stress)) { // nothing to judge by
-    if (seen.stopping) s.pace = std::min(s.pace, braked);
+    if (seen.stopping) s.factor = std::min(s.factor, braked);
     return;
   }
   stress /= wall_stress;
@@ -48,15 +48,15 @@ void PaceControl::update(PaceState& s, const PaceObservation& seen) const {
       std::max(std::sqrt(kinetic / tolerances_.kinetic_tolerance), stress / tolerances_.stress_tolerance);
   if (load > 1) s.time_beyond += seen.elapsed;
   const double rate = std::clamp(aim - load, -hardest_braking, strongest_acceleration);
-  const double wanted = s.pace * std::exp(rate * response);
+  const double wanted = s.factor * std::exp(rate * response);
   const double most = seen.stopping ? braked : tolerances_.fastest_speed / wall_speed_;
-  s.pace = std::clamp(wanted, tolerances_.slowest_speed / wall_speed_, most);
-  if (wanted < s.pace && load > 1) s.at_slowest = 1;
-  s.slowest = std::min(s.slowest, s.pace);
-  s.fastest = std::max(s.fastest, s.pace);
+  s.factor = std::clamp(wanted, tolerances_.slowest_speed / wall_speed_, most);
+  if (wanted < s.factor && load > 1) s.at_slowest = true;
+  s.slowest = std::min(s.slowest, s.factor);
+  s.fastest = std::max(s.fastest, s.factor);
 }
 
-std::string PaceControl::text(const PaceState& s) const {
+std::string LoadingRateControl::text(const LoadingRateState& s) const {
   return fmt::format("wall speed chosen between {:.4g} and {:.4g} mm/s; under load kinetic/internal at most {:.2g} %, "
                      "inertia bore at most {:.2g} % of the stress, beyond the tolerances for {:.2g} % of the time",
                      s.slowest * wall_speed_, s.fastest * wall_speed_, 100 * s.largest_kinetic, 100 * s.largest_stress,

@@ -1,0 +1,15 @@
+#pragma once
+// The parts of a step whose wall-clock time is measured.
+
+#include <array>
+#include <cstddef>
+
+namespace mpfem {
+
+enum class Part : std::size_t { elements, contact, contact_search, integration, surface, step_estimate, output };
+inline constexpr std::size_t profile_parts = 7;
+inline constexpr std::array<const char*, profile_parts> part_names = {
+    "element forces",  "contact forces", "contact search", "integration and walls",
+    "surface normals", "step estimate",  "output"};
+
+} // namespace mpfem

@@ -1,0 +1,31 @@
+#include "solver/run/energy_ledger.hpp"
+
+namespace mpfem {
+
+void EnergyLedger::add_grips(const std::vector<GripSums>& grains) {
+  external_work += grip_work_ahead;
+  grip_work_ahead = 0;
+  for (const GripSums& sums : grains) {
+    external_work += sums.work_behind;
+    grip_work_ahead += sums.work_ahead;
+  }
+}
+
+void EnergyLedger::add_walls(const std::array<double, 6>& contact_force, const std::array<double, 6>& force) {
+  for (const double work : wall_work(wall_force, contact_force, wall_movement)) external_work += work;
+  wall_force = force;
+  wall_movement = {};
+}
+
+void EnergyLedger::add_step(const ElementSums& elements, const AdvanceSums& advance) {
+  plastic_dissipation += elements.plastic_work;
+  viscous_dissipation += elements.viscous_work;
+  damping_dissipation += advance.damping_work;
+}
+
+double EnergyLedger::residual(const StoredEnergies& stored) const {
+  return external_work + initial - stored.kinetic - stored.elastic - plastic_dissipation - stored.contact -
+         viscous_dissipation - damping_dissipation - stored.bonds - stored.damage_dissipation;
+}
+
+} // namespace mpfem

@@ -1,0 +1,55 @@
+#pragma once
+// The energies that are summed up over time, and the balance of all energies.
+
+#include <array>
+#include <vector>
+
+#include "solver/boundary/grips.hpp"
+#include "solver/boundary/walls.hpp"
+#include "solver/kernels/element_forces.hpp"
+#include "solver/kernels/element_step.hpp"
+#include "solver/kernels/grain_state.hpp"
+#include "solver/kernels/node_motion.hpp"
+
+namespace mpfem {
+
+/// Energies that a time level has, mJ.
+struct StoredEnergies {
+  double kinetic = 0;
+  double elastic = 0;
+  double contact = 0; ///< in the penalty of contacts and walls
+  double bonds = 0;
+  double damage_dissipation = 0; ///< a function of the bonds' states, not summed up over time
+};
+
+struct EnergyLedger {
+  double initial = 0;                    ///< mJ, of motion and strain at the start
+  double plastic_dissipation = 0;        ///< mJ
+  double viscous_dissipation = 0;        ///< mJ, of bulk viscosity
+  double damping_dissipation = 0;        ///< mJ, of mass-proportional damping
+  double external_work = 0;              ///< mJ, of walls and grips
+  double grip_work_ahead = 0;            ///< mJ, half of the grips' forces times the step that follows
+  std::array<double, 6> wall_force{};    ///< N, at the last time level
+  std::array<double, 6> wall_movement{}; ///< mm inward, in the step that followed it
+
+  template <class Self, class Visitor>
+  static void for_each_field(Self& s, Visitor&& visit) {
+    visit("energy.initial", s.initial), visit("energy.plastic_dissipation", s.plastic_dissipation);
+    visit("energy.viscous_dissipation", s.viscous_dissipation);
+    visit("energy.damping_dissipation", s.damping_dissipation), visit("energy.external_work", s.external_work);
+    visit("energy.grip_work_ahead", s.grip_work_ahead), visit("energy.wall_force", s.wall_force);
+    visit("energy.wall_movement", s.wall_movement);
+  }
+
+  /// Adds what the grips did at this time level.
+  void add_grips(const std::vector<GripSums>& grains);
+  /// Adds the walls' work since the time level before, by the trapezoidal rule, which central differences conserve.
+  /// `contact_force` (N) is that of the walls alone, `force` what is kept for their stresses.
+  void add_walls(const std::array<double, 6>& contact_force, const std::array<double, 6>& force);
+  /// Adds what one grain dissipated in a step.
+  void add_step(const ElementSums& elements, const AdvanceSums& advance);
+  /// mJ that are not accounted for.
+  double residual(const StoredEnergies& stored) const;
+};
+
+} // namespace mpfem

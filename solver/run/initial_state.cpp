@@ -1,0 +1,96 @@
+#include "solver/run/initial_state.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "common/errors.hpp"
+
+namespace mpfem {
+
+namespace {
+
+using Vector = std::array<double, 3>;
+
+/// Sets the velocity of one grain: that of its centre of mass and a spin about it. Adds its kinetic energy (mJ).
+void set_velocity(Model& model, std::size_t grain, const Vector& linear, const Vector& spin, double& energy) {
+  const auto first = static_cast<std::size_t>(model.node_offset[grain]),
+             end = static_cast<std::size_t>(model.node_offset[grain + 1]);
+  Vector centre{};
+  for (std::size_t n = first; n < end; ++n)
+    for (std::size_t axis = 0; axis < 3; ++axis)
+      centre[axis] += model.position[4 * n + axis] / (model.inverse_mass[n] * model.mass[grain]);
+  for (std::size_t n = first; n < end; ++n) {
+    const double* x = &model.position[4 * n];
+    const double r[3] = {x[0] - centre[0], x[1] - centre[1], x[2] - centre[2]};
+    double* v = &model.velocity[4 * n];
+    v[0] = linear[0] + spin[1] * r[2] - spin[2] * r[1];
+    v[1] = linear[1] + spin[2] * r[0] - spin[0] * r[2];
+    v[2] = linear[2] + spin[0] * r[1] - spin[1] * r[0];
+    for (int axis = 0; axis < 3; ++axis) energy += 0.5 * v[axis] * v[axis] / model.inverse_mass[n];
+  }
+}
+
+[[noreturn]] void refuse_overlap(const std::string& packing_file, const std::string& what) {
+  throw InputError(fmt::format("{}: {}, allowed no overlap: pack with a larger smallest_gap", packing_file, what));
+}
+
+/// Largest penetration of a pair's points over the element size.
+double deepest_point(const Model& model, const Contact& contact, std::int32_t pair, std::size_t grain) {
+  double deepest = 0;
+  // What an unbroken bond holds of a point it holds itself: then the push is nothing and its pull tells the depth.
+  for (const auto points : {contact.active_points(pair), contact.pulling_bonds(pair)})
+    for (const ContactForce& point : points)
+      if (point.stiffness > 0)
+        deepest = std::max(deepest, std::hypot(point.force[0], point.force[1], point.force[2]) /
+                                        (point.stiffness * model.element_size[grain]));
+  return deepest;
+}
+
+void check_overlap(Model& model, Contact& contact, int grain, const std::string& packing_file) {
+  /// A packing may start with nodes inside a neighbour by rounding, not by more.
+  constexpr double overlap_tolerance = 1e-6; // of h
+  try {
+    contact_forces(model, contact, grain);
+  } catch (const SimulationError&) { // deeper than a contact can ever be
+    refuse_overlap(packing_file, fmt::format("grain {} overlaps another deeply at the start", grain));
+  }
+  const ContactCandidates& c = contact.candidates;
+  const auto g = static_cast<std::size_t>(grain);
+  for (std::int32_t pair = c.outgoing_offset[g]; pair < c.outgoing_offset[g + 1]; ++pair)
+    if (const double deepest = deepest_point(model, contact, pair, g); deepest > overlap_tolerance)
+      refuse_overlap(packing_file, fmt::format("grains {} and {} overlap at the start by {:.3g} of the element size",
+                                               grain, c.pair_second[static_cast<std::size_t>(pair)], deepest));
+}
+
+} // namespace
+
+double set_initial_velocities(Model& model, const Scenario& scenario) {
+  const auto grains = static_cast<std::size_t>(model.grains);
+  for (const auto* list : {&scenario.grain_velocity, &scenario.grain_angular_velocity})
+    if (!list->empty() && list->size() != grains)
+      throw InputError(fmt::format("{}: key 'initial': found {} rows for {} grains, allowed one row a grain",
+                                   scenario.packing_file, list->size(), grains));
+  double energy = 0;
+  for (std::size_t g = 0; g < grains; ++g)
+    set_velocity(model, g, scenario.grain_velocity.empty() ? scenario.initial_velocity : scenario.grain_velocity[g],
+                 scenario.grain_angular_velocity.empty() ? Vector{} : scenario.grain_angular_velocity[g], energy);
+  return energy;
+}
+
+void check_apart(Model& model, Contact& contact, const Walls& walls, const std::vector<Bounds>& bounds,
+                 const std::string& packing_file) {
+  constexpr double rounding = 1e-9; // mm
+  for (int grain = 0; grain < model.grains; ++grain) {
+    check_overlap(model, contact, grain, packing_file);
+    const Bounds& b = bounds[static_cast<std::size_t>(grain)];
+    for (std::size_t axis = 0; walls.present && axis < 3; ++axis)
+      if (b.low[axis] < walls.low[axis] - rounding || b.high[axis] > walls.high[axis] + rounding)
+        throw InputError(
+            fmt::format("{}: grain {} spans {:.6g} … {:.6g} mm along axis {}, allowed within the box {:.6g} … {:.6g}",
+                        packing_file, grain, b.low[axis], b.high[axis], axis, walls.low[axis], walls.high[axis]));
+  }
+}
+
+} // namespace mpfem

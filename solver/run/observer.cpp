@@ -1,0 +1,154 @@
+#include "solver/run/observer.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+namespace mpfem {
+
+namespace {
+
+/// What is measured on every grain for a row.
+struct GrainObservation {
+  double kinetic = 0, elastic = 0;           ///< mJ
+  double volume = 0;                         ///< mm^3, current
+  double surface_area = 0, contact_area = 0; ///< mm^2
+};
+
+std::vector<GrainObservation> observe_grains(const Model& model, const Contact& contact, double step_mean,
+                                             ThreadTeam& team) {
+  std::vector<GrainObservation> grains(static_cast<std::size_t>(model.grains));
+  team.for_each(model.grains, [&](int grain, int) {
+    grains[static_cast<std::size_t>(grain)] = {.kinetic = kinetic_energy(model, grain, step_mean),
+                                               .elastic = elastic_energy(model, grain),
+                                               .volume = current_volume(model, grain),
+                                               .surface_area = surface_area(model, grain),
+                                               .contact_area = contact_area(model, contact, grain)};
+  });
+  return grains;
+}
+
+double coordination_number(const Model& model, const Contact& contact) {
+  std::set<std::pair<std::int32_t, std::int32_t>> touching;
+  const ContactCandidates& c = contact.candidates;
+  for (std::size_t p = 0; p < c.pair_first.size(); ++p)
+    if (contact.active[p] > 0) touching.insert(std::minmax(c.pair_first[p], c.pair_second[p]));
+  return 2.0 * static_cast<double>(touching.size()) / static_cast<double>(static_cast<std::size_t>(model.grains));
+}
+
+/// Stresses and strains of the box.
+void observe_box(HistoryRow& row, const Simulation& simulation) {
+  const Walls& walls = simulation.walls();
+  const RunState& state = simulation.state();
+  for (std::size_t axis = 0; axis < 3; ++axis) row.box_lengths[axis] = walls.high[axis] - walls.low[axis];
+  row.wall_stress = wall_stress(simulation.energies().wall_force, walls);
+  row.mean_stress = state.mean_stress;
+  const auto& s = row.wall_stress;
+  row.deviatoric_stress = 0.5 * (s[4] + s[5]) - 0.25 * (s[0] + s[1] + s[2] + s[3]);
+  row.axial_strain = std::log(state.initial_lengths[2] / row.box_lengths[2]);
+  for (std::size_t axis = 0; axis < 3; ++axis)
+    row.volumetric_strain += std::log(state.initial_lengths[axis] / row.box_lengths[axis]);
+}
+
+void observe_bonds(HistoryRow& row, const BondSums& bonds) {
+  row.bond_energy = bonds.stored;
+  row.damage_dissipation = bonds.dissipated;
+  row.bonded_area = bonds.bonded_area;
+  row.bonds = static_cast<double>(bonds.bonds);
+  row.mean_damage = bonds.formed_area > 0 ? bonds.damaged_area / bonds.formed_area : 0.0;
+}
+
+void take_over_sums(HistoryRow& row, const EnergyLedger& energies) {
+  row.plastic_dissipation = energies.plastic_dissipation;
+  row.viscous_dissipation = energies.viscous_dissipation;
+  row.damping_dissipation = energies.damping_dissipation;
+  row.external_work = energies.external_work;
+}
+
+} // namespace
+
+BondSums total_bonds(const Model& model, const Contact& contact, ThreadTeam& team) {
+  if (!contact.bonding()) return {};
+  const auto pairs = static_cast<int>(contact.candidates.pair_first.size());
+  std::vector<BondSums> sums(static_cast<std::size_t>(pairs));
+  team.for_each(pairs, [&](int pair, int) { sums[static_cast<std::size_t>(pair)] = bond_sums(model, contact, pair); });
+  BondSums total;
+  for (const BondSums& pair : sums) total.add(pair);
+  return total;
+}
+
+HistoryRow observe_row(const Simulation& simulation, std::span<const GrainSums> sums, ThreadTeam& team) {
+  const Model& model = simulation.model();
+  const RunState& state = simulation.state();
+  const double next_step = simulation.stage_run().next_step(simulation.step_estimate().stable_step(), state.last_step);
+  // At the very first time level the velocity is that of the level itself.
+  const double step_mean = state.last_step > 0 ? 0.5 * (state.last_step + next_step) : 0.0;
+  const auto grains = observe_grains(model, simulation.contact(), step_mean, team);
+
+  HistoryRow row{};
+  row.time = state.time;
+  row.step = static_cast<double>(state.step);
+  row.stage = static_cast<double>(state.stage);
+  row.time_step = state.last_step;
+  double total_volume = 0;
+  for (std::size_t g = 0; g < grains.size(); ++g) {
+    row.kinetic_energy += grains[g].kinetic;
+    row.elastic_energy += grains[g].elastic;
+    total_volume += grains[g].volume;
+    row.surface_area += grains[g].surface_area;
+    row.contact_area += grains[g].contact_area;
+    row.contact_energy += sums[g].contact.energy + sums[g].walls.energy;
+    row.max_penetration = std::max({row.max_penetration, sums[g].contact.penetration, sums[g].walls.penetration});
+  }
+  observe_box(row, simulation);
+  const double box_volume = row.box_lengths[0] * row.box_lengths[1] * row.box_lengths[2];
+  row.relative_density = model.total_reference_volume() / box_volume;
+  row.relative_density_current = total_volume / box_volume;
+  observe_bonds(row, total_bonds(model, simulation.contact(), team));
+  take_over_sums(row, simulation.energies());
+  row.energy_residual = simulation.energies().residual({.kinetic = row.kinetic_energy,
+                                                        .elastic = row.elastic_energy,
+                                                        .contact = row.contact_energy,
+                                                        .bonds = row.bond_energy,
+                                                        .damage_dissipation = row.damage_dissipation});
+  row.coordination_number = coordination_number(model, simulation.contact());
+  double wall_force = 0;
+  for (const double force : simulation.energies().wall_force) wall_force += force;
+  row.damping_drag_ratio = wall_force > 0 ? state.damping_force / wall_force : 0.0;
+  return row;
+}
+
+LoadingRateObservation observe_loading_rate(const Simulation& simulation, ThreadTeam& team) {
+  const Model& model = simulation.model();
+  const Walls& walls = simulation.walls();
+  const RunState& state = simulation.state();
+  std::array<double, 3> centre{};
+  for (std::size_t axis = 0; axis < 3; ++axis) centre[axis] = 0.5 * (walls.low[axis] + walls.high[axis]);
+  std::vector<double> kinetic(static_cast<std::size_t>(model.grains)), elastic(kinetic.size());
+  std::vector<ForceMoments> moments(kinetic.size());
+  team.for_each(model.grains, [&](int grain, int) {
+    const auto g = static_cast<std::size_t>(grain);
+    kinetic[g] = kinetic_energy(model, grain, state.last_step);
+    elastic[g] = elastic_energy(model, grain);
+    moments[g] = force_moments(model, centre, grain);
+  });
+  LoadingRateObservation seen;
+  seen.elapsed = LoadingRateControl::steps_between_observations * state.last_step;
+  seen.plastic_dissipation = simulation.energies().plastic_dissipation;
+  const auto length = lengths(walls.low, walls.high);
+  const double box_volume = volume(length);
+  const std::array<double, 6> stress = wall_stress(simulation.energies().wall_force, walls);
+  for (std::size_t g = 0; g < kinetic.size(); ++g) {
+    seen.kinetic_energy += kinetic[g];
+    seen.elastic_energy += elastic[g];
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      seen.imbalance[axis] += moments[g].force[axis] * length[axis] / box_volume;
+      seen.dynamic[axis] += moments[g].moment[axis] / box_volume;
+    }
+  }
+  for (std::size_t axis = 0; axis < 3; ++axis) seen.wall_stress[axis] = 0.5 * (stress[2 * axis] + stress[2 * axis + 1]);
+  seen.stopping = simulation.stage_run().is_stopping(state.mean_stress);
+  return seen;
+}
+
+} // namespace mpfem

@@ -1,0 +1,20 @@
+#pragma once
+// All observed quantities of a time level.
+
+#include <span>
+
+#include "solver/kernels/thread_team.hpp"
+#include "solver/run/simulation.hpp"
+
+namespace mpfem {
+
+/// Sums over all bonds.
+BondSums total_bonds(const Model& model, const Contact& contact, ThreadTeam& team);
+
+/// One row of the history, between evaluate_forces() and advance(). `sums` [grains], of the last passes.
+HistoryRow observe_row(const Simulation& simulation, std::span<const GrainSums> sums, ThreadTeam& team);
+
+/// What inertia bears of the stresses, for stages that choose their speed.
+LoadingRateObservation observe_loading_rate(const Simulation& simulation, ThreadTeam& team);
+
+} // namespace mpfem

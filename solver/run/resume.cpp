@@ -1,0 +1,98 @@
+#include "solver/run/resume.hpp"
+
+#include <stdexcept>
+
+#include <fmt/format.h>
+
+#include "common/errors.hpp"
+#include "common/one_line.hpp"
+#include "common/table_reader.hpp"
+#include "solver/output/other_scenario.hpp"
+
+namespace mpfem {
+
+namespace {
+
+/// The scenario of the run that wrote a checkpoint.
+Scenario scenario_of(const CheckpointReader& checkpoint) {
+  return read_scenario(TomlDocument::from_text(checkpoint.scenario_text(), checkpoint.path()));
+}
+
+/// What a branch may not change. It goes on with the same matter: its stresses and strains mean nothing in another
+/// material.
+void check_branch(const CheckpointReader& checkpoint, const Scenario& before, const Scenario& now) {
+  const auto refuse = [&](const std::string& what) {
+    throw InputError(fmt::format("{}: {}", one_line(checkpoint.path()), what));
+  };
+  if (before.material != now.material || before.grain_materials != now.grain_materials)
+    refuse("the checkpoint's material differs from the scenario's, allowed the same [material]");
+  if (now.initial_velocity != std::array<double, 3>{} || !now.grain_velocity.empty() ||
+      !now.grain_angular_velocity.empty())
+    refuse("[initial] has no meaning in a run that begins at a checkpoint: its grains move as they moved there");
+  if (!checkpoint.has_bonds()) return;
+  // Bonds keep the law by which they formed, and [bond] is that of bonds to come. Whether bonds resist sliding decides how
+  // all of them are followed.
+  if (!now.bond) refuse("the checkpoint has bonds, the scenario has none, allowed a [bond] with the same normal_only");
+  if (before.bond->normal_only != now.bond->normal_only)
+    refuse("the checkpoint has bonds of the other bond.normal_only, allowed a [bond] with the same normal_only");
+  if (before.contact.penalty_differs(now.contact)) // a damaged bond's separations belong to its stiffness
+    refuse("the checkpoint has bonds of another penalty than the scenario's, allowed the same contact.stiffness and "
+           "contact.stiffness_factor");
+}
+
+/// Takes up the state, as that of the scenario's first stage where `branch`.
+void restore(const CheckpointReader& checkpoint, const Scenario& before, Simulation& simulation, RunRecord& record,
+             bool branch) {
+  if (checkpoint.has_bonds() && !before.bond)
+    throw InputError(
+        fmt::format("{}: the checkpoint is damaged: it has bonds, its scenario has none", one_line(checkpoint.path())));
+  const FieldValues values = checkpoint.fields();
+  FieldReader fields(values);
+  try {
+    simulation.restore(
+        fields, branch ? std::optional<std::int64_t>(0) : std::nullopt, [&](const Simulation::Arrays& arrays) {
+          checkpoint.take_arrays(arrays.model, arrays.contact, arrays.grain_steps, arrays.grips, before.bond);
+        });
+    if (branch) return; // its record is its own
+    RunRecord::for_each_field(record, fields);
+    fields.finish();
+  } catch (const std::invalid_argument& error) {
+    throw InputError(fmt::format("{}: the checkpoint was written by another version of mpfem ({})",
+                                 one_line(checkpoint.path()), error.what()));
+  }
+}
+
+} // namespace
+
+void save_checkpoint(const std::string& path, const Simulation& simulation, const RunRecord& record) {
+  FieldWriter fields;
+  simulation.write(fields);
+  RunRecord::for_each_field(record, fields);
+  write_checkpoint(path,
+                   {simulation.model(), simulation.contact(), simulation.grips(),
+                    simulation.step_estimate().grain_steps(), fields.values()},
+                   record, simulation.scenario().text);
+}
+
+void resume(const std::string& path, Simulation& simulation, RunRecord& record) {
+  const CheckpointReader checkpoint(path);
+  checkpoint.check_model(simulation.model());
+  if (checkpoint.scenario_text() != simulation.scenario().text)
+    throw InputError(fmt::format("{}: the checkpoint belongs to another scenario{}; run without --resume to begin anew",
+                                 one_line(path),
+                                 scenario_difference(checkpoint.scenario_text(), simulation.scenario().text)));
+  record = checkpoint.record();
+  restore(checkpoint, simulation.scenario(), simulation, record, false);
+}
+
+void begin_branch(const std::string& path, Simulation& simulation) {
+  const CheckpointReader checkpoint(path);
+  checkpoint.check_model(simulation.model());
+  const Scenario before = scenario_of(checkpoint);
+  check_branch(checkpoint, before, simulation.scenario());
+  RunRecord earlier;
+  restore(checkpoint, before, simulation, earlier, true);
+  simulation.begin_branch();
+}
+
+} // namespace mpfem

@@ -1,0 +1,20 @@
+#pragma once
+// All six walls move inwards until the packing has a relative density.
+
+#include "solver/run/stages/timed_stages.hpp"
+
+namespace mpfem {
+
+class IsotropicCompactionControl final : public TimedStage {
+public:
+  /// Throws InputError where the packing is as dense already.
+  IsotropicCompactionControl(const IsotropicCompaction& stage, const StageLabel& label, const StageStart& start);
+  static constexpr const char* description = "all walls inwards, to a relative density";
+  std::string describe() const override { return description; }
+  StageResult result(const StageObservation& last) const override;
+
+private:
+  double relative_density_;
+};
+
+} // namespace mpfem

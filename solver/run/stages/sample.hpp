@@ -1,0 +1,33 @@
+#pragma once
+// The packing as stages see it: a block of soft material in a box.
+
+#include <array>
+
+#include "solver/model/model.hpp"
+
+namespace mpfem {
+
+/// A compact's modulus over that of its grains, as stages take it beforehand. Compacts of the powders of Table 1 lie
+/// between 0.05 (barely jammed) and 0.5. Held walls follow softer ones a little less well damped, stiffer ones a little
+/// more slowly.
+inline constexpr double compact_modulus = 0.1;
+
+struct Sample {
+  double mass = 0;                ///< tonne, as scaled
+  double solid_volume = 0;        ///< mm^3, of all grains at the start
+  double constrained_modulus = 0; ///< MPa, K + 4 G/3 of the grains, the mean over their volumes
+  double contact_stiffness = 0;   ///< MPa/mm, the largest penalty of a grain
+};
+Sample sample_of(const Model& model);
+
+/// Lengths of a box, mm.
+std::array<double, 3> lengths(const std::array<double, 3>& low, const std::array<double, 3>& high);
+/// mm^3.
+double volume(const std::array<double, 3>& lengths);
+/// mm.
+double longest(const std::array<double, 3>& lengths);
+
+/// s, in which waves cross the longest side of a box (mm): in a compact that is a tenth as stiff as its grains.
+double wave_transit(const Sample& sample, const std::array<double, 3>& low, const std::array<double, 3>& high);
+
+} // namespace mpfem

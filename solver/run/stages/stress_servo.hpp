@@ -1,0 +1,58 @@
+#pragma once
+// The law of a wall that is held at a stress.
+//
+// With e = wanted - measured stress of an axis (mean of its two walls), both walls move inwards at
+//   u = f + s,   tau df/dt = P e - f,   ds/dt = I e,
+// bounded by the servo speed. From force to velocity this is two masses side by side, one (1/I an area) free, the other
+// (tau/P) behind a dashpot: a passive machine. Whatever is passive itself, as a packing is, cannot be made to oscillate
+// by it, however stiff or soft it is and however long its waves take, so no stiffness has to be known. P, I and tau only
+// decide how fast and how well damped the walls follow. They are set by the packing's own impedance (P: a wall that is
+// much easier to move than the packing), mass (I) and transit time (tau); see docs/numerics.md.
+
+#include <array>
+
+#include "solver/run/stages/observed_sample.hpp"
+
+namespace mpfem {
+
+/// The servo of one axis.
+struct ServoState {
+  double fast = 0, slow = 0; ///< mm/s, the two parts f and s of the speed
+  double error = 0;          ///< MPa, wanted less measured stress, averaged over a transit
+  template <class Self, class Visitor>
+  static void for_each_field(Self& s, Visitor&& visit) {
+    visit("servo.fast", s.fast), visit("servo.slow", s.slow), visit("servo.error", s.error);
+  }
+};
+
+/// How well stresses were held, over all axes.
+struct HoldQuality {
+  double largest_error = 0;  ///< MPa, largest magnitude of a servo's error so far
+  double largest_stress = 0; ///< MPa, largest wanted stress so far
+  double square = 0;         ///< MPa^2 s, integral of the square of wanted less measured stress
+  double time = 0;           ///< s, likewise of 1
+  template <class Self, class Visitor>
+  static void for_each_field(Self& s, Visitor&& visit) {
+    visit("hold.largest_error", s.largest_error), visit("hold.largest_stress", s.largest_stress);
+    visit("hold.square", s.square), visit("hold.time", s.time);
+  }
+  double root_mean_square() const; ///< MPa
+};
+
+class StressServo {
+public:
+  /// `largest_speed` in mm/s.
+  StressServo(const StageStart& start, double largest_speed);
+  /// mm/s inwards of both walls of an axis that is to be held at `wanted` (MPa).
+  double hold(ServoState& state, HoldQuality& quality, const ObservedSample& seen, std::size_t axis,
+              double wanted) const;
+
+private:
+  double largest_speed_;
+  double transit_;           ///< s, of waves through a soft compact
+  double gain_;              ///< P, mm/s per MPa
+  double slow_gain_;         ///< I, mm/s^2 per MPa
+  double contact_stiffness_; ///< MPa/mm
+};
+
+} // namespace mpfem

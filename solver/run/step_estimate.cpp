@@ -1,0 +1,125 @@
+#include "solver/run/step_estimate.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "solver/kernels/largest_frequency.hpp"
+
+namespace mpfem {
+
+namespace {
+
+// The estimate of the stable step is renewed when tets may have strained by this much since, or after so many steps. A
+// strain e changes a tet's gradients by e and its volume by up to 1.7 e, so its frequency, which goes with the gradients
+// and the root of the volume, by less than 2 e = 4 %: well within the 10 % that time_step_factor leaves.
+constexpr double strain_between_estimates = 0.02;
+constexpr int steps_between_estimates = 50;
+/// The frequencies of all whole grains are found at every so many estimates: some twenty products with the stiffness each.
+/// In between, a grain's frequency squared is taken to grow as that of the tet which grows most, and by what contact has
+/// come to its nodes. Where that would shorten the packing's step, it is found anew, unless it has grown by less than
+/// this.
+constexpr int estimates_between_spectra = 10;
+constexpr double growth_worth_a_spectrum = 1.01;
+
+/// Share of the critical damping that quadratic bulk viscosity may reach in a volume change at `rate` (1/s).
+double largest_quadratic_damping(const Model& model, double rate) {
+  const double size = *std::max_element(model.element_size.begin(), model.element_size.end());
+  double slowest = std::numeric_limits<double>::infinity();
+  for (const Material& material : model.material) slowest = std::min(slowest, material.wave_speed);
+  return model.viscosity.quadratic * model.viscosity.quadratic * rate * size / slowest;
+}
+
+} // namespace
+
+StepEstimate::StepEstimate(const Model& model, const NumericsParameters& numerics)
+    : numerics_(numerics), of_tets_(static_cast<std::size_t>(model.grains)),
+      stiffness_rate_(static_cast<std::size_t>(model.nodes())) {
+  const auto grains = static_cast<std::size_t>(model.grains);
+  grain_steps_ = {std::vector<double>(grains), std::vector<double>(grains),
+                  std::vector<double>(static_cast<std::size_t>(model.nodes()))};
+}
+
+bool StepEstimate::is_due_after(double strain, double step) {
+  state_.strain_rate = strain / step;
+  state_.strain_since_estimate += strain;
+  return ++state_.steps_since_estimate >= steps_between_estimates ||
+         state_.strain_since_estimate > strain_between_estimates;
+}
+
+void StepEstimate::renew_after_next_step() {
+  state_.steps_since_estimate = steps_between_estimates - 1;
+}
+
+void StepEstimate::restore(const State& state, GrainSteps grain_steps) {
+  state_ = state;
+  grain_steps_ = std::move(grain_steps);
+}
+
+/// s, by the frequency of the whole grain.
+double StepEstimate::renew_grain(const Model& model, int grain, double rate) {
+  const auto g = static_cast<std::size_t>(grain);
+  const double squared = largest_frequency(model, grain, stiffness_rate_, of_tets_[g].step, rate).squared;
+  grain_steps_.whole[g] = 2.0 / std::sqrt(squared);
+  std::copy(stiffness_rate_.begin() + model.node_offset[g], stiffness_rate_.begin() + model.node_offset[g + 1],
+            grain_steps_.contact.begin() + model.node_offset[g]);
+  grain_steps_.growth[g] = 1;
+  return std::max(of_tets_[g].step, grain_steps_.whole[g]);
+}
+
+/// 1/s^2, bound of the grain's frequency squared by what has grown since it was found.
+double StepEstimate::bound_since_spectrum(const Model& model, int grain, double found) const {
+  const auto g = static_cast<std::size_t>(grain);
+  double contact = 0;
+  for (auto n = static_cast<std::size_t>(model.node_offset[g]); n < static_cast<std::size_t>(model.node_offset[g + 1]);
+       ++n)
+    contact = std::max(contact, stiffness_rate_[n] - grain_steps_.contact[n]);
+  return found * grain_steps_.growth[g] + contact;
+}
+
+void StepEstimate::renew(Model& model, const Contact& contact, const Walls& walls, std::span<const Bounds> bounds,
+                         ThreadTeam& team, bool anew) {
+  const bool whole_grains = numerics_.step_estimate == StepEstimateMethod::grain;
+  anew = anew || ++state_.estimates_since_spectrum >= estimates_between_spectra;
+  // |tr e| <= sqrt(3) |e|
+  const double rate = std::sqrt(3.0) * state_.strain_rate;
+  // In an impact quadratic viscosity grows within one estimate.
+  anew = anew || (rate > 2 * state_.spectrum_rate && largest_quadratic_damping(model, rate) > 0.01);
+  if (anew) state_.estimates_since_spectrum = 0, state_.spectrum_rate = rate;
+
+  std::vector<double> steps(of_tets_.size());
+  std::vector<char> fresh(steps.size(), whole_grains && !anew ? 0 : 1);
+  team.for_each(model.grains, [&](int grain, int) {
+    const auto g = static_cast<std::size_t>(grain);
+    contact_stiffness_rate(model, contact, grain, stiffness_rate_);
+    wall_stiffness_rate(model, walls, bounds[g], grain, stiffness_rate_);
+    raise_to_expected_rate(model, contact, grain, stiffness_rate_);
+    of_tets_[g] = mpfem::stable_step(model, grain, stiffness_rate_, rate);
+    steps[g] = of_tets_[g].step;
+    if (!whole_grains) return;
+    if (anew) {
+      steps[g] = renew_grain(model, grain, rate);
+      return;
+    }
+    const double then = 4.0 / (grain_steps_.whole[g] * grain_steps_.whole[g]);
+    grain_steps_.growth[g] *= of_tets_[g].growth;
+    const double now = bound_since_spectrum(model, grain, then);
+    steps[g] = std::max(of_tets_[g].step, 2.0 / std::sqrt(now));
+    fresh[g] = now < growth_worth_a_spectrum * then ? 1 : 0;
+  });
+  // The grain that sets the step must have set it by its frequency, not by a bound of what that has become.
+  const auto shortest = [&] {
+    return static_cast<std::size_t>(std::min_element(steps.begin(), steps.end()) - steps.begin());
+  };
+  std::size_t g = shortest();
+  for (; !fresh[g]; g = shortest()) {
+    steps[g] = renew_grain(model, static_cast<int>(g), rate);
+    fresh[g] = 1;
+  }
+  state_.stable_step = numerics_.time_step_factor * steps[g];
+  state_.controlled_by_contact = of_tets_[g].step < 0.95 * of_tets_[g].step_no_contact;
+  state_.steps_since_estimate = 0;
+  state_.strain_since_estimate = 0;
+}
+
+} // namespace mpfem

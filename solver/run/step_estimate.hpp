@@ -1,0 +1,70 @@
+#pragma once
+// When the stable step is estimated anew, and which grain sets it.
+
+#include <span>
+#include <vector>
+
+#include "solver/boundary/grips.hpp"
+#include "solver/boundary/walls.hpp"
+#include "solver/kernels/contact_forces.hpp"
+#include "solver/kernels/element_forces.hpp"
+#include "solver/kernels/element_step.hpp"
+#include "solver/kernels/grain_state.hpp"
+#include "solver/kernels/node_motion.hpp"
+#include "solver/kernels/thread_team.hpp"
+#include "solver/model/grain_steps.hpp"
+#include "solver/model/model.hpp"
+#include "solver/model/surface.hpp"
+#include "solver/scenario/scenario.hpp"
+
+namespace mpfem {
+
+class StepEstimate {
+public:
+  struct State {
+    double stable_step = 0;             ///< s, estimate times safety factor
+    bool controlled_by_contact = false; ///< contact lowers the step by more than 5 %
+    double strain_rate = 0;             ///< 1/s, largest in the last step
+    double strain_since_estimate = 0;
+    std::int64_t steps_since_estimate = 0;
+    double spectrum_rate = 0; ///< 1/s, volumetric, when the frequencies of whole grains were last found
+    std::int64_t estimates_since_spectrum = 0;
+
+    template <class Self, class Visitor>
+    static void for_each_field(Self& s, Visitor&& visit) {
+      visit("step.stable", s.stable_step), visit("step.controlled_by_contact", s.controlled_by_contact);
+      visit("step.strain_rate", s.strain_rate), visit("step.strain_since_estimate", s.strain_since_estimate);
+      visit("step.steps_since_estimate", s.steps_since_estimate), visit("step.spectrum_rate", s.spectrum_rate);
+      visit("step.estimates_since_spectrum", s.estimates_since_spectrum);
+    }
+  };
+
+  StepEstimate(const Model& model, const NumericsParameters& numerics);
+
+  const State& state() const { return state_; }
+  const GrainSteps& grain_steps() const { return grain_steps_; }
+  double stable_step() const { return state_.stable_step; }
+
+  /// Takes in the largest strain of a step (s). True when the estimate is to be renewed.
+  bool is_due_after(double strain, double step);
+  /// Estimates the stable step of the present state; sets the tets' lengths in the model. `anew`: with the frequencies of
+  /// whole grains, whenever they were last found.
+  void renew(Model& model, const Contact& contact, const Walls& walls, std::span<const Bounds> bounds, ThreadTeam& team,
+             bool anew);
+  /// The next step is followed by an estimate: nothing has touched yet.
+  void renew_after_next_step();
+  /// Takes up what a checkpoint holds.
+  void restore(const State& state, GrainSteps grain_steps);
+
+private:
+  double renew_grain(const Model& model, int grain, double rate);
+  double bound_since_spectrum(const Model& model, int grain, double found) const;
+
+  NumericsParameters numerics_;
+  State state_;
+  GrainSteps grain_steps_;
+  std::vector<StableStep> of_tets_;    ///< [grains]
+  std::vector<double> stiffness_rate_; ///< 1/s^2, [nodes], of contact and walls
+};
+
+} // namespace mpfem

@@ -1,0 +1,37 @@
+#pragma once
+// Admissible ranges of a scenario's values. They exclude slips of the decimal point or of units; physics sets its own
+// limits where it has any. They also keep finite all that is computed from several of them: squares, ratios, the stable
+// step.
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "common/table_reader.hpp"
+
+namespace mpfem {
+
+inline constexpr Range hardening_exponent = Range::between(1e-3, 1);
+inline constexpr Range admissible_poissons_ratio{.low = -1, .high = 0.5, .low_open = true, .high_open = true};
+inline constexpr Range target_density{.low = 0, .high = 1.2, .low_open = true};
+inline constexpr Range positive_density = Range::between(1e-18, 1e3);   // tonne/mm^3
+inline constexpr Range positive_modulus = Range::between(1e-9, 1e12);   // MPa; also strengths and flow stresses
+inline constexpr Range positive_stress = Range::between(1e-12, 1e12);   // MPa
+inline constexpr Range stress_or_zero = Range::between(0, 1e12);        // MPa
+inline constexpr Range any_stress = Range::between(-1e12, 1e12);        // MPa
+inline constexpr Range positive_speed = Range::between(1e-12, 1e12);    // mm/s
+inline constexpr Range any_speed = Range::between(-1e12, 1e12);         // mm/s or rad/s
+inline constexpr Range positive_time = Range::between(1e-15, 1e9);      // s
+inline constexpr Range positive_length = Range::between(1e-12, 1e9);    // mm
+inline constexpr Range any_length = Range::between(-1e9, 1e9);          // mm
+inline constexpr Range rate_or_zero = Range::between(0, 1e15);          // 1/s
+inline constexpr Range positive_stiffness = Range::between(1e-9, 1e18); // MPa/mm
+inline constexpr Range positive_energy = Range::between(1e-18, 1e12);   // N/mm
+inline constexpr Range strain_or_zero = Range::between(0, 1e3);
+inline constexpr double most_grains = 1e9;
+
+/// Refuses keys of `all` that are given but do not belong to the choice made ("law = 'elastic'").
+void refuse_foreign_keys(const TableReader& table, const std::vector<std::string>& all,
+                         const std::vector<std::string>& meaningful, std::string_view choice);
+
+} // namespace mpfem

@@ -1,0 +1,265 @@
+#include "solver/scenario/read_stages.hpp"
+
+#include <algorithm>
+#include <functional>
+#include <set>
+
+#include <fmt/format.h>
+
+#include "solver/scenario/ranges.hpp"
+
+namespace mpfem {
+
+namespace {
+
+double read_wall_speed(TableReader& table) {
+  return table.number("wall_speed", positive_speed);
+}
+
+double read_ramp_fraction(TableReader& table) {
+  constexpr double usual = 0.1;
+  return table.number_or("ramp_fraction", usual, Range::between(0, 0.5));
+}
+
+/// Of walls that are held while others are driven at `wall_speed` (mm/s).
+double read_servo_speed(TableReader& table, double wall_speed) {
+  // A packing that dilates moves its lateral walls faster than its axial ones; one that fails suddenly under little
+  // stress, many times as fast.
+  constexpr double usual = 10;
+  return table.number_or("servo_speed", usual * wall_speed, {.low = 1e-12, .high = 1e13});
+}
+
+/// The keys that end a loading, of those that the stage's type allows.
+LoadingEnds read_ends(TableReader& table, std::string_view type) {
+  constexpr Range strain{.low = -0.5, .high = 0.5}; // beyond, walls that were never to come so far are a slip
+  LoadingEnds ends;
+  ends.axial_strain = table.optional_number("axial_strain", strain);
+  if (ends.axial_strain == 0.0) table.fail("axial_strain", "found 0, allowed > 0 (compression) or < 0 (extension)");
+  ends.relative_density = table.optional_number("relative_density", target_density);
+  ends.axial_stress = table.optional_number("axial_stress", stress_or_zero);
+  ends.mean_stress = table.optional_number("mean_stress", stress_or_zero);
+  ends.deviatoric_stress = table.optional_number("deviatoric_stress", any_stress);
+  ends.stress_drop = table.optional_number("stress_drop", {.low = 0, .high = 1, .low_open = true, .high_open = true});
+  ends.dissipation_ratio = table.optional_number("dissipation_ratio", {.low = 1, .high = 1e9, .low_open = true});
+  ends.duration = table.optional_number("duration", positive_time);
+  if (!ends.axial_strain && !ends.relative_density && !ends.axial_stress && !ends.mean_stress &&
+      !ends.deviatoric_stress && !ends.stress_drop && !ends.dissipation_ratio && !ends.duration)
+    table.fail("type", fmt::format("found '{}' without an end, expected at least one of axial_strain, "
+                                   "dissipation_ratio, duration and the other ends of that type",
+                                   type));
+  return ends;
+}
+
+StageType read_isotropic_compaction(TableReader& table) {
+  if (table.has("mean_stress")) {
+    if (table.has("relative_density")) table.fail("mean_stress", "has no meaning with 'relative_density'");
+    return IsotropicLoading{.mean_stress = table.number("mean_stress", positive_stress),
+                            .wall_speed = read_wall_speed(table),
+                            .ramp_fraction = read_ramp_fraction(table)};
+  }
+  return IsotropicCompaction{.relative_density = table.number("relative_density", target_density),
+                             .wall_speed = read_wall_speed(table),
+                             .ramp_fraction = read_ramp_fraction(table)};
+}
+
+StageType read_isotropic_unloading(TableReader& table) {
+  return IsotropicUnloading{.mean_stress = table.number("mean_stress", stress_or_zero),
+                            .wall_speed = read_wall_speed(table),
+                            .ramp_fraction = read_ramp_fraction(table)};
+}
+
+StageType read_stress_cycles(TableReader& table) {
+  const double highest = table.number("highest_mean_stress", positive_stress);
+  return StressCycles{.lowest_mean_stress =
+                          table.number("lowest_mean_stress", {.low = 0, .high = highest, .high_open = true}),
+                      .highest_mean_stress = highest,
+                      .cycles = table.integer("cycles", Range::between(1, 1e4)),
+                      .wall_speed = read_wall_speed(table),
+                      .ramp_fraction = read_ramp_fraction(table)};
+}
+
+AxialDrive read_axial_drive(TableReader& table, std::string_view type) {
+  return {
+      .wall_speed = read_wall_speed(table), .ramp_fraction = read_ramp_fraction(table), .ends = read_ends(table, type)};
+}
+
+StageType read_unconfined(TableReader& table) {
+  return UnconfinedCompression{read_axial_drive(table, "unconfined_compression")};
+}
+
+StageType read_die(TableReader& table) {
+  return DieCompression{read_axial_drive(table, "die_compression")};
+}
+
+StageType read_triaxial(TableReader& table) {
+  TriaxialCompression triaxial{read_axial_drive(table, "triaxial_compression")};
+  triaxial.servo_speed = read_servo_speed(table, triaxial.wall_speed);
+  triaxial.hold_force = table.choice_or("hold", "force", {"force", "stress"}) == "force";
+  triaxial.lateral_stress = table.optional_number("lateral_stress", positive_stress);
+  return triaxial;
+}
+
+StageType read_probe(TableReader& table) {
+  StressProbe probe;
+  probe.wall_speed = read_wall_speed(table);
+  probe.ramp_fraction = read_ramp_fraction(table);
+  probe.servo_speed = read_servo_speed(table, probe.wall_speed);
+  const std::vector<double> direction = table.numbers("direction", Range::between(-1e12, 1e12));
+  if (direction.size() != 2 || (direction[0] == 0 && direction[1] == 0))
+    table.fail("direction", "expected two numbers, [dp, dq], not both 0");
+  probe.direction = {direction[0], direction[1]};
+  probe.ends = read_ends(table, "probe");
+  return probe;
+}
+
+StageType read_hold(TableReader& table) {
+  const double duration = table.number("duration", positive_time);
+  if (const auto stress = table.optional_number("mean_stress", positive_stress)) {
+    constexpr double usual_servo_speed = 2000; // mm/s, far above what a packing at rest needs
+    return HeldStress{.mean_stress = *stress,
+                      .duration = duration,
+                      .servo_speed = table.number_or("servo_speed", usual_servo_speed, positive_speed)};
+  }
+  if (table.has("servo_speed")) table.fail("servo_speed", "has no meaning without 'mean_stress'");
+  return Rest{.duration = duration};
+}
+
+StageType read_grip(TableReader& table) {
+  GripMotion grip;
+  const std::string axis = table.choice_or("axis", "z", {"x", "y", "z"});
+  grip.axis = axis[0] - 'x';
+  grip.depth = table.number("grip_depth", positive_length);
+  grip.lateral_fixed = table.choice_or("lateral", "fixed", {"fixed", "free"}) == "fixed";
+  grip.displacement = table.number_or("displacement", 0, any_length);
+  grip.sliding = table.vector3_or("sliding", {0, 0, 0}, any_length);
+  const bool slides = grip.sliding != std::array<double, 3>{};
+  if (slides && !grip.lateral_fixed) table.fail("sliding", "has no meaning with lateral = 'free'");
+  if (grip.sliding[static_cast<std::size_t>(grip.axis)] != 0)
+    table.fail("sliding", fmt::format("found a part along the axis {}, allowed only across it", axis));
+  if (grip.displacement == 0 && !slides)
+    table.fail("displacement", "missing or 0, expected a number < 0 (together) or > 0 (apart), or 'sliding'");
+  grip.speed = table.number("speed", positive_speed);
+  grip.ramp_fraction = read_ramp_fraction(table);
+  return grip;
+}
+
+/// A type of stage as scenarios name it.
+struct StageKeyword {
+  std::string name;
+  std::vector<std::string> keys; ///< besides those that all stages have
+  std::function<StageType(TableReader&)> read;
+};
+
+const std::vector<StageKeyword>& stage_keywords() {
+  static const std::vector<StageKeyword> keywords = {
+      {"isotropic_compaction",
+       {"relative_density", "mean_stress", "wall_speed", "ramp_fraction"},
+       read_isotropic_compaction},
+      {"isotropic_unloading", {"mean_stress", "wall_speed", "ramp_fraction"}, read_isotropic_unloading},
+      {"grip", {"axis", "grip_depth", "lateral", "displacement", "sliding", "speed", "ramp_fraction"}, read_grip},
+      {"hold", {"duration", "mean_stress", "servo_speed"}, read_hold},
+      {"unconfined_compression",
+       {"wall_speed", "ramp_fraction", "axial_strain", "axial_stress", "stress_drop", "dissipation_ratio", "duration"},
+       read_unconfined},
+      {"triaxial_compression",
+       {"wall_speed", "servo_speed", "ramp_fraction", "hold", "lateral_stress", "axial_strain", "axial_stress",
+        "deviatoric_stress", "stress_drop", "dissipation_ratio", "duration"},
+       read_triaxial},
+      {"die_compression",
+       {"wall_speed", "ramp_fraction", "axial_strain", "relative_density", "axial_stress", "dissipation_ratio",
+        "duration"},
+       read_die},
+      {"probe",
+       {"wall_speed", "servo_speed", "ramp_fraction", "direction", "axial_strain", "mean_stress", "deviatoric_stress",
+        "dissipation_ratio", "duration"},
+       read_probe},
+      {"stress_cycles",
+       {"wall_speed", "ramp_fraction", "lowest_mean_stress", "highest_mean_stress", "cycles"},
+       read_stress_cycles},
+  };
+  return keywords;
+}
+
+DampingParameters read_damping(TableReader& table) {
+  DampingParameters damping;
+  damping.rate = table.number_or("damping_rate", 0, rate_or_zero);
+  if (table.has("damping_fade_stress") && !table.has("damping_rate"))
+    table.fail("damping_fade_stress", "has no meaning without 'damping_rate'");
+  const auto fade_stress = table.optional_number("damping_fade_stress", positive_stress);
+  if (damping.rate > 0 && !fade_stress)
+    table.fail("damping_fade_stress", "missing, expected a number > 0, since damping_rate > 0");
+  damping.fade_stress = fade_stress.value_or(0);
+  return damping;
+}
+
+/// `speed`: mm/s, the stage's own; `youngs_modulus`: MPa, of the grains.
+std::optional<QuasiStatic> read_quasi_static(TableReader& stage, double speed, double youngs_modulus) {
+  constexpr double slower = 0.25, faster = 4; // bounds where none are given, over the stage's own speed
+  constexpr double loose = 1e-3;              // stress of a loose packing over the grains' modulus
+  constexpr Range part = Range::between(1e-9, 1);
+  std::optional<TableReader> table = stage.optional_table("quasi_static");
+  if (!table) return std::nullopt;
+  if (!(speed > 0)) stage.fail("quasi_static", "has no meaning where nothing moves");
+  if (stage.has("duration"))
+    stage.fail("duration", "has no meaning with quasi_static, which stretches the stage's time");
+  QuasiStatic q;
+  q.kinetic_tolerance = table->number_or("kinetic_tolerance", q.kinetic_tolerance, part);
+  q.stress_tolerance = table->number_or("stress_tolerance", q.stress_tolerance, part);
+  q.slowest_speed = table->number_or("slowest_speed", slower * speed, {.low = 1e-13, .high = speed});
+  q.fastest_speed = table->number_or("fastest_speed", faster * speed, {.low = speed, .high = 1e13});
+  q.loose_stress = table->number_or("loose_stress", loose * youngs_modulus, stress_or_zero);
+  table->finish();
+  return q;
+}
+
+/// The name stands in file names, so it is a plain word.
+void check_stage_name(const TableReader& table, const std::string& name) {
+  const bool plain = std::all_of(name.begin(), name.end(), [](char c) {
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '-' || c == '_';
+  });
+  constexpr std::size_t longest = 64;
+  if (name.empty() || name.size() > longest || !plain)
+    table.fail("name", fmt::format("found '{}', allowed 1 … {} letters (a … z), digits, '-' and '_'",
+                                   name.size() > longest ? "a longer text" : name, longest));
+}
+
+Stage read_stage(TableReader table, std::size_t number, double youngs_modulus) {
+  std::vector<std::string> types, all_keys;
+  for (const StageKeyword& keyword : stage_keywords()) {
+    types.push_back(keyword.name);
+    all_keys.insert(all_keys.end(), keyword.keys.begin(), keyword.keys.end());
+  }
+  const std::string type = table.choice("type", types);
+  Stage stage;
+  stage.name = table.string_or("name", fmt::format("{}-{}", type, number));
+  check_stage_name(table, stage.name);
+  const auto keyword = std::find_if(stage_keywords().begin(), stage_keywords().end(),
+                                    [&](const StageKeyword& known) { return known.name == type; });
+  refuse_foreign_keys(table, all_keys, keyword->keys, fmt::format("type = '{}'", type));
+  stage.type = keyword->read(table);
+  stage.quasi_static = read_quasi_static(table, driven_speed(stage.type), youngs_modulus);
+  stage.damping = read_damping(table);
+  stage.places = table.places();
+  table.finish();
+  return stage;
+}
+
+} // namespace
+
+std::vector<Stage> read_stages(TableReader& root, double youngs_modulus) {
+  std::vector<TableReader> tables = root.tables("stages");
+  if (tables.empty())
+    root.fail("stages", root.has("stages") ? "found no stage, expected at least one [[stages]]"
+                                           : "missing, expected at least one [[stages]]");
+  std::vector<Stage> stages;
+  std::set<std::string> names;
+  for (TableReader& table : tables) {
+    stages.push_back(read_stage(table, stages.size() + 1, youngs_modulus));
+    const std::string& name = stages.back().name;
+    if (!names.insert(name).second)
+      table.fail("name", fmt::format("found '{}', which an earlier stage has, expected different names", name));
+  }
+  return stages;
+}
+
+} // namespace mpfem

@@ -1,0 +1,151 @@
+#pragma once
+// Stages of a scenario as plain structs, one for each type. Keywords and defaults of the TOML file stand in
+// read_stages.cpp only.
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <variant>
+
+#include "common/key_places.hpp"
+
+namespace mpfem {
+
+/// All six walls move inwards until the packing has a relative density; smooth start and end.
+struct IsotropicCompaction {
+  double relative_density = 0; ///< target, reference grain volume over box volume
+  double wall_speed = 0;       ///< plateau speed of every wall, mm/s
+  double ramp_fraction = 0.1;  ///< fraction of the stage's time spent in each of the smooth start and end
+};
+
+/// All six walls move inwards until the mean stress has risen to a target.
+struct IsotropicLoading {
+  double mean_stress = 0;     ///< target, MPa
+  double wall_speed = 0;      ///< largest speed of every wall, mm/s
+  double ramp_fraction = 0.1; ///< smooth start, as a fraction of the expected time
+};
+
+/// All six walls move apart until the mean stress has fallen to a target. They slow down as they come near it.
+struct IsotropicUnloading {
+  double mean_stress = 0;     ///< target, MPa
+  double wall_speed = 0;      ///< largest speed of every wall, mm/s
+  double ramp_fraction = 0.1; ///< smooth start, as a fraction of the time in which the box would grow by 3 % in length
+};
+
+/// All six walls together, up and down between two mean stresses.
+struct StressCycles {
+  double lowest_mean_stress = 0;  ///< MPa
+  double highest_mean_stress = 0; ///< MPa
+  std::int64_t cycles = 0;        ///< up and down again
+  double wall_speed = 0;          ///< largest speed of every wall, mm/s
+  double ramp_fraction = 0.1;
+};
+
+/// What ends a loading: the first of those that are given. Strains are logarithmic, since the stage began, compression
+/// positive; stresses are those of the walls, MPa.
+struct LoadingEnds {
+  std::optional<double> axial_strain{};      ///< negative: the walls move apart
+  std::optional<double> relative_density{};  ///< reference grain volume over box volume
+  std::optional<double> axial_stress{};      ///< MPa
+  std::optional<double> mean_stress{};       ///< MPa
+  std::optional<double> deviatoric_stress{}; ///< MPa
+  std::optional<double>
+      stress_drop{}; ///< fall below the peak of the axial stress (unconfined) or of |q|, over the peak
+  std::optional<double> dissipation_ratio{}; ///< plastic and damage dissipation over its value when the stage began
+  std::optional<double> duration{};          ///< s
+};
+
+/// The z walls are driven. What the x and y walls do is the rest of the stage's type.
+struct AxialDrive {
+  double wall_speed = 0;      ///< largest speed of both walls, mm/s
+  double ramp_fraction = 0.1; ///< of the time of the whole way (of 5 % of strain where that is not known) to full speed
+  LoadingEnds ends;
+};
+
+/// The x and y walls are away.
+struct UnconfinedCompression : AxialDrive {};
+
+/// The x and y walls are at rest.
+struct DieCompression : AxialDrive {};
+
+/// The x and y walls are held at a force or stress.
+struct TriaxialCompression : AxialDrive {
+  double servo_speed = 0;                 ///< largest speed of the held walls, mm/s
+  bool hold_force = true;                 ///< the walls' force is held; false: their stress
+  std::optional<double> lateral_stress{}; ///< MPa, to be held; none: what acts when the stage begins
+};
+
+/// All walls are held on a straight path of mean and deviatoric stress.
+struct StressProbe {
+  std::array<double, 2> direction{}; ///< of the path, in mean and deviatoric stress
+  double wall_speed = 0;             ///< largest speed of the walls along the path, mm/s
+  double servo_speed = 0;            ///< largest speed of the walls, mm/s
+  double ramp_fraction = 0.1;
+  LoadingEnds ends;
+};
+
+/// All walls are held at one stress, for a time.
+struct HeldStress {
+  double mean_stress = 0; ///< MPa
+  double duration = 0;    ///< s
+  double servo_speed = 0; ///< largest speed of the walls, mm/s
+};
+
+/// Nothing moves: free flight, vibration, settling.
+struct Rest {
+  double duration = 0; ///< s
+};
+
+/// The nodes near two opposite faces of the box are gripped and moved along the box's axis. Walls take no part.
+struct GripMotion {
+  int axis = 2;                    ///< 0 x, 1 y, 2 z
+  double depth = 0;                ///< mm: nodes so near to a face of the box when the stage begins
+  bool lateral_fixed = true;       ///< gripped nodes do not move across the axis
+  double displacement = 0;         ///< mm, change of the distance between both grips; positive apart
+  std::array<double, 3> sliding{}; ///< mm, of the high grip against the low one, across the axis
+  double speed = 0;                ///< plateau speed of each grip, mm/s
+  double ramp_fraction = 0.1;
+};
+
+/// What a stage does. A new type is added here, to the reader (read_stages.cpp) and to make_stage_control().
+using StageType =
+    std::variant<IsotropicCompaction, IsotropicLoading, IsotropicUnloading, StressCycles, UnconfinedCompression,
+                 DieCompression, TriaxialCompression, StressProbe, HeldStress, Rest, GripMotion>;
+
+/// Mass-proportional damping of each grain's velocity relative to the affine velocity at the grain's centre. It fades
+/// from full at mean stress 0 to nothing at `fade_stress`.
+struct DampingParameters {
+  double rate = 0;        ///< 1/s; force = -rate * m * (v - v_affine)
+  double fade_stress = 0; ///< MPa
+};
+
+/// Tolerances of quasi-static loading, between whose bounds a stage chooses its speed (solver/run/loading_rate.hpp).
+struct QuasiStatic {
+  double kinetic_tolerance = 0.01; ///< kinetic energy over internal energy gained in the stage or stored at its start
+  double stress_tolerance = 0.02;  ///< what inertia bears of the wall stresses, over the largest of them
+  double slowest_speed = 0;        ///< mm/s
+  double fastest_speed = 0;        ///< mm/s
+  double loose_stress = 0;         ///< MPa: below this wall stress the packing is loose and the speed stays as it is
+};
+
+struct Stage {
+  std::string name;
+  StageType type;
+  std::optional<QuasiStatic> quasi_static{}; ///< none: the stage keeps its speed
+  DampingParameters damping;
+  KeyPlaces places; ///< of its keys in the scenario
+};
+
+/// mm/s of each driven wall or grip, where the stage keeps its speed; 0 where none is driven.
+double driven_speed(const StageType& type);
+/// mm/s, the largest of walls that are held at a stress; none where none is held.
+std::optional<double> servo_speed(const StageType& type);
+/// Axes of the box, as flags.
+using Axes = std::array<bool, 3>;
+/// Axes whose walls are away while a stage lasts.
+Axes withdrawn_axes(const StageType& type);
+/// Whether a stage needs walls.
+bool moves_walls(const StageType& type);
+
+} // namespace mpfem
