@@ -136,13 +136,14 @@ void vtk(const Arguments& arguments) {
     write_file(arguments.output, vtu_text(state));
     return;
   }
-  if (arguments.input.empty()) throw InputError("found neither of RUN.h5 and --packing, allowed: one of them");
+  if (arguments.input.empty())
+    throw InputError("found neither of RUN.h5 and --packing, allowed: one of them; postproc --help says more");
   write_run_as_vtk(open_run(arguments), arguments.output, arguments.quiet);
 }
 
 void section(Arguments arguments) {
   if (arguments.output.empty() && arguments.data.empty())
-    throw InputError("found neither of -o and --data, allowed: one of them, or both");
+    throw InputError("found neither of -o and --data, allowed: one of them, or both; postproc --help says more");
   const Snapshot state = read_state(arguments);
   PictureRequest& request = arguments.picture;
   request.plane.axis = arguments.axis == "x" ? 0 : arguments.axis == "y" ? 1 : 2;

@@ -120,7 +120,7 @@ TEST_CASE("A description whose sizes do not fit together is refused by what does
            {"cumulative = [0.0, 1.0]", "cumulative = [0.0, 0.9]", "cumulative"},
            {"cumulative = [0.0, 1.0]", "cumulative = [1.0, 0.0]", "cumulative"},
            {"cumulative = [0.0, 1.0]", "cumulative = [0.0, 2.0]", "cumulative"},
-           {"kind = 'table'", "kind = 'list'", "cumulative"},
+           {"kind = 'table'", "kind = 'list'", "weight"},
        }) {
     INFO(to);
     CHECK(fault_of_message(description_message(changed(table_description, from, to)), {"powder.toml", name}) == "");

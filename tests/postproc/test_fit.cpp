@@ -270,12 +270,12 @@ TEST_CASE("postproc fit writes a list of fits with ranges, and the curves") {
   write_text(folder / "empty.csv", "");
   write_text(folder / "nan.csv", "x,y\n1,nan\n");
   for (const auto& [arguments, expected] : std::vector<std::pair<std::string, std::string>>{
-           {fmt::format("fit {} --x x --y y --model linear", folder / "bad.csv"),
-            "bad.csv:3: column 'y': found 'four'"},
-           {fmt::format("fit {} --x x --y y --model linear", folder / "ragged.csv"), "ragged.csv:3: found 1 cells"},
+           {fmt::format("fit {} --x x --y y --model linear", folder / "bad.csv"), "bad.csv:3: column y: found 'four'"},
+           {fmt::format("fit {} --x x --y y --model linear", folder / "ragged.csv"), "ragged.csv:3: found 1 columns"},
            {fmt::format("fit {} --x x --y y --model linear", folder / "empty.csv"), "is empty"},
-           {fmt::format("fit {} --x x --y y --model linear", folder / "nan.csv"), "a finite number"},
-           {fmt::format("fit {} --x x --y y --model linear", folder / "absent.csv"), "no such file"},
+           {fmt::format("fit {} --x x --y y --model linear", folder / "nan.csv"),
+            "column y: found 'nan', expected a number"},
+           {fmt::format("fit {} --x x --y y --model linear", folder / "absent.csv"), "No such file"},
            {fmt::format("fit {} --x porosty --y strength --model linear", folder / "p.csv"),
             "did you mean 'porosity'?"},
            {command + "linear --z porosity", "--z has no meaning"},

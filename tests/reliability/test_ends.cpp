@@ -99,8 +99,8 @@ TEST_CASE("a scenario that would never end, or whose numbers overflow, is refuse
   prepare_stages(folder, pressed);
   for (const auto& [assignment, word] :
        std::vector<std::pair<std::string, std::string>>{{"stages.0.wall_speed=1e-12", "steps"},
-                                                        {"material.youngs_modulus=1e308", "stable step"},
-                                                        {"material.density=1e-300", "stable step"}}) {
+                                                        {"material.youngs_modulus=1e308", "youngs_modulus"},
+                                                        {"material.density=1e-300", "density"}}) {
     for (const std::string& command :
          {stages_command(folder, "run.h5"), fmt::format("'{}' check {}", MPFEM_EXECUTABLE, folder / "scenario.toml")}) {
       const Outcome outcome = run_command("timeout 20 " + command + " --set " + assignment);
@@ -137,8 +137,8 @@ TEST_CASE("poisoned motion stops every kind of stage, and the message names grai
       "type = \"hold\"\nmean_stress = 30\nduration = 1e-6\n",
       "type = \"hold\"\nduration = 1e-6\n",
       "type = \"grip\"\ngrip_depth = 0.03\ndisplacement = 0.015\nspeed = 20000\n"};
-  // Grains that fly apart a million times as fast as sound, in a stage that begins at once.
-  std::string velocities = "[initial]\ngrain_velocity = [[0, 0, 1e15]";
+  // Grains that fly apart hundreds of times as fast as sound, in a stage that begins at once.
+  std::string velocities = "[initial]\ngrain_velocity = [[0, 0, 1e12]";
   for (int grain = 1; grain < 8; ++grain) velocities += ", [0, 0, 0]";
   for (const std::string& keys : stages) {
     prepare_stages(folder, small_material + velocities + "]\n" + stage(keys));

@@ -37,12 +37,12 @@ TEST_CASE("a million steps of two bonded grains neither use more memory nor let 
     energy = std::max({energy, row.kinetic_energy, row.elastic_energy + row.contact_energy + row.bond_energy});
     if (part == 0) first_residual = row.energy_residual;
     drift = std::max(drift, std::abs(row.energy_residual - first_residual));
-    // Lists of candidates breathe by some entries.
     (part < 10 ? first_memory : memory) = std::max(part < 10 ? first_memory : memory, memory_used());
   }
   CAPTURE(energy, first_residual / energy, drift / energy, first_memory, memory, simulation.state().step);
   REQUIRE(simulation.state().step >= 1'000'000);
-  CHECK(memory <= first_memory + 1024); // less than a byte in a thousand steps
+  // Lists of candidates breathe by some entries; a leak of a byte in every hundred steps would be 9,000 bytes.
+  CHECK(memory <= first_memory + 8192);
   CHECK(drift < 0.01 * energy);
   WARN("drift of the ledger over energy " << drift / energy << ", memory " << first_memory << " B, then " << memory);
 }
