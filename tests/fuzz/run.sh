@@ -15,7 +15,7 @@ shift
 names=("$@")
 ((${#names[@]} > 0)) || names=(scenario assignments bond powder spheres points)
 
-build=build-fuzz
+build='build-fuzz'
 cmake --preset fuzz >/dev/null
 ninja -C $build >/dev/null
 
@@ -39,7 +39,7 @@ seed() {
 
 # The keys and words that a reader knows, from its source.
 dictionary() {
-  grep -ohE '"[a-z][a-z_0-9-]+"' solver/scenario/scenario.cpp solver/run/bond_programme.cpp \
+  grep -ohE '"[a-z][a-z_0-9-]+"' solver/scenario/*.cpp solver/run/bond_programme.cpp \
     pack-gen/packing_description.cpp | sort -u
 }
 dictionary >$build/words.dict

@@ -81,7 +81,7 @@ duration = 1e-6
 name = "hold"
 type = "hold"
 mean_stress = 15.0
-duration = 1e-6
+duration = 6e-6
 damping_rate = 1e6
 damping_fade_stress = 1e4
 [[stages]]
