@@ -22,8 +22,12 @@
 #include "postproc/hysteresis.hpp"
 #include "postproc/mean_radius.hpp"
 #include "postproc/modulus.hpp"
+#include "postproc/quasi_static.hpp"
+#include "postproc/section_statistics.hpp"
 #include "postproc/strength.hpp"
+#include "postproc/stress_path.hpp"
 #include "postproc/text_file.hpp"
+#include "postproc/triaxial_test.hpp"
 #include "postproc/yield_point.hpp"
 
 namespace mpfem {
@@ -44,7 +48,9 @@ struct MetricCommands::State {
   ModulusRule modulus;
   std::vector<double> strain_range;
   StrengthRule strength;
-  double yield_ratio = 1.003;
+  bool need_window = false;
+  double yield_ratio = 1.003, lateral_stress = 0, threshold = 0;
+  std::string axis = "z";
   std::string x, y, z, curve;
   std::vector<std::string> models;
   bool x_is_relative_density = false;
@@ -174,7 +180,10 @@ MetricCommands::MetricCommands(CLI::App& app) : state_(std::make_unique<State>()
                                          s.strain_range[0], s.strain_range[1]));
           s.modulus.strain_range = {s.strain_range[0], s.strain_range[1]};
         }
-        s.deliver(measure_modulus(s.open_run(), s.stage, s.modulus, s.youngs_modulus));
+        const Measurement m = measure_modulus(s.open_run(), s.stage, s.modulus, s.youngs_modulus);
+        if (s.need_window && !m.details["window_meets_rule"].get<bool>())
+          throw InputError(fmt::format("{}: {}", one_line(s.input), m.notes.front()));
+        s.deliver(m);
       });
   modulus
       .add_option("--slope-change", s.modulus.slope_change,
@@ -195,6 +204,7 @@ MetricCommands::MetricCommands(CLI::App& app) : state_(std::make_unique<State>()
                   "low,high: axial strain since the stage began, in place of the rule")
       ->delimiter(',')
       ->expected(2);
+  modulus.add_flag("--need-window", s.need_window, "Refuse a stage in which no window meets the rule");
   modulus.add_option("--youngs-modulus", s.youngs_modulus, "Of the grains, MPa (default: the scenario's)")
       ->check(positive);
 
@@ -263,6 +273,46 @@ MetricCommands::MetricCommands(CLI::App& app) : state_(std::make_unique<State>()
   damage.add_option("run", s.input, "Run file (HDF5)")->required();
   damage.add_option("--snapshot", s.snapshot, "Number of the snapshot; -1 is the last")->capture_default_str();
   damage.add_option("--data", s.table, "CSV file to write: the share of the area whose damage is not above each value");
+
+  s.add_metric(app, "quasi-static",
+               "How quasi-static a loading was: kinetic over internal energy, balance of opposite walls and of energy.\n"
+               "Example: postproc quasi-static run.h5 -o quality.json",
+               "the last", [&s] { s.deliver(measure_quasi_static(s.open_run(), s.stage)); });
+  s.add(app, "stress-path",
+        "Where a run ends in the plane of p and q, its largest stresses and what it dissipates.\n"
+        "Example: postproc stress-path run.h5 -o path.json",
+        "JSON file to write", [&s] { s.deliver(measure_stress_path(s.open_run())); })
+      .add_option("run", s.input, "Run file (HDF5)")
+      ->required();
+  s.add_metric(app, "triaxial",
+               "A triaxial compression: stresses and strains at its end and where q is largest, dissipation, and how well "
+               "the lateral force was kept.\n"
+               "Example: postproc triaxial run.h5 --lateral-stress 8 -o triaxial.json",
+               "the last triaxial_compression",
+               [&s] { s.deliver(measure_triaxial_test(s.open_run(), s.stage, s.lateral_stress)); })
+      .add_option("--lateral-stress", s.lateral_stress, "At the beginning, MPa")
+      ->required()
+      ->check(positive);
+  const auto add_section = [&](const char* name, const char* help, const char* threshold_help,
+                               Measurement (*measure)(const schema::FileReader&, int, int, double)) {
+    CLI::App& section = s.add(app, name, help, "JSON file to write", [&s, measure] {
+      s.deliver(measure(s.open_run(), s.snapshot, s.axis == "x" ? 0 : s.axis == "y" ? 1 : 2, s.threshold));
+    });
+    section.add_option("run", s.input, "Run file (HDF5)")->required();
+    section.add_option("--snapshot", s.snapshot, "Number of the snapshot; -1 is the last")->capture_default_str();
+    section.add_option("--axis", s.axis, "Axis that the middle plane is normal to")
+        ->check(CLI::IsMember({"x", "y", "z"}))
+        ->capture_default_str();
+    section.add_option("--threshold", s.threshold, threshold_help)->required();
+  };
+  add_section("section-stress",
+              "Von Mises stress on the middle plane: mean, percentiles, share above a threshold.\n"
+              "Example: postproc section-stress run.h5 --threshold 25 -o stress.json",
+              "MPa", measure_section_stress);
+  add_section("section-damage",
+              "Damage along the grains' boundaries on the middle plane: mean, share above a threshold.\n"
+              "Example: postproc section-damage run.h5 --axis x --threshold 0.99 -o damage.json",
+              "Damage from which on a bond counts as opened", measure_section_damage);
 
   CLI::App& energy = s.add_metric(
       app, "energy",
