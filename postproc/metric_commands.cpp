@@ -274,22 +274,24 @@ MetricCommands::MetricCommands(CLI::App& app) : state_(std::make_unique<State>()
   damage.add_option("--snapshot", s.snapshot, "Number of the snapshot; -1 is the last")->capture_default_str();
   damage.add_option("--data", s.table, "CSV file to write: the share of the area whose damage is not above each value");
 
-  s.add_metric(app, "quasi-static",
-               "How quasi-static a loading was: kinetic over internal energy, balance of opposite walls and of energy.\n"
-               "Example: postproc quasi-static run.h5 -o quality.json",
-               "the last", [&s] { s.deliver(measure_quasi_static(s.open_run(), s.stage)); });
+  s.add_metric(
+      app, "quasi-static",
+      "How quasi-static a loading was: kinetic over internal energy, balance of opposite walls and of energy.\n"
+      "Example: postproc quasi-static run.h5 -o quality.json",
+      "the last", [&s] { s.deliver(measure_quasi_static(s.open_run(), s.stage)); });
   s.add(app, "stress-path",
         "Where a run ends in the plane of p and q, its largest stresses and what it dissipates.\n"
         "Example: postproc stress-path run.h5 -o path.json",
         "JSON file to write", [&s] { s.deliver(measure_stress_path(s.open_run())); })
       .add_option("run", s.input, "Run file (HDF5)")
       ->required();
-  s.add_metric(app, "triaxial",
-               "A triaxial compression: stresses and strains at its end and where q is largest, dissipation, and how well "
-               "the lateral force was kept.\n"
-               "Example: postproc triaxial run.h5 --lateral-stress 8 -o triaxial.json",
-               "the last triaxial_compression",
-               [&s] { s.deliver(measure_triaxial_test(s.open_run(), s.stage, s.lateral_stress)); })
+  s.add_metric(
+       app, "triaxial",
+       "A triaxial compression: stresses and strains at its end and where q is largest, dissipation, and how well "
+       "the lateral force was kept.\n"
+       "Example: postproc triaxial run.h5 --lateral-stress 8 -o triaxial.json",
+       "the last triaxial_compression",
+       [&s] { s.deliver(measure_triaxial_test(s.open_run(), s.stage, s.lateral_stress)); })
       .add_option("--lateral-stress", s.lateral_stress, "At the beginning, MPa")
       ->required()
       ->check(positive);

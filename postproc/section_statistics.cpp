@@ -43,8 +43,8 @@ SectionStress section_stress(std::vector<std::pair<double, double>> value_and_ar
       if ((sum += area) >= share * total) return value;
     return value_and_area.back().first;
   };
-  return {moment / total,     percentile(0.5),           percentile(0.95),
-          percentile(0.99), value_and_area.back().first, above / total};
+  return {moment / total, percentile(0.5), percentile(0.95), percentile(0.99), value_and_area.back().first,
+          above / total};
 }
 
 SectionDamage section_damage(const std::vector<BoundarySegment>& segments, double threshold) {

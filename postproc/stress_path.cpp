@@ -35,8 +35,7 @@ Measurement stress_path(const HistoryTable& h) {
                {"largest_ratio", largest_ratio},
                {"dissipation_at_start_mJ", dissipated(0)},
                {"dissipation_at_end_mJ", dissipated(last)},
-               {"damage_share_at_end",
-                dissipated(last) > 0 ? h["damage_dissipation"][last] / dissipated(last) : 0}};
+               {"damage_share_at_end", dissipated(last) > 0 ? h["damage_dissipation"][last] / dissipated(last) : 0}};
   return m;
 }
 

@@ -27,6 +27,11 @@ FORCE:
 toolkit := $(patsubst %/,%,$(dir $(lastword $(MAKEFILE_LIST))))
 studies := $(if $(wildcard $(toolkit)/branches),$(toolkit),$(toolkit)/studies)
 makefile := $(firstword $(MAKEFILE_LIST))
+ifeq ($(words $(MAKEFILE_LIST)),1)
+help:
+	@printf '%s\n' "make -f $(makefile) study STUDY=my.toml [MESH=NAME] [RUN=PREFIX] [THREADS=N] [SEEDS='2 3'] [-jN]" \
+	  'makes all that my.toml declares, and a page of it. Examples: $(studies)/examples'
+endif
 
 # ------------------------------------------------------------------------------------------------ settings
 MESH ?= coarse
@@ -87,9 +92,9 @@ endif
 packing_smoke := smoke
 packing := $(or $(packing_$(MESH)),full)
 ifneq ($(of_powder),)
-  out := out/$(study_name)$(SEED:%=-seed%)
-  packings := $(out)/packing
-  description := $(out)/powder.toml
+  out := out/own$(SEED:%=-seed%)
+  packings := $(out)/$(study_name)/packing
+  description := $(out)/$(study_name)/powder.toml
   size := $(of_powder)
 else
   out := out/$(MESH)$(SEED:%=-seed%)
@@ -123,14 +128,14 @@ $(BIN)/pack-gen $(BIN)/mpfem $(BIN)/postproc:
 
 # ------------------------------------------------------------------------------------------------ packings
 ifneq ($(of_powder),)
-$(description): FORCE | $(BIN)/postproc
-	@mkdir -p $(@D)
-	@$(BIN)/postproc powder '$(STUDY)' --programmes $(studies)/branches -o $@.new
-	@cmp -s $@.new $@ || cp $@.new $@
-	@rm -f $@.new
-$(packings)/spheres.settings: $(description)
+content_of_description := $(firstword $(shell $(BIN)/postproc powder '$(STUDY)' --programmes $(studies)/branches | sha256sum))
+$(description): $(packings)/spheres.settings | $(BIN)/postproc
+	$(BIN)/postproc powder '$(STUDY)' --programmes $(studies)/branches -o $@
+$(packings)/spheres.h5: $(description)
+else
+content_of_description := $(call content_of,$(description))
 endif
-$(eval $(call stamp,$(packings)/spheres.settings,$(description) $(call content_of,$(description))$(SEED:%= seed %)))
+$(eval $(call stamp,$(packings)/spheres.settings,$(description) $(content_of_description)$(SEED:%= seed %)))
 $(foreach s,$(sizes),$(eval $(call stamp,$(packings)/mesh-$(s).settings,size $(s))))
 
 $(packings)/spheres.h5: $(packings)/spheres.settings | $(BIN)/pack-gen
@@ -149,7 +154,7 @@ $(packings)/mesh-%.h5: $(packings)/spheres.h5 $(packings)/mesh-%.settings | $(BI
 # ------------------------------------------------------------------------------------------------ what is declared
 # Of all figures together, since they share runs; of a user's study alone.
 declared_sources := $(or $(STUDY),$(wildcard $(studies)/fig*/figure.toml))
-declared := $(out)/$(if $(STUDY),$(study_name),figures).mk
+declared := $(out)/$(if $(STUDY),$(study_name)/study,figures).mk
 of_mesh := --results $(out) --mesh $(MESH) --programmes $(studies)/branches
 goals := $(or $(MAKECMDGOALS),help)
 ifneq ($(filter-out help clean clean-figures,$(goals)),)

@@ -189,7 +189,8 @@ private:
     std::string options, parent;
     if (!run.parent.empty()) {
       parent = run_file(run.parent);
-      options = fmt::format(" --from {}/{}/work/run.{}.checkpoint.h5", request_.results.path, run.parent, run.checkpoint);
+      options =
+          fmt::format(" --from {}/{}/work/run.{}.checkpoint.h5", request_.results.path, run.parent, run.checkpoint);
     }
     if (!run.densities.empty()) {
       std::vector<std::string> densities;
@@ -197,8 +198,9 @@ private:
       settings.emplace_back("output.checkpoint_relative_densities", fmt::format("[{}]", fmt::join(densities, ",")));
     }
     options += set_options(settings);
+    // Of the values, not of the file: another comment makes no run old.
     const std::string stamp =
-        fmt::format("{} {}{}", run.programme, hash_text(hash_string(content_of(run.programme))), options);
+        fmt::format("{} {}{}", run.programme, hash_text(hash_string(TomlDocument::from_file(run.programme).text())), options);
     std::string quoted = stamp; // as it stands in the file
     std::erase(quoted, '\'');
     text_ += fmt::format("{}: {} {}\n", file, parent.empty() ? request_.packing : parent, settings_file);

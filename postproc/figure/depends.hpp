@@ -7,8 +7,8 @@ namespace mpfem {
 
 struct DependsRequest {
   ResultsFolder results;
-  std::string packing;       ///< the meshed packing
-  Settings common_settings;  ///< element, contact surface …: of every run that does not decline them
+  std::string packing;      ///< the meshed packing
+  Settings common_settings; ///< element, contact surface …: of every run that does not decline them
 };
 
 /// Lines for make (docs/figure-file.md, "What make does"): for all figures together, so that they share runs. Where the

@@ -96,8 +96,8 @@ struct AxisSpec {
 };
 
 struct SeriesSpec {
-  std::string table, x, y, error, group, colour_by; ///< columns
-  std::string fit;                                  ///< or a fit
+  std::string table, x, y, error, group, colour_by;  ///< columns
+  std::string fit;                                   ///< or a fit
   std::vector<std::pair<std::string, double>> model; ///< or a model with given coefficients, of `fit_model`
   std::string fit_model;
   std::optional<double> from, to, at; ///< range of x of a fit; value of z
@@ -145,9 +145,9 @@ struct QuantitySpec {
   std::vector<Filter> where;
   std::vector<Filter> relative_to; ///< each value over that of the row of these with the same `by`
   std::string by;
-  std::string fit, coefficient, measure;         ///< of a fit: a coefficient with its interval, or r_squared, points …
-  std::string of, divided_by, minus;            ///< of other quantities
-  std::optional<double> otherwise;              ///< where there is no row
+  std::string fit, coefficient, measure; ///< of a fit: a coefficient with its interval, or r_squared, points …
+  std::string of, divided_by, minus;     ///< of other quantities
+  std::optional<double> otherwise;       ///< where there is no row
   Place place;
 };
 

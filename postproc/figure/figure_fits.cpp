@@ -70,12 +70,12 @@ const Json& fit_by_name(const Json& fits, const std::string& name) {
   throw InputError(fmt::format("the list of fits has no '{}'; make it anew", one_line(name)));
 }
 
-std::function<double(double, double)> model_with(const std::string& model,
-                                                 const std::map<std::string, double>& coefficients,
-                                                 bool x_is_relative_density) {
+std::function<double(double, double)>
+model_with(const std::string& model, const std::map<std::string, double>& coefficients, bool x_is_relative_density) {
   const auto c = [&](const char* name) {
     const auto found = coefficients.find(name);
-    if (found == coefficients.end()) throw InputError(fmt::format("model '{}': coefficient {} is missing", model, name));
+    if (found == coefficients.end())
+      throw InputError(fmt::format("model '{}': coefficient {} is missing", model, name));
     return found->second;
   };
   const auto porosity = [x_is_relative_density](double x) { return x_is_relative_density ? 1 - x : x; };
@@ -92,8 +92,7 @@ std::function<double(double, double)> model_with(const std::string& model,
     return [a = c("a"), b = c("b"), porosity](double x, double) { return std::exp(b - a * porosity(x)); };
   if (model == "ryshkewitch-duckworth")
     return [s = c("sigma_0"), b = c("B"), porosity](double x, double) { return s * std::exp(-b * porosity(x)); };
-  if (model == "rumpf")
-    return [f = c("c"), porosity](double x, double) { return f * (1 - porosity(x)) / porosity(x); };
+  if (model == "rumpf") return [f = c("c"), porosity](double x, double) { return f * (1 - porosity(x)) / porosity(x); };
   if (model == "pc-gc-surface")
     return [a = c("A"), b = c("B"), p = c("C"), g = c("D")](double x, double z) {
       return a - b * std::exp(-x / p) * std::exp(-z / g);

@@ -17,8 +17,7 @@ nlohmann::ordered_json make_fits(const Figure& figure, const std::string& folder
 const nlohmann::ordered_json& fit_by_name(const nlohmann::ordered_json& fits, const std::string& name);
 
 /// y of a model with these coefficients. Throws InputError: unknown model, missing coefficient.
-std::function<double(double x, double z)> model_with(const std::string& model,
-                                                     const std::map<std::string, double>& coefficients,
-                                                     bool x_is_relative_density);
+std::function<double(double x, double z)>
+model_with(const std::string& model, const std::map<std::string, double>& coefficients, bool x_is_relative_density);
 
 } // namespace mpfem

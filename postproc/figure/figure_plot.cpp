@@ -212,14 +212,16 @@ std::string surface_points(const SeriesSpec& s, FigureData& data) {
 }
 
 std::string terminal(const std::string& format) {
-  if (format == "svg") return "set terminal svg size 800,600 dynamic enhanced font 'DejaVu Sans,16' background 'white'\n";
+  if (format == "svg")
+    return "set terminal svg size 800,600 dynamic enhanced font 'DejaVu Sans,16' background 'white'\n";
   if (format == "png") return "set terminal pngcairo size 1200,900 enhanced font 'DejaVu Sans,20' linewidth 1.5\n";
   throw InputError(fmt::format("found the format '{}', allowed: png, svg", format));
 }
 
 std::string key_text(const PlotSpec& plot) {
   if (plot.key.find_first_not_of("abcdefghijklmnopqrstuvwxyzLR0123456789 ") != std::string::npos)
-    throw InputError(fmt::format("key: found '{}', allowed: words of place as 'left top' or 'outside right'", plot.key));
+    throw InputError(
+        fmt::format("key: found '{}', allowed: words of place as 'left top' or 'outside right'", plot.key));
   std::string text = "set key Left reverse samplen 2 spacing 1.2 noautotitle\n";
   text += fmt::format("set key {}\n", plot.key);
   if (!plot.key_title.empty()) text += fmt::format("set key title {} left\n", gnuplot_string(plot.key_title));

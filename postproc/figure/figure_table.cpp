@@ -148,8 +148,9 @@ void add_curve(TextTable& table, const TableSpec& spec, const Words& values, con
       if (s.number == number[row]) begin = s.first;
     std::vector<Value> cells;
     for (std::size_t c = 0; c < sources.size(); ++c)
-      cells.push_back(sources[c] ? Value::of_text(fmt::format("{:.{}g}", sources[c]({history, row, begin}), spec.digits))
-                                 : Value::of_text(filled_at(spec.place, spec.columns[c].pattern, values)));
+      cells.push_back(sources[c]
+                          ? Value::of_text(fmt::format("{:.{}g}", sources[c]({history, row, begin}), spec.digits))
+                          : Value::of_text(filled_at(spec.place, spec.columns[c].pattern, values)));
     table.rows.push_back(std::move(cells));
   }
 }

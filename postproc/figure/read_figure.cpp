@@ -57,8 +57,8 @@ Settings read_settings(TableReader reader) {
 
 /// Names become files and targets of make.
 std::string checked_name(TableReader& reader, const std::string& key, std::string name) {
-  if (name.empty() || name.find_first_not_of("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789._-") !=
-                          std::string::npos)
+  if (name.empty() ||
+      name.find_first_not_of("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789._-") != std::string::npos)
     reader.fail(key, fmt::format("found '{}', allowed: letters, digits, '.', '_' and '-'", name));
   return name;
 }
@@ -246,9 +246,9 @@ QuantitySpec read_quantity(TableReader reader, const std::string& name, const Wo
     q.table = t.required("table");
     q.column = t.required("column");
     q.over = t.optional("over");
-    q.take = reader.choice_or("take", "only",
-                              {"only", "first", "last", "smallest", "largest", "mean", "sum", "count", "spread", "list",
-                               "before_last"});
+    q.take = reader.choice_or(
+        "take", "only",
+        {"only", "first", "last", "smallest", "largest", "mean", "sum", "count", "spread", "list", "before_last"});
     q.otherwise = reader.optional_number("otherwise");
     q.item = t.optional("item", "{value:.3g}");
     q.where = t.filters("where");
@@ -267,9 +267,18 @@ std::vector<Operand> operands_of(TableReader& reader, const std::string& key, co
 }
 
 const std::vector<std::string>& predicates() {
-  static const std::vector<std::string> list = {"near",  "at_least", "at_most", "above",  "below",
-                                                "between", "rises",    "falls",   "ordered",
-                                                "interval_includes", "interval_excludes", "interval_width_at_most",
+  static const std::vector<std::string> list = {"near",
+                                                "at_least",
+                                                "at_most",
+                                                "above",
+                                                "below",
+                                                "between",
+                                                "rises",
+                                                "falls",
+                                                "ordered",
+                                                "interval_includes",
+                                                "interval_excludes",
+                                                "interval_width_at_most",
                                                 "either"};
   return list;
 }
@@ -307,8 +316,8 @@ ConditionSpec read_condition(TableReader reader, const Words& words) {
   }
   if (c.predicate == "near") {
     c.absolute = reader.has("within_absolute");
-    c.within = c.absolute ? reader.number("within_absolute", Range::positive())
-                          : reader.number("within", Range::positive());
+    c.within =
+        c.absolute ? reader.number("within_absolute", Range::positive()) : reader.number("within", Range::positive());
   }
   reader.finish();
   return c;

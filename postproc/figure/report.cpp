@@ -15,7 +15,8 @@ namespace mpfem {
 
 namespace {
 
-constexpr const char* style = R"(  body { font: 16px/1.45 sans-serif; max-width: 75rem; margin: 2rem auto; padding: 0 1rem; color: #222; }
+constexpr const char* style =
+    R"(  body { font: 16px/1.45 sans-serif; max-width: 75rem; margin: 2rem auto; padding: 0 1rem; color: #222; }
   table { border-collapse: collapse; margin: 1rem 0; }
   td, th { border: 1px solid #bbb; padding: 0.3rem 0.6rem; text-align: left; vertical-align: top; }
   tr.true td:nth-child(4) { background: #d9f0d9; }
@@ -39,8 +40,7 @@ std::string base64(const std::string& bytes) {
     unsigned int group = 0;
     for (std::size_t k = 0; k < 3; ++k)
       group = group << 8U | (i + k < bytes.size() ? static_cast<unsigned char>(bytes[i + k]) : 0U);
-    for (std::size_t k = 0; k < 4; ++k)
-      text += i + k > bytes.size() ? '=' : letters[group >> (18 - 6 * k) & 63U];
+    for (std::size_t k = 0; k < 4; ++k) text += i + k > bytes.size() ? '=' : letters[group >> (18 - 6 * k) & 63U];
   }
   return text;
 }
@@ -63,8 +63,7 @@ std::string statements_table(const std::filesystem::path& folder) {
   const std::filesystem::path path = folder / "verdict.json";
   const auto list = nlohmann::json::parse(content_of(path), nullptr, false);
   if (!list.is_array()) throw InputError(fmt::format("{}: is no list of statements", one_line(path.string())));
-  std::string text =
-      "<table>\n<tr><th>statement</th><th>paper</th><th>here</th><th>verdict</th><th>note</th></tr>\n";
+  std::string text = "<table>\n<tr><th>statement</th><th>paper</th><th>here</th><th>verdict</th><th>note</th></tr>\n";
   for (const auto& s : list) {
     const auto& agrees = s.at("agrees");
     const char* word = agrees.is_null() ? "not judged" : agrees.get<bool>() ? "agrees" : "differs";
@@ -107,8 +106,9 @@ std::string report_page(const std::vector<ReportEntry>& entries, const std::stri
     page += fmt::format("<h2 id=\"{}\">{}</h2>\n<p>{}</p>\n<div class=\"pictures\">\n", entry.name, html(entry.title),
                         html(entry.question));
     for (const auto& picture : files_with(folder, ".png"))
-      page += fmt::format("<figure><img alt=\"{}\" src=\"data:image/png;base64,{}\"><figcaption>{}</figcaption></figure>\n",
-                          picture.stem().string(), base64(content_of(picture)), picture.string());
+      page +=
+          fmt::format("<figure><img alt=\"{}\" src=\"data:image/png;base64,{}\"><figcaption>{}</figcaption></figure>\n",
+                      picture.stem().string(), base64(content_of(picture)), picture.string());
     page += "</div>\n" + statements_table(folder) + "<p>Numbers:";
     for (const auto& table : files_with(folder, ".csv"))
       page += fmt::format(" <a href=\"../{0}/{1}\">{1}</a>", entry.name, table.filename().string());

@@ -9,7 +9,7 @@
 namespace mpfem {
 
 struct TextTable {
-  std::string path; ///< for messages
+  std::string path;                       ///< for messages
   std::vector<std::string> titles, names; ///< "name [unit]" and "name" of each column
   std::vector<std::vector<Value>> rows;
 

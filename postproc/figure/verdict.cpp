@@ -58,7 +58,9 @@ std::vector<Entry> entries_of(const QuantitySpec& q, const TextTable& table) {
 
 Quantity taken(const QuantitySpec& q, const TextTable& table, const std::vector<Entry>& entries) {
   const auto by_value = [](const Entry& a, const Entry& b) { return a.value < b.value; };
-  const auto of = [&](const Entry& entry) { return Quantity{Value::of(entry.value), {}, table.rows[entry.row].front().text}; };
+  const auto of = [&](const Entry& entry) {
+    return Quantity{Value::of(entry.value), {}, table.rows[entry.row].front().text};
+  };
   double sum = 0;
   for (const Entry& entry : entries) sum += entry.value;
   if (q.take == "count") return {Value::of(static_cast<double>(entries.size())), {}, {}};
@@ -84,9 +86,10 @@ Quantity taken(const QuantitySpec& q, const TextTable& table, const std::vector<
     return {{fmt::format("{}", fmt::join(items, ", ")), {}}, {}, {}};
   }
   if (entries.size() > 1)
-    q.place.fail(fmt::format("quantity '{}': {} rows of table '{}' are meant, allowed: one, or 'take' with first, last, "
-                             "smallest, largest, mean, sum, count, spread or list",
-                             q.name, entries.size(), q.table));
+    q.place.fail(
+        fmt::format("quantity '{}': {} rows of table '{}' are meant, allowed: one, or 'take' with first, last, "
+                    "smallest, largest, mean, sum, count, spread or list",
+                    q.name, entries.size(), q.table));
   return of(entries.front());
 }
 
@@ -160,7 +163,8 @@ bool monotonic(const QuantitySpec& q, const TextTable& table, const ConditionSpe
     for (std::size_t k = i + 1; k < entries.size(); ++k) {
       if (each && !(table.rows[entries[i].row][*each] == table.rows[entries[k].row][*each])) continue;
       const double change = sign * (entries[k].value - entries[i].value);
-      if (c.tolerance > 0 ? change < -c.tolerance * (c.absolute ? 1 : std::abs(entries[i].value)) : !(change > 0)) return false;
+      if (c.tolerance > 0 ? change < -c.tolerance * (c.absolute ? 1 : std::abs(entries[i].value)) : !(change > 0))
+        return false;
     }
   return entries.size() > 1;
 }
@@ -242,7 +246,8 @@ std::optional<bool> holds(const ConditionSpec& c, const StatementSpec& statement
   const auto value = quantity.value.number;
   if (!value) return {};
   if (c.predicate.starts_with("interval")) {
-    if (!quantity.interval) c.place.fail(fmt::format("'{}' is no coefficient of a fit and has no interval", c.quantity));
+    if (!quantity.interval)
+      c.place.fail(fmt::format("'{}' is no coefficient of a fit and has no interval", c.quantity));
     const auto [low, high] = *quantity.interval;
     if (c.predicate == "interval_width_at_most") return high - low <= operands[0];
     const bool includes = low <= operands[0] && operands[0] <= high;

@@ -21,9 +21,9 @@ private:
 };
 
 struct Quantity {
-  Value value;     ///< empty where it is not known
+  Value value;                                   ///< empty where it is not known
   std::optional<std::array<double, 2>> interval; ///< of a fit's coefficient, 95 %
-  std::string row;                               ///< first cell of the row that it was taken from, where it was taken from one
+  std::string row; ///< first cell of the row that it was taken from, where it was taken from one
 };
 
 /// Quantities by name. Throws InputError: names, columns and coefficients that do not exist, "only" of several rows.
