@@ -95,7 +95,12 @@ std::set<std::string> values_used(const Figure& figure, const RunTemplate& run) 
     names.insert(name);
     for (const auto& [key, pattern] : settings) collect_names(pattern, names);
   }
+  collect_names(run.folder, names);
   if (!run.chain.empty()) names.insert(run.chain);
+  for (const auto& [name, of_text] : figure.follows)
+    for (const auto& [text, words] : of_text)
+      for (const auto& [key, value] : words)
+        if (names.contains(key)) names.insert(name);
   if (run.from.empty()) return names;
   collect_names(run.from, names);
   const RunTemplate& parent = figure.run(run.from.substr(0, run.from.find_first_of("@:")), run.place);

@@ -168,6 +168,27 @@ programme = "press"
   CHECK(graph.at("bonded").settings == Settings{{"bond.fracture_energy", "0.5"}});
 }
 
+TEST_CASE("a folder named of its own accord tells apart what a run depends on by way of another value") {
+  const Toolkit toolkit;
+  const Figure figure = toolkit.figure(R"(title = "x"
+[follows.powder]
+"soft" = { yield = 10 }
+"hard" = { yield = 40 }
+[[cases]]
+powder = ["soft", "hard"]
+seen = [1, 2]
+[[runs]]
+name = "pressed"
+programme = "press"
+settings = { "material.hardening.yield_stress" = "{yield}" }
+)");
+  RunGraph graph;
+  for (const Case& row : cases_of(figure, {}, {}, "smoke", {})) add_run(graph, figure, figure.runs[0], row);
+  REQUIRE(graph.size() == 2); // `seen` makes no run of its own
+  CHECK(graph.contains("study/runs/pressed-soft"));
+  CHECK(graph.contains("study/runs/pressed-hard"));
+}
+
 TEST_CASE("one folder for two different runs is refused, in one figure and in two") {
   const Toolkit toolkit;
   std::string text = tablets;
