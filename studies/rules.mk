@@ -218,7 +218,7 @@ $(spread_files): $(out)/%.spread.csv: $(out)/%.csv $(out)/packings.settings $(fo
 # Only of what is requested, since the runs of a packing take long; one make for all tables of a seed, since two would make
 # the same runs. Its tables are newer only if it made them anew.
 wanted_figures := $(if $(SEEDS),$(if $(filter all report smoke study,$(goals)),$(declared_figures) $(other_figures_with_spread),$(filter $(declared_figures) $(other_figures_with_spread),$(goals))))
-seed_tables = $(patsubst $(out)/%.spread.csv,$(out)-seed$(1)/%.csv,$(filter $(foreach f,$(wanted_figures),$(out)/$(f)/%),$(spread_files) $(other_spread_files))))
+seed_tables = $(patsubst $(out)/%.spread.csv,$(out)-seed$(1)/%.csv,$(filter $(foreach f,$(wanted_figures),$(out)/$(f)/%),$(spread_files) $(other_spread_files)))
 seeds_wanted := $(if $(wanted_figures),$(SEEDS))
 .PHONY: $(seeds_wanted:%=seed-%)
 $(seeds_wanted:%=seed-%): seed-%:
