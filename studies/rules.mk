@@ -158,7 +158,9 @@ declared := $(out)/$(if $(STUDY),$(study_name)/study,figures).mk
 of_mesh := --results $(out) --mesh $(MESH) --programmes $(studies)/branches
 goals := $(or $(MAKECMDGOALS),help)
 ifneq ($(filter-out help clean clean-figures,$(goals)),)
-$(declared): FORCE | $(BIN)/postproc
+# postproc is no prerequisite: make -B -n, by which times.sh lists runs, would carry out its rule.
+$(declared): FORCE
+	@[ -x $(BIN)/postproc ] || { echo 'Makefile.studies: $(BIN)/postproc is not built; ./bootstrap build builds it' >&2; exit 1; }
 	@mkdir -p $(@D)
 	@$(BIN)/postproc depends $(declared_sources) $(of_mesh) --packing $(mesh) --set element.type=$(ELEMENT) --set contact.surface=$(SURFACE) -o $@
 include $(declared)
