@@ -302,7 +302,7 @@ void CheckpointReader::take_arrays(Model& model, Contact& contact, GrainSteps& g
     contact.bond.assign(points, {});
     contact.bond_force.resize(points);
     contact.pulling.assign(contact.candidates.pair_first.size(), 0);
-    if (bond_parameters && has_bonds()) take_bonds(model, contact, *bond_parameters);
+    if (bond_parameters) take_bonds(model, contact, *bond_parameters);
   }
   if (grips && file_.has(check::grip_node)) take_grips(model, *grips);
 }

@@ -75,8 +75,8 @@ public:
   RunRecord record() const; ///< without what stands among the fields
   FieldValues fields() const;
   /// Replaces the state of nodes, tets and contact points. Bonds keep the laws by which they formed; whether they resist
-  /// sliding is said by `bond_parameters`, of the run that wrote the checkpoint. The last law in `contact` stays that of
-  /// bonds to come.
+  /// sliding is said by `bond_parameters`, of the run that wrote the checkpoint; none where no bond has formed. The last
+  /// law in `contact` stays that of bonds to come.
   /// `grips`: of a stage that grips, its axis set, or none.
   void take_arrays(Model& model, Contact& contact, GrainSteps& grain_steps, Grips* grips,
                    const std::optional<BondParameters>& bond_parameters) const;

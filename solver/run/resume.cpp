@@ -20,7 +20,7 @@ Scenario scenario_of(const CheckpointReader& checkpoint) {
 
 /// What a branch may not change. It goes on with the same matter: its stresses and strains mean nothing in another
 /// material.
-void check_branch(const CheckpointReader& checkpoint, const Scenario& before, const Scenario& now) {
+void check_branch(const CheckpointReader& checkpoint, bool bonded, const Scenario& before, const Scenario& now) {
   const auto refuse = [&](const std::string& what) {
     throw InputError(fmt::format("{}: {}", one_line(checkpoint.path()), what));
   };
@@ -29,7 +29,7 @@ void check_branch(const CheckpointReader& checkpoint, const Scenario& before, co
   if (now.initial_velocity != std::array<double, 3>{} || !now.grain_velocity.empty() ||
       !now.grain_angular_velocity.empty())
     refuse("[initial] has no meaning in a run that begins at a checkpoint: its grains move as they moved there");
-  if (!checkpoint.has_bonds()) return;
+  if (!bonded) return;
   // Bonds keep the law by which they formed, and [bond] is that of bonds to come. Whether bonds resist sliding decides how
   // all of them are followed.
   if (!now.bond) refuse("the checkpoint has bonds, the scenario has none, allowed a [bond] with the same normal_only");
@@ -40,19 +40,20 @@ void check_branch(const CheckpointReader& checkpoint, const Scenario& before, co
            "contact.stiffness_factor");
 }
 
-/// Takes up the state, as that of the scenario's first stage where `branch`.
-void restore(const CheckpointReader& checkpoint, const Scenario& before, Simulation& simulation, RunRecord& record,
-             bool branch) {
-  if (checkpoint.has_bonds() && !before.bond)
+/// Takes up the state, as that of the scenario's first stage where `branch`; `bonded`: with bonds.
+void restore(const CheckpointReader& checkpoint, bool bonded, const Scenario& before, Simulation& simulation,
+             RunRecord& record, bool branch) {
+  if (bonded && !before.bond)
     throw InputError(
         fmt::format("{}: the checkpoint is damaged: it has bonds, its scenario has none", one_line(checkpoint.path())));
   const FieldValues values = checkpoint.fields();
   FieldReader fields(values);
   try {
-    simulation.restore(
-        fields, branch ? std::optional<std::int64_t>(0) : std::nullopt, [&](const Simulation::Arrays& arrays) {
-          checkpoint.take_arrays(arrays.model, arrays.contact, arrays.grain_steps, arrays.grips, before.bond);
-        });
+    simulation.restore(fields, branch ? std::optional<std::int64_t>(0) : std::nullopt,
+                       [&](const Simulation::Arrays& arrays) {
+                         checkpoint.take_arrays(arrays.model, arrays.contact, arrays.grain_steps, arrays.grips,
+                                                bonded ? before.bond : std::nullopt);
+                       });
     if (branch) return; // its record is its own
     RunRecord::for_each_field(record, fields);
     fields.finish();
@@ -82,16 +83,17 @@ void resume(const std::string& path, Simulation& simulation, RunRecord& record) 
                                  one_line(path),
                                  scenario_difference(checkpoint.scenario_text(), simulation.scenario().text)));
   record = checkpoint.record();
-  restore(checkpoint, simulation.scenario(), simulation, record, false);
+  restore(checkpoint, checkpoint.has_bonds(), simulation.scenario(), simulation, record, false);
 }
 
 void begin_branch(const std::string& path, Simulation& simulation) {
   const CheckpointReader checkpoint(path);
   checkpoint.check_model(simulation.model());
   const Scenario before = scenario_of(checkpoint);
-  check_branch(checkpoint, before, simulation.scenario());
+  const bool bonded = checkpoint.has_bonds();
+  check_branch(checkpoint, bonded, before, simulation.scenario());
   RunRecord earlier;
-  restore(checkpoint, before, simulation, earlier, true);
+  restore(checkpoint, bonded, before, simulation, earlier, true);
   simulation.begin_branch();
 }
 
