@@ -328,7 +328,7 @@ void Simulation::read(FieldReader& from, std::optional<std::int64_t> stage) {
   EnergyLedger::for_each_field(energies_, from);
   StepEstimate::State step = step_estimate_.state();
   StepEstimate::State::for_each_field(step, from);
-  step_estimate_.restore(step, step_estimate_.grain_steps());
+  step_estimate_.restore(step);
   stage_run_.reset();
   if (stage) { // a branch begins its own stage: begin_branch()
     state_.stage = *stage;
@@ -351,7 +351,7 @@ Grips* Simulation::prepare_grips() {
 }
 
 void Simulation::take_up(GrainSteps grain_steps) {
-  step_estimate_.restore(step_estimate_.state(), std::move(grain_steps));
+  step_estimate_.restore(std::move(grain_steps));
   update_surfaces();
   place_walls(state_.withdrawn);
 }

@@ -51,11 +51,6 @@ void StepEstimate::renew_after_next_step() {
   state_.steps_since_estimate = steps_between_estimates - 1;
 }
 
-void StepEstimate::restore(const State& state, GrainSteps grain_steps) {
-  state_ = state;
-  grain_steps_ = std::move(grain_steps);
-}
-
 /// s, by the frequency of the whole grain.
 double StepEstimate::renew_grain(const Model& model, int grain, double rate) {
   const auto g = static_cast<std::size_t>(grain);

@@ -2,6 +2,7 @@
 // When the stable step is estimated anew, and which grain sets it.
 
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "solver/boundary/grips.hpp"
@@ -53,8 +54,9 @@ public:
              bool anew);
   /// The next step is followed by an estimate: nothing has touched yet.
   void renew_after_next_step();
-  /// Takes up what a checkpoint holds.
-  void restore(const State& state, GrainSteps grain_steps);
+  /// Take up what a checkpoint holds.
+  void restore(const State& state) { state_ = state; }
+  void restore(GrainSteps grain_steps) { grain_steps_ = std::move(grain_steps); }
 
 private:
   double renew_grain(const Model& model, int grain, double rate);
