@@ -81,7 +81,6 @@ void check_speed(const Stage& stage, const char* key, double speed, double size,
 } // namespace
 
 std::string unreachable_stress(const Stage& stage, double mean_stress) {
-  constexpr double already_there = 0.01; // of the target
   const auto text = [&](const char* what, double target) {
     return fmt::format(
         "stage '{}': key 'mean_stress': found {:g} MPa, to be reached by {}, but {:.4g} MPa act when the "

@@ -99,6 +99,8 @@ double slowest_unloading(double target, double start);
 /// little stress for long.
 double unloading_tolerance(double target, double way);
 
+/// Part of a target by which a stage may begin beyond it: the stage before has arrived there.
+inline constexpr double already_there = 0.01;
 /// Part of the wall speed with which a target is met.
 inline constexpr double slowest_approach = 0.05;
 /// Change of the box's lengths, as a part of them, in which an isotropic change of stress is expected to end.

@@ -14,8 +14,6 @@ namespace {
 /// No axis may strain further, and no loading last longer (over what is expected).
 constexpr double largest_strain = 0.5, longest_time = 50;
 constexpr std::int64_t steps_between_damages = 20; // all bonds are visited
-/// A stage may begin beyond its end by this part of it: the stage before has arrived there.
-constexpr double already_there = 0.01;
 
 } // namespace
 
