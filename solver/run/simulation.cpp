@@ -90,7 +90,6 @@ void Simulation::advance() {
 void Simulation::search() {
   const auto start = Profile::Clock::now();
   renew_candidates(model_, margin_, *team_, contact_);
-  ++state_.searches;
   profile_.add_serial(Part::contact_search, Profile::since(start));
 }
 

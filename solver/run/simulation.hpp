@@ -34,7 +34,6 @@ namespace mpfem {
 struct RunState {
   std::int64_t step = 0;
   std::int64_t stage = 0;                  ///< index
-  std::int64_t searches = 0;               ///< for contacts, so far
   double time = 0;                         ///< s
   double last_step = 0;                    ///< s, the step that led to the present positions; 0 at the start
   double damping_force = 0;                ///< N, sum of magnitudes at the last advance
@@ -44,7 +43,7 @@ struct RunState {
 
   template <class Self, class Visitor>
   static void for_each_field(Self& s, Visitor&& visit) {
-    visit("run.step", s.step), visit("run.stage", s.stage), visit("run.searches", s.searches);
+    visit("run.step", s.step), visit("run.stage", s.stage);
     visit("run.time", s.time), visit("run.last_step", s.last_step), visit("run.damping_force", s.damping_force);
     visit("run.mean_stress", s.mean_stress), visit("run.withdrawn", s.withdrawn);
     visit("run.initial_lengths", s.initial_lengths);
