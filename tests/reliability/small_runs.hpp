@@ -8,25 +8,13 @@
 
 #include "results-schema/file.hpp"
 #include "tests/support/folder.hpp"
+#include "tests/support/material_text.hpp"
 #include "tests/support/packing_file.hpp"
 
 namespace mpfem::test {
 
-/// Material and what follows it up to the stages.
-inline const std::string small_material = R"(packing = "packing.h5"
-[material]
-density = 1.55e-9
-youngs_modulus = 5000
-poissons_ratio = 0.3
-[material.hardening]
-law = "power"
-yield_stress = 25
-coefficient = 125
-exponent = 0.3
-)";
-
 /// Two compactions, with a checkpoint at a density within the first.
-inline const std::string two_stages = small_material + R"([output]
+inline const std::string two_stages = material_text + R"([output]
 history_rows = 10
 checkpoint_relative_densities = [0.5]
 [[stages]]

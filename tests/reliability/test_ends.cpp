@@ -17,7 +17,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-const std::string pressed = small_material + R"([output]
+const std::string pressed = material_text + R"([output]
 history_rows = 10
 [[stages]]
 name = "pressed"
@@ -66,8 +66,8 @@ TEST_CASE("a branch whose first stage cannot be reached from its checkpoint is r
   const Folder folder;
   prepare_stages(folder, pressed);
   REQUIRE(run_stages(folder, "run.h5").exit_code == 0);
-  prepare_stages(folder, small_material + stage("type = \"isotropic_unloading\"\nmean_stress = 900\n"
-                                                "wall_speed = 10000\n"));
+  prepare_stages(folder, material_text + stage("type = \"isotropic_unloading\"\nmean_stress = 900\n"
+                                               "wall_speed = 10000\n"));
   const Outcome branch = run_stages(folder, "branch.h5", "--from " + (folder / "run.pressed.checkpoint.h5"));
   INFO(branch.messages);
   CHECK(branch.exit_code == 2);
@@ -141,7 +141,7 @@ TEST_CASE("poisoned motion stops every kind of stage, and the message names grai
   std::string velocities = "[initial]\ngrain_velocity = [[0, 0, 1e12]";
   for (int grain = 1; grain < 8; ++grain) velocities += ", [0, 0, 0]";
   for (const std::string& keys : stages) {
-    prepare_stages(folder, small_material + velocities + "]\n" + stage(keys));
+    prepare_stages(folder, material_text + velocities + "]\n" + stage(keys));
     const Outcome outcome = run_command("timeout 20 " + stages_command(folder, "run.h5"));
     INFO(keys << outcome.messages);
     CHECK(outcome.exit_code == 3);

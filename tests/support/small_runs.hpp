@@ -10,6 +10,7 @@
 
 #include "results-schema/file.hpp"
 #include "tests/support/folder.hpp"
+#include "tests/support/material_text.hpp"
 #include "tests/support/packing_file.hpp"
 
 namespace mpfem::test {
@@ -18,19 +19,7 @@ inline Outcome mpfem_command(const std::string& arguments) {
   return run_command(fmt::format("'{}' {}", MPFEM_EXECUTABLE, arguments));
 }
 
-inline const std::string grains_text = R"(packing = "packing.h5"
-[material]
-density = 1.55e-9
-youngs_modulus = 5000
-poissons_ratio = 0.3
-[material.hardening]
-law = "power"
-yield_stress = 25
-coefficient = 125
-exponent = 0.3
-)";
-
-inline const std::string scenario_text = grains_text + R"([output]
+inline const std::string scenario_text = material_text + R"([output]
 history_rows = 20
 snapshot_relative_densities = [0.52]
 [[stages]]
@@ -66,7 +55,7 @@ rebond = "on_contact"
 )";
 
 /// With bonds and every kind of loading: walls held by servos, taken away, and back.
-inline const std::string loading_text = grains_text + R"([bond]
+inline const std::string loading_text = material_text + R"([bond]
 tensile_strength = 25
 shear_strength = 18
 fracture_energy = 0.05

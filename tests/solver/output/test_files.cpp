@@ -12,6 +12,7 @@
 #include "solver/output/checkpoint.hpp"
 #include "tests/results-schema/tamper.hpp"
 #include "tests/support/folder.hpp"
+#include "tests/support/material_text.hpp"
 #include "tests/support/null_device.hpp"
 #include "tests/support/packing_file.hpp"
 
@@ -21,17 +22,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-const std::string scenario_text = R"(packing = "packing.h5"
-[material]
-density = 1.55e-9
-youngs_modulus = 5000
-poissons_ratio = 0.3
-[material.hardening]
-law = "power"
-yield_stress = 25
-coefficient = 125
-exponent = 0.3
-[output]
+const std::string scenario_text = material_text + R"([output]
 history_rows = 20
 checkpoint_relative_densities = [0.5]
 snapshot_relative_densities = [0.5]

@@ -19,7 +19,7 @@ namespace fs = std::filesystem;
 namespace {
 
 /// Two cubes pressed together, whose bonds are then torn to a part of their energy.
-const std::string torn_cubes_text = "walls = false\n" + grains_text + R"([bond]
+const std::string torn_cubes_text = "walls = false\n" + material_text + R"([bond]
 tensile_strength = 25
 shear_strength = 18
 fracture_energy = 0.1

@@ -83,7 +83,7 @@ TEST_CASE("a branch may begin with grips that would hold nothing of the packing 
   const std::string grips = bonded_text.substr(bonded_text.find("[[stages]]\nname = \"tearing\""));
   REQUIRE(mpfem_command(fmt::format("run {} -o {} --quiet", folder / "scenario.toml", folder / "run.h5")).exit_code ==
           0);
-  write_text(folder / "tearing.toml", grains_text + replaced(grips, "grip_depth = 0.03", "grip_depth = 1e-9"));
+  write_text(folder / "tearing.toml", material_text + replaced(grips, "grip_depth = 0.03", "grip_depth = 1e-9"));
   const std::string command = fmt::format("run {} -o {} --quiet ", folder / "tearing.toml", folder / "tearing.h5");
   CHECK(mpfem_command(command).exit_code == 2); // in the packing nothing stands at the walls
   const Outcome branch = mpfem_command(command + "--from " + (folder / "run.compaction.checkpoint.h5"));

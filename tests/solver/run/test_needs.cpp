@@ -13,6 +13,7 @@
 #include "solver/model/model.hpp"
 #include "solver/run/needs.hpp"
 #include "tests/support/folder.hpp"
+#include "tests/support/material_text.hpp"
 #include "tests/support/packing_file.hpp"
 
 using namespace mpfem;
@@ -70,17 +71,7 @@ double number_before(const std::string& text, const std::string& word) {
   return std::stod(text.substr(begin == std::string::npos ? 0 : begin + 1));
 }
 
-const std::string compaction_text = R"(packing = "packing.h5"
-[material]
-density = 1.55e-9
-youngs_modulus = 5000
-poissons_ratio = 0.3
-[material.hardening]
-law = "power"
-yield_stress = 25
-coefficient = 125
-exponent = 0.3
-[[stages]]
+const std::string compaction_text = material_text + R"([[stages]]
 name = "compaction"
 type = "isotropic_compaction"
 relative_density = 0.62
