@@ -51,7 +51,7 @@ all_alike() {
 # run SCENARIO NAME OPTIONS...
 run() { exec "$bin/mpfem" run "$1.toml" -o "$2.h5" --threads 1 --quiet "${@:3}"; }
 
-share=$((kills / 4))
+share=$((kills / 6)) # of each run; the study gets the other half
 for scenario in loadings grips; do
   begun=$(now)
   (run "$scenario" "$scenario-whole")
