@@ -228,7 +228,7 @@ void prepare(const BenchOptions& options, Scenario& scenario, Simulation& simula
   }
   if (options.from) begin_branch(*options.from, simulation);
   const StageRun::State& stage = simulation.stage_run().state();
-  check_programme(scenario, simulation.state().stage, stage.start_low, stage.start_high, simulation.model(),
+  check_programme(scenario, simulation.state().stage, stage.start, simulation.model(),
                   simulation.step_estimate().stable_step());
   const int steps = options.scenario ? 20 : warm_up_steps;
   for (int i = 0; i < steps && !simulation.stage_complete(); ++i) {

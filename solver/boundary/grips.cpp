@@ -15,15 +15,15 @@ void Grips::make_offsets(std::span<const std::int32_t> node_offset) {
   for (std::size_t g = 1; g < offset.size(); ++g) offset[g] += offset[g - 1];
 }
 
-Grips grip_nodes(const Model& model, const Walls& box, std::size_t axis, double depth, bool lateral_fixed) {
+Grips grip_nodes(const Model& model, const Cell& cell, std::size_t axis, double depth, bool lateral_fixed) {
   Grips grips{.axis = axis, .lateral_fixed = lateral_fixed, .node = {}, .offset = {}};
   for (std::size_t g = 0; g < static_cast<std::size_t>(model.grains); ++g) {
     for (std::int32_t node = model.node_offset[g]; node < model.node_offset[g + 1]; ++node) {
       const double* x = &model.position[4 * static_cast<std::size_t>(node)];
-      const bool low = x[axis] - box.low[axis] <= depth, high = box.high[axis] - x[axis] <= depth;
+      const bool low = x[axis] - cell.low[axis] <= depth, high = cell.high[axis] - x[axis] <= depth;
       if (!low && !high) continue;
       GrippedNode gripped{node, low ? 0 : 1, {x[0], x[1], x[2]}};
-      gripped.reference[axis] -= low ? box.low[axis] : box.high[axis];
+      gripped.reference[axis] -= low ? cell.low[axis] : cell.high[axis];
       grips.node.push_back(gripped);
     }
   }
@@ -31,7 +31,7 @@ Grips grip_nodes(const Model& model, const Walls& box, std::size_t axis, double 
   return grips;
 }
 
-GripSums grip_forces(Model& model, const Grips& grips, const Walls& next, const std::array<double, 3>& sliding,
+GripSums grip_forces(Model& model, const Grips& grips, const Cell& next, const std::array<double, 3>& sliding,
                      const Advance& p, double last_step, int grain) {
   GripSums sums;
   const auto g = static_cast<std::size_t>(grain);

@@ -1,12 +1,12 @@
 #pragma once
-// Grips: the nodes near two opposite faces of the box are moved as rigid bodies.
+// Grips: the nodes near two opposite faces of the cell are moved as rigid bodies.
 
 #include <array>
 #include <cstdint>
 #include <span>
 #include <vector>
 
-#include "solver/boundary/walls.hpp"
+#include "solver/boundary/cell.hpp"
 #include "solver/model/model.hpp"
 #include "solver/physics/damping.hpp"
 
@@ -30,8 +30,8 @@ struct Grips {
   void make_offsets(std::span<const std::int32_t> node_offset);
 };
 
-/// Nodes within `depth` (mm) of the two faces of the box along an axis.
-Grips grip_nodes(const Model& model, const Walls& box, std::size_t axis, double depth, bool lateral_fixed);
+/// Nodes within `depth` (mm) of the two faces of the cell along an axis.
+Grips grip_nodes(const Model& model, const Cell& cell, std::size_t axis, double depth, bool lateral_fixed);
 
 /// Forces and work of grips on one grain.
 struct GripSums {
@@ -43,7 +43,7 @@ struct GripSums {
 /// Sets model.force of the gripped nodes so that the velocity update with these parameters takes them to where the
 /// grips at `next` hold them, the high one having slid across the axis by `sliding` (mm) against the low one.
 /// `last_step` in s, the step that led here.
-GripSums grip_forces(Model& model, const Grips& grips, const Walls& next, const std::array<double, 3>& sliding,
+GripSums grip_forces(Model& model, const Grips& grips, const Cell& next, const std::array<double, 3>& sliding,
                      const Advance& parameters, double last_step, int grain);
 
 } // namespace mpfem

@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <random>
+#include <vector>
 
 #include <Eigen/Eigenvalues>
 
@@ -56,69 +57,117 @@ MPFEM_FLATTEN void add_product(const Model& model, int grain, const LinearRespon
   }
 }
 
+/// A vector of length 1 that has a part of all modes, the same each time; rows of a grain's nodes, spare numbers 0.
+AlignedVector<double> start_vector(std::size_t nodes) {
+  AlignedVector<double> vector(4 * nodes);
+  std::minstd_rand random(1);
+  double square = 0;
+  for (std::size_t n = 0; n < nodes; ++n)
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const double value = static_cast<double>(random()) / static_cast<double>(std::minstd_rand::max()) - 0.5;
+      vector[4 * n + axis] = value;
+      square += value * value;
+    }
+  for (double& value : vector) value /= std::sqrt(square);
+  return vector;
+}
+
+/// Largest eigenvalue of a symmetric tridiagonal matrix, and the last component of its eigenvector.
+struct LargestEigenvalue {
+  double value, last_component;
+};
+LargestEigenvalue largest_eigenvalue(const std::vector<double>& diagonal, const std::vector<double>& beside) {
+  const auto size = static_cast<Eigen::Index>(diagonal.size());
+  Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver;
+  solver.computeFromTridiagonal(Eigen::Map<const Eigen::VectorXd>(diagonal.data(), size),
+                                Eigen::Map<const Eigen::VectorXd>(beside.data(), size - 1));
+  return {solver.eigenvalues()(size - 1), solver.eigenvectors()(size - 1, size - 1)};
+}
+
+/// Lanczos iterations on one grain. Symmetric in z = M^(1/2) x: A = M^(-1/2) (K + 2/dt C) M^(-1/2) + D. Rows as
+/// everywhere; spare numbers stay 0.
+class LanczosIteration {
+public:
+  LanczosIteration(const Model& model, int grain, const LinearResponse& response, std::span<const double> contact)
+      : model_(model), grain_(grain), response_(response), contact_(contact),
+        first_(static_cast<std::size_t>(model.node_offset[static_cast<std::size_t>(grain)])),
+        nodes_(static_cast<std::size_t>(model.node_offset[static_cast<std::size_t>(grain) + 1]) - first_),
+        previous_(4 * nodes_), now_(start_vector(nodes_)), next_(4 * nodes_), x_(4 * nodes_), root_(nodes_) {
+    for (std::size_t n = 0; n < nodes_; ++n) root_[n] = std::sqrt(model.inverse_mass[first_ + n]);
+  }
+
+  /// One more row and column of the tridiagonal matrix.
+  void advance() {
+    if (!diagonal_.empty()) {
+      beside_.push_back(beta_);
+      for (double& value : next_) value /= beta_;
+      previous_.swap(now_);
+      now_.swap(next_);
+    }
+    multiply();
+    double alpha = 0;
+    for (std::size_t n = 0; n < nodes_; ++n)
+      for (std::size_t c = 0; c < 4; ++c) {
+        const std::size_t i = 4 * n + c;
+        next_[i] = root_[n] * next_[i] + contact_[first_ + n] * now_[i] - beta_ * previous_[i];
+        alpha += next_[i] * now_[i];
+      }
+    double square = 0;
+    for (std::size_t i = 0; i < 4 * nodes_; ++i) {
+      next_[i] -= alpha * now_[i];
+      square += next_[i] * next_[i];
+    }
+    beta_ = std::sqrt(square);
+    diagonal_.push_back(alpha);
+  }
+
+  int iterations() const { return static_cast<int>(diagonal_.size()); }
+  /// Whether all that the start vector has a part of is found.
+  bool exhausted() const { return beta_ <= 1e-12 * std::abs(diagonal_.back()) || diagonal_.size() >= 3 * nodes_; }
+  LargestFrequency result() const {
+    const LargestEigenvalue largest = largest_eigenvalue(diagonal_, beside_);
+    LargestFrequency result{};
+    result.iterations = iterations();
+    result.residual = exhausted() ? 0.0 : beta_ * std::abs(largest.last_component);
+    result.squared = largest.value + result.residual;
+    return result;
+  }
+
+private:
+  /// next = (K + 2/dt C) M^(-1/2) now
+  void multiply() {
+    for (std::size_t n = 0; n < nodes_; ++n)
+      for (std::size_t c = 0; c < 4; ++c) x_[4 * n + c] = root_[n] * now_[4 * n + c], next_[4 * n + c] = 0;
+    with_tet_numbers(model_, [&](auto number) {
+      add_product<decltype(number)>(model_, grain_, response_, x_.data(), next_.data());
+    });
+  }
+
+  const Model& model_;
+  int grain_;
+  LinearResponse response_;
+  std::span<const double> contact_; ///< D, 1/s^2, [nodes of the model]
+  std::size_t first_, nodes_;
+  AlignedVector<double> previous_, now_, next_, x_, root_;
+  std::vector<double> diagonal_, beside_;
+  double beta_ = 0;
+};
+
 } // namespace
 
 LargestFrequency largest_frequency(const Model& model, int grain, std::span<const double> nodal_stiffness_rate,
                                    double step, double strain_rate) {
-  const auto g = static_cast<std::size_t>(grain);
-  const auto first = static_cast<std::size_t>(model.node_offset[g]);
-  const std::size_t nodes = static_cast<std::size_t>(model.node_offset[g + 1]) - first;
   const Material& material = model.material_of(grain);
   const BulkViscosity& viscosity = model.viscosity;
   const LinearResponse response{material.moduli, material.density, viscosity.linear * material.wave_speed,
                                 viscosity.quadratic * viscosity.quadratic * strain_rate, 2.0 / step};
-
-  // Symmetric in z = M^(1/2) x: A = M^(-1/2) (K + 2/dt C) M^(-1/2) + D. Rows as everywhere; spare numbers stay 0.
-  AlignedVector<double> previous(4 * nodes), now(4 * nodes), next(4 * nodes), x(4 * nodes), root(nodes);
-  std::minstd_rand random(1); // any vector that has a part of all modes, the same each time
-  double square = 0;
-  for (std::size_t n = 0; n < nodes; ++n) {
-    root[n] = std::sqrt(model.inverse_mass[first + n]);
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      const double value = static_cast<double>(random()) / static_cast<double>(std::minstd_rand::max()) - 0.5;
-      now[4 * n + axis] = value;
-      square += value * value;
-    }
-  }
-  for (double& value : now) value /= std::sqrt(square);
-
-  std::vector<double> diagonal, beside;
-  double beta = 0;
-  LargestFrequency result{};
+  LanczosIteration lanczos(model, grain, response, nodal_stiffness_rate);
   while (true) {
-    for (std::size_t n = 0; n < nodes; ++n)
-      for (std::size_t c = 0; c < 4; ++c) x[4 * n + c] = root[n] * now[4 * n + c], next[4 * n + c] = 0;
-    with_tet_numbers(
-        model, [&](auto number) { add_product<decltype(number)>(model, grain, response, x.data(), next.data()); });
-    double alpha = 0;
-    for (std::size_t n = 0; n < nodes; ++n)
-      for (std::size_t c = 0; c < 4; ++c) {
-        const std::size_t i = 4 * n + c;
-        next[i] = root[n] * next[i] + nodal_stiffness_rate[first + n] * now[i] - beta * previous[i];
-        alpha += next[i] * now[i];
-      }
-    square = 0;
-    for (std::size_t i = 0; i < 4 * nodes; ++i) {
-      next[i] -= alpha * now[i];
-      square += next[i] * next[i];
-    }
-    beta = std::sqrt(square);
-    diagonal.push_back(alpha);
-    const auto size = static_cast<Eigen::Index>(diagonal.size());
-    const bool exhausted = beta <= 1e-12 * std::abs(alpha) || size >= static_cast<Eigen::Index>(3 * nodes);
-    if (size % iterations_between_looks == 0 || exhausted) {
-      Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver;
-      solver.computeFromTridiagonal(Eigen::Map<const Eigen::VectorXd>(diagonal.data(), size),
-                                    Eigen::Map<const Eigen::VectorXd>(beside.data(), size - 1));
-      result.iterations = static_cast<int>(size);
-      result.residual = exhausted ? 0.0 : beta * std::abs(solver.eigenvectors()(size - 1, size - 1));
-      result.squared = solver.eigenvalues()(size - 1) + result.residual;
-      if (exhausted || result.residual <= tolerance * result.squared || size >= most_iterations) return result;
-    }
-    beside.push_back(beta);
-    for (double& value : next) value /= beta;
-    previous.swap(now);
-    now.swap(next);
+    lanczos.advance();
+    const bool exhausted = lanczos.exhausted();
+    if (lanczos.iterations() % iterations_between_looks != 0 && !exhausted) continue;
+    const LargestFrequency found = lanczos.result();
+    if (exhausted || found.residual <= tolerance * found.squared || found.iterations >= most_iterations) return found;
   }
 }
 

@@ -19,8 +19,8 @@ struct LargestFrequency {
 /// Largest eigenvalue of M^-1 (K + 2/dt C) + D of a grain: K its elastic stiffness in the present shape, C its bulk
 /// viscosity, D = `nodal_stiffness_rate` (1/s^2, [nodes of the model]) a bound of contact as a diagonal matrix. With
 /// lagged viscous forces central differences are stable where it is at most 4/dt^2, and `step` (s) may be any dt not
-/// longer than the one that is looked for: then viscosity is overestimated. The elastic stiffness is that of plain tets,
-/// which shared pressures do not exceed. `strain_rate` (1/s) bounds the volumetric rate for quadratic viscosity.
+/// longer than the one that is looked for: then viscosity is overestimated. The elastic stiffness is that of plain
+/// tets, which shared pressures do not exceed. `strain_rate` (1/s) bounds the volumetric rate for quadratic viscosity.
 LargestFrequency largest_frequency(const Model& model, int grain, std::span<const double> nodal_stiffness_rate,
                                    double step, double strain_rate);
 

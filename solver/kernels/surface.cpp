@@ -1,4 +1,4 @@
-#include "solver/model/surface.hpp"
+#include "solver/kernels/surface.hpp"
 
 #include <algorithm>
 #include <cmath>

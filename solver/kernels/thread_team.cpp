@@ -27,8 +27,8 @@ using Clock = std::chrono::steady_clock;
 std::atomic<Clock::rep> short_of_cores_until{0};
 
 /// Returns when the atomic no longer holds `old`. The loops of one time step follow each other within microseconds: a
-/// short spin saves the sleep and wake-up between them. Where cores are short, a core that is let go at once goes to the
-/// thread that is waited for.
+/// short spin saves the sleep and wake-up between them. Where cores are short, a core that is let go at once goes to
+/// the thread that is waited for.
 template <class Value>
 void wait_while_equal(const std::atomic<Value>& atomic, Value old) {
   const bool cores_are_short =
@@ -41,7 +41,8 @@ void wait_while_equal(const std::atomic<Value>& atomic, Value old) {
   atomic.wait(old, std::memory_order_acquire);
 }
 
-/// The same, for a thread that waits for others' last items. These take microseconds, unless a thread has lost its core.
+/// The same, for a thread that waits for others' last items. These take microseconds, unless a thread has lost its
+/// core.
 void wait_for_items(const std::atomic<int>& unfinished, int left) {
   using namespace std::chrono_literals;
   const auto start = Clock::now();

@@ -5,7 +5,8 @@
 
 namespace mpfem {
 
-/// Grains when the largest frequency of each was last found, and how much that may have grown since; [grains] but for one.
+/// Grains when the largest frequency of each was last found, and how much that may have grown since; [grains] but for
+/// one.
 struct GrainSteps {
   std::vector<double> whole;   ///< s, stable step
   std::vector<double> growth;  ///< factor by which single tets' frequencies squared have grown since, at most

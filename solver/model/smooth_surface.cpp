@@ -7,7 +7,7 @@
 #include <numeric>
 #include <vector>
 
-#include "solver/model/surface.hpp"
+#include "solver/model/normals.hpp"
 
 namespace mpfem {
 
@@ -15,8 +15,8 @@ namespace {
 
 /// Largest share of the inner node in a contact point: more would no longer be a small correction.
 constexpr double largest_share = 0.25;
-/// Least cosine between the normal and the way to the inner node: a node without a node so straight beneath it keeps
-/// its place.
+/// Least cosine between the normal and the direction to the inner node: a node without a node so straight beneath it
+/// keeps its place.
 constexpr double least_cosine = 0.5;
 
 Vector3<double> position(const Model& model, std::size_t node) {
@@ -65,23 +65,23 @@ bool is_sphere_of_that_volume(const Model& model, std::size_t grain, const Vecto
 void place_contact_points(Model& model, std::size_t grain, const std::vector<double>& height) {
   const auto first = static_cast<std::size_t>(model.node_offset[grain]),
              count = static_cast<std::size_t>(model.surface_node_count[grain]);
-  std::vector<double> cosine(count, 0.0); // between the normal and the way to the inner node, reversed
+  std::vector<double> cosine(count, 0.0); // between the normal and the direction to the inner node, reversed
   for (std::int32_t t = 0; t < model.tet_offset[grain + 1] - model.tet_offset[grain]; ++t) {
     const auto corner = model.nodes_of_tet(static_cast<int>(grain), t);
     for (const std::int32_t a : corner)
       for (const std::int32_t b : corner) {
         if (static_cast<std::size_t>(a) >= count || a == b) continue;
         const std::size_t n = first + static_cast<std::size_t>(a), inner = first + static_cast<std::size_t>(b);
-        const Vector3<double> way = position(model, n) - position(model, inner);
-        const double along = dot(way, normal(model, n)) / norm(way);
+        const Vector3<double> edge = position(model, n) - position(model, inner);
+        const double along = dot(edge, normal(model, n)) / norm(edge);
         if (along > cosine[n - first])
           cosine[n - first] = along, model.inner_node[n] = static_cast<std::int32_t>(inner);
       }
   }
   for (std::size_t n = first; n < first + count; ++n) {
     if (cosine[n - first] < least_cosine) continue;
-    const double way = norm(position(model, n) - position(model, static_cast<std::size_t>(model.inner_node[n])));
-    model.inward[n] = std::clamp(height[n] / (cosine[n - first] * way), 0.0, largest_share);
+    const double edge = norm(position(model, n) - position(model, static_cast<std::size_t>(model.inner_node[n])));
+    model.inward[n] = std::clamp(height[n] / (cosine[n - first] * edge), 0.0, largest_share);
   }
 }
 
@@ -101,7 +101,7 @@ std::vector<bool> smooth_grains(const Model& model, const MeshedPacking& packing
 void find_smooth_surface(Model& model, const std::vector<bool>& grains) {
   model.smooth_grains = static_cast<int>(std::count(grains.begin(), grains.end(), true));
   if (model.smooth_grains == 0) return;
-  for (int grain = 0; grain < model.grains; ++grain) update_surface(model, grain);
+  for (int grain = 0; grain < model.grains; ++grain) set_normals(model, grain);
   const std::vector<double> height = heights(model);
   const auto nodes = static_cast<std::size_t>(model.nodes());
   model.inner_node.resize(nodes);

@@ -25,9 +25,9 @@ namespace mpfem {
 /// curved surface: a cube has edges, and the nodes of a sphere that is meshed with its nodes on it lie on its surface.
 std::vector<bool> smooth_grains(const Model& model, const MeshedPacking& packing, ContactSurface surface);
 
-/// Sets model.inner_node and model.inward of these grains ([grains]) from the mesh as it is, and model.normal on the
-/// way; nothing where there are none. Nodes in concave places keep their place, and so do nodes on flat faces an
-/// element away from edges.
+/// Sets model.inner_node and model.inward of these grains ([grains]) from the mesh as it is, and also
+/// model.normal; nothing where there are none. Nodes in concave places keep their place, and so do nodes on flat faces
+/// an element away from edges.
 void find_smooth_surface(Model& model, const std::vector<bool>& grains);
 
 /// Largest distance (mm) of a node from its contact point at present; 0 where contact takes the nodes themselves.

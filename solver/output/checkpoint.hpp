@@ -9,7 +9,6 @@
 #include "common/fields.hpp"
 #include "results-schema/file.hpp"
 #include "solver/boundary/grips.hpp"
-#include "solver/boundary/walls.hpp"
 #include "solver/kernels/contact_forces.hpp"
 #include "solver/kernels/node_motion.hpp"
 #include "solver/model/grain_steps.hpp"
@@ -69,15 +68,15 @@ public:
   /// Whether a bond has formed by then.
   bool has_bonds() const;
 
-  /// Throws InputError where the checkpoint belongs to another mesh or was written by a build whose arrays stand otherwise.
+  /// Throws InputError where the checkpoint belongs to another mesh or was written by a build whose arrays stand
+  /// otherwise.
   void check_model(const Model& model) const;
 
   RunRecord record() const; ///< without what stands among the fields
   FieldValues fields() const;
-  /// Replaces the state of nodes, tets and contact points. Bonds keep the laws by which they formed; whether they resist
-  /// sliding is said by `bond_parameters`, of the run that wrote the checkpoint; none where no bond has formed. The last
-  /// law in `contact` stays that of bonds to come.
-  /// `grips`: of a stage that grips, its axis set, or none.
+  /// Replaces the state of nodes, tets and contact points. Bonds keep the laws by which they formed; whether they
+  /// resist sliding is said by `bond_parameters`, of the run that wrote the checkpoint; none where no bond has formed.
+  /// The last law in `contact` stays that of bonds to come. `grips`: of a stage that grips, its axis set, or none.
   void take_arrays(Model& model, Contact& contact, GrainSteps& grain_steps, Grips* grips,
                    const std::optional<BondParameters>& bond_parameters) const;
 

@@ -29,8 +29,9 @@ std::vector<float> in_file_order(const Model& model, const AlignedVector<double>
   return result;
 }
 
-/// Normal traction at surface nodes: the sum of contact and bond forces along the inward normal over the tributary area.
-std::vector<float> contact_pressure(const Model& model, const Contact& contact, const Walls& walls) {
+/// Normal traction at surface nodes: the sum of contact, bond and wall forces along the inward normal over the
+/// tributary area.
+std::vector<float> contact_pressure(const Model& model, const Contact& contact, const Box& box) {
   std::vector<double> force(static_cast<std::size_t>(model.nodes()), 0.0);
   const auto add = [&](std::int32_t node, double share, const ContactForce& point) {
     const double* normal = &model.normal[4 * static_cast<std::size_t>(node)];
@@ -50,14 +51,8 @@ std::vector<float> contact_pressure(const Model& model, const Contact& contact, 
     for (std::int32_t n = model.node_offset[g]; n < model.node_offset[g] + model.surface_node_count[g]; ++n) {
       const auto node = static_cast<std::size_t>(n);
       const double area = model.normal[4 * node + 3];
-      double value = area > 0 ? force[node] / area : 0.0;
-      for (std::size_t axis = 0; axis < 3; ++axis)
-        if (walls.stand(axis)) {
-          const double x = model.contact_coordinate(node, axis);
-          value += model.penalty_stiffness[g] * model.local_stiffness(node) * model.reference_area[node] /
-                   std::max(area, 1e-300) * (std::max(walls.low[axis] - x, 0.0) + std::max(x - walls.high[axis], 0.0));
-        }
-      pressure[static_cast<std::size_t>(model.file_node[node])] = static_cast<float>(value);
+      const double push = force[node] + box.wall_force_on_node(model, node, grain);
+      pressure[static_cast<std::size_t>(model.file_node[node])] = area > 0 ? static_cast<float>(push / area) : 0.0F;
     }
   }
   return pressure;
@@ -130,9 +125,9 @@ void write_snapshot_file(const std::string& path, const SnapshotState& state) {
   file.write_scalar(run::snapshots_time, state.time, name);
   file.write_scalar(run::snapshots_step, state.step, name);
   file.write_scalar(run::snapshots_relative_density, state.relative_density, name);
-  file.write_scalar(run::snapshots_mean_stress, state.mean_stress, name);
-  file.write(run::snapshots_box_low, std::span<const double>(state.walls.low), 3, name);
-  file.write(run::snapshots_box_high, std::span<const double>(state.walls.high), 3, name);
+  file.write_scalar(run::snapshots_mean_stress, state.box.mean_stress(), name);
+  file.write(run::snapshots_box_low, std::span<const double>(state.box.cell().low), 3, name);
+  file.write(run::snapshots_box_high, std::span<const double>(state.box.cell().high), 3, name);
   const auto nodes = static_cast<std::size_t>(model.nodes()), tets = static_cast<std::size_t>(model.tets());
   const auto position = in_file_order(model, model.position), velocity = in_file_order(model, model.velocity);
   file.write(run::snapshots_node, std::span<const float>(position), nodes, name);
@@ -141,7 +136,7 @@ void write_snapshot_file(const std::string& path, const SnapshotState& state) {
   file.write(run::snapshots_von_mises, std::span<const float>(fields.von_mises), tets, name);
   file.write(run::snapshots_pressure, std::span<const float>(fields.pressure), tets, name);
   file.write(run::snapshots_plastic_strain, std::span<const float>(fields.plastic_strain), tets, name);
-  const auto pressure = contact_pressure(model, state.contact, state.walls);
+  const auto pressure = contact_pressure(model, state.contact, state.box);
   file.write(run::snapshots_contact_pressure, std::span<const float>(pressure), nodes, name);
   std::vector<std::int32_t> grains;
   std::vector<double> force, area;

@@ -1,14 +1,13 @@
 #pragma once
 // Snapshots, and the run file that gathers them with history and provenance.
 //
-// While a run goes on, each snapshot is a complete file of its own beside the run file (written as .partial and renamed),
-// so that a kill at any moment leaves no broken file. They are merged into the run file at the end.
+// While a run goes on, each snapshot is a complete file of its own beside the run file (written as .partial and
+// renamed), so that a kill at any moment leaves no broken file. They are merged into the run file at the end.
 
 #include <string>
 #include <vector>
 
-#include "solver/boundary/grips.hpp"
-#include "solver/boundary/walls.hpp"
+#include "solver/boundary/box.hpp"
 #include "solver/kernels/contact_forces.hpp"
 #include "solver/kernels/node_motion.hpp"
 #include "solver/output/history.hpp"
@@ -20,11 +19,10 @@ namespace mpfem {
 struct SnapshotState {
   const Model& model;
   const Contact& contact;
-  const Walls& walls;
+  const Box& box;
   double time = 0; ///< s
   std::int64_t step = 0;
   double relative_density = 0;
-  double mean_stress = 0; ///< MPa
 };
 
 /// Writes a snapshot to its own file. Throws StorageError.

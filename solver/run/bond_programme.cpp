@@ -133,6 +133,72 @@ std::vector<WayPoint> read_bond_programme(const std::string& path, int increment
   return read_bond_programme(CsvReader::from_file(path), increments);
 }
 
+namespace {
+
+/// The table of results while it is written, and what its last line says.
+class BondTable {
+public:
+  BondTable(const std::string& path, const BondedPointLaw& law)
+      : file_(path), point_(law), response_(point_.move_to(here_)) {
+    fmt::format_to(
+        std::back_inserter(text_),
+        "way_point,opening_mm,shear1_mm,shear2_mm,normal_traction_MPa,shear1_traction_MPa,shear2_traction_MPa,"
+        "effective_separation_mm,damage,stored_N_per_mm,dissipated_N_per_mm,work_N_per_mm,"
+        "trapezoidal_work_N_per_mm,state\n");
+    write_row(0);
+  }
+
+  /// Walks to a way point, with a row for each increment.
+  void walk_to(const WayPoint& way_point, std::size_t number) {
+    const Separation from = here_;
+    for (int k = 1; k <= way_point.increments; ++k) {
+      const Separation next = between(from, way_point.separation, k, way_point.increments);
+      const BondedPoint::Response there = point_.move_to(next);
+      work_ += trapezoid(here_, response_, next, there);
+      here_ = next;
+      response_ = there;
+      peak_normal_ = std::max(peak_normal_, response_.normal);
+      peak_shear_ = std::max(peak_shear_, std::hypot(response_.shear1, response_.shear2));
+      write_row(number);
+    }
+  }
+
+  void complete() {
+    write_out();
+    file_.complete();
+  }
+
+  std::string summary() const {
+    return fmt::format("{} at the end, damage {:.6g}; largest traction {:.6g} MPa in tension, {:.6g} MPa in shear; "
+                       "dissipated {:.6g} N/mm, stored {:.6g} N/mm",
+                       response_.state, response_.damage, peak_normal_, peak_shear_, response_.dissipated,
+                       response_.stored);
+  }
+
+private:
+  void write_row(std::size_t way_point) {
+    constexpr std::size_t buffered = 1 << 16; // bytes
+    const BondedPoint::Response& r = response_;
+    fmt::format_to(std::back_inserter(text_), "{},{},{},{},{},{},{},{},{},{},{},{},{},{}\n", way_point, here_.opening,
+                   here_.shear1, here_.shear2, r.normal, r.shear1, r.shear2, r.effective, r.damage, r.stored,
+                   r.dissipated, r.stored + r.dissipated, work_, r.state);
+    if (text_.size() > buffered) write_out();
+  }
+  void write_out() {
+    file_.write({text_.data(), text_.size()});
+    text_.clear();
+  }
+
+  TextFile file_;
+  fmt::memory_buffer text_;
+  BondedPoint point_;
+  Separation here_;
+  BondedPoint::Response response_;
+  double work_ = 0, peak_normal_ = 0, peak_shear_ = 0;
+};
+
+} // namespace
+
 void run_bond_programme(const BondProgrammeOptions& options) {
   TomlDocument document = TomlDocument::from_file(options.law);
   for (const std::string& assignment : options.assignments) document.set(assignment);
@@ -142,49 +208,10 @@ void run_bond_programme(const BondProgrammeOptions& options) {
   refuse_overwriting(options.output, options.law);
   refuse_overwriting(options.output, options.programme);
 
-  TextFile file(options.output);
-  fmt::memory_buffer text;
-  fmt::format_to(std::back_inserter(text),
-                 "way_point,opening_mm,shear1_mm,shear2_mm,normal_traction_MPa,shear1_traction_MPa,shear2_traction_MPa,"
-                 "effective_separation_mm,damage,stored_N_per_mm,dissipated_N_per_mm,work_N_per_mm,"
-                 "trapezoidal_work_N_per_mm,state\n");
-  BondedPoint point(law);
-  Separation here;
-  BondedPoint::Response response = point.move_to(here);
-  double work = 0, peak_normal = 0, peak_shear = 0;
-  constexpr std::size_t buffered = 1 << 16; // bytes
-  const auto write_out = [&] {
-    file.write({text.data(), text.size()});
-    text.clear();
-  };
-  const auto write_row = [&](std::size_t way_point) {
-    fmt::format_to(std::back_inserter(text), "{},{},{},{},{},{},{},{},{},{},{},{},{},{}\n", way_point, here.opening,
-                   here.shear1, here.shear2, response.normal, response.shear1, response.shear2, response.effective,
-                   response.damage, response.stored, response.dissipated, response.stored + response.dissipated, work,
-                   response.state);
-    if (text.size() > buffered) write_out();
-  };
-  write_row(0);
-  for (std::size_t i = 0; i < programme.size(); ++i) {
-    const Separation from = here;
-    for (int k = 1; k <= programme[i].increments; ++k) {
-      const Separation next = between(from, programme[i].separation, k, programme[i].increments);
-      const BondedPoint::Response there = point.move_to(next);
-      work += trapezoid(here, response, next, there);
-      here = next;
-      response = there;
-      peak_normal = std::max(peak_normal, response.normal);
-      peak_shear = std::max(peak_shear, std::hypot(response.shear1, response.shear2));
-      write_row(i + 1);
-    }
-  }
-  write_out();
-  file.complete();
-  if (!options.quiet)
-    fmt::print("{}: {} at the end, damage {:.6g}; largest traction {:.6g} MPa in tension, {:.6g} MPa in shear; "
-               "dissipated {:.6g} N/mm, stored {:.6g} N/mm\n",
-               one_line(options.output), response.state, response.damage, peak_normal, peak_shear, response.dissipated,
-               response.stored);
+  BondTable table(options.output, law);
+  for (std::size_t i = 0; i < programme.size(); ++i) table.walk_to(programme[i], i + 1);
+  table.complete();
+  if (!options.quiet) fmt::print("{}: {}\n", one_line(options.output), table.summary());
 }
 
 } // namespace mpfem

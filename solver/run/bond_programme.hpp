@@ -66,12 +66,12 @@ struct BondProgrammeOptions {
   bool quiet = false;                   ///< no summary
 };
 
-/// Reads `stiffness` (MPa/mm) and [bond]. Throws InputError, also where the fracture energy is too small for a softening
-/// branch at this stiffness (strength^2/(2 K), as for a run).
+/// Reads `stiffness` (MPa/mm) and [bond]. Throws InputError, also where the fracture energy is too small for a
+/// softening branch at this stiffness (strength^2/(2 K), as for a run).
 BondedPointLaw read_bonded_point_law(const TomlDocument& document);
 
-/// Reads way points from a CSV file with the heading "opening,shear1,shear2" (mm) and, if wanted, ",increments" (a whole
-/// number; empty: `increments`). '#' begins a comment. Throws InputError "FILE:LINE: column …".
+/// Reads way points from a CSV file with the heading "opening,shear1,shear2" (mm) and, if wanted, ",increments" (a
+/// whole number; empty: `increments`). '#' begins a comment. Throws InputError "FILE:LINE: column …".
 std::vector<WayPoint> read_bond_programme(const std::string& path, int increments);
 std::vector<WayPoint> read_bond_programme(CsvReader reader, int increments);
 

@@ -20,12 +20,12 @@ namespace mpfem {
 
 namespace {
 
-// A packing that begins loose costs more a step later on: points come into contact, and tets that yield take the whole of
-// the element pass. The estimate of the stable step and the contact search follow the deformation, not the number of steps.
-// How much all that is, and how the step shrinks, is measured (docs/performance.md).
+// A packing that begins loose costs more a step later on: points come into contact, and tets that yield take the whole
+// of the element pass. The estimate of the stable step and the contact search follow the deformation, not the number of
+// steps. How much all that is, and how the step shrinks, is measured (docs/performance.md).
 constexpr double dense_cost = 1.45;         // of a step, over that in the loose packing
 constexpr double cost_of_straining = 3000;  // of a length strain of 1, in steps of the loose packing
-constexpr double steps_of_shrinking = 1.02; // over those at the first step, on a way to a relative density of 0.92
+constexpr double steps_of_shrinking = 1.02; // over those at the first step, on the way to a relative density of 0.92
 constexpr double density_of_jamming = 0.5;
 
 /// Steps, and the time in that of one step at the start.
@@ -46,8 +46,7 @@ StageWork work_of_first_compaction(double steps, double density, double end) {
 /// A branch begins dense: its first steps cost what all do.
 std::vector<StageWork> work_of_stages(const Scenario& scenario, const std::vector<StageForecast>& forecasts,
                                       const Simulation& simulation) {
-  const RunState& state = simulation.state();
-  bool loose = simulation.energies().plastic_dissipation == 0 && state.mean_stress == 0;
+  bool loose = simulation.energies().plastic_dissipation == 0 && simulation.box().mean_stress() == 0;
   double growth = 1;
   std::vector<StageWork> works;
   for (std::size_t s = 0; s < forecasts.size(); ++s) {
@@ -94,18 +93,8 @@ MeasuredTimes measure(Simulation& simulation) {
   return times;
 }
 
-} // namespace
-
-void check_scenario(const Scenario& scenario, int threads, const std::optional<std::string>& from) {
-  const Needs needs = needs_of(read_packing_counts(scenario.packing_file), scenario);
-  const std::string scarce =
-      check_needs(scenario.packing_file, needs, {available_memory(), std::numeric_limits<double>::infinity()});
-  ThreadTeam team(threads);
-  Simulation simulation(build_model(read_packing(scenario.packing_file), scenario, scenario.packing_file), scenario,
-                        team, from.has_value());
-  if (from) begin_branch(*from, simulation);
-  const StepEstimate::State& step = simulation.step_estimate().state();
-  const StageRun::State& stage = simulation.stage_run().state();
+/// What the packing is, and what it needs.
+void print_model(const Scenario& scenario, const Simulation& simulation, const Needs& needs) {
   const Model& model = simulation.model();
   fmt::print("packing        {}: {} grains, {} tets, {} nodes, {} facets\n", scenario.packing_file, model.grains,
              model.tets(), model.nodes(), model.facets());
@@ -122,12 +111,15 @@ void check_scenario(const Scenario& scenario, int threads, const std::optional<s
       "of disk space\n",
       1e-6 * static_cast<double>(model.memory()), static_cast<double>(model.memory()) / model.tets(),
       1e-6 * needs.memory, 1e-6 * needs.disk);
-  if (!scarce.empty()) fmt::print("warning        {}\n", scarce);
+}
+
+void print_step(const StepEstimate::State& step) {
   fmt::print("stable step    {:.4g} s, set by {}\n", step.stable_step,
              step.controlled_by_contact ? "contact" : "elements");
+}
 
-  if (const std::string text = mass_scaling_text(scenario, model); !text.empty())
-    fmt::print("masses         {}\n", text);
+void print_bonds(const Scenario& scenario, const Simulation& simulation) {
+  const Model& model = simulation.model();
   const auto warnings = check_bonds(model, scenario);
   if (scenario.bond) {
     const BondResolution r = bond_resolution(model, scenario);
@@ -140,8 +132,11 @@ void check_scenario(const Scenario& scenario, int threads, const std::optional<s
   for (const std::string& warning : warnings) fmt::print("warning        {}\n", warning);
   if (const std::string text = earlier_bonds_text(simulation.contact()); !text.empty())
     fmt::print("               {}\n", text);
-  check_programme(scenario, 0, stage.start_low, stage.start_high, model, step.stable_step);
-  const auto forecasts = forecast(scenario, 0, stage.start_low, stage.start_high, model);
+}
+
+/// The stages, and how long they take here. The simulation goes on by some steps.
+void print_stages(const Scenario& scenario, Simulation& simulation, int threads) {
+  const auto forecasts = forecast(scenario, 0, simulation.stage_run().state().start, simulation.model());
   const auto works = work_of_stages(scenario, forecasts, simulation);
   StageWork all;
   for (std::size_t s = 0; s < works.size(); ++s) {
@@ -157,6 +152,27 @@ void check_scenario(const Scenario& scenario, int threads, const std::optional<s
       "the mean of the run, and {:.2g} s for the history\n",
       1e3 * measured.step, threads, all.steps, all.cost * measured.step + rows,
       1e3 * measured.step * all.cost / all.steps, rows);
+}
+
+} // namespace
+
+void check_scenario(const Scenario& scenario, int threads, const std::optional<std::string>& from) {
+  const Needs needs = needs_of(read_packing_counts(scenario.packing_file), scenario);
+  const std::string scarce =
+      check_needs(scenario.packing_file, needs, {available_memory(), std::numeric_limits<double>::infinity()});
+  ThreadTeam team(threads);
+  Simulation simulation(build_model(read_packing(scenario.packing_file), scenario, scenario.packing_file), scenario,
+                        team, from.has_value());
+  if (from) begin_branch(*from, simulation);
+  const StepEstimate::State& step = simulation.step_estimate().state();
+  print_model(scenario, simulation, needs);
+  if (!scarce.empty()) fmt::print("warning        {}\n", scarce);
+  print_step(step);
+  if (const std::string text = mass_scaling_text(scenario, simulation.model()); !text.empty())
+    fmt::print("masses         {}\n", text);
+  print_bonds(scenario, simulation);
+  check_programme(scenario, 0, simulation.stage_run().state().start, simulation.model(), step.stable_step);
+  print_stages(scenario, simulation, threads);
 }
 
 } // namespace mpfem

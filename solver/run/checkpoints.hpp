@@ -2,8 +2,8 @@
 // The checkpoints of a run: their names, in which order they are written, and from which of them a run goes on.
 //
 // A rolling checkpoint is written beside, read back, and only then takes the place of the one before, which stays as
-// RUN.checkpoint.previous.h5. Checkpoints of stages and densities are written before the rolling one that counts them as
-// done: whenever a run is killed, its rolling checkpoint promises nothing that does not stand on disk.
+// RUN.checkpoint.previous.h5. Checkpoints of stages and densities are written before the rolling one that counts them
+// as done: whenever a run is killed, its rolling checkpoint promises nothing that does not stand on disk.
 
 #include <functional>
 #include <string>
@@ -34,8 +34,8 @@ struct RunIdentity {
 /// Whether a checkpoint stands at the path and was written by this run. Reads a few words of it, not its arrays.
 bool is_checkpoint_of(const std::string& path, const RunIdentity& run);
 
-/// Replaces the rolling checkpoint: `write` writes the new one to the path that it is given. Throws StorageError where what
-/// was written cannot be read back; the checkpoint before then stays.
+/// Replaces the rolling checkpoint: `write` writes the new one to the path that it is given. Throws StorageError where
+/// what was written cannot be read back; the checkpoint before then stays.
 void replace_rolling_checkpoint(const std::string& run_file, const std::function<void(const std::string&)>& write);
 
 /// Checkpoints of stages and densities that a run must have written when it is in this stage. `densities_passed`: of
@@ -49,14 +49,15 @@ std::vector<std::string> promised_checkpoints(const Scenario& scenario, const st
 /// Those of the paths at which no checkpoint of this run stands.
 std::vector<std::string> missing_checkpoints(const std::vector<std::string>& promised, const RunIdentity& run);
 
-/// Checkpoints from which the run can go on, best first: the rolling one, the one before, and those of stages and densities,
-/// latest first. All exist; only the rolling one may belong to another run.
+/// Checkpoints from which the run can go on, best first: the rolling one, the one before, and those of stages and
+/// densities, latest first. All exist; only the rolling one may belong to another run.
 std::vector<std::string> resumable_checkpoints(const Scenario& scenario, const RunIdentity& run);
 
 /// Removes what unfinished writing of this run's files has left.
 void remove_partial_files(const Scenario& scenario, const std::string& run_file);
 
-/// Removes rolling checkpoints and snapshots of the run, in an order that leaves nothing misleading when it is cut short.
+/// Removes rolling checkpoints and snapshots of the run, in an order that leaves nothing misleading when it is cut
+/// short.
 void remove_unfinished(const std::string& run_file);
 
 } // namespace mpfem

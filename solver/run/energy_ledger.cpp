@@ -11,10 +11,8 @@ void EnergyLedger::add_grips(const std::vector<GripSums>& grains) {
   }
 }
 
-void EnergyLedger::add_walls(const std::array<double, 6>& contact_force, const std::array<double, 6>& force) {
-  for (const double work : wall_work(wall_force, contact_force, wall_movement)) external_work += work;
-  wall_force = force;
-  wall_movement = {};
+void EnergyLedger::add_walls(const std::array<double, 6>& work) {
+  for (const double of_wall : work) external_work += of_wall;
 }
 
 void EnergyLedger::add_step(const ElementSums& elements, const AdvanceSums& advance) {

@@ -5,7 +5,6 @@
 #include <vector>
 
 #include "solver/boundary/grips.hpp"
-#include "solver/boundary/walls.hpp"
 #include "solver/kernels/element_forces.hpp"
 #include "solver/kernels/element_step.hpp"
 #include "solver/kernels/grain_state.hpp"
@@ -23,29 +22,25 @@ struct StoredEnergies {
 };
 
 struct EnergyLedger {
-  double initial = 0;                    ///< mJ, of motion and strain at the start
-  double plastic_dissipation = 0;        ///< mJ
-  double viscous_dissipation = 0;        ///< mJ, of bulk viscosity
-  double damping_dissipation = 0;        ///< mJ, of mass-proportional damping
-  double external_work = 0;              ///< mJ, of walls and grips
-  double grip_work_ahead = 0;            ///< mJ, half of the grips' forces times the step that follows
-  std::array<double, 6> wall_force{};    ///< N, at the last time level
-  std::array<double, 6> wall_movement{}; ///< mm inward, in the step that followed it
+  double initial = 0;             ///< mJ, of motion and strain at the start
+  double plastic_dissipation = 0; ///< mJ
+  double viscous_dissipation = 0; ///< mJ, of bulk viscosity
+  double damping_dissipation = 0; ///< mJ, of mass-proportional damping
+  double external_work = 0;       ///< mJ, of walls and grips
+  double grip_work_ahead = 0;     ///< mJ, half of the grips' forces times the step that follows
 
   template <class Self, class Visitor>
   static void for_each_field(Self& s, Visitor&& visit) {
     visit("energy.initial", s.initial), visit("energy.plastic_dissipation", s.plastic_dissipation);
     visit("energy.viscous_dissipation", s.viscous_dissipation);
     visit("energy.damping_dissipation", s.damping_dissipation), visit("energy.external_work", s.external_work);
-    visit("energy.grip_work_ahead", s.grip_work_ahead), visit("energy.wall_force", s.wall_force);
-    visit("energy.wall_movement", s.wall_movement);
+    visit("energy.grip_work_ahead", s.grip_work_ahead);
   }
 
   /// Adds what the grips did at this time level.
   void add_grips(const std::vector<GripSums>& grains);
-  /// Adds the walls' work since the time level before, by the trapezoidal rule, which central differences conserve.
-  /// `contact_force` (N) is that of the walls alone, `force` what is kept for their stresses.
-  void add_walls(const std::array<double, 6>& contact_force, const std::array<double, 6>& force);
+  /// Adds the work (mJ) of the walls since the time level before.
+  void add_walls(const std::array<double, 6>& work);
   /// Adds what one grain dissipated in a step.
   void add_step(const ElementSums& elements, const AdvanceSums& advance);
   /// mJ that are not accounted for.

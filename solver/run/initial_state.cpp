@@ -79,17 +79,18 @@ double set_initial_velocities(Model& model, const Scenario& scenario) {
   return energy;
 }
 
-void check_apart(Model& model, Contact& contact, const Walls& walls, const std::vector<Bounds>& bounds,
+void check_apart(Model& model, Contact& contact, const Box& box, const std::vector<Bounds>& bounds,
                  const std::string& packing_file) {
   constexpr double rounding = 1e-9; // mm
+  const Cell& cell = box.cell();
   for (int grain = 0; grain < model.grains; ++grain) {
     check_overlap(model, contact, grain, packing_file);
     const Bounds& b = bounds[static_cast<std::size_t>(grain)];
-    for (std::size_t axis = 0; walls.present && axis < 3; ++axis)
-      if (b.low[axis] < walls.low[axis] - rounding || b.high[axis] > walls.high[axis] + rounding)
+    for (std::size_t axis = 0; axis < 3; ++axis)
+      if (box.has_walls(axis) && (b.low[axis] < cell.low[axis] - rounding || b.high[axis] > cell.high[axis] + rounding))
         throw InputError(
             fmt::format("{}: grain {} spans {:.6g} … {:.6g} mm along axis {}, allowed within the box {:.6g} … {:.6g}",
-                        packing_file, grain, b.low[axis], b.high[axis], axis, walls.low[axis], walls.high[axis]));
+                        packing_file, grain, b.low[axis], b.high[axis], axis, cell.low[axis], cell.high[axis]));
   }
 }
 

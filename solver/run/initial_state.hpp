@@ -3,22 +3,20 @@
 
 #include <vector>
 
-#include "solver/boundary/grips.hpp"
-#include "solver/boundary/walls.hpp"
+#include "solver/boundary/box.hpp"
 #include "solver/kernels/contact_forces.hpp"
 #include "solver/kernels/node_motion.hpp"
-#include "solver/model/surface.hpp"
 #include "solver/scenario/scenario.hpp"
 
 namespace mpfem {
 
-/// Gives all grains the scenario's initial velocities. Returns their kinetic energy, mJ. Throws InputError where there is
-/// not one velocity for each grain.
+/// Gives all grains the scenario's initial velocities. Returns their kinetic energy, mJ. Throws InputError where there
+/// is not one velocity for each grain.
 double set_initial_velocities(Model& model, const Scenario& scenario);
 
-/// Throws InputError where two grains overlap or a grain reaches through a wall. Evaluates contact forces, which are left
-/// in the model.
-void check_apart(Model& model, Contact& contact, const Walls& walls, const std::vector<Bounds>& bounds,
+/// Throws InputError where two grains overlap or a grain reaches through a wall. Evaluates contact forces, which are
+/// left in the model.
+void check_apart(Model& model, Contact& contact, const Box& box, const std::vector<Bounds>& bounds,
                  const std::string& packing_file);
 
 } // namespace mpfem

@@ -5,8 +5,8 @@
 
 namespace mpfem {
 
-/// From now on the first SIGINT or SIGTERM is a request only. Another one some seconds later acts as usual. May be called
-/// again.
+/// From now on the first SIGINT or SIGTERM is a request only. Another one some seconds later acts as usual. May be
+/// called again.
 void catch_interrupts();
 
 /// Whether a stop has been requested.

@@ -19,8 +19,8 @@ Needs needs_of(const PackingCounts& packing, const Scenario& scenario);
 /// Bytes that may be written to the folder of a file. Infinite where the system does not say.
 double available_disk_space(const std::string& file);
 
-/// Empty, or a warning where little or nothing is left over. Throws InputError where the run needs more than there is by
-/// more than the forecast's own error. `purpose` is the beginning of the line: "RUN.h5".
+/// Empty, or a warning where little or nothing is left over. Throws InputError where the run needs more than there is
+/// by more than the forecast's own error. `purpose` is the beginning of the line: "RUN.h5".
 std::string check_needs(const std::string& purpose, const Needs& needs, const Needs& available);
 
 } // namespace mpfem

@@ -37,12 +37,10 @@ double coordination_number(const Model& model, const Contact& contact) {
 }
 
 /// Stresses and strains of the box.
-void observe_box(HistoryRow& row, const Simulation& simulation) {
-  const Walls& walls = simulation.walls();
-  const RunState& state = simulation.state();
-  for (std::size_t axis = 0; axis < 3; ++axis) row.box_lengths[axis] = walls.high[axis] - walls.low[axis];
-  row.wall_stress = wall_stress(simulation.energies().wall_force, walls);
-  row.mean_stress = state.mean_stress;
+void observe_box(HistoryRow& row, const Box& box, const RunState& state) {
+  row.box_lengths = box.cell().lengths();
+  row.wall_stress = box.stress();
+  row.mean_stress = box.mean_stress();
   const auto& s = row.wall_stress;
   row.deviatoric_stress = 0.5 * (s[4] + s[5]) - 0.25 * (s[0] + s[1] + s[2] + s[3]);
   row.axial_strain = std::log(state.initial_lengths[2] / row.box_lengths[2]);
@@ -97,13 +95,13 @@ HistoryRow observe_row(const Simulation& simulation, std::span<const GrainSums> 
     total_volume += grains[g].volume;
     row.surface_area += grains[g].surface_area;
     row.contact_area += grains[g].contact_area;
-    row.contact_energy += sums[g].contact.energy + sums[g].walls.energy;
-    row.max_penetration = std::max({row.max_penetration, sums[g].contact.penetration, sums[g].walls.penetration});
+    row.contact_energy += sums[g].contact.energy + sums[g].box.energy;
+    row.max_penetration = std::max({row.max_penetration, sums[g].contact.penetration, sums[g].box.penetration()});
   }
-  observe_box(row, simulation);
-  const double box_volume = row.box_lengths[0] * row.box_lengths[1] * row.box_lengths[2];
-  row.relative_density = model.total_reference_volume() / box_volume;
-  row.relative_density_current = total_volume / box_volume;
+  observe_box(row, simulation.box(), state);
+  const double cell_volume = simulation.box().cell().volume();
+  row.relative_density = model.total_reference_volume() / cell_volume;
+  row.relative_density_current = total_volume / cell_volume;
   observe_bonds(row, total_bonds(model, simulation.contact(), team));
   take_over_sums(row, simulation.energies());
   row.energy_residual = simulation.energies().residual({.kinetic = row.kinetic_energy,
@@ -113,17 +111,16 @@ HistoryRow observe_row(const Simulation& simulation, std::span<const GrainSums> 
                                                         .damage_dissipation = row.damage_dissipation});
   row.coordination_number = coordination_number(model, simulation.contact());
   double wall_force = 0;
-  for (const double force : simulation.energies().wall_force) wall_force += force;
+  for (const double force : simulation.box().force()) wall_force += force;
   row.damping_drag_ratio = wall_force > 0 ? state.damping_force / wall_force : 0.0;
   return row;
 }
 
 LoadingRateObservation observe_loading_rate(const Simulation& simulation, ThreadTeam& team) {
   const Model& model = simulation.model();
-  const Walls& walls = simulation.walls();
+  const Cell& cell = simulation.box().cell();
   const RunState& state = simulation.state();
-  std::array<double, 3> centre{};
-  for (std::size_t axis = 0; axis < 3; ++axis) centre[axis] = 0.5 * (walls.low[axis] + walls.high[axis]);
+  const std::array<double, 3> centre{cell.centre(0), cell.centre(1), cell.centre(2)};
   std::vector<double> kinetic(static_cast<std::size_t>(model.grains)), elastic(kinetic.size());
   std::vector<ForceMoments> moments(kinetic.size());
   team.for_each(model.grains, [&](int grain, int) {
@@ -135,19 +132,18 @@ LoadingRateObservation observe_loading_rate(const Simulation& simulation, Thread
   LoadingRateObservation seen;
   seen.elapsed = LoadingRateControl::steps_between_observations * state.last_step;
   seen.plastic_dissipation = simulation.energies().plastic_dissipation;
-  const auto length = lengths(walls.low, walls.high);
-  const double box_volume = volume(length);
-  const std::array<double, 6> stress = wall_stress(simulation.energies().wall_force, walls);
+  const double cell_volume = cell.volume();
+  const std::array<double, 6> stress = simulation.box().stress();
   for (std::size_t g = 0; g < kinetic.size(); ++g) {
     seen.kinetic_energy += kinetic[g];
     seen.elastic_energy += elastic[g];
     for (std::size_t axis = 0; axis < 3; ++axis) {
-      seen.imbalance[axis] += moments[g].force[axis] * length[axis] / box_volume;
-      seen.dynamic[axis] += moments[g].moment[axis] / box_volume;
+      seen.imbalance[axis] += moments[g].force[axis] * cell.length(axis) / cell_volume;
+      seen.dynamic[axis] += moments[g].moment[axis] / cell_volume;
     }
   }
   for (std::size_t axis = 0; axis < 3; ++axis) seen.wall_stress[axis] = 0.5 * (stress[2 * axis] + stress[2 * axis + 1]);
-  seen.stopping = simulation.stage_run().is_stopping(state.mean_stress);
+  seen.stopping = simulation.stage_run().is_stopping(simulation.box().mean_stress());
   return seen;
 }
 

@@ -14,7 +14,7 @@ BondSums total_bonds(const Model& model, const Contact& contact, ThreadTeam& tea
 /// One row of the history, between evaluate_forces() and advance(). `sums` [grains], of the last passes.
 HistoryRow observe_row(const Simulation& simulation, std::span<const GrainSums> sums, ThreadTeam& team);
 
-/// What inertia bears of the stresses, for stages that choose their speed.
+/// The part of the stresses that inertia balances, for stages that choose their speed.
 LoadingRateObservation observe_loading_rate(const Simulation& simulation, ThreadTeam& team);
 
 } // namespace mpfem

@@ -8,7 +8,7 @@
 
 #include "common/errors.hpp"
 #include "solver/output/history_row.hpp"
-#include "solver/run/history_pace.hpp"
+#include "solver/run/history_schedule.hpp"
 #include "solver/run/stages/isotropic_compaction.hpp"
 
 namespace mpfem {
@@ -23,8 +23,7 @@ constexpr double slow_end_of_unloading = 1.3;
 bool may_be_done(const Stage& stage, const StageForecast& before, const Model& model) {
   const auto* compaction = std::get_if<IsotropicCompaction>(&stage.type);
   return compaction && !before.sure &&
-         compaction->relative_density * (1 - 1e-9) <=
-             model.total_reference_volume() / volume(lengths(before.low, before.high));
+         compaction->relative_density * (1 - 1e-9) <= model.total_reference_volume() / before.cell.volume();
 }
 
 /// A step that is no step tells of units that cannot be meant.
@@ -95,10 +94,10 @@ std::string unreachable_stress(const Stage& stage, double mean_stress) {
   return {};
 }
 
-std::vector<StageForecast> forecast(const Scenario& scenario, std::int64_t first_stage, std::array<double, 3> low,
-                                    std::array<double, 3> high, const Model& model) {
+std::vector<StageForecast> forecast(const Scenario& scenario, std::int64_t first_stage, const Cell& cell,
+                                    const Model& model) {
   std::vector<StageForecast> forecasts;
-  StageForecast f{.low = low, .high = high};
+  StageForecast f{.cell = cell};
   const Sample sample = sample_of(model);
   for (auto s = static_cast<std::size_t>(first_stage); s < scenario.stages.size(); ++s) {
     const Stage& stage = scenario.stages[s];
@@ -106,24 +105,22 @@ std::vector<StageForecast> forecast(const Scenario& scenario, std::int64_t first
       f.duration = 0;
       f.description = IsotropicCompactionControl::description;
     } else {
-      const auto control = make_stage_control(stage, {f.low, f.high, 0.0, sample});
+      const auto control = make_stage_control(stage, {f.cell, 0.0, sample});
       f.duration = control->expected_duration();
       f.description = control->describe();
       if (!std::isfinite(control->duration())) f.sure = false;
       if (std::holds_alternative<IsotropicUnloading>(stage.type)) f.duration *= slow_end_of_unloading;
-      Walls walls{.low = f.low, .high = f.high};
-      control->expect_end(walls);
-      f.low = walls.low, f.high = walls.high;
+      control->expect_end(f.cell);
     }
     forecasts.push_back(f);
   }
   return forecasts;
 }
 
-void check_programme(const Scenario& scenario, std::int64_t first_stage, std::array<double, 3> low,
-                     std::array<double, 3> high, const Model& model, double stable_step) {
+void check_programme(const Scenario& scenario, std::int64_t first_stage, const Cell& cell, const Model& model,
+                     double stable_step) {
   check_stable_step(stable_step);
-  check_steps(scenario, first_stage, forecast(scenario, first_stage, low, high, model), stable_step);
+  check_steps(scenario, first_stage, forecast(scenario, first_stage, cell, model), stable_step);
   check_history(scenario, first_stage);
   const double size = *std::min_element(model.element_size.begin(), model.element_size.end());
   for (auto s = static_cast<std::size_t>(first_stage); s < scenario.stages.size(); ++s) {
@@ -134,7 +131,7 @@ void check_programme(const Scenario& scenario, std::int64_t first_stage, std::ar
                       : std::holds_alternative<GripMotion>(stage.type) ? "speed"
                                                                        : "wall_speed";
     check_speed(stage, key, fastest, size, stable_step);
-    // Servos hurry with the stage.
+    // Servos are as much faster as the stage is.
     if (const auto servo = servo_speed(stage.type))
       check_speed(stage, "servo_speed", *servo * (speed > 0 ? std::max(1.0, fastest / speed) : 1.0), size, stable_step);
   }

@@ -1,41 +1,36 @@
 #pragma once
 // What is known of a scenario's stages before they run.
 
-#include <array>
 #include <cstdint>
 #include <string>
 #include <vector>
 
+#include "solver/boundary/cell.hpp"
 #include "solver/model/model.hpp"
 #include "solver/scenario/scenario.hpp"
 
 namespace mpfem {
 
-/// Why a stage that begins at a mean stress (MPa) cannot reach its own, in one line; empty where it can. An unloading may
-/// begin at its stress or a little below.
-std::string unreachable_stress(const Stage& stage, double mean_stress);
-
-/// Why a stage that begins at a mean stress (MPa) cannot reach its own, in one line; empty where it can. An unloading may
-/// begin at its stress or a little below.
+/// Why a stage that begins at a mean stress (MPa) cannot reach its own, in one line; empty where it can. An unloading
+/// may begin at its stress or a little below.
 std::string unreachable_stress(const Stage& stage, double mean_stress);
 
 /// What is expected of a stage beforehand.
 struct StageForecast {
-  double duration = 0;          ///< s
-  std::string description{};    ///< what the stage does
-  bool sure = true;             ///< false: the stage or one before it ends at what is not known beforehand
-  std::array<double, 3> low{};  ///< mm, box at the end
-  std::array<double, 3> high{}; ///< mm
+  double duration = 0;       ///< s
+  std::string description{}; ///< what the stage does
+  bool sure = true;          ///< false: the stage or one before it ends at what is not known beforehand
+  Cell cell{};               ///< at the end
 };
-/// Forecasts of the stages from `first_stage` on, which begins with the given box. Targets that cannot be reached from
+/// Forecasts of the stages from `first_stage` on, which begins with the given cell. Targets that cannot be reached from
 /// where the stage before surely ends are refused. Throws InputError.
-std::vector<StageForecast> forecast(const Scenario& scenario, std::int64_t first_stage, std::array<double, 3> low,
-                                    std::array<double, 3> high, const Model& model);
+std::vector<StageForecast> forecast(const Scenario& scenario, std::int64_t first_stage, const Cell& cell,
+                                    const Model& model);
 
-/// Checks the stages from `first_stage` on before anything moves: every target can be reached from where the stage before
-/// ends (as far as that is known beforehand), and no wall moves further in one stable step (s) than a small part of an
-/// element. Throws InputError.
-void check_programme(const Scenario& scenario, std::int64_t first_stage, std::array<double, 3> low,
-                     std::array<double, 3> high, const Model& model, double stable_step);
+/// Checks the stages from `first_stage` on before anything moves: every target can be reached from where the stage
+/// before ends (as far as that is known beforehand), and no wall moves further in one stable step (s) than a small part
+/// of an element. Throws InputError.
+void check_programme(const Scenario& scenario, std::int64_t first_stage, const Cell& cell, const Model& model,
+                     double stable_step);
 
 } // namespace mpfem

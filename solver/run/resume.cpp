@@ -30,8 +30,8 @@ void check_branch(const CheckpointReader& checkpoint, bool bonded, const Scenari
       !now.grain_angular_velocity.empty())
     refuse("[initial] has no meaning in a run that begins at a checkpoint: its grains move as they moved there");
   if (!bonded) return;
-  // Bonds keep the law by which they formed, and [bond] is that of bonds to come. Whether bonds resist sliding decides how
-  // all of them are followed.
+  // Bonds keep the law by which they formed, and [bond] is that of bonds to come. Whether bonds resist sliding decides
+  // how all of them are followed.
   if (!now.bond) refuse("the checkpoint has bonds, the scenario has none, allowed a [bond] with the same normal_only");
   if (before.bond->normal_only != now.bond->normal_only)
     refuse("the checkpoint has bonds of the other bond.normal_only, allowed a [bond] with the same normal_only");

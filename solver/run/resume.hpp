@@ -15,8 +15,8 @@ void save_checkpoint(const std::string& path, const Simulation& simulation, cons
 /// scenario, or was written by a build that does not go on bitwise.
 void resume(const std::string& path, Simulation& simulation, RunRecord& record);
 
-/// Begins the scenario's first stage at the state of another run. Bonds keep the law by which they formed, the scenario's
-/// is that of bonds to come. Throws InputError as resume(), and where the scenario is one of other matter.
+/// Begins the scenario's first stage at the state of another run. Bonds keep the law by which they formed, the
+/// scenario's is that of bonds to come. Throws InputError as resume(), and where the scenario is one of other matter.
 void begin_branch(const std::string& path, Simulation& simulation);
 
 } // namespace mpfem

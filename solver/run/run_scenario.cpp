@@ -21,7 +21,7 @@
 #include "solver/output/run_lock.hpp"
 #include "solver/run/checkpoints.hpp"
 #include "solver/run/energy_check.hpp"
-#include "solver/run/history_pace.hpp"
+#include "solver/run/history_schedule.hpp"
 #include "solver/run/interrupt.hpp"
 #include "solver/run/needs.hpp"
 #include "solver/run/plan_text.hpp"
@@ -82,10 +82,10 @@ public:
     }
     const RunState& state = simulation_.state();
     const StageRun::State& stage = simulation_.stage_run().state();
-    check_programme(scenario_, state.stage, stage.start_low, stage.start_high, simulation_.model(),
+    check_programme(scenario_, state.stage, stage.start, simulation_.model(),
                     simulation_.step_estimate().stable_step());
     for (const HistoryRow& row : record_.history) energy_check_.take(row);
-    expected_ = forecast(scenario_, state.stage, stage.start_low, stage.start_high, simulation_.model());
+    expected_ = forecast(scenario_, state.stage, stage.start, simulation_.model());
     first_expected_ = state.stage;
     if (begins_anew_) pass_densities();
   }
@@ -114,7 +114,7 @@ public:
     write_result("complete");
     remove_unfinished(options_.output);
     progress_.finish(fmt::format("{} steps, D_r = {:.4f}, p = {:.4g} MPa, {}", simulation_.state().step,
-                                 simulation_.relative_density(), simulation_.state().mean_stress, options_.output));
+                                 simulation_.relative_density(), simulation_.box().mean_stress(), options_.output));
     if (!options_.quiet) print_profile();
     if (!options_.quiet) print_quality();
     return true;
@@ -143,7 +143,8 @@ private:
     begins_anew_ = true;
   }
 
-  /// Goes on from the best checkpoint that there is, or finds the run complete. False where there is nothing to go on from.
+  /// Goes on from the best checkpoint that there is, or finds the run complete. False where there is nothing to go on
+  /// from.
   bool resume() {
     std::vector<std::string> lost; // checkpoints that should stand on disk and do not
     if (!rolling_checkpoint_exists() && is_complete(lost)) {
@@ -178,8 +179,8 @@ private:
     return false;
   }
 
-  /// Takes up a checkpoint. False where the run cannot go on from it; checkpoints that it counts as written and that are
-  /// missing are added to `lost`.
+  /// Takes up a checkpoint. False where the run cannot go on from it; checkpoints that it counts as written and that
+  /// are missing are added to `lost`.
   bool take_up(const std::string& path, std::vector<std::string>& lost) {
     const bool rolling = path == checkpoint_path(options_.output);
     taken_up_ = true;
@@ -269,7 +270,8 @@ private:
     }
   }
 
-  /// What a stage needs may have been done away with by the one before: that is a failure of the run, whose state is saved.
+  /// What a stage needs may have been done away with by the one before: that is a failure of the run, whose state is
+  /// saved.
   void begin_next_stage() {
     try {
       simulation_.begin_next_stage();
@@ -298,8 +300,8 @@ private:
       fmt::print(stderr, "mpfem: stage '{}' {}{}\n", result.name, stage_end_text(result), damping_text());
   }
 
-  /// What mass-proportional damping took in the stage that ends, beside the energy that it must leave alone. It gives where it
-  /// drags grains along with the walls.
+  /// What mass-proportional damping took in the stage that ends, beside the energy that it must leave alone. It gives
+  /// where it drags grains along with the walls.
   std::string damping_text() const {
     if (simulation_.stage().damping.rate == 0) return {};
     const auto stage = static_cast<double>(simulation_.state().stage);
@@ -331,7 +333,8 @@ private:
     check_energy(record_.history.back());
   }
 
-  /// Fails where the energy balance is so far off that the run means nothing any more; warns, once, where it may matter.
+  /// Fails where the energy balance is so far off that the run means nothing any more; warns, once, where it may
+  /// matter.
   void check_energy(const HistoryRow& row) {
     const double error = energy_check_.take(row);
     if (!(error <= EnergyCheck::allowed))
@@ -362,9 +365,8 @@ private:
     std::filesystem::create_directories(parts_folder(options_.output));
     const std::string name = snapshot_name(record_.snapshot_files.size());
     const RunState& state = simulation_.state();
-    write_snapshot_file(snapshot_path(name),
-                        {simulation_.model(), simulation_.contact(), simulation_.walls(), state.time, state.step,
-                         simulation_.relative_density(), state.mean_stress});
+    write_snapshot_file(snapshot_path(name), {simulation_.model(), simulation_.contact(), simulation_.box(), state.time,
+                                              state.step, simulation_.relative_density()});
     record_.snapshot_files.push_back(name); // the name alone: a run may be resumed from another folder
     simulation_.profile().add_serial(Part::output, Profile::since(start));
   }
@@ -446,13 +448,12 @@ private:
 
   double fraction_done() const {
     const RunState& state = simulation_.state();
+    const double of_present = simulation_.stage_run().fraction_done(simulation_.box().mean_stress());
     double done = 0, all = 0; // of the stages from the one with which this process began, by expected time
     for (std::size_t i = 0; i < expected_.size(); ++i) {
       const std::int64_t stage = first_expected_ + static_cast<std::int64_t>(i);
       all += expected_[i].duration;
-      done += expected_[i].duration * (stage < state.stage    ? 1.0
-                                       : stage == state.stage ? simulation_.stage_run().fraction_done(state.mean_stress)
-                                                              : 0.0);
+      done += expected_[i].duration * (stage < state.stage ? 1.0 : stage == state.stage ? of_present : 0.0);
     }
     return all > 0 ? done / all : 0.0;
   }
@@ -461,9 +462,9 @@ private:
     const RunState& state = simulation_.state();
     if (state.step % 16 != 0) return;
     warn_of_small_step();
-    progress_.update(fraction_done(),
-                     fmt::format("step {}  D_r {:.4f}  p {:.4g} MPa  {:.0f} ns/tet-step", state.step,
-                                 simulation_.relative_density(), state.mean_stress, nanoseconds_per_tet_step()));
+    progress_.update(fraction_done(), fmt::format("step {}  D_r {:.4f}  p {:.4g} MPa  {:.0f} ns/tet-step", state.step,
+                                                  simulation_.relative_density(), simulation_.box().mean_stress(),
+                                                  nanoseconds_per_tet_step()));
   }
 
   /// Once: a run that crawls writes no rows that would tell.

@@ -24,25 +24,13 @@ Axes withdrawn_in(const Scenario& scenario, std::int64_t stage) {
 
 } // namespace
 
-std::array<double, 6> wall_stress(const std::array<double, 6>& force, const Walls& walls) {
-  std::array<double, 6> stress{};
-  for (std::size_t side = 0; side < 6; ++side) {
-    const std::size_t b = (side / 2 + 1) % 3, c = (side / 2 + 2) % 3;
-    stress[side] = force[side] / ((walls.high[b] - walls.low[b]) * (walls.high[c] - walls.low[c]));
-  }
-  return stress;
-}
-
 Simulation::Simulation(Model model, const Scenario& scenario, ThreadTeam& team, bool branch)
     : scenario_(&scenario), team_(&team), profile_(team.size()), model_(std::move(model)),
+      box_({model_.box_low, model_.box_high}, scenario.walls ? Axes{} : all_axes),
       step_estimate_(model_, scenario.numerics), bounds_(static_cast<std::size_t>(model_.grains)),
       sums_(static_cast<std::size_t>(model_.grains)) {
   energies_.initial = set_initial_velocities(model_, scenario);
-  walls_.present = scenario.walls;
-  if (!scenario.walls) state_.withdrawn = all_axes;
-  walls_.low = model_.box_low;
-  walls_.high = model_.box_high;
-  state_.initial_lengths = lengths(walls_.low, walls_.high);
+  state_.initial_lengths = box_.cell().lengths();
   if (scenario.bond) {
     contact_.bond_laws = {law_of_bonds(*scenario.bond)};
     contact_.rebond_on_contact = scenario.bond->rebond_on_contact;
@@ -51,9 +39,9 @@ Simulation::Simulation(Model model, const Scenario& scenario, ThreadTeam& team, 
 
   update_surfaces();
   renew_candidates(model_, margin_, *team_, contact_);
-  check_apart(model_, contact_, walls_, bounds_, scenario.packing_file);
+  check_apart(model_, contact_, box_, bounds_, scenario.packing_file);
   std::fill(model_.force.begin(), model_.force.end(), 0.0);
-  renew_step_estimate(true);
+  renew_step_estimate(box_, true);
   if (!branch) begin_stage(0);
 }
 
@@ -70,21 +58,17 @@ void Simulation::evaluate_forces() {
 }
 
 void Simulation::advance() {
-  const StepPlan plan = plan_ ? *plan_ : stage_run_->plan(walls_, step_estimate_.stable_step(), state_.last_step);
+  const StepPlan plan = plan_ ? *plan_ : stage_run_->plan(box_.cell(), step_estimate_.stable_step(), state_.last_step);
   plan_.reset();
   const Advance update = velocity_update(plan);
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    energies_.wall_movement[2 * axis] = walls_.present ? plan.walls.low[axis] - walls_.low[axis] : 0.0;
-    energies_.wall_movement[2 * axis + 1] = walls_.present ? walls_.high[axis] - plan.walls.high[axis] : 0.0;
-  }
-  walls_ = plan.walls;
+  box_.move_to(plan.cell);
   move_and_strain(update);
   const double strain = add_up_step(plan.step);
   stage_run_->advance(plan);
   state_.time += plan.step;
   state_.last_step = plan.step;
   ++state_.step;
-  if (step_estimate_.is_due_after(strain, plan.step)) renew_step_estimate(false);
+  if (step_estimate_.is_due_after(strain, plan.step)) renew_step_estimate(box_, false);
 }
 
 void Simulation::search() {
@@ -106,7 +90,7 @@ void Simulation::add_contact_and_walls() {
     Stopwatch watch(profile_, thread);
     contact_reactions(model_, contact_, grain);
     watch.mark(Part::contact);
-    sums_[g].walls = wall_forces(model_, walls_, bounds_[g], grain);
+    sums_[g].box = box_.add_forces(model_, bounds_[g], grain);
     watch.mark(Part::integration);
   });
 }
@@ -114,7 +98,7 @@ void Simulation::add_contact_and_walls() {
 void Simulation::check_penetration() const {
   constexpr double deepest = 0.5; // of the element size
   for (std::size_t g = 0; g < sums_.size(); ++g)
-    if (const double penetration = sums_[g].walls.penetration; penetration > deepest)
+    if (const double penetration = sums_[g].box.penetration(); penetration > deepest)
       throw SimulationError(fmt::format(
           "step {}, D_r = {:.4f}: a node of grain {} is {:.2f} of the element size behind a wall, allowed up to "
           "{:g}: raise contact.stiffness_factor or lower the speed",
@@ -123,12 +107,12 @@ void Simulation::check_penetration() const {
 
 /// Forces that take the gripped nodes where the grips will be; N, push of both grips towards the middle.
 std::array<double, 2> Simulation::add_grips() {
-  plan_ = stage_run_->plan(walls_, step_estimate_.stable_step(), state_.last_step);
+  plan_ = stage_run_->plan(box_.cell(), step_estimate_.stable_step(), state_.last_step);
   const Advance update = velocity_update(*plan_);
   std::vector<GripSums> sums(sums_.size());
   team_->for_each(model_.grains, [&](int grain, int) {
     sums[static_cast<std::size_t>(grain)] =
-        grip_forces(model_, grips_, plan_->walls, plan_->sliding, update, state_.last_step, grain);
+        grip_forces(model_, grips_, plan_->cell, plan_->sliding, update, state_.last_step, grain);
   });
   energies_.add_grips(sums);
   std::array<double, 2> force{};
@@ -137,16 +121,13 @@ std::array<double, 2> Simulation::add_grips() {
   return force;
 }
 
-/// Work and stresses of the walls at this time level, the grips' forces among them.
+/// Work of the walls, and stresses of the box at this time level, to which grips contribute.
 void Simulation::measure_walls(const std::array<double, 2>& grip_force) {
-  std::array<double, 6> contact_force{}, force{};
-  for (std::size_t side = 0; side < 2; ++side) force[2 * grips_.axis + side] = grip_force[side];
+  std::array<double, 6> contact{}, grip{};
+  for (std::size_t side = 0; side < 2; ++side) grip[2 * grips_.axis + side] = grip_force[side];
   for (const GrainSums& sums : sums_)
-    for (std::size_t side = 0; side < 6; ++side) contact_force[side] += sums.walls.force[side];
-  for (std::size_t side = 0; side < 6; ++side) force[side] += contact_force[side];
-  energies_.add_walls(contact_force, force);
-  state_.mean_stress = 0;
-  for (const double stress : wall_stress(force, walls_)) state_.mean_stress += stress / 6.0;
+    for (std::size_t side = 0; side < 6; ++side) contact[side] += sums.box.wall[side].force;
+  energies_.add_walls(box_.take_loads(contact, grip));
 }
 
 void Simulation::regulate_loading_rate() {
@@ -157,13 +138,11 @@ void Simulation::regulate_loading_rate() {
 
 StageObservation Simulation::observation() const {
   StageObservation seen{.step = state_.last_step,
-                        .low = walls_.low,
-                        .high = walls_.high,
-                        .mean_stress = state_.mean_stress,
+                        .cell = box_.cell(),
+                        .force = box_.axis_force(),
+                        .mean_stress = box_.mean_stress(),
                         .plastic_dissipation = energies_.plastic_dissipation,
                         .damage_dissipation = {}};
-  for (std::size_t axis = 0; axis < 3; ++axis)
-    seen.force[axis] = 0.5 * (energies_.wall_force[2 * axis] + energies_.wall_force[2 * axis + 1]);
   if (!stage_complete() && stage_run_->needs_damage(state_.step))
     seen.damage_dissipation = total_bonds(model_, contact_, *team_).dissipated;
   return seen;
@@ -172,8 +151,8 @@ StageObservation Simulation::observation() const {
 double Simulation::damping_rate() const {
   const DampingParameters& damping = stage().damping;
   if (!(damping.rate > 0)) return 0;
-  if (damping.fade_stress <= 0) return state_.mean_stress > 0 ? 0.0 : damping.rate;
-  return damping.rate * (1.0 - smooth_step(state_.mean_stress / damping.fade_stress));
+  if (damping.fade_stress <= 0) return box_.mean_stress() > 0 ? 0.0 : damping.rate;
+  return damping.rate * (1.0 - smooth_step(box_.mean_stress() / damping.fade_stress));
 }
 
 Advance Simulation::velocity_update(const StepPlan& plan) const {
@@ -182,9 +161,8 @@ Advance Simulation::velocity_update(const StepPlan& plan) const {
   update.step_mean = 0.5 * (state_.last_step + plan.step);
   update.damping_rate = damping_rate_;
   for (std::size_t axis = 0; axis < 3; ++axis) {
-    const double length = walls_.high[axis] - walls_.low[axis];
-    update.centre[axis] = 0.5 * (walls_.high[axis] + walls_.low[axis]);
-    update.rate[axis] = ((plan.walls.high[axis] - plan.walls.low[axis]) / length - 1.0) / plan.step;
+    update.centre[axis] = box_.cell().centre(axis);
+    update.rate[axis] = (plan.cell.length(axis) / box_.cell().length(axis) - 1.0) / plan.step;
   }
   return update;
 }
@@ -217,9 +195,9 @@ double Simulation::add_up_step(double step) {
   return strain;
 }
 
-void Simulation::renew_step_estimate(bool anew) {
+void Simulation::renew_step_estimate(const Box& box, bool anew) {
   const auto start = Profile::Clock::now();
-  step_estimate_.renew(model_, contact_, walls_, bounds_, *team_, anew);
+  step_estimate_.renew(model_, contact_, box, bounds_, *team_, anew);
   profile_.add_serial(Part::step_estimate, Profile::since(start));
 }
 
@@ -234,12 +212,11 @@ void Simulation::begin_stage(std::int64_t stage) {
   change_walls(withdrawn_in(*scenario_, stage));
   state_.stage = stage;
   if (const std::string reason =
-          unreachable_stress(scenario_->stages[static_cast<std::size_t>(stage)], state_.mean_stress);
+          unreachable_stress(scenario_->stages[static_cast<std::size_t>(stage)], box_.mean_stress());
       !reason.empty())
     throw InputError(reason);
   stage_run_.emplace(scenario_->stages[static_cast<std::size_t>(stage)],
-                     StageStart{walls_.low, walls_.high, state_.mean_stress, sample_of(model_)},
-                     energies_.plastic_dissipation);
+                     StageStart{box_.cell(), box_.mean_stress(), sample_of(model_)}, energies_.plastic_dissipation);
   plan_.reset();
   damping_rate_ = damping_rate();
   grip_faces();
@@ -249,40 +226,30 @@ void Simulation::begin_stage(std::int64_t stage) {
 /// nothing, so that the ledger knows of them from the first touch on.
 void Simulation::change_walls(const Axes& withdrawn) {
   for (std::size_t axis = 0; axis < 3; ++axis) {
-    if (withdrawn[axis] && !state_.withdrawn[axis])
-      for (const GrainSums& sums : sums_) energies_.external_work -= sums.walls.axis_energy[axis];
-    if (state_.withdrawn[axis] && !withdrawn[axis]) return_walls(axis);
+    if (withdrawn[axis] && box_.has_walls(axis))
+      for (const GrainSums& sums : sums_)
+        energies_.external_work -= sums.box.wall[2 * axis].energy + sums.box.wall[2 * axis + 1].energy;
+    if (!withdrawn[axis] && !box_.has_walls(axis)) return_walls(axis);
   }
-  state_.withdrawn = withdrawn;
-  place_walls(withdrawn);
-}
-
-void Simulation::place_walls(const Axes& withdrawn) {
-  walls_.withdrawn = withdrawn;
-  walls_.present = withdrawn != all_axes;
+  box_.withdraw(withdrawn);
 }
 
 void Simulation::return_walls(std::size_t axis) {
   constexpr double largest_growth = 2;
-  const double length = walls_.high[axis] - walls_.low[axis];
-  for (const Bounds& bounds : bounds_) {
-    walls_.low[axis] = std::min(walls_.low[axis], bounds.low[axis]);
-    walls_.high[axis] = std::max(walls_.high[axis], bounds.high[axis]);
-  }
-  if (walls_.high[axis] - walls_.low[axis] > largest_growth * length)
+  const double before = box_.cell().length(axis);
+  box_.move_clear(axis, bounds_);
+  if (const double length = box_.cell().length(axis); length > largest_growth * before)
     throw SimulationError(fmt::format("stage '{}': the walls along {} cannot return: grains lie {:.4g} mm apart, the "
                                       "walls stood {:.4g} mm apart",
                                       scenario_->stages[static_cast<std::size_t>(state_.stage)].name, "xyz"[axis],
-                                      walls_.high[axis] - walls_.low[axis], length));
-  for (std::size_t side = 2 * axis; side < 2 * axis + 2; ++side)
-    energies_.wall_force[side] = energies_.wall_movement[side] = 0;
+                                      length, before));
 }
 
 void Simulation::grip_faces() {
   grips_ = {};
   const GripMotion* grip = stage_run_->control().grips();
   if (!grip) return;
-  grips_ = grip_nodes(model_, walls_, static_cast<std::size_t>(grip->axis), grip->depth, grip->lateral_fixed);
+  grips_ = grip_nodes(model_, box_.cell(), static_cast<std::size_t>(grip->axis), grip->depth, grip->lateral_fixed);
   std::array<bool, 2> holds{};
   for (const GrippedNode& node : grips_.node) holds[static_cast<std::size_t>(node.side)] = true;
   if (!holds[0] || !holds[1])
@@ -301,7 +268,7 @@ HistoryRow Simulation::observe() const {
 }
 
 double Simulation::relative_density() const {
-  return model_.total_reference_volume() / volume(lengths(walls_.low, walls_.high));
+  return model_.total_reference_volume() / box_.cell().volume();
 }
 
 void Simulation::reset_energy_balance(HistoryRow& first_row) {
@@ -315,7 +282,7 @@ void Simulation::reset_energy_balance(HistoryRow& first_row) {
 
 void Simulation::write(FieldWriter& to) const {
   RunState::for_each_field(state_, to);
-  to("box.low", walls_.low), to("box.high", walls_.high);
+  Box::for_each_field(box_, to);
   EnergyLedger::for_each_field(energies_, to);
   StepEstimate::State::for_each_field(step_estimate_.state(), to);
   stage_run_->write(to);
@@ -323,7 +290,7 @@ void Simulation::write(FieldWriter& to) const {
 
 void Simulation::read(FieldReader& from, std::optional<std::int64_t> stage) {
   RunState::for_each_field(state_, from);
-  from("box.low", walls_.low), from("box.high", walls_.high);
+  Box::for_each_field(box_, from);
   EnergyLedger::for_each_field(energies_, from);
   StepEstimate::State step = step_estimate_.state();
   StepEstimate::State::for_each_field(step, from);
@@ -352,7 +319,6 @@ Grips* Simulation::prepare_grips() {
 void Simulation::take_up(GrainSteps grain_steps) {
   step_estimate_.restore(std::move(grain_steps));
   update_surfaces();
-  place_walls(state_.withdrawn);
 }
 
 void Simulation::update_surfaces() {
@@ -361,9 +327,10 @@ void Simulation::update_surfaces() {
 }
 
 void Simulation::begin_branch() {
-  place_walls(withdrawn_in(*scenario_, 0));
+  Box coming = box_;
+  coming.withdraw(withdrawn_in(*scenario_, 0));
   renew_candidates(model_, margin_, *team_, contact_);
-  renew_step_estimate(true);
+  renew_step_estimate(coming, true);
   step_estimate_.renew_after_next_step(); // nothing touches yet
   begin_stage(0);
   energy_balance_open_ = true;

@@ -11,16 +11,16 @@
 #include <optional>
 #include <vector>
 
+#include "solver/boundary/box.hpp"
 #include "solver/boundary/grips.hpp"
-#include "solver/boundary/walls.hpp"
 #include "solver/kernels/contact_forces.hpp"
 #include "solver/kernels/element_forces.hpp"
 #include "solver/kernels/element_step.hpp"
 #include "solver/kernels/grain_state.hpp"
 #include "solver/kernels/node_motion.hpp"
+#include "solver/kernels/surface.hpp"
 #include "solver/kernels/thread_team.hpp"
 #include "solver/model/model.hpp"
-#include "solver/model/surface.hpp"
 #include "solver/output/history_row.hpp"
 #include "solver/run/energy_ledger.hpp"
 #include "solver/run/profile.hpp"
@@ -37,15 +37,12 @@ struct RunState {
   double time = 0;                         ///< s
   double last_step = 0;                    ///< s, the step that led to the present positions; 0 at the start
   double damping_force = 0;                ///< N, sum of magnitudes at the last advance
-  double mean_stress = 0;                  ///< MPa, at the last evaluation
-  Axes withdrawn{};                        ///< axes whose walls are away
-  std::array<double, 3> initial_lengths{}; ///< mm, of the box
+  std::array<double, 3> initial_lengths{}; ///< mm, of the cell
 
   template <class Self, class Visitor>
   static void for_each_field(Self& s, Visitor&& visit) {
     visit("run.step", s.step), visit("run.stage", s.stage);
     visit("run.time", s.time), visit("run.last_step", s.last_step), visit("run.damping_force", s.damping_force);
-    visit("run.mean_stress", s.mean_stress), visit("run.withdrawn", s.withdrawn);
     visit("run.initial_lengths", s.initial_lengths);
   }
 };
@@ -53,16 +50,16 @@ struct RunState {
 /// Sums of one grain over the last pass of each kind.
 struct GrainSums {
   ContactSums contact;
-  WallSums walls;
+  BoxSums box;
   AdvanceSums advance;
   ElementSums elements;
 };
 
 class Simulation {
 public:
-  /// Begins at rest apart from the scenario's initial velocities. With `branch`, the first stage is not begun: that waits
-  /// for restore() and begin_branch(). `scenario` and `team` must outlive the simulation. Throws InputError where grains
-  /// overlap at the start.
+  /// Begins at rest apart from the scenario's initial velocities. With `branch`, the first stage is not begun: that
+  /// waits for restore() and begin_branch(). `scenario` and `team` must outlive the simulation. Throws InputError where
+  /// grains overlap at the start.
   Simulation(Model model, const Scenario& scenario, ThreadTeam& team, bool branch = false);
 
   // ---- the step
@@ -72,7 +69,7 @@ public:
   void advance();
 
   // ---- stages
-  /// Begins the stage of this index at the present box.
+  /// Begins the stage of this index with the present cell.
   void begin_stage(std::int64_t stage);
   void begin_next_stage() { begin_stage(state_.stage + 1); }
   bool stage_complete() const { return stage_run_->complete(); }
@@ -82,14 +79,14 @@ public:
   // ---- what can be observed, between evaluate_forces() and advance()
   HistoryRow observe() const;
   double relative_density() const;
-  /// After a branch began: what energies jump by, where its settings differ, is not in the balance. Takes the residual of
-  /// the branch's first row out of it.
+  /// After a branch began: what energies jump by, where its settings differ, is not in the balance. Takes the residual
+  /// of the branch's first row out of it.
   void reset_energy_balance(HistoryRow& first_row);
 
   const Scenario& scenario() const { return *scenario_; }
   const Model& model() const { return model_; }
   const Contact& contact() const { return contact_; }
-  const Walls& walls() const { return walls_; }
+  const Box& box() const { return box_; }
   const Grips& grips() const { return grips_; }
   const RunState& state() const { return state_; }
   const EnergyLedger& energies() const { return energies_; }
@@ -118,8 +115,8 @@ public:
     take(Arrays{model_, contact_, grain_steps, prepare_grips()});
     take_up(std::move(grain_steps));
   }
-  /// After restore(): its state is the beginning of this scenario's first stage. Candidates and step are found anew with
-  /// this scenario's settings.
+  /// After restore(): its state is the beginning of this scenario's first stage. Candidates and step are found anew
+  /// with this scenario's settings.
   void begin_branch();
   /// For tests and benchmarks that change positions, velocities or strains by hand.
   Model& model_to_disturb() { return model_; }
@@ -139,10 +136,9 @@ private:
   double add_up_step(double step);
   void update_surfaces();
   void change_walls(const Axes& withdrawn);
-  void place_walls(const Axes& withdrawn);
   void return_walls(std::size_t axis);
   void grip_faces();
-  void renew_step_estimate(bool anew);
+  void renew_step_estimate(const Box& box, bool anew);
   StageObservation observation() const;
   double damping_rate() const;
   [[noreturn]] void report_bad_grain(int grain) const;
@@ -152,7 +148,7 @@ private:
   Profile profile_;
   Model model_;
   Contact contact_;
-  Walls walls_;
+  Box box_;
   Grips grips_;
   RunState state_;
   EnergyLedger energies_;
@@ -165,8 +161,5 @@ private:
   double damping_rate_ = 0;          ///< 1/s, of the next advance
   bool energy_balance_open_ = false; ///< until the first row of a branch
 };
-
-/// MPa, of all six walls, from the forces on them (N); compression positive.
-std::array<double, 6> wall_stress(const std::array<double, 6>& force, const Walls& walls);
 
 } // namespace mpfem

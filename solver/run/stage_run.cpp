@@ -5,20 +5,19 @@
 namespace mpfem {
 
 StageRun::StageRun(const Stage& stage, const StageStart& start, double plastic_dissipation)
-    : stage_(&stage), state_{.start_low = start.low, .start_high = start.high, .start_mean_stress = start.mean_stress} {
+    : stage_(&stage), state_{.start = start.cell, .start_mean_stress = start.mean_stress} {
   rate_state_.dissipation_at_start = plastic_dissipation;
   make_controls(start);
 }
 
 StageRun::StageRun(const Stage& stage, const Sample& sample, const State& state) : stage_(&stage), state_(state) {
-  make_controls({state.start_low, state.start_high, state.start_mean_stress, sample});
+  make_controls({state.start, state.start_mean_stress, sample});
 }
 
 void StageRun::make_controls(const StageStart& start) {
   control_ = make_stage_control(*stage_, start);
   if (stage_->quasi_static)
-    rate_control_.emplace(*stage_->quasi_static, driven_speed(stage_->type),
-                          wave_transit(start.sample, start.low, start.high));
+    rate_control_.emplace(*stage_->quasi_static, driven_speed(stage_->type), wave_transit(start.sample, start.cell));
 }
 
 bool StageRun::is_stopping(double mean_stress) const {
@@ -35,15 +34,15 @@ double StageRun::next_step(double stable_step, double last_step) const {
   return steps <= 2 ? left / std::max(steps, 1.0) : stable_step;
 }
 
-StepPlan StageRun::plan(const Walls& walls, double stable_step, double last_step) const {
-  StepPlan plan{.step = next_step(stable_step, last_step), .walls = walls};
+StepPlan StageRun::plan(const Cell& cell, double stable_step, double last_step) const {
+  StepPlan plan{.step = next_step(stable_step, last_step), .cell = cell};
   plan.clock_step = rate_state_.factor * plan.step;
   // The last step ends the stage, whatever rounding makes of a step divided by the factor and multiplied by it.
   if (const double left = control_->duration() - state_.time; plan.clock_step > left * (1 - 1e-12))
     plan.clock_step = left;
   const double time = state_.time + plan.clock_step;
   plan.sliding = control_->sliding(time);
-  control_->move(plan.walls, time, plan.clock_step, plan.step);
+  control_->move(plan.cell, time, plan.clock_step, plan.step);
   return plan;
 }
 

@@ -13,7 +13,7 @@ namespace mpfem {
 struct StepPlan {
   double step = 0;                 ///< s
   double clock_step = 0;           ///< s, by which the stage's clock moves on
-  Walls walls;                     ///< where they stand afterwards
+  Cell cell;                       ///< afterwards
   std::array<double, 3> sliding{}; ///< mm, of the grips
 };
 
@@ -21,14 +21,14 @@ class StageRun {
 public:
   /// What a checkpoint keeps beside the states of control and loading rate.
   struct State {
-    std::array<double, 3> start_low{}, start_high{}; ///< mm, box when the stage began
-    double start_mean_stress = 0;                    ///< MPa
-    double time = 0;                                 ///< s, since the stage began, by the stage's clock
-    bool ended = false;                              ///< the stage has reached what ends it
+    Cell start;                   ///< when the stage began
+    double start_mean_stress = 0; ///< MPa
+    double time = 0;              ///< s, since the stage began, by the stage's clock
+    bool ended = false;           ///< the stage has reached what ends it
 
     template <class Self, class Visitor>
     static void for_each_field(Self& s, Visitor&& visit) {
-      visit("stage.start_low", s.start_low), visit("stage.start_high", s.start_high);
+      visit("stage.start_low", s.start.low), visit("stage.start_high", s.start.high);
       visit("stage.start_mean_stress", s.start_mean_stress), visit("stage.time", s.time), visit("stage.ended", s.ended);
     }
   };
@@ -52,7 +52,7 @@ public:
 
   /// s, the next step: `stable_step`, or less where the stage's time ends. `last_step` where the stage is complete.
   double next_step(double stable_step, double last_step) const;
-  StepPlan plan(const Walls& walls, double stable_step, double last_step) const;
+  StepPlan plan(const Cell& cell, double stable_step, double last_step) const;
 
   bool needs_damage(std::int64_t step) const { return control_->needs_damage(step); }
   /// Takes in the present time level; time and rate factor are filled in here. Nothing where the stage is complete.

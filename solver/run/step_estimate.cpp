@@ -11,14 +11,14 @@ namespace mpfem {
 namespace {
 
 // The estimate of the stable step is renewed when tets may have strained by this much since, or after so many steps. A
-// strain e changes a tet's gradients by e and its volume by up to 1.7 e, so its frequency, which goes with the gradients
-// and the root of the volume, by less than 2 e = 4 %: well within the 10 % that time_step_factor leaves.
+// strain e changes a tet's gradients by e and its volume by up to 1.7 e, so its frequency, which goes with the
+// gradients and the root of the volume, by less than 2 e = 4 %: well within the 10 % that time_step_factor leaves.
 constexpr double strain_between_estimates = 0.02;
 constexpr int steps_between_estimates = 50;
-/// The frequencies of all whole grains are found at every so many estimates: some twenty products with the stiffness each.
-/// In between, a grain's frequency squared is taken to grow as that of the tet which grows most, and by what contact has
-/// come to its nodes. Where that would shorten the packing's step, it is found anew, unless it has grown by less than
-/// this.
+/// The frequencies of all whole grains are found at every so many estimates: some twenty products with the stiffness
+/// each. In between, a grain's frequency squared is taken to grow as that of the tet which grows most, and by what
+/// contact has come to its nodes. Where that would shorten the packing's step, it is found anew, unless it has grown by
+/// less than this.
 constexpr int estimates_between_spectra = 10;
 constexpr double growth_worth_a_spectrum = 1.01;
 
@@ -72,7 +72,7 @@ double StepEstimate::bound_since_spectrum(const Model& model, int grain, double 
   return found * grain_steps_.growth[g] + contact;
 }
 
-void StepEstimate::renew(Model& model, const Contact& contact, const Walls& walls, std::span<const Bounds> bounds,
+void StepEstimate::renew(Model& model, const Contact& contact, const Box& box, std::span<const Bounds> bounds,
                          ThreadTeam& team, bool anew) {
   const bool whole_grains = numerics_.step_estimate == StepEstimateMethod::grain;
   anew = anew || ++state_.estimates_since_spectrum >= estimates_between_spectra;
@@ -87,7 +87,7 @@ void StepEstimate::renew(Model& model, const Contact& contact, const Walls& wall
   team.for_each(model.grains, [&](int grain, int) {
     const auto g = static_cast<std::size_t>(grain);
     contact_stiffness_rate(model, contact, grain, stiffness_rate_);
-    wall_stiffness_rate(model, walls, bounds[g], grain, stiffness_rate_);
+    box.add_stiffness_rate(model, bounds[g], grain, stiffness_rate_);
     raise_to_expected_rate(model, contact, grain, stiffness_rate_);
     of_tets_[g] = mpfem::stable_step(model, grain, stiffness_rate_, rate);
     steps[g] = of_tets_[g].step;

@@ -5,8 +5,7 @@
 #include <utility>
 #include <vector>
 
-#include "solver/boundary/grips.hpp"
-#include "solver/boundary/walls.hpp"
+#include "solver/boundary/box.hpp"
 #include "solver/kernels/contact_forces.hpp"
 #include "solver/kernels/element_forces.hpp"
 #include "solver/kernels/element_step.hpp"
@@ -15,7 +14,6 @@
 #include "solver/kernels/thread_team.hpp"
 #include "solver/model/grain_steps.hpp"
 #include "solver/model/model.hpp"
-#include "solver/model/surface.hpp"
 #include "solver/scenario/scenario.hpp"
 
 namespace mpfem {
@@ -48,9 +46,9 @@ public:
 
   /// Takes in the largest strain of a step (s). True when the estimate is to be renewed.
   bool is_due_after(double strain, double step);
-  /// Estimates the stable step of the present state; sets the tets' lengths in the model. `anew`: with the frequencies of
-  /// whole grains, whenever they were last found.
-  void renew(Model& model, const Contact& contact, const Walls& walls, std::span<const Bounds> bounds, ThreadTeam& team,
+  /// Estimates the stable step of the present state; sets the tets' lengths in the model. `anew`: with the frequencies
+  /// of whole grains, whenever they were last found.
+  void renew(Model& model, const Contact& contact, const Box& box, std::span<const Bounds> bounds, ThreadTeam& team,
              bool anew);
   /// The next step is followed by an estimate: nothing has touched yet.
   void renew_after_next_step();

@@ -58,8 +58,9 @@ struct LoadingEnds {
 
 /// The z walls are driven. What the x and y walls do is the rest of the stage's type.
 struct AxialDrive {
-  double wall_speed = 0;      ///< largest speed of both walls, mm/s
-  double ramp_fraction = 0.1; ///< of the time of the whole way (of 5 % of strain where that is not known) to full speed
+  double wall_speed = 0; ///< largest speed of both walls, mm/s
+  double ramp_fraction =
+      0.1; ///< of the time of the whole travel (of 5 % of strain where that is not known) to full speed
   LoadingEnds ends;
 };
 
@@ -123,7 +124,7 @@ struct DampingParameters {
 /// Tolerances of quasi-static loading, between whose bounds a stage chooses its speed (solver/run/loading_rate.hpp).
 struct QuasiStatic {
   double kinetic_tolerance = 0.01; ///< kinetic energy over internal energy gained in the stage or stored at its start
-  double stress_tolerance = 0.02;  ///< what inertia bears of the wall stresses, over the largest of them
+  double stress_tolerance = 0.02;  ///< the part of the wall stresses that inertia balances, over the largest of them
   double slowest_speed = 0;        ///< mm/s
   double fastest_speed = 0;        ///< mm/s
   double loose_stress = 0;         ///< MPa: below this wall stress the packing is loose and the speed stays as it is

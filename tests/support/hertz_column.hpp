@@ -101,9 +101,9 @@ inline ColumnResult press_column(int spheres, double size_ratio, double approach
   const double area = row.box_lengths[0] * row.box_lengths[1];
   const double low_force = row.wall_stress[4] * area, high_force = row.wall_stress[5] * area;
   result.wall_imbalance = (high_force - low_force) / (high_force + low_force);
-  const Walls& walls = simulation.walls();
-  const double low_approach = radius - (mean(model.position, 0, 2) - walls.low[2]);
-  const double high_approach = radius - (walls.high[2] - mean(model.position, spheres - 1, 2));
+  const Cell& cell = simulation.box().cell();
+  const double low_approach = radius - (mean(model.position, 0, 2) - cell.low[2]);
+  const double high_approach = radius - (cell.high[2] - mean(model.position, spheres - 1, 2));
   result.wall_error = (low_force + high_force) / (reference(low_approach) + reference(high_approach)) - 1;
   result.contact_radius_over_size = std::sqrt(radius * low_approach) * size_ratio / radius;
   if (spheres == 2) {

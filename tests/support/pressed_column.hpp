@@ -92,12 +92,12 @@ public:
   ColumnState state() {
     const HistoryRow row = simulation_->observe();
     const double area = row.box_lengths[0] * row.box_lengths[1];
-    const Walls& walls = simulation_->walls();
+    const Cell& cell = simulation_->box().cell();
     ColumnState result;
     result.low_force = row.wall_stress[4] * area;
     result.high_force = row.wall_stress[5] * area;
-    result.low_approach = setup_.radius - (center(0) - walls.low[2]);
-    result.high_approach = setup_.radius - (walls.high[2] - center(count() - 1));
+    result.low_approach = setup_.radius - (center(0) - cell.low[2]);
+    result.high_approach = setup_.radius - (cell.high[2] - center(count() - 1));
     if (count() == 2) {
       result.pair_approach = setup_.radius - 0.5 * (center(1) - center(0));
       const auto pairs = pair_contacts(model(), simulation_->contact());

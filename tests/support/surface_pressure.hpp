@@ -66,20 +66,17 @@ inline SurfacePressure surface_pressure(const Model& model, const Contact& conta
 /// The same for what the walls press, in place of other grains: rigid planes, so that no facets take part.
 inline SurfacePressure wall_pressure(const Simulation& simulation, SurfacePressure surface) {
   const Model& model = simulation.model();
-  const Walls& walls = simulation.walls();
+  const Box& box = simulation.box();
   std::fill(surface.total.begin(), surface.total.end(), 0.0);
   std::fill(surface.touching.begin(), surface.touching.end(), 0);
   for (int grain = 0; grain < model.grains; ++grain) {
     const auto g = static_cast<std::size_t>(grain);
     for (auto n = static_cast<std::size_t>(model.node_offset[g]);
          n < static_cast<std::size_t>(model.node_offset[g + 1]); ++n)
-      for (std::size_t axis = 0; axis < 3; ++axis) {
-        const double x = model.contact_coordinate(n, axis), area = model.normal[4 * n + 3];
-        const double gap = std::max(walls.low[axis] - x, x - walls.high[axis]);
-        if (!walls.stand(axis) || gap <= 0 || area <= 0) continue;
+      if (const double push = box.wall_force_on_node(model, n, grain), area = model.normal[4 * n + 3];
+          push > 0 && area > 0) {
         surface.touching[n] = 1;
-        surface.total[n] +=
-            model.penalty_stiffness[g] * model.local_stiffness(n) * model.reference_area[n] / area * gap;
+        surface.total[n] = push / area;
       }
   }
   surface.own = surface.total;

@@ -21,17 +21,17 @@ constexpr double arrived = 1e-9;
 
 AxialLoading::AxialLoading(const AxialDrive& stage, const StageLabel& label, const StageStart& start)
     : WallLoading(label, start, stage.ends), wall_speed_(stage.wall_speed),
-      transit_(wave_transit(start.sample, start.low, start.high)) {
+      transit_(wave_transit(start.sample, start.cell)) {
   double scale = 1 - expected_strain;
   if (ends_.axial_strain)
     scale = std::exp(-*ends_.axial_strain);
   else if (ends_.relative_density)
-    scale = start.sample.solid_volume / volume(start_length_) / *ends_.relative_density;
-  const double way = 0.5 * start_length_[2] * std::abs(1 - scale);
+    scale = start.sample.solid_volume / start.cell.volume() / *ends_.relative_density;
+  const double travel = 0.5 * start_length_[2] * std::abs(1 - scale);
   if (ends_.axial_strain || ends_.relative_density) expected_scale_[2] = scale;
-  // A fraction of the way is travelled at half of the speed, at both ends.
-  expected_duration_ = way / stage.wall_speed * (1 + 1.5 * stage.ramp_fraction);
-  ramp_ = ramp_time(stage.ramp_fraction, way, stage.wall_speed);
+  // A fraction of the travel is done at half of the speed, at both ends.
+  expected_duration_ = travel / stage.wall_speed * (1 + 1.5 * stage.ramp_fraction);
+  ramp_ = ramp_time(stage.ramp_fraction, travel, stage.wall_speed);
   if (ends_.duration) expected_duration_ = std::min(expected_duration_, *ends_.duration);
 }
 
@@ -48,19 +48,19 @@ void AxialLoading::read(FieldReader& from) {
 }
 
 void AxialLoading::begin(const ObservedSample& seen) {
-  const double way = ends_.axial_strain        ? *ends_.axial_strain
-                     : ends_.relative_density  ? *ends_.relative_density - seen.relative_density
-                     : ends_.axial_stress      ? *ends_.axial_stress - seen.stress[2]
-                     : ends_.deviatoric_stress ? *ends_.deviatoric_stress - seen.deviatoric_stress
-                                               : 1.0;
-  axial_.sign = way < 0 ? -1.0 : 1.0;
+  const double change = ends_.axial_strain        ? *ends_.axial_strain
+                        : ends_.relative_density  ? *ends_.relative_density - seen.relative_density
+                        : ends_.axial_stress      ? *ends_.axial_stress - seen.stress[2]
+                        : ends_.deviatoric_stress ? *ends_.deviatoric_stress - seen.deviatoric_stress
+                                                  : 1.0;
+  axial_.sign = change < 0 ? -1.0 : 1.0;
 }
 
 void AxialLoading::drive(const ObservedSample& seen) {
   const double full_speed = seen.rate_factor * wall_speed_;
   double part = 1;
-  // A way that is known ends at rest, by constant deceleration.
-  double left = std::numeric_limits<double>::infinity(); // mm, of each wall's way
+  // A travel that is known ends at rest, by constant deceleration.
+  double left = std::numeric_limits<double>::infinity(); // mm, of each wall's travel
   const auto stop_at = [&](double length) {
     const double stopping = 0.5 * full_speed * ramp_;
     left = std::min(left, std::max(0.5 * axial_.sign * (seen.length[2] - length), 0.0));

@@ -1,5 +1,6 @@
 #pragma once
-// The z walls are driven; the x and y walls are away (unconfined), at rest (die) or held at a force or stress (triaxial).
+// The z walls are driven; the x and y walls are away (unconfined), at rest (die) or held at a force or stress
+// (triaxial).
 
 #include "solver/run/stages/stress_servo.hpp"
 #include "solver/run/stages/wall_loading.hpp"

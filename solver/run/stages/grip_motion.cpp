@@ -11,7 +11,7 @@ namespace mpfem {
 GripMotionControl::GripMotionControl(const GripMotion& stage, const StageLabel& label, const StageStart& start)
     : TimedStage(start), stage_(stage) {
   const auto axis = static_cast<std::size_t>(stage.axis);
-  const double length = start.high[axis] - start.low[axis];
+  const double length = start.cell.length(axis);
   motion_.end_scale[axis] = 1.0 + stage.displacement / length;
   if (!(motion_.end_scale[axis] > 0))
     throw InputError(fmt::format("{}stage '{}': key 'displacement': found {:g} mm, allowed > {:g} mm, the distance "
@@ -23,8 +23,8 @@ GripMotionControl::GripMotionControl(const GripMotion& stage, const StageLabel& 
                                  label.places.prefix("grip_depth"), label.name, stage.depth, 0.5 * length));
   motion_.ramp = stage.ramp_fraction;
   const auto& s = stage.sliding;
-  const double way = std::hypot(stage.displacement, std::hypot(s[0], s[1], s[2]));
-  motion_.duration = 0.5 * way / (stage.speed * (1.0 - motion_.ramp));
+  const double travel = std::hypot(stage.displacement, std::hypot(s[0], s[1], s[2]));
+  motion_.duration = 0.5 * travel / (stage.speed * (1.0 - motion_.ramp));
 }
 
 std::array<double, 3> GripMotionControl::sliding(double time) const {

@@ -56,7 +56,7 @@ void HeldStressControl::drive(const ObservedSample& seen) {
 void HeldStressControl::check_end(const ObservedSample& seen) const {
   constexpr double tolerance = 0.1; // of the stress
   // The mean over the last transit began at nothing.
-  const double weight = 1 - std::exp(-seen.time / wave_transit(start_.sample, start_.low, start_.high));
+  const double weight = 1 - std::exp(-seen.time / wave_transit(start_.sample, start_.cell));
   double missed = 0;
   for (const ServoState& axis : axes_)
     if (std::abs(axis.error) > std::abs(missed)) missed = axis.error;
@@ -75,11 +75,11 @@ StressProbeControl::StressProbeControl(const StressProbe& stage, const StageLabe
   path_stress_ = {dp - dq / 3, dp - dq / 3, dp + 2 * dq / 3};
   const double leading = std::max(std::abs(path_stress_[0]), std::abs(path_stress_[2]));
   for (double& stress : path_stress_) stress /= leading;
-  const double edge = longest(start_length_), modulus = compact_modulus * start.sample.constrained_modulus;
-  const double way = 0.5 * edge * expected_isotropic_strain;
-  expected_duration_ = way / stage.wall_speed;
+  const double edge = start.cell.longest(), modulus = compact_modulus * start.sample.constrained_modulus;
+  const double travel = 0.5 * edge * expected_isotropic_strain;
+  expected_duration_ = travel / stage.wall_speed;
   start_rate_ = 0.1 * stage.wall_speed * 2 * modulus / edge;
-  ramp_ = ramp_time(stage.ramp_fraction, way, stage.wall_speed);
+  ramp_ = ramp_time(stage.ramp_fraction, travel, stage.wall_speed);
   if (ends_.duration) expected_duration_ = std::min(expected_duration_, *ends_.duration);
 }
 
@@ -102,10 +102,10 @@ void StressProbeControl::drive(const ObservedSample& seen) {
   constexpr double path_tolerance = 0.005;
   /// The slowest that it becomes, over the rate at which it begins.
   constexpr double slowest_path = 0.2;
-  path_.way += path_.rate * seen.step;
+  path_.change += path_.rate * seen.step;
   double fastest = 0, off = 0;
   for (std::size_t axis = 0; axis < 3; ++axis) {
-    hold(seen, axis, state_.start_stress[axis] + path_.way * path_stress_[axis]);
+    hold(seen, axis, state_.start_stress[axis] + path_.change * path_stress_[axis]);
     fastest = std::max(fastest, std::abs(axes_[axis].slow));
     off = std::max(off, std::abs(axes_[axis].error));
   }
@@ -130,7 +130,7 @@ LoadingEnd StressProbeControl::find_end(const ObservedSample& seen) const {
 void StressProbeControl::check_limits(const ObservedSample& seen) const {
   HeldWalls::check_limits(seen);
   for (std::size_t axis = 0; axis < 3; ++axis)
-    if (path_stress_[axis] < 0 && state_.start_stress[axis] + path_.way * path_stress_[axis] < 0)
+    if (path_stress_[axis] < 0 && state_.start_stress[axis] + path_.change * path_stress_[axis] < 0)
       fail(seen, fmt::format("where the path requires the walls along {} to pull", "xyz"[axis]));
 }
 

@@ -60,12 +60,12 @@ private:
   void check_limits(const ObservedSample& seen) const override;
 
   struct State {
-    double way = 0;  ///< MPa of the path's leading axis
-    double rate = 0; ///< MPa/s
+    double change = 0; ///< MPa of the path's leading axis
+    double rate = 0;   ///< MPa/s
   };
   template <class Self, class Visitor>
   static void for_each_field(Self& s, Visitor&& visit) {
-    visit("path.way", s.way), visit("path.rate", s.rate);
+    visit("path.change", s.change), visit("path.rate", s.rate);
   }
   StressProbe stage_;
   std::array<double, 3> path_stress_{}; ///< change of each axis's stress along the path, the largest 1

@@ -33,11 +33,11 @@ IsotropicLoadingControl::IsotropicLoadingControl(const IsotropicLoading& stage, 
   // Where the stress will be reached is not known; powders have been pressed to this density then.
   constexpr double pressed_density = 0.9;
   const double scale = std::min(1 - expected_isotropic_strain,
-                                std::cbrt(start.sample.solid_volume / volume(start_length_) / pressed_density));
+                                std::cbrt(start.sample.solid_volume / start.cell.volume() / pressed_density));
   expected_scale_.fill(scale);
-  const double way = 0.5 * longest_ * (1 - scale);
-  expected_duration_ = way / stage.wall_speed;
-  ramp_ = ramp_time(stage.ramp_fraction, way, stage.wall_speed);
+  const double travel = 0.5 * longest_ * (1 - scale);
+  expected_duration_ = travel / stage.wall_speed;
+  ramp_ = ramp_time(stage.ramp_fraction, travel, stage.wall_speed);
 }
 
 void IsotropicLoadingControl::begin(const ObservedSample& seen) {
@@ -66,9 +66,9 @@ void IsotropicLoadingControl::check_limits(const ObservedSample& seen) const {
 
 StressCyclesControl::StressCyclesControl(const StressCycles& stage, const StageLabel& label, const StageStart& start)
     : IsotropicDrive(label, start, {}, stage.wall_speed), stage_(stage) {
-  const double way = 0.5 * longest_ * expected_isotropic_strain;
-  expected_duration_ = 2 * static_cast<double>(stage.cycles) * way / stage.wall_speed;
-  ramp_ = ramp_time(stage.ramp_fraction, way, stage.wall_speed);
+  const double travel = 0.5 * longest_ * expected_isotropic_strain;
+  expected_duration_ = 2 * static_cast<double>(stage.cycles) * travel / stage.wall_speed;
+  ramp_ = ramp_time(stage.ramp_fraction, travel, stage.wall_speed);
 }
 
 std::string StressCyclesControl::describe() const {
@@ -104,8 +104,8 @@ LoadingEnd StressCyclesControl::find_end(const ObservedSample& /*seen*/) const {
 }
 
 double StressCyclesControl::find_fraction_done(const ObservedSample& seen) const {
-  const double way = target() - cycles_.leg_start;
-  const double leg = way != 0 ? std::clamp((seen.mean_stress - cycles_.leg_start) / way, 0.0, 1.0) : 1.0;
+  const double change = target() - cycles_.leg_start;
+  const double leg = change != 0 ? std::clamp((seen.mean_stress - cycles_.leg_start) / change, 0.0, 1.0) : 1.0;
   return (static_cast<double>(cycles_.legs) + leg) / (2 * static_cast<double>(stage_.cycles));
 }
 

@@ -13,12 +13,12 @@ public:
 
 protected:
   IsotropicDrive(const StageLabel& label, const StageStart& start, const LoadingEnds& ends, double wall_speed)
-      : WallLoading(label, start, ends), wall_speed_(wall_speed), longest_(longest(start_length_)) {}
+      : WallLoading(label, start, ends), wall_speed_(wall_speed), longest_(start.cell.longest()) {}
   /// Drives the mean stress from `leg_start` to `target` (MPa).
   void drive_to(const ObservedSample& seen, double leg_start, double target);
 
   double wall_speed_; ///< mm/s
-  double longest_;    ///< mm, edge of the box at the start
+  double longest_;    ///< mm, the longest side of the cell at the start
   DrivenSpeed driven_;
 };
 

@@ -10,9 +10,9 @@ public:
   IsotropicUnloadingControl(const IsotropicUnloading& stage, const StageLabel& label, const StageStart& start);
   std::string describe() const override { return "all walls outwards, to a mean stress"; }
   double expected_duration() const override { return expected_duration_; }
-  void expect_end(Walls& /*walls*/) const override {} // the packing grows by a few per cent at most
+  void expect_end(Cell& /*cell*/) const override {} // the packing grows by a few per cent at most
   void observe(const StageObservation& seen) override;
-  void move(Walls& walls, double time, double clock_step, double step) const override;
+  void move(Cell& cell, double time, double clock_step, double step) const override;
   bool ended() const override { return ended_; }
   double fraction_done(double time, double mean_stress) const override;
   StageResult result(const StageObservation& last) const override;
@@ -22,10 +22,10 @@ private:
 
   IsotropicUnloading stage_;
   std::string name_;
-  std::array<double, 3> length_; ///< mm, of the box at the start
-  double start_stress_;          ///< MPa
-  double expected_duration_;     ///< s
-  double mean_stress_;           ///< MPa, at the last observation
+  Cell start_cell_;
+  double start_stress_;      ///< MPa
+  double expected_duration_; ///< s
+  double mean_stress_;       ///< MPa, at the last observation
   bool ended_;
 };
 

@@ -15,7 +15,7 @@ struct ObservedSample {
   double plastic_dissipation = 0; ///< mJ
 };
 
-/// `start_length` in mm, of the box when the stage began; `solid_volume` in mm^3.
+/// `start_length` in mm, of the cell when the stage began; `solid_volume` in mm^3.
 ObservedSample observe_sample(const StageObservation& seen, const std::array<double, 3>& start_length,
                               double solid_volume);
 

@@ -17,21 +17,8 @@ Sample sample_of(const Model& model) {
   return sample;
 }
 
-std::array<double, 3> lengths(const std::array<double, 3>& low, const std::array<double, 3>& high) {
-  return {high[0] - low[0], high[1] - low[1], high[2] - low[2]};
-}
-
-double volume(const std::array<double, 3>& lengths) {
-  return lengths[0] * lengths[1] * lengths[2];
-}
-
-double longest(const std::array<double, 3>& lengths) {
-  return *std::max_element(lengths.begin(), lengths.end());
-}
-
-double wave_transit(const Sample& sample, const std::array<double, 3>& low, const std::array<double, 3>& high) {
-  const auto length = lengths(low, high);
-  return longest(length) * std::sqrt(sample.mass / (volume(length) * compact_modulus * sample.constrained_modulus));
+double wave_transit(const Sample& sample, const Cell& cell) {
+  return cell.longest() * std::sqrt(sample.mass / (cell.volume() * compact_modulus * sample.constrained_modulus));
 }
 
 } // namespace mpfem

@@ -1,8 +1,7 @@
 #pragma once
-// The packing as stages see it: a block of soft material in a box.
+// The packing as stages see it: a block of soft material in a cell.
 
-#include <array>
-
+#include "solver/boundary/cell.hpp"
 #include "solver/model/model.hpp"
 
 namespace mpfem {
@@ -20,14 +19,7 @@ struct Sample {
 };
 Sample sample_of(const Model& model);
 
-/// Lengths of a box, mm.
-std::array<double, 3> lengths(const std::array<double, 3>& low, const std::array<double, 3>& high);
-/// mm^3.
-double volume(const std::array<double, 3>& lengths);
-/// mm.
-double longest(const std::array<double, 3>& lengths);
-
-/// s, in which waves cross the longest side of a box (mm): in a compact that is a tenth as stiff as its grains.
-double wave_transit(const Sample& sample, const std::array<double, 3>& low, const std::array<double, 3>& high);
+/// s, in which waves cross the longest side of a cell: in a compact that is a tenth as stiff as its grains.
+double wave_transit(const Sample& sample, const Cell& cell);
 
 } // namespace mpfem

@@ -9,8 +9,8 @@
 #include <string>
 
 #include "common/fields.hpp"
+#include "solver/boundary/cell.hpp"
 #include "solver/boundary/grips.hpp"
-#include "solver/boundary/walls.hpp"
 #include "solver/kernels/node_motion.hpp"
 #include "solver/output/stage_result.hpp"
 #include "solver/run/stages/sample.hpp"
@@ -20,22 +20,20 @@ namespace mpfem {
 
 /// What a stage sees of the packing at a time level.
 struct StageObservation {
-  double time = 0;                            ///< s since the stage began, by the stage's clock (loading_rate.hpp)
-  double step = 0;                            ///< s since the observation before
-  double rate_factor = 1;                     ///< present speed over the stage's own
-  std::array<double, 3> low{};                ///< mm, box
-  std::array<double, 3> high{};               ///< mm
-  std::array<double, 3> force{};              ///< N, mean of the two walls across each axis; compression positive
-  double mean_stress = 0;                     ///< MPa, of the six walls
+  double time = 0;        ///< s since the stage began, by the stage's clock (loading_rate.hpp)
+  double step = 0;        ///< s since the observation before
+  double rate_factor = 1; ///< present speed over the stage's own
+  Cell cell{};
+  std::array<double, 3> force{};              ///< N, mean of the two faces across each axis; compression positive
+  double mean_stress = 0;                     ///< MPa, of all faces
   double plastic_dissipation = 0;             ///< mJ
   std::optional<double> damage_dissipation{}; ///< mJ; required where `needs_damage`
 };
 
-/// The box and the packing in it when a stage begins.
+/// The cell and the packing in it when a stage begins.
 struct StageStart {
-  std::array<double, 3> low{};  ///< mm
-  std::array<double, 3> high{}; ///< mm
-  double mean_stress = 0;       ///< MPa
+  Cell cell{};
+  double mean_stress = 0; ///< MPa
   Sample sample{};
 };
 
@@ -45,7 +43,7 @@ struct StageLabel {
   KeyPlaces places{}; ///< of its keys in the scenario
 };
 
-/// One stage while it runs, made concrete by the box with which it begins.
+/// One stage while it runs, made concrete by the cell with which it begins.
 class StageControl {
 public:
   virtual ~StageControl() = default;
@@ -60,8 +58,8 @@ public:
   virtual double duration() const { return std::numeric_limits<double>::infinity(); }
   /// s in which the stage is expected to end; the duration where that is known.
   virtual double expected_duration() const = 0;
-  /// Moves the walls to where they are expected when the stage ends.
-  virtual void expect_end(Walls& walls) const = 0;
+  /// Changes the cell to what is expected of it when the stage ends.
+  virtual void expect_end(Cell& cell) const = 0;
   /// The grips that the stage moves, where it moves grips.
   virtual const GripMotion* grips() const { return nullptr; }
 
@@ -70,8 +68,8 @@ public:
   virtual bool needs_damage(std::int64_t /*step*/) const { return false; }
   /// Takes in the present time level. Throws SimulationError where the stage's end cannot be reached.
   virtual void observe(const StageObservation& seen) = 0;
-  /// Moves the walls by one step of `step` s, `clock_step` s by the stage's clock, to the stage's time `time`.
-  virtual void move(Walls& walls, double time, double clock_step, double step) const = 0;
+  /// Changes the cell by one step of `step` s, `clock_step` s by the stage's clock, to the stage's time `time`.
+  virtual void move(Cell& cell, double time, double clock_step, double step) const = 0;
   /// mm that the high grip has slid across the axis against the low one, at a time of the stage.
   virtual std::array<double, 3> sliding(double /*time*/) const { return {}; }
   /// Whether what was last observed ends the stage. Stages with a duration end by that.
@@ -95,15 +93,15 @@ std::unique_ptr<StageControl> make_stage_control(const Stage& stage, const Stage
 /// and takes long to lose it.
 double slowest_unloading(double target, double start);
 
-/// MPa above its target at which an unloading by `way` (MPa) has arrived: single grains that still touch a wall keep a
-/// little stress for long.
-double unloading_tolerance(double target, double way);
+/// MPa above its target at which an unloading by `change` (MPa) has arrived: single grains that still touch a wall keep
+/// a little stress for long.
+double unloading_tolerance(double target, double change);
 
 /// Part of a target by which a stage may begin beyond it: the stage before has arrived there.
 inline constexpr double already_there = 0.01;
 /// Part of the wall speed with which a target is met.
 inline constexpr double slowest_approach = 0.05;
-/// Change of the box's lengths, as a part of them, in which an isotropic change of stress is expected to end.
+/// Change of the cell's lengths, as a part of them, in which an isotropic change of stress is expected to end.
 inline constexpr double expected_isotropic_strain = 0.03;
 
 } // namespace mpfem

@@ -5,9 +5,9 @@
 //   u = f + s,   tau df/dt = P e - f,   ds/dt = I e,
 // bounded by the servo speed. From force to velocity this is two masses side by side, one (1/I an area) free, the other
 // (tau/P) behind a dashpot: a passive machine. Whatever is passive itself, as a packing is, cannot be made to oscillate
-// by it, however stiff or soft it is and however long its waves take, so no stiffness has to be known. P, I and tau only
-// decide how fast and how well damped the walls follow. They are set by the packing's own impedance (P: a wall that is
-// much easier to move than the packing), mass (I) and transit time (tau); see docs/numerics.md.
+// by it, however stiff or soft it is and however long its waves take, so no stiffness has to be known. P, I and tau
+// only decide how fast and how well damped the walls follow. They are set by the packing's own impedance (P: a wall
+// that is much easier to move than the packing), mass (I) and transit time (tau); see docs/numerics.md.
 
 #include <array>
 

@@ -20,14 +20,11 @@ double motion_fraction(double time, double ramp) {
   return distance / (1 - ramp);
 }
 
-void TimedBox::place(Walls& walls, double time) const {
+Cell TimedCell::at(double time) const {
   const double done = fraction(time);
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    const double scale = 1.0 + (end_scale[axis] - 1.0) * done;
-    const double centre = 0.5 * (low[axis] + high[axis]), half = 0.5 * scale * (high[axis] - low[axis]);
-    walls.low[axis] = centre - half;
-    walls.high[axis] = centre + half;
-  }
+  Cell cell = start;
+  for (std::size_t axis = 0; axis < 3; ++axis) cell.stretch(axis, 1.0 + (end_scale[axis] - 1.0) * done);
+  return cell;
 }
 
 } // namespace mpfem

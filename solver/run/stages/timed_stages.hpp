@@ -11,16 +11,14 @@ class TimedStage : public StageControl {
 public:
   double duration() const override { return motion_.duration; }
   double expected_duration() const override { return motion_.duration; }
-  void expect_end(Walls& walls) const override { motion_.place(walls, motion_.duration); }
+  void expect_end(Cell& cell) const override { cell = motion_.at(motion_.duration); }
   void observe(const StageObservation& /*seen*/) override {}
-  void move(Walls& walls, double time, double /*clock_step*/, double /*step*/) const override {
-    motion_.place(walls, time);
-  }
+  void move(Cell& cell, double time, double /*clock_step*/, double /*step*/) const override { cell = motion_.at(time); }
   double fraction_done(double time, double mean_stress) const override;
 
 protected:
-  explicit TimedStage(const StageStart& start) { motion_.low = start.low, motion_.high = start.high; }
-  TimedBox motion_;
+  explicit TimedStage(const StageStart& start) { motion_.start = start.cell; }
+  TimedCell motion_;
 };
 
 } // namespace mpfem

@@ -28,13 +28,10 @@ double slowed_near_target(double left) {
 }
 
 WallLoading::WallLoading(const StageLabel& label, const StageStart& start, const LoadingEnds& ends)
-    : name_(label.name), start_(start), ends_(ends), start_length_(lengths(start.low, start.high)) {}
+    : name_(label.name), start_(start), ends_(ends), start_length_(start.cell.lengths()) {}
 
-void WallLoading::expect_end(Walls& walls) const {
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    const double cut = 0.5 * (1 - expected_scale_[axis]) * (walls.high[axis] - walls.low[axis]);
-    walls.low[axis] += cut, walls.high[axis] -= cut;
-  }
+void WallLoading::expect_end(Cell& cell) const {
+  for (std::size_t axis = 0; axis < 3; ++axis) cell.stretch(axis, expected_scale_[axis]);
 }
 
 bool WallLoading::needs_damage(std::int64_t step) const {
@@ -89,11 +86,8 @@ void WallLoading::refuse_end_behind(const ObservedSample& seen) const {
   refuse(LoadingEnd::deviatoric_stress, "deviatoric_stress", ends_.deviatoric_stress, seen.deviatoric_stress, " MPa");
 }
 
-void WallLoading::move(Walls& walls, double /*time*/, double /*clock_step*/, double step) const {
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    walls.low[axis] += state_.speed[axis] * step;
-    walls.high[axis] -= state_.speed[axis] * step;
-  }
+void WallLoading::move(Cell& cell, double /*time*/, double /*clock_step*/, double step) const {
+  for (std::size_t axis = 0; axis < 3; ++axis) cell.move_inwards(axis, state_.speed[axis] * step);
 }
 
 LoadingEnd WallLoading::common_end(const ObservedSample& seen) const {

@@ -50,10 +50,10 @@ struct LoadingState {
 class WallLoading : public StageControl {
 public:
   double expected_duration() const override { return expected_duration_; }
-  void expect_end(Walls& walls) const override;
+  void expect_end(Cell& cell) const override;
   bool needs_damage(std::int64_t step) const override;
   void observe(const StageObservation& seen) override;
-  void move(Walls& walls, double time, double clock_step, double step) const override;
+  void move(Cell& cell, double time, double clock_step, double step) const override;
   bool ended() const override { return state_.ended_by != LoadingEnd::none; }
   double fraction_done(double /*time*/, double /*mean_stress*/) const override { return state_.fraction_done; }
   StageResult result(const StageObservation& last) const override;
@@ -69,7 +69,7 @@ protected:
   virtual void drive(const ObservedSample& seen) = 0;
   virtual LoadingEnd find_end(const ObservedSample& seen) const = 0;
   virtual double find_fraction_done(const ObservedSample& seen) const;
-  /// Throws SimulationError where the stage ends otherwise than its user wants.
+  /// Throws SimulationError where the stage ends otherwise than it was asked to.
   virtual void check_end(const ObservedSample& /*seen*/) const {}
   /// Throws SimulationError where the packing went far without reaching the end.
   virtual void check_limits(const ObservedSample& seen) const;
@@ -86,8 +86,8 @@ protected:
   ObservedSample sample(const StageObservation& seen) const {
     return observe_sample(seen, start_length_, start_.sample.solid_volume);
   }
-  /// s to full speed, for a ramp that is a part of the time in which the walls go `way` (mm) at `speed` (mm/s).
-  static double ramp_time(double ramp_fraction, double way, double speed) { return ramp_fraction * way / speed; }
+  /// s to full speed, for a ramp that is a part of the time in which the walls travel `travel` (mm) at `speed` (mm/s).
+  static double ramp_time(double ramp_fraction, double travel, double speed) { return ramp_fraction * travel / speed; }
 
 private:
   void refuse_end_behind(const ObservedSample& seen) const;
@@ -110,7 +110,7 @@ struct DrivenSpeed {
   double approach(double wanted, double full_speed, double ramp, double step);
 };
 
-/// Part of the wall speed at a part `left` of a way of stress: the last fifth is left ever more slowly.
+/// Part of the wall speed where a part `left` of a change of stress is to come: the last fifth takes ever longer.
 double slowed_near_target(double left);
 
 } // namespace mpfem

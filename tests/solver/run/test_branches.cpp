@@ -69,7 +69,8 @@ TEST_CASE("a branch goes on from the checkpoint that it began at, and not from a
                           (static_cast<double>(step.back() - step.front()) * tets);
   const std::size_t total = same.messages.find("\ntotal ");
   REQUIRE(total != std::string::npos);
-  // Printed after the file was written, which in so short a run takes its time; with the parent's steps it would be less.
+  // Printed after the file was written, which in so short a run takes its time; with the parent's steps it would be
+  // less.
   CHECK(std::stod(same.messages.substr(same.messages.find('%', total) + 1)) > 0.95 * expected);
   // A complete branch is complete for its own beginning only.
   CHECK_THAT(branch("0.500", "").messages, Catch::Contains("complete already"));

@@ -345,12 +345,12 @@ TEST_CASE("the ledger closes when lateral walls are taken away, and when they re
   bench.simulation.begin_next_stage();
   // Grains have moved out; the walls return where they touch nothing.
   const Model& model = bench.simulation.model();
-  const Walls& walls = bench.simulation.walls();
-  CHECK(walls.high[0] - walls.low[0] > freed.box_lengths[0]);
+  const Cell& cell = bench.simulation.box().cell();
+  CHECK(cell.length(0) > freed.box_lengths[0]);
   bool outside = false;
   for (std::size_t n = 0; n < model.position.size(); n += 4)
     for (std::size_t axis = 0; axis < 2; ++axis)
-      outside = outside || model.position[n + axis] < walls.low[axis] || model.position[n + axis] > walls.high[axis];
+      outside = outside || model.position[n + axis] < cell.low[axis] || model.position[n + axis] > cell.high[axis];
   CHECK_FALSE(outside);
   bench.simulation.advance();
   const HistoryRow held = bench.finish_stage().back();

@@ -85,18 +85,19 @@ TEST_CASE("a packing unloads to zero stress, expands, and keeps its ledger") {
 
 TEST_CASE("an unloading that begins at its target or below ends there, whatever the stress does next") {
   const IsotropicUnloading unloading{1.0, 1000, 0.1};
-  const auto observe = [](double stress) { return StageObservation{.high = {1, 1, 1}, .mean_stress = stress}; };
+  const Cell unit_cell{.high = {1, 1, 1}};
+  const auto observe = [&](double stress) { return StageObservation{.cell = unit_cell, .mean_stress = stress}; };
   for (const double start : {0.5, 0.9999, 1.0}) {
     for (const double stress : {0.9, 1.0, 1.1}) {
-      IsotropicUnloadingControl control(unloading, {"unloading"}, {.high = {1, 1, 1}, .mean_stress = start});
+      IsotropicUnloadingControl control(unloading, {"unloading"}, {.cell = unit_cell, .mean_stress = start});
       CHECK(control.ended());
       control.observe(observe(stress));
       CHECK(control.ended());
     }
-    IsotropicUnloadingControl control(unloading, {"unloading"}, {.high = {1, 1, 1}, .mean_stress = start});
+    IsotropicUnloadingControl control(unloading, {"unloading"}, {.cell = unit_cell, .mean_stress = start});
     CHECK(control.fraction_done(0, start) == 1);
   }
-  IsotropicUnloadingControl control(unloading, {"unloading"}, {.high = {1, 1, 1}, .mean_stress = 2.0});
+  IsotropicUnloadingControl control(unloading, {"unloading"}, {.cell = unit_cell, .mean_stress = 2.0});
   CHECK_FALSE(control.ended());
   control.observe(observe(1.1));
   CHECK_FALSE(control.ended());

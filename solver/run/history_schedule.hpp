@@ -1,6 +1,6 @@
 #pragma once
-// When rows of the history are due: evenly over the time that a stage is expected to take, and ever more rarely in a stage
-// that takes much longer, so that the history stays bounded whatever a stage does.
+// When rows of the history are due: evenly over the time that a stage is expected to take, and ever more rarely in a
+// stage that takes much longer, so that the history stays bounded whatever a stage does.
 
 #include <cmath>
 #include <cstdint>
@@ -10,14 +10,15 @@ namespace mpfem {
 /// Expected durations of a stage over which its rows are even.
 inline constexpr double even_durations = 10;
 
-/// s since the stage began: when the row after `rows` of them is due. `duration` (s): expected of the stage; `wanted`: rows in
-/// that time.
+/// s since the stage began: when the row after `rows` of them is due. `duration` (s): expected of the stage; `wanted`:
+/// rows in that time.
 inline double next_row_time(double duration, std::int64_t rows, int wanted) {
   const double even = duration * static_cast<double>(rows) / wanted, late = even_durations * duration;
   return even <= late ? even : late * std::exp(even / late - 1);
 }
 
-/// Most rows of a stage: a loading may last 50 times as long as expected, and a pace may stretch what is expected.
+/// Most rows of a stage: a loading may last 50 times as long as expected, and a controlled loading rate may stretch
+/// what is expected.
 inline double most_rows(int wanted) {
   constexpr double longest = 100; // expected durations
   return wanted * even_durations * (1 + std::log(longest / even_durations)) + 2;

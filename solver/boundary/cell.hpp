@@ -1,0 +1,31 @@
+#pragma once
+// The cell: the block of space that the packing fills. Stages move it, and ask it for lengths and volume; what stands
+// at its faces (box.hpp: rigid planes) follows.
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+
+namespace mpfem {
+
+struct Cell {
+  std::array<double, 3> low{};  ///< mm
+  std::array<double, 3> high{}; ///< mm
+
+  double length(std::size_t axis) const { return high[axis] - low[axis]; }            ///< mm
+  std::array<double, 3> lengths() const { return {length(0), length(1), length(2)}; } ///< mm
+  double longest() const { return std::max({length(0), length(1), length(2)}); }      ///< mm
+  double volume() const { return length(0) * length(1) * length(2); }                 ///< mm^3
+  double centre(std::size_t axis) const { return 0.5 * (low[axis] + high[axis]); }    ///< mm
+
+  /// Moves the two faces across an axis by `distance` (mm) each: inwards, outwards where it is negative.
+  void move_inwards(std::size_t axis, double distance) { low[axis] += distance, high[axis] -= distance; }
+  /// Multiplies the length along an axis by `scale`; the centre stays.
+  void stretch(std::size_t axis, double scale) {
+    const double middle = centre(axis), half = 0.5 * scale * length(axis);
+    low[axis] = middle - half;
+    high[axis] = middle + half;
+  }
+};
+
+} // namespace mpfem

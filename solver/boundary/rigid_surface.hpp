@@ -1,0 +1,100 @@
+#pragma once
+// Grains against a rigid surface, whatever its shape.
+//
+// A surface says how far a point is from it and in which direction it pushes; everything else is here. Its type is
+// known when the loops below are compiled: the gap of a node costs no call. The penalty law is that of
+// solver/physics/wall.hpp.
+
+#include <concepts>
+#include <cstddef>
+#include <span>
+
+#include "solver/model/model.hpp"
+#include "solver/physics/wall.hpp"
+
+namespace mpfem {
+
+/// Distance (mm) of a point from a surface, negative behind it, and the unit normal towards the grains. `Normal` tells
+/// the drivers by `push` how to add a force along it to a node.
+template <class Normal>
+struct RigidGap {
+  double distance;
+  Normal normal;
+};
+
+/// The point at which a surface node touches; coordinates (mm) are found when they are asked for.
+struct NodePoint {
+  const Model& model;
+  std::size_t node;
+  double operator()(std::size_t axis) const { return model.contact_coordinate(node, axis); }
+};
+
+template <class Surface>
+concept RigidSurface = requires(const Surface& surface, const NodePoint& point, const Bounds& bounds, Model& model) {
+  /// False where no point within the bounds can lie behind the surface.
+  { surface.may_touch(bounds) } -> std::same_as<bool>;
+  { surface.gap(point).distance } -> std::convertible_to<double>;
+  /// Adds a force (N) along the normal to the contact point of a node.
+  surface.gap(point).normal.push(model, std::size_t{}, double{});
+};
+
+/// What a surface bears and stores.
+struct SurfaceLoad {
+  double force = 0;       ///< N, sum of the normal forces
+  double penetration = 0; ///< largest over the element size
+  double energy = 0;      ///< mJ, in the penalty
+};
+
+/// The push on one node.
+struct SurfacePush {
+  double force;       ///< N
+  double energy;      ///< mJ
+  double penetration; ///< over the grain's element size
+};
+
+/// Calls visit(node, gap) for every surface node of a grain that is behind the surface. `bounds`: of the grain's
+/// surface.
+template <RigidSurface Surface, class Visitor>
+void for_each_node_behind(const Model& model, const Surface& surface, const Bounds& bounds, int grain,
+                          Visitor&& visit) {
+  if (!surface.may_touch(bounds)) return;
+  const auto g = static_cast<std::size_t>(grain);
+  const auto first = static_cast<std::size_t>(model.node_offset[g]);
+  const auto count = static_cast<std::size_t>(model.surface_node_count[g]);
+  for (std::size_t node = first; node < first + count; ++node)
+    if (const auto gap = surface.gap(NodePoint{model, node}); gap.distance < 0) visit(node, gap);
+}
+
+/// N, with which a surface at `distance` < 0 (mm) pushes a node of a grain.
+inline double surface_force(const Model& model, std::size_t node, int grain, double distance) {
+  return wall_force(distance, model.penalty_stiffness[static_cast<std::size_t>(grain)], model.local_stiffness(node),
+                    model.reference_area[node]);
+}
+
+/// Adds the forces of a surface on a grain to model.force, and calls visit(SurfacePush) for every node that it pushes.
+template <RigidSurface Surface, class Visitor>
+void add_surface_forces(Model& model, const Surface& surface, const Bounds& bounds, int grain, Visitor&& visit) {
+  const double size = model.element_size[static_cast<std::size_t>(grain)];
+  for_each_node_behind(model, surface, bounds, grain, [&](std::size_t node, const auto& gap) {
+    const double force = surface_force(model, node, grain, gap.distance);
+    gap.normal.push(model, node, force);
+    visit(SurfacePush{force, wall_energy(force, gap.distance), -gap.distance / size});
+  });
+}
+
+/// Adds K A/m (1/s^2) of a surface to `rate` [nodes] of the nodes that it touches: what it adds to the frequency
+/// squared.
+template <RigidSurface Surface>
+void add_surface_stiffness_rate(const Model& model, const Surface& surface, const Bounds& bounds, int grain,
+                                std::span<double> rate) {
+  const double penalty = model.penalty_stiffness[static_cast<std::size_t>(grain)];
+  for_each_node_behind(model, surface, bounds, grain, [&](std::size_t node, const auto&) {
+    const double stiffness = penalty * model.local_stiffness(node) * model.reference_area[node];
+    rate[node] += stiffness * model.inverse_mass[node];
+    if (model.inner_node.empty()) return;
+    const auto inner = static_cast<std::size_t>(model.inner_node[node]);
+    rate[inner] += model.inward[node] * stiffness * model.inverse_mass[inner];
+  });
+}
+
+} // namespace mpfem
