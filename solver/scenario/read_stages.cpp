@@ -31,7 +31,7 @@ double read_servo_speed(TableReader& table, double wall_speed) {
 
 /// The keys that end a loading, of those that the stage's type allows.
 LoadingEnds read_ends(TableReader& table, std::string_view type) {
-  constexpr Range strain{.low = -0.5, .high = 0.5}; // beyond, walls that were never to come so far are a slip
+  constexpr Range strain{.low = -0.5, .high = 0.5}; // more is a typing error
   LoadingEnds ends;
   ends.axial_strain = table.optional_number("axial_strain", strain);
   if (ends.axial_strain == 0.0) table.fail("axial_strain", "found 0, allowed > 0 (compression) or < 0 (extension)");

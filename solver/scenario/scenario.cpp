@@ -9,6 +9,7 @@
 
 #include "common/table_reader.hpp"
 #include "solver/scenario/ranges.hpp"
+#include "solver/scenario/read_hardening.hpp"
 #include "solver/scenario/read_stages.hpp"
 
 namespace mpfem {
@@ -17,87 +18,13 @@ namespace {
 
 constexpr double smallest_density_step = 0.001; // of checkpoints, whose names have three decimals
 
-constexpr std::size_t largest_hardening_table = 64; // TableLaw::max_points
-
-HardeningLaw hardening_law(const std::string& name) {
-  if (name == "elastic") return HardeningLaw::elastic;
-  if (name == "power") return HardeningLaw::power;
-  if (name == "total_strain") return HardeningLaw::total_strain;
-  return HardeningLaw::table;
-}
-
-std::vector<std::string> hardening_keys(HardeningLaw law) {
-  switch (law) {
-  case HardeningLaw::elastic:
-    return {};
-  case HardeningLaw::power:
-    return {"yield_stress", "coefficient", "exponent"};
-  case HardeningLaw::total_strain:
-    return {"coefficient", "exponent"};
-  case HardeningLaw::table:
-    return {"plastic_strain", "flow_stress"};
-  }
-  return {};
-}
-
-void check_hardening_table(const TableReader& table, const HardeningParameters& hardening, double shear_modulus) {
-  const auto& strain = hardening.table_plastic_strain;
-  const auto& stress = hardening.table_flow_stress;
-  if (strain.empty()) table.fail("plastic_strain", "found an empty array, expected at least one value");
-  if (strain.size() > largest_hardening_table)
-    table.fail("plastic_strain",
-               fmt::format("found {} values, allowed 1 … {}", strain.size(), largest_hardening_table));
-  if (stress.size() != strain.size())
-    table.fail("flow_stress",
-               fmt::format("found {} values, expected {}, as many as plastic_strain", stress.size(), strain.size()));
-  if (strain[0] != 0) table.fail("plastic_strain", fmt::format("found first value {}, allowed 0", strain[0]));
-  for (std::size_t i = 1; i < strain.size(); ++i) {
-    if (!(strain[i] > strain[i - 1]))
-      table.fail("plastic_strain",
-                 fmt::format("found {} after {}, allowed increasing values", strain[i], strain[i - 1]));
-    const double slope = (stress[i] - stress[i - 1]) / (strain[i] - strain[i - 1]);
-    // A steeper fall has no unique answer to a strain increment.
-    if (!(slope > -3 * shear_modulus))
-      table.fail("flow_stress", fmt::format("found a slope of {} MPa between values {} and {}, allowed > -3 G = {}",
-                                            slope, i - 1, i, -3 * shear_modulus));
-  }
-}
-
-HardeningParameters read_hardening(TableReader table, double youngs_modulus, double poissons_ratio) {
-  HardeningParameters hardening;
-  const std::string law = table.choice("law", {"elastic", "power", "total_strain", "table"});
-  hardening.law = hardening_law(law);
-  refuse_foreign_keys(table, {"yield_stress", "coefficient", "exponent", "plastic_strain", "flow_stress"},
-                      hardening_keys(hardening.law), fmt::format("law = '{}'", law));
-  switch (hardening.law) {
-  case HardeningLaw::elastic:
-    break;
-  case HardeningLaw::power:
-    hardening.yield_stress = table.number("yield_stress", positive_modulus);
-    hardening.coefficient = table.number("coefficient", positive_modulus);
-    hardening.exponent = table.number("exponent", hardening_exponent);
-    break;
-  case HardeningLaw::total_strain:
-    hardening.coefficient = table.number("coefficient", {.low = 1e-9, .high = youngs_modulus, .high_open = true});
-    hardening.exponent = table.number("exponent", Range::between(1e-3, 0.99));
-    break;
-  case HardeningLaw::table:
-    hardening.table_plastic_strain = table.numbers("plastic_strain", strain_or_zero);
-    hardening.table_flow_stress = table.numbers("flow_stress", positive_modulus);
-    check_hardening_table(table, hardening, youngs_modulus / (2 * (1 + poissons_ratio)));
-    break;
-  }
-  table.finish();
-  return hardening;
-}
-
 /// Without table.finish(): the table may hold more.
 MaterialParameters read_material(TableReader& table) {
   MaterialParameters material;
   material.density = table.number("density", positive_density);
   material.youngs_modulus = table.number("youngs_modulus", positive_modulus);
   material.poissons_ratio = table.number("poissons_ratio", admissible_poissons_ratio);
-  material.hardening = read_hardening(table.table("hardening"), material.youngs_modulus, material.poissons_ratio);
+  material.hardening = read_hardening(table.table("hardening"), material);
   return material;
 }
 
@@ -135,8 +62,8 @@ ContactParameters read_contact(TableReader table) {
   return contact;
 }
 
-/// Of the elements that do not lock the one whose pressures are smooth and whose tets do not collapse; less error at equal time
-/// than plain tets but for E_p (docs/speed-against-error).
+/// Of the elements that do not lock the one whose pressures are smooth and whose tets do not collapse; less error at
+/// equal time than plain tets but for E_p (docs/speed-against-error).
 constexpr ElementType default_element = ElementType::tet4_anp;
 
 void read_element(TableReader table, NumericsParameters& numerics) {

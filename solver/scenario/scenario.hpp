@@ -53,7 +53,7 @@ struct GrainMaterial {
 /// What a grain's contact nodes stand for.
 enum class ContactSurface {
   automatic, ///< smooth for grains that were meshed as spheres with their volume, facets for all others
-  facets,    ///< the mesh as it is: nodes of a curved surface, meshed with its volume, stand out of it
+  facets,    ///< the mesh as it is: nodes of a curved surface, meshed with its volume, lie outside it
   smooth,    ///< the curved surface of the same volume (solver/model/smooth_surface.hpp)
 };
 
@@ -92,7 +92,8 @@ double usual_own_pressure(ElementType element);
 /// Numbers in which the element pass works.
 enum class Precision {
   full,  ///< doubles
-  mixed, ///< floats for strains, stresses and histories of tets; doubles for all of nodes, contact, walls, time and energies' sums
+  mixed, ///< floats for strains, stresses and histories of tets; doubles for all of nodes, contact, walls, time and
+         ///< energies' sums
 };
 
 /// Name of a precision in scenarios and on the command line.

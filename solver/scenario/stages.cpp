@@ -1,19 +1,16 @@
 #include "solver/scenario/stages.hpp"
 
-#include <type_traits>
-
 namespace mpfem {
 
 double driven_speed(const StageType& type) {
   return std::visit(
       [](const auto& stage) {
-        using Type = std::decay_t<decltype(stage)>;
-        if constexpr (std::is_same_v<Type, GripMotion>)
-          return stage.speed;
-        else if constexpr (std::is_same_v<Type, Rest> || std::is_same_v<Type, HeldStress>)
-          return 0.0;
-        else
+        if constexpr (requires { stage.wall_speed; })
           return stage.wall_speed;
+        else if constexpr (requires { stage.speed; }) // of grips
+          return stage.speed;
+        else
+          return 0.0;
       },
       type);
 }

@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
-# tests/fuzz/run.sh SECONDS [NAME…]: runs each fuzzer of build-fuzz/ (or those named) for so many seconds. They begin at the
-# repository's own examples and at what was found before. Fails where one finds a crash, a leak, an input that takes more
-# than 5 s or more than 1 GiB, and keeps that input in build-fuzz/found/NAME/: mend the reader, then add the input to
-# tests/inputs/found/NAME/, where a test reads it from then on.
+# tests/fuzz/run.sh SECONDS [NAME…]: runs each fuzzer of build-fuzz/ (or those named) for so many seconds. They begin at
+# the repository's own examples and at what was found before. Fails where one finds a crash, a leak, an input that takes
+# more than 5 s or more than 1 GiB, and keeps that input in build-fuzz/found/NAME/: mend the reader, then add the input
+# to tests/inputs/found/NAME/, where a test reads it from then on.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/../.."
 
