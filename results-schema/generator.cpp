@@ -185,6 +185,25 @@ std::string cpp_extents(const Line& line) {
   return fmt::format("{{{}}}", fmt::join(extents, ", "));
 }
 
+/// One row of the columns /history/NAME of a kind, as a struct of doubles; nothing where it has no history.
+std::string history_row(const Kind& kind) {
+  const std::string folder = "/history/";
+  std::string members, visits;
+  for (const Line& line : kind.lines) {
+    if (!line.path.starts_with(folder)) continue;
+    const std::string name = line.path.substr(folder.size());
+    members +=
+        fmt::format("  /// {} ({})\n  {} {};\n", line.description, line.unit,
+                    line.shape.size() == 1 ? "double" : fmt::format("std::array<double, {}>", line.shape[1]), name);
+    visits += fmt::format("    visit({}, &HistoryRow::{});\n", cpp_name(line.path), name);
+  }
+  if (members.empty()) return {};
+  return fmt::format("\n/// One row of the history.\nstruct HistoryRow {{\n{}\n"
+                     "  /// Calls visit(dataset, member) for every column, in the order of the members.\n"
+                     "  template <class Visitor>\n  static void for_each_column(Visitor&& visit) {{\n{}  }}\n}};\n",
+                     members, visits);
+}
+
 std::string descriptors(const Schema& schema) {
   std::string out = "#pragma once\n// Generated from results-schema/schema.toml; do not edit.\n\n"
                     "#include \"results-schema/dataset.hpp\"\n\nnamespace mpfem::schema {\n\n";
@@ -210,7 +229,7 @@ std::string descriptors(const Schema& schema) {
     out += "\ninline constexpr DatasetDescription all[] = {";
     std::vector<std::string> all;
     for (const Line& line : kind.lines) all.push_back(cpp_name(line.path));
-    out += fmt::format("{}}};\n}} // namespace {}\n\n", fmt::join(all, ", "), kind.name);
+    out += fmt::format("{}}};\n{}}} // namespace {}\n\n", fmt::join(all, ", "), history_row(kind), kind.name);
   }
   out += "/// In the order of FileKind.\ninline constexpr KindDescription kinds[] = {\n";
   for (const Kind& kind : schema.kinds)

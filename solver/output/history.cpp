@@ -35,38 +35,7 @@ void write_column(schema::FileWriter& file, const Rows& rows, const schema::Data
 } // namespace
 
 void write_history(schema::FileWriter& file, const Rows& rows) {
-  namespace run = schema::run;
-  using Row = HistoryRow;
-  write_column(file, rows, run::history_time, &Row::time);
-  write_column(file, rows, run::history_step, &Row::step);
-  write_column(file, rows, run::history_stage, &Row::stage);
-  write_column(file, rows, run::history_relative_density, &Row::relative_density);
-  write_column(file, rows, run::history_relative_density_current, &Row::relative_density_current);
-  write_column(file, rows, run::history_box_lengths, &Row::box_lengths);
-  write_column(file, rows, run::history_wall_stress, &Row::wall_stress);
-  write_column(file, rows, run::history_mean_stress, &Row::mean_stress);
-  write_column(file, rows, run::history_deviatoric_stress, &Row::deviatoric_stress);
-  write_column(file, rows, run::history_axial_strain, &Row::axial_strain);
-  write_column(file, rows, run::history_volumetric_strain, &Row::volumetric_strain);
-  write_column(file, rows, run::history_kinetic_energy, &Row::kinetic_energy);
-  write_column(file, rows, run::history_elastic_energy, &Row::elastic_energy);
-  write_column(file, rows, run::history_plastic_dissipation, &Row::plastic_dissipation);
-  write_column(file, rows, run::history_damage_dissipation, &Row::damage_dissipation);
-  write_column(file, rows, run::history_bond_energy, &Row::bond_energy);
-  write_column(file, rows, run::history_contact_energy, &Row::contact_energy);
-  write_column(file, rows, run::history_viscous_dissipation, &Row::viscous_dissipation);
-  write_column(file, rows, run::history_damping_dissipation, &Row::damping_dissipation);
-  write_column(file, rows, run::history_external_work, &Row::external_work);
-  write_column(file, rows, run::history_energy_residual, &Row::energy_residual);
-  write_column(file, rows, run::history_contact_area, &Row::contact_area);
-  write_column(file, rows, run::history_surface_area, &Row::surface_area);
-  write_column(file, rows, run::history_bonded_area, &Row::bonded_area);
-  write_column(file, rows, run::history_bonds, &Row::bonds);
-  write_column(file, rows, run::history_mean_damage, &Row::mean_damage);
-  write_column(file, rows, run::history_coordination_number, &Row::coordination_number);
-  write_column(file, rows, run::history_max_penetration, &Row::max_penetration);
-  write_column(file, rows, run::history_damping_drag_ratio, &Row::damping_drag_ratio);
-  write_column(file, rows, run::history_time_step, &Row::time_step);
+  HistoryRow::for_each_column([&](const auto& dataset, auto member) { write_column(file, rows, dataset, member); });
 }
 
 std::vector<double> flatten(const Rows& rows) {
