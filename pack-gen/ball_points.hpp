@@ -28,10 +28,10 @@ struct BallMesh {
   std::size_t surface_nodes = 0;
 };
 
-/// Lays out points: a Fibonacci spiral on the sphere; inside, a body-centred cubic lattice, whose Delaunay tetrahedra are
-/// all alike and nearly regular. Then alternates Delaunay with smoothing: interior nodes go to the volume-weighted mean of
-/// the circumcentres around them (optimal Delaunay triangulation, Chen & Xu 2004), surface nodes to the area-weighted
-/// mean of their facets, put back on the sphere.
+/// Lays out points: a Fibonacci spiral on the sphere; inside, a body-centred cubic lattice, whose Delaunay tetrahedra
+/// are all alike and nearly regular. Then alternates Delaunay with smoothing: interior nodes go to the volume-weighted
+/// mean of the circumcentres around them (optimal Delaunay triangulation, Chen & Xu 2004), surface nodes to the
+/// area-weighted mean of their facets, put back on the sphere.
 ///
 /// No tetrahedron has all four nodes on the surface: its circumsphere would be the unit sphere, which is not empty.
 BallMesh lay_out_ball(const BallLayout& layout, const Tetrahedralize& tetrahedralize);

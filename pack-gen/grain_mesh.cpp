@@ -7,6 +7,7 @@
 #include <map>
 #include <mutex>
 #include <numbers>
+#include <set>
 
 #include <fmt/format.h>
 #include <gmsh.h>
@@ -79,13 +80,46 @@ std::vector<Tet> gmsh_tetrahedralize(const std::vector<Point>& points) {
   return tet;
 }
 
+namespace {
+
+/// The tets of gmsh's present model and their nodes, put exactly on the sphere of a radius (mm) and the plane z = 0.
+TetMesh read_half_ball(double radius) {
+  TetMesh mesh;
+  std::vector<std::size_t> tags, element, corner;
+  std::vector<double> coordinate, parametric;
+  gmsh::model::mesh::getNodes(tags, coordinate, parametric);
+  gmsh::model::mesh::getElementsByType(4, element, corner);
+  std::map<std::size_t, std::size_t> row;
+  for (std::size_t i = 0; i < tags.size(); ++i) row[tags[i]] = i;
+  std::map<std::size_t, std::int32_t> number; // of the nodes that tets have
+  Tet tet{};
+  for (std::size_t i = 0; i < corner.size(); ++i) {
+    const auto [entry, is_new] = number.try_emplace(corner[i], static_cast<std::int32_t>(number.size()));
+    if (is_new) {
+      const double* x = &coordinate[3 * row.at(corner[i])];
+      Point p{x[0], x[1], x[2]};
+      const double distance = std::sqrt(p[0] * p[0] + p[1] * p[1] + p[2] * p[2]);
+      if (std::abs(distance - radius) < 1e-7 * radius)
+        for (double& c : p) c *= radius / distance;
+      if (std::abs(p[2]) < 1e-9 * radius) p[2] = 0;
+      mesh.node.push_back(p);
+    }
+    tet[i % 4] = entry->second;
+    if (i % 4 == 3) mesh.tet.push_back(tet);
+  }
+  return mesh;
+}
+
+} // namespace
+
 TetMesh gmsh_half_ball(double radius, const std::function<double(const Point&)>& size) {
   const std::lock_guard lock(Gmsh::session());
   std::srand(1);
   TetMesh mesh;
   try {
     gmsh::model::add("half ball");
-    // The poles of the sphere's parametrisation, where triangles are poor, lie on the rim: the tip is an ordinary place.
+    // The poles of the sphere's parametrisation, where triangles are poor, lie on the rim: the tip is an ordinary
+    // place.
     constexpr double right_angle = std::numbers::pi / 2;
     gmsh::model::occ::addSphere(0, 0, 0, radius, 1, -right_angle, right_angle, 2 * right_angle);
     gmsh::model::occ::rotate({{3, 1}}, 0, 0, 0, 1, 0, 0, right_angle);
@@ -97,28 +131,7 @@ TetMesh gmsh_half_ball(double radius, const std::function<double(const Point&)>&
     gmsh::option::setNumber("Mesh.Optimize", 1);
     gmsh::model::mesh::setSizeCallback([&size](int, int, double x, double y, double z) { return size({x, y, z}); });
     gmsh::model::mesh::generate(3);
-    std::vector<std::size_t> tags, element, corner;
-    std::vector<double> coordinate, parametric;
-    gmsh::model::mesh::getNodes(tags, coordinate, parametric);
-    gmsh::model::mesh::getElementsByType(4, element, corner);
-    std::map<std::size_t, std::size_t> row;
-    for (std::size_t i = 0; i < tags.size(); ++i) row[tags[i]] = i;
-    std::map<std::size_t, std::int32_t> number; // of the nodes that tets have
-    Tet tet{};
-    for (std::size_t i = 0; i < corner.size(); ++i) {
-      const auto [entry, is_new] = number.try_emplace(corner[i], static_cast<std::int32_t>(number.size()));
-      if (is_new) {
-        const double* x = &coordinate[3 * row.at(corner[i])];
-        Point p{x[0], x[1], x[2]};
-        const double distance = std::sqrt(p[0] * p[0] + p[1] * p[1] + p[2] * p[2]);
-        if (std::abs(distance - radius) < 1e-7 * radius)
-          for (double& c : p) c *= radius / distance;
-        if (std::abs(p[2]) < 1e-9 * radius) p[2] = 0;
-        mesh.node.push_back(p);
-      }
-      tet[i % 4] = entry->second;
-      if (i % 4 == 3) mesh.tet.push_back(tet);
-    }
+    mesh = read_half_ball(radius);
     gmsh::model::mesh::removeSizeCallback();
     gmsh::model::remove();
   } catch (const std::exception& error) {
@@ -138,80 +151,115 @@ TetMesh gmsh_half_ball(double radius, const std::function<double(const Point&)>&
   return mesh;
 }
 
-UnitBall mesh_unit_ball(double size_ratio, std::uint64_t seed, bool optimise) {
-  const double wanted = wanted_tets(size_ratio);
-  // Edge of the regular tetrahedron of the mean volume; a first factor for the count that smoothing leads to.
-  const double mean_edge = std::cbrt(6 * std::numbers::sqrt2 * unit_ball_volume / wanted);
-  const bool large = wanted > 20000;
-  const int rounds = large ? 5 : 10, sweeps = large ? 80 : 60;
-  // The worst tet is a matter of luck: tries go on until one has the smallest step (in units of size/wave speed) that most
-  // sizes reach within three. Measured at radius/size 3.3 to 13; a try of a large ball gains less, and costs more.
-  const double enough = !optimise ? 0 : large ? 0.315 : wanted > 2500 ? 0.32 : 0.325;
-  const std::size_t tries = large ? 4 : 8;
+namespace {
 
-  UnitBall best;
-  std::string last_defect = "none of the candidates met the wanted number of tetrahedra";
-  int failures = 0;
-  double factor = 1 - 0.9 / std::cbrt(wanted);
-  for (std::size_t c = 0; c < tries + static_cast<std::size_t>(std::min(failures, 10)); ++c) {
-    if (best.smallest_step > 0 && best.smallest_step * size_ratio >= enough) break;
-    const Candidate& candidate = candidates[c % std::size(candidates)];
-    const auto lay_out = [&](int smoothing, std::uint64_t shift) -> BallMesh {
-      BallMesh trial;
-      std::string defect;
-      try {
-        trial = lay_out_ball({.edge = mean_edge * factor,
-                              .interior_edge = candidate.interior_edge,
-                              .skin = candidate.skin,
-                              .smoothing = smoothing,
-                              .seed = seed + 1000 * c + shift},
-                             gmsh_tetrahedralize);
-        defect = ball_defect(trial.mesh);
-      } catch (const std::exception& error) {
-        defect = error.what();
-      }
-      if (defect.empty()) return trial;
-      last_defect = defect;
-      ++failures;
-      factor *= 0.99;
-      return {};
-    };
-    const auto ratio = [&](const BallMesh& trial) { return static_cast<double>(trial.mesh.tet.size()) / wanted; };
+/// Candidates for the mesh of the unit ball: laid out by gmsh, whose failures are counted.
+class UnitBallSearch {
+public:
+  UnitBallSearch(double size_ratio, std::uint64_t seed)
+      : wanted_(wanted_tets(size_ratio)), seed_(seed), rounds_(is_large() ? 5 : 10),
+        factor_(1 - 0.9 / std::cbrt(wanted_)) {}
 
-    // After two rounds of smoothing the count is nearly that of the end: the size is corrected there, where it is cheap.
-    for (int fit = 0; fit < 3; ++fit) {
-      const BallMesh trial = lay_out(2, 0);
-      if (trial.mesh.tet.empty()) continue;
-      factor *= std::cbrt(ratio(trial));
-      if (std::abs(std::log(ratio(trial))) < 0.01) break;
-    }
-    // Laid out anew until the count is within 1.5 %; or the best count so far is taken for small balls, where one node more
-    // or less is already that much.
+  double wanted() const { return wanted_; }
+  bool is_large() const { return wanted_ > 20000; }
+  /// Edge of the regular tetrahedron of the mean volume.
+  double mean_edge() const { return std::cbrt(6 * std::numbers::sqrt2 * unit_ball_volume / wanted_); }
+  int failures() const { return failures_; }
+  const std::string& last_defect() const { return last_defect_; }
+
+  /// The candidate's mesh with nearly the wanted number of tets; none where that was not met.
+  BallMesh find(std::size_t candidate) {
+    fit_size(candidate);
+    // Laid out anew until the count is within 1.5 %; or the best count so far is taken for small balls, where one node
+    // more or less is already that much.
     double closest = std::numeric_limits<double>::infinity();
     BallMesh ball;
     for (std::uint64_t fit = 0; fit < 6 && !(closest < 0.015); ++fit) {
-      BallMesh trial = lay_out(rounds, fit);
+      BallMesh trial = lay_out(candidate, rounds_, fit);
       if (trial.mesh.tet.empty()) continue;
       const double miss = std::abs(std::log(ratio(trial)));
-      factor *= std::cbrt(ratio(trial));
+      factor_ *= std::cbrt(ratio(trial));
       if (miss < closest) {
         closest = miss;
         ball = std::move(trial);
       }
     }
-    const double tolerance = wanted < 300 ? 0.15 : 0.03;
-    if (!(closest < tolerance)) continue;
-    if (optimise) raise_smallest_step(ball, mean_edge, sweeps, 1.3, seed);
+    const double tolerance = wanted_ < 300 ? 0.15 : 0.03;
+    return closest < tolerance ? std::move(ball) : BallMesh{};
+  }
+
+private:
+  /// Tets over those wanted.
+  double ratio(const BallMesh& ball) const { return static_cast<double>(ball.mesh.tet.size()) / wanted_; }
+
+  /// After two rounds of smoothing the count is nearly that of the end: the size is corrected there, where it is cheap.
+  void fit_size(std::size_t candidate) {
+    for (int fit = 0; fit < 3; ++fit) {
+      const BallMesh trial = lay_out(candidate, 2, 0);
+      if (trial.mesh.tet.empty()) continue;
+      factor_ *= std::cbrt(ratio(trial));
+      if (std::abs(std::log(ratio(trial))) < 0.01) break;
+    }
+  }
+
+  /// Empty where gmsh failed; then the next size is 1 % smaller.
+  BallMesh lay_out(std::size_t number, int smoothing, std::uint64_t shift) {
+    const Candidate& candidate = candidates[number % std::size(candidates)];
+    BallMesh trial;
+    std::string defect;
+    try {
+      trial = lay_out_ball({.edge = mean_edge() * factor_,
+                            .interior_edge = candidate.interior_edge,
+                            .skin = candidate.skin,
+                            .smoothing = smoothing,
+                            .seed = seed_ + 1000 * number + shift},
+                           gmsh_tetrahedralize);
+      defect = ball_defect(trial.mesh);
+    } catch (const std::exception& error) {
+      defect = error.what();
+    }
+    if (defect.empty()) return trial;
+    last_defect_ = defect;
+    ++failures_;
+    factor_ *= 0.99;
+    return {};
+  }
+
+  double wanted_; ///< tets
+  std::uint64_t seed_;
+  int rounds_;    ///< of smoothing
+  double factor_; ///< of the edge, for the count that smoothing leads to
+  int failures_ = 0;
+  std::string last_defect_ = "none of the candidates met the wanted number of tetrahedra";
+};
+
+} // namespace
+
+UnitBall mesh_unit_ball(double size_ratio, std::uint64_t seed, bool optimise) {
+  UnitBallSearch search(size_ratio, seed);
+  const bool large = search.is_large();
+  const int sweeps = large ? 80 : 60;
+  // The worst tet is a matter of luck: tries go on until one has the smallest step (in units of size/wave speed) that
+  // most sizes reach within three. Measured at radius/size 3.3 to 13; a try of a large ball gains less, and costs more.
+  const double enough = !optimise ? 0 : large ? 0.315 : search.wanted() > 2500 ? 0.32 : 0.325;
+  const std::size_t tries = large ? 4 : 8;
+
+  UnitBall best;
+  for (std::size_t c = 0; c < tries + static_cast<std::size_t>(std::min(search.failures(), 10)); ++c) {
+    if (best.smallest_step > 0 && best.smallest_step * size_ratio >= enough) break;
+    BallMesh ball = search.find(c);
+    if (ball.mesh.tet.empty()) continue;
+    if (optimise) raise_smallest_step(ball, search.mean_edge(), sweeps, 1.3, seed);
     const double step = smallest_unit_step(ball.mesh);
     if (step > best.smallest_step && ball_defect(ball.mesh).empty()) best = {std::move(ball), 0, step, {}};
   }
   if (best.ball.mesh.tet.empty())
     throw SimulationError(fmt::format("gmsh gave no valid mesh of a ball at radius/size {:.3f} in {} attempts: {}",
-                                      size_ratio, tries, last_defect));
+                                      size_ratio, tries, search.last_defect()));
   best.volume = mesh_volume(best.ball.mesh);
-  if (failures > 0)
+  if (search.failures() > 0)
     best.note = fmt::format("radius/size {:.3f}: gmsh failed {} times ({}); repeated with the size changed by 1 %",
-                            size_ratio, failures, last_defect);
+                            size_ratio, search.failures(), search.last_defect());
   return best;
 }
 
@@ -236,57 +284,57 @@ std::uint64_t orientation_seed(std::uint64_t seed, std::size_t grain, int attemp
   return seed * 0x9E3779B97F4A7C15ULL + grain * 0xBF58476D1CE4E5B9ULL + static_cast<std::uint64_t>(attempt);
 }
 
-} // namespace
+void report(const MeshRequest& request, double fraction, const std::string& what) {
+  if (request.progress) request.progress(fraction, what);
+}
 
-PackingMesh mesh_packing(const SpherePacking& packing, const MeshRequest& request) {
-  const std::size_t n = packing.radius.size();
-  const auto report = [&](double fraction, const std::string& what) {
-    if (request.progress) request.progress(fraction, what);
-  };
+using Library = std::map<int, UnitBall>;
 
-  // 1. Which library meshes are needed, and whether everything can be numbered.
-  std::vector<int> key(n);
-  std::map<int, UnitBall> library;
+/// Library key of every sphere. Throws InputError where a sphere is too small for the size, or tets cannot be numbered.
+std::vector<int> library_keys(const SpherePacking& packing, double size) {
+  std::vector<int> key(packing.radius.size());
   double tets_wanted = 0;
-  for (std::size_t i = 0; i < n; ++i) {
-    const double ratio = packing.radius[i] / request.nominal_size;
+  for (std::size_t i = 0; i < key.size(); ++i) {
+    const double ratio = packing.radius[i] / size;
     if (ratio < smallest_size_ratio)
       throw InputError(
-          fmt::format("size {:g} mm is too large for sphere {} of radius {:g} mm; allowed: at most {:g} mm",
-                      request.nominal_size, i, packing.radius[i], packing.radius[i] / smallest_size_ratio));
+          fmt::format("size {:g} mm is too large for sphere {} of radius {:g} mm; allowed: at most {:g} mm", size, i,
+                      packing.radius[i], packing.radius[i] / smallest_size_ratio));
     key[i] = library_key(ratio);
-    library.try_emplace(key[i]);
     tets_wanted += wanted_tets(ratio);
   }
   if (tets_wanted > 0.95 * std::numeric_limits<std::int32_t>::max())
     throw InputError(fmt::format("size {:g} mm would give {:.3g} tetrahedra; allowed: at most {:.3g} (32-bit numbers)",
-                                 request.nominal_size, tets_wanted, 0.95 * std::numeric_limits<std::int32_t>::max()));
+                                 size, tets_wanted, 0.95 * std::numeric_limits<std::int32_t>::max()));
+  return key;
+}
 
-  // 2. The library, largest balls first so that the threads end together.
-  std::vector<int> keys;
-  for (auto entry = library.rbegin(); entry != library.rend(); ++entry) keys.push_back(entry->first);
-  double work = 0;
+/// Meshes the balls of these keys, largest first so that the threads end together.
+Library make_library(const std::set<int>& wanted, const MeshRequest& request) {
+  const std::vector<int> keys(wanted.rbegin(), wanted.rend());
+  double work = 0, done = 0;
   for (const int k : keys) work += std::pow(library_step, 3 * k);
-  double done = 0;
+  Library library;
   std::mutex guard;
-  report(0, "meshing balls");
+  report(request, 0, "meshing balls");
   for_each_parallel(keys.size(), request.threads, [&](std::size_t i) {
     UnitBall unit =
         mesh_unit_ball(std::pow(library_step, keys[i]), static_cast<std::uint64_t>(keys[i] + 10000), request.optimise);
     const std::lock_guard lock(guard);
-    library.at(keys[i]) = std::move(unit);
+    library.emplace(keys[i], std::move(unit));
     done += std::pow(library_step, 3 * keys[i]);
-    report(0.9 * done / work, fmt::format("meshing balls, {} sizes", keys.size()));
+    report(request, 0.9 * done / work, fmt::format("meshing balls, {} sizes", keys.size()));
   });
+  return library;
+}
 
-  // 3. Grains, one after the other in the arrays.
+/// Room for all grains, one after the other, and their tets.
+PackingMesh make_room(const Library& library, const std::vector<int>& key) {
   PackingMesh mesh;
-  for (const auto& entry : library)
-    if (!entry.second.note.empty()) mesh.notes.push_back(entry.second.note);
-  mesh.grain_node_offset.assign(n + 1, 0);
-  mesh.grain_tet_offset.assign(n + 1, 0);
+  mesh.grain_node_offset.assign(key.size() + 1, 0);
+  mesh.grain_tet_offset.assign(key.size() + 1, 0);
   std::size_t nodes = 0, tets = 0;
-  for (std::size_t i = 0; i < n; ++i) {
+  for (std::size_t i = 0; i < key.size(); ++i) {
     const TetMesh& unit = library.at(key[i]).ball.mesh;
     nodes += unit.node.size();
     tets += unit.tet.size();
@@ -295,19 +343,30 @@ PackingMesh mesh_packing(const SpherePacking& packing, const MeshRequest& reques
   }
   mesh.node.resize(3 * nodes);
   mesh.tet.resize(4 * tets);
+  return mesh;
+}
+
+} // namespace
+
+PackingMesh mesh_packing(const SpherePacking& packing, const MeshRequest& request) {
+  const std::vector<int> key = library_keys(packing, request.nominal_size);
+  const Library library = make_library({key.begin(), key.end()}, request);
+  PackingMesh mesh = make_room(library, key);
+  for (const auto& entry : library)
+    if (!entry.second.note.empty()) mesh.notes.push_back(entry.second.note);
   const auto place = [&](std::size_t i, int attempt, double* node) {
     place_grain(library.at(key[i]), packing.center[i], packing.radius[i], orientation_seed(request.seed, i, attempt),
                 node);
   };
-  for_each_parallel(n, request.threads, [&](std::size_t i) {
+  for_each_parallel(key.size(), request.threads, [&](std::size_t i) {
     place(i, 0, mesh.node.data() + 3 * static_cast<std::size_t>(mesh.grain_node_offset[i]));
     std::int32_t* tet = mesh.tet.data() + 4 * static_cast<std::size_t>(mesh.grain_tet_offset[i]);
     for (const Tet& t : library.at(key[i]).ball.mesh.tet)
       for (const std::int32_t corner : t) *tet++ = mesh.grain_node_offset[i] + corner;
   });
 
-  // 4. Meshes of neighbours must stay apart.
-  report(0.9, "turning grains apart");
+  // Meshes of neighbours must stay apart.
+  report(request, 0.9, "turning grains apart");
   if (const std::size_t turned = separate_grains(packing, mesh, request.nominal_size, request.threads, place);
       turned > 0)
     mesh.notes.push_back(fmt::format("{} grains were turned to keep their facets apart", turned));

@@ -80,8 +80,8 @@ void check(const HemisphereRequest& r) {
         fmt::format("these sizes would give {:.3g} tetrahedra a hemisphere, allowed: at most {:.3g}", tets, most_tets));
 }
 
-/// The lower hemisphere, its worst tetrahedra improved. Nodes of the surface stay where gmsh put them: moved as well, they
-/// would raise the step further, but by enlarging the triangles of the contact up to twofold.
+/// The lower hemisphere, its worst tetrahedra improved. Nodes of the surface stay where gmsh put them: moved as well,
+/// they would raise the step further, but by enlarging the triangles of the contact up to twofold.
 TetMesh mesh_lower(const HemisphereRequest& r) {
   TetMesh mesh = gmsh_half_ball(1, [&](const Point& p) {
     return size_at(r, {r.radius * p[0], r.radius * p[1], r.radius * p[2]}) / r.radius;

@@ -1,11 +1,11 @@
 #pragma once
 // Two hemispheres tip to tip, finely meshed where they will touch: for comparing contact with closed forms.
 //
-// The lower one has its flat face on z = 0, the upper one on z = 2 R + gap; their tips face each other across the gap in
-// the middle of the box. Nodes of the curved faces lie on the sphere: hemispheres are not scaled to the exact volume, as
-// packings are, since the curvature at the tip is what counts. Facets of a convex body lie inside it, so that the two
-// cannot overlap. Interior nodes are moved to raise the smallest critical step. The upper mesh is the lower one mirrored and
-// turned about the axis: no node meets a node.
+// The lower one has its flat face on z = 0, the upper one on z = 2 R + gap; their tips face each other across the gap
+// in the middle of the box. Nodes of the curved faces lie on the sphere: hemispheres are not scaled to the exact
+// volume, as packings are, since the curvature at the tip is what counts. Facets of a convex body lie inside it, so
+// that the two cannot overlap. Interior nodes are moved to raise the smallest critical step. The upper mesh is the
+// lower one mirrored and turned about the axis: no node meets a node.
 
 #include <string>
 

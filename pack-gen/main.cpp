@@ -153,74 +153,96 @@ void add_material(CLI::App& command, StepMaterial& material) {
       ->capture_default_str();
 }
 
-int body(int argc, char** argv) {
-  CLI::App app(
-      "pack-gen: packs spheres of a size distribution in a box, and meshes them with tetrahedra.\n"
-      "Examples:\n"
-      "  pack-gen spheres powder.toml -o spheres.h5 --seed 2\n"
-      "  pack-gen import spheres.csv --box 1,1,1 -o spheres.h5\n"
-      "  pack-gen mesh spheres.h5 --size 0.03 -o packing.h5\n"
-      "  pack-gen quality packing.h5\n"
-      "  pack-gen hemispheres --radius 0.1 --size 0.012 --contact-size 0.0005 --contact-radius 0.01 -o pair.h5\n"
-      "  pack-gen export spheres.h5 -o spheres.csv\n"
-      "Lengths in mm. Exit codes: 0 done, 2 bad usage or input, 3 no packing or mesh could be made, 4 storage failed.");
-  app.set_version_flag("--version", version_and_commit());
-  app.require_subcommand(1);
+constexpr const char* help_text =
+    "pack-gen: packs spheres of a size distribution in a box, and meshes them with tetrahedra.\n"
+    "Examples:\n"
+    "  pack-gen spheres powder.toml -o spheres.h5 --seed 2\n"
+    "  pack-gen import spheres.csv --box 1,1,1 -o spheres.h5\n"
+    "  pack-gen mesh spheres.h5 --size 0.03 -o packing.h5\n"
+    "  pack-gen quality packing.h5\n"
+    "  pack-gen hemispheres --radius 0.1 --size 0.012 --contact-size 0.0005 --contact-radius 0.01 -o pair.h5\n"
+    "  pack-gen export spheres.h5 -o spheres.csv\n"
+    "Lengths in mm. Exit codes: 0 done, 2 bad usage or input, 3 no packing or mesh could be made, 4 storage failed.";
 
-  Arguments arguments;
-  arguments.threads = available_cores();
-  const auto add = [&](const char* name, const char* help, const char* input, bool writes) {
-    CLI::App* command = app.add_subcommand(name, help);
-    command->add_option("input", arguments.input, input)->required();
-    if (writes) command->add_option("-o,--output", arguments.output, "File to write")->required();
-    command->add_flag("--quiet", arguments.quiet, "No progress, no report");
-    return command;
-  };
-  const auto add_threads = [&](CLI::App& command) {
-    add_number(command, "--threads", arguments.threads, thread_numbers, "",
-               "Threads (default: all cores that it may use); the result does not depend on it");
-  };
+void add_threads(CLI::App& command, Arguments& arguments) {
+  add_number(command, "--threads", arguments.threads, thread_numbers, "",
+             "Threads (default: all cores that it may use); the result does not depend on it");
+}
 
-  CLI::App* spheres_command =
-      add("spheres", "Pack spheres as a description says.\nExample: pack-gen spheres powder.toml -o spheres.h5",
-          "Description of the packing (TOML)", true);
-  add_number(*spheres_command, "--seed", arguments.seed, seed_numbers, "", "Seed, in place of the description's");
-  spheres_command->add_option("--set", arguments.assignments, "Override a value: KEY=VALUE, e.g. count=400")
-      ->take_all();
+/// A command that reads a file, described by `input`.
+CLI::App* add_command(CLI::App& app, Arguments& arguments, const char* name, const char* help, const char* input) {
+  CLI::App* command = app.add_subcommand(name, help);
+  command->add_option("input", arguments.input, input)->required();
+  command->add_flag("--quiet", arguments.quiet, "No progress, no report");
+  return command;
+}
 
-  CLI::App* mesh_command =
-      add("mesh", "Mesh every sphere.\nExample: pack-gen mesh spheres.h5 --size 0.03 -o packing.h5", "Spheres (HDF5)",
-          true);
-  add_number(*mesh_command, "--size", arguments.size, lengths, "mm", "Nominal element size")->required();
-  add_number(*mesh_command, "--seed", arguments.seed, seed_numbers, "",
-             "Seed of the meshes' orientations (default: 1)");
-  mesh_command->add_flag("!--no-optimise", arguments.optimise,
-                         "Meshes as they were first laid out, not chosen and moved for a larger time step");
-  add_threads(*mesh_command);
-  add_material(*mesh_command, arguments.material);
+void add_output(CLI::App& command, Arguments& arguments) {
+  command.add_option("-o,--output", arguments.output, "File to write")->required();
+}
 
-  CLI::App* import_command = add("import",
-                                 "Spheres from a table x,y,z,radius (mm), e.g. of a DEM code.\n"
-                                 "Example: pack-gen import spheres.csv --box 1,1,1 -o spheres.h5",
-                                 "Spheres (CSV)", true);
-  add_number(*import_command, "--box", arguments.box, lengths, "mm",
+CLI::App* add_spheres(CLI::App& app, Arguments& arguments) {
+  CLI::App* command =
+      add_command(app, arguments, "spheres",
+                  "Pack spheres as a description says.\nExample: pack-gen spheres powder.toml -o spheres.h5",
+                  "Description of the packing (TOML)");
+  add_output(*command, arguments);
+  add_number(*command, "--seed", arguments.seed, seed_numbers, "", "Seed, in place of the description's");
+  command->add_option("--set", arguments.assignments, "Override a value: KEY=VALUE, e.g. count=400")->take_all();
+  return command;
+}
+
+CLI::App* add_mesh(CLI::App& app, Arguments& arguments) {
+  CLI::App* command =
+      add_command(app, arguments, "mesh",
+                  "Mesh every sphere.\nExample: pack-gen mesh spheres.h5 --size 0.03 -o packing.h5", "Spheres (HDF5)");
+  add_output(*command, arguments);
+  add_number(*command, "--size", arguments.size, lengths, "mm", "Nominal element size")->required();
+  add_number(*command, "--seed", arguments.seed, seed_numbers, "", "Seed of the meshes' orientations (default: 1)");
+  command->add_flag("!--no-optimise", arguments.optimise,
+                    "Meshes as they were first laid out, not chosen and moved for a larger time step");
+  add_threads(*command, arguments);
+  add_material(*command, arguments.material);
+  return command;
+}
+
+CLI::App* add_import(CLI::App& app, Arguments& arguments) {
+  CLI::App* command = add_command(app, arguments, "import",
+                                  "Spheres from a table x,y,z,radius (mm), e.g. of a DEM code.\n"
+                                  "Example: pack-gen import spheres.csv --box 1,1,1 -o spheres.h5",
+                                  "Spheres (CSV)");
+  add_output(*command, arguments);
+  add_number(*command, "--box", arguments.box, lengths, "mm",
              "Edge lengths X,Y,Z of the box from the origin (default: the tightest box)")
       ->delimiter(',')
       ->expected(3);
-  CLI::App* export_command =
-      add("export", "Spheres to a table x,y,z,radius (mm).\nExample: pack-gen export spheres.h5 -o spheres.csv",
-          "Packing (HDF5), meshed or not", true);
-  CLI::App* quality_command =
-      add("quality", "Measure a mesh.\nExample: pack-gen quality packing.h5", "Meshed packing (HDF5)", false);
-  add_threads(*quality_command);
-  add_material(*quality_command, arguments.material);
+  return command;
+}
 
-  CLI::App* hemispheres_command = app.add_subcommand(
+CLI::App* add_export(CLI::App& app, Arguments& arguments) {
+  CLI::App* command =
+      add_command(app, arguments, "export",
+                  "Spheres to a table x,y,z,radius (mm).\nExample: pack-gen export spheres.h5 -o spheres.csv",
+                  "Packing (HDF5), meshed or not");
+  add_output(*command, arguments);
+  return command;
+}
+
+CLI::App* add_quality(CLI::App& app, Arguments& arguments) {
+  CLI::App* command = add_command(app, arguments, "quality", "Measure a mesh.\nExample: pack-gen quality packing.h5",
+                                  "Meshed packing (HDF5)");
+  add_threads(*command, arguments);
+  add_material(*command, arguments.material);
+  return command;
+}
+
+CLI::App* add_hemispheres(CLI::App& app, Arguments& arguments) {
+  CLI::App* command = app.add_subcommand(
       "hemispheres",
       "Mesh two hemispheres tip to tip, finely where they will touch.\n"
       "Example: pack-gen hemispheres --radius 0.1 --size 0.012 --contact-size 0.0005 --contact-radius 0.01 -o pair.h5");
   const auto length = [&](const char* name, double& value, const char* help, bool required) {
-    CLI::Option* option = add_number(*hemispheres_command, name, value, lengths, "mm", help);
+    CLI::Option* option = add_number(*command, name, value, lengths, "mm", help);
     if (required) option->required();
   };
   HemisphereRequest& pair = arguments.hemispheres;
@@ -231,16 +253,31 @@ int body(int argc, char** argv) {
   length("--contact-radius", pair.contact_radius, "How far from the tip that size reaches", true);
   length("--bulk-size", pair.bulk_size,
          "Largest element size within 1.5 contact radii under the tip (default: 3 contact sizes)", false);
-  add_number(*hemispheres_command, "--growth", pair.growth, Range::between(1e-6, 1e6), "",
+  add_number(*command, "--growth", pair.growth, Range::between(1e-6, 1e6), "",
              "Growth of the size with distance (default: 0.3)");
   length("--gap", pair.gap, "Distance of the tips (default: 1e-6)", false);
   length("--box-width", pair.box_width, "Width of the box in x and y (default: 2.4 radii)", false);
-  add_number(*hemispheres_command, "--rotate", pair.rotation, Range::between(-360, 360), "degrees",
+  add_number(*command, "--rotate", pair.rotation, Range::between(-360, 360), "degrees",
              "Turn of the upper hemisphere about the axis")
       ->capture_default_str();
-  hemispheres_command->add_option("-o,--output", arguments.output, "File to write")->required();
-  hemispheres_command->add_flag("--quiet", arguments.quiet, "No report");
-  add_material(*hemispheres_command, arguments.material);
+  add_output(*command, arguments);
+  command->add_flag("--quiet", arguments.quiet, "No report");
+  add_material(*command, arguments.material);
+  return command;
+}
+
+int body(int argc, char** argv) {
+  CLI::App app(help_text);
+  app.set_version_flag("--version", version_and_commit());
+  app.require_subcommand(1);
+  Arguments arguments;
+  arguments.threads = available_cores();
+  const CLI::App* spheres_command = add_spheres(app, arguments);
+  const CLI::App* mesh_command = add_mesh(app, arguments);
+  const CLI::App* import_command = add_import(app, arguments);
+  const CLI::App* export_command = add_export(app, arguments);
+  const CLI::App* quality_command = add_quality(app, arguments);
+  const CLI::App* hemispheres_command = add_hemispheres(app, arguments);
 
   if (const auto done = parse_command_line(app, "pack-gen", argc, argv)) return *done;
   if (!quality_command->parsed())

@@ -29,11 +29,12 @@ double critical_step(const Point& a, const Point& b, const Point& c, const Point
 /// Facets that belong to one tet only, outward. Throws std::logic_error if three tets share a facet.
 std::vector<Facet> boundary_facets(const std::vector<Tet>& tet);
 
-/// Whether every edge of the facets is shared by exactly two of them, in opposite directions, and they are the surface of
-/// one ball (V - E + F = 2).
+/// Whether every edge of the facets is shared by exactly two of them, in opposite directions, and they are the surface
+/// of one ball (V - E + F = 2).
 bool is_closed_sphere(const std::vector<Facet>& facet);
 
-/// What makes a mesh unusable as a ball, in words; empty when nothing does: closed surface, positive tets, every node used.
+/// What makes a mesh unusable as a ball, in words; empty when nothing does: closed surface, positive tets, every node
+/// used.
 std::string ball_defect(const TetMesh& mesh);
 
 } // namespace mpfem

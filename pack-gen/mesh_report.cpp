@@ -82,62 +82,67 @@ SurfaceGap smallest_facet_gap(const SpherePacking& packing, const PackingMesh& m
   return smallest;
 }
 
-MeshReport report_mesh(const SpherePacking& packing, const PackingMesh& mesh, double nominal_size,
-                       const StepMaterial& material, int threads) {
-  const std::size_t n = packing.radius.size();
-  MeshReport report;
-  report.grains = n;
-  report.nodes = mesh.node.size() / 3;
-  report.tets = mesh.tet.size() / 4;
-  report.material = material;
-  report.nominal_size = nominal_size;
+namespace {
 
-  struct Grain {
-    double volume = 0, volume_error = 0, step = 0, excess = 0;
-    std::size_t surface_only = 0;
-  };
-  std::vector<Grain> grains(n);
-  std::vector<float> quality(report.tets), step(report.tets);
-  for_each_parallel(n, threads, [&](std::size_t i) {
-    Grain& grain = grains[i];
-    const std::int32_t node_begin = mesh.grain_node_offset[i];
-    const auto tet_begin = static_cast<std::size_t>(mesh.grain_tet_offset[i]);
-    const auto tet_end = static_cast<std::size_t>(mesh.grain_tet_offset[i + 1]);
-    TetMesh local;
-    const NodeMap node = grain_nodes(mesh, i);
-    for (Eigen::Index k = 0; k < node.cols(); ++k) local.node.push_back({node(0, k), node(1, k), node(2, k)});
-    for (std::size_t e = tet_begin; e < tet_end; ++e)
-      local.tet.push_back({mesh.tet[4 * e] - node_begin, mesh.tet[4 * e + 1] - node_begin,
-                           mesh.tet[4 * e + 2] - node_begin, mesh.tet[4 * e + 3] - node_begin});
-    if (const std::string defect = ball_defect(local); !defect.empty())
-      throw SimulationError(fmt::format("mesh of grain {} has {}", i, defect));
+/// What is measured on one grain.
+struct GrainReport {
+  double volume = 0;       ///< mm^3
+  double volume_error = 0; ///< relative
+  double step = 0;         ///< s, smallest critical step
+  double excess = 0;       ///< how far nodes lie outside the sphere, over its radius
+  std::size_t surface_only = 0;
+};
 
-    std::vector<char> on_surface(local.node.size(), 0);
-    for (const Facet& f : boundary_facets(local.tet))
-      for (const std::int32_t k : f) on_surface[static_cast<std::size_t>(k)] = 1;
-    grain.step = std::numeric_limits<double>::infinity();
-    for (std::size_t e = 0; e < local.tet.size(); ++e) {
-      const Tet& t = local.tet[e];
-      const auto at = [&](std::size_t k) { return local.node[static_cast<std::size_t>(t[k])]; };
-      const double critical = critical_step(at(0), at(1), at(2), at(3), material);
-      grain.volume += tet_volume(at(0), at(1), at(2), at(3));
-      grain.step = std::min(grain.step, critical);
-      step[tet_begin + e] = static_cast<float>(critical);
-      quality[tet_begin + e] = static_cast<float>(tet_quality(at(0), at(1), at(2), at(3)));
-      grain.surface_only +=
-          std::all_of(t.begin(), t.end(), [&](std::int32_t k) { return on_surface[static_cast<std::size_t>(k)] != 0; });
-    }
-    const double radius = packing.radius[i];
-    const double exact = 4.0 / 3.0 * std::numbers::pi * radius * radius * radius;
-    grain.volume_error = std::abs(grain.volume / exact - 1);
-    grain.excess =
-        std::sqrt((node.colwise() - vector(packing.center[i])).colwise().squaredNorm().maxCoeff()) / radius - 1;
-  });
+/// The mesh of one grain alone, its nodes numbered from 0.
+TetMesh grain_mesh(const PackingMesh& mesh, std::size_t grain) {
+  TetMesh local;
+  const std::int32_t first = mesh.grain_node_offset[grain];
+  const NodeMap node = grain_nodes(mesh, grain);
+  for (Eigen::Index k = 0; k < node.cols(); ++k) local.node.push_back({node(0, k), node(1, k), node(2, k)});
+  for (auto e = static_cast<std::size_t>(mesh.grain_tet_offset[grain]);
+       e < static_cast<std::size_t>(mesh.grain_tet_offset[grain + 1]); ++e)
+    local.tet.push_back({mesh.tet[4 * e] - first, mesh.tet[4 * e + 1] - first, mesh.tet[4 * e + 2] - first,
+                         mesh.tet[4 * e + 3] - first});
+  return local;
+}
 
+/// Measures a grain; `quality` and `step` are those of its tets.
+GrainReport measure_grain(const SpherePacking& packing, const PackingMesh& mesh, std::size_t i,
+                          const StepMaterial& material, float* quality, float* step) {
+  const TetMesh local = grain_mesh(mesh, i);
+  if (const std::string defect = ball_defect(local); !defect.empty())
+    throw SimulationError(fmt::format("mesh of grain {} has {}", i, defect));
+  std::vector<char> on_surface(local.node.size(), 0);
+  for (const Facet& f : boundary_facets(local.tet))
+    for (const std::int32_t k : f) on_surface[static_cast<std::size_t>(k)] = 1;
+  GrainReport grain;
+  grain.step = std::numeric_limits<double>::infinity();
+  for (std::size_t e = 0; e < local.tet.size(); ++e) {
+    const Tet& t = local.tet[e];
+    const auto at = [&](std::size_t k) { return local.node[static_cast<std::size_t>(t[k])]; };
+    const double critical = critical_step(at(0), at(1), at(2), at(3), material);
+    grain.volume += tet_volume(at(0), at(1), at(2), at(3));
+    grain.step = std::min(grain.step, critical);
+    step[e] = static_cast<float>(critical);
+    quality[e] = static_cast<float>(tet_quality(at(0), at(1), at(2), at(3)));
+    grain.surface_only +=
+        std::all_of(t.begin(), t.end(), [&](std::int32_t k) { return on_surface[static_cast<std::size_t>(k)] != 0; });
+  }
+  const double radius = packing.radius[i];
+  const double exact = 4.0 / 3.0 * std::numbers::pi * radius * radius * radius;
+  grain.volume_error = std::abs(grain.volume / exact - 1);
+  const NodeMap node = grain_nodes(mesh, i);
+  grain.excess =
+      std::sqrt((node.colwise() - vector(packing.center[i])).colwise().squaredNorm().maxCoeff()) / radius - 1;
+  return grain;
+}
+
+/// Sums and extremes over the grains.
+void add_up(const std::vector<GrainReport>& grains, const SpherePacking& packing, MeshReport& report) {
   double volume = 0, exact = 0;
   report.smallest_step = std::numeric_limits<double>::infinity();
-  for (std::size_t i = 0; i < n; ++i) {
-    const Grain& grain = grains[i];
+  for (std::size_t i = 0; i < grains.size(); ++i) {
+    const GrainReport& grain = grains[i];
     volume += grain.volume;
     exact += 4.0 / 3.0 * std::numbers::pi * std::pow(packing.radius[i], 3);
     report.largest_volume_error = std::max(report.largest_volume_error, grain.volume_error);
@@ -149,11 +154,31 @@ MeshReport report_mesh(const SpherePacking& packing, const PackingMesh& mesh, do
     }
   }
   report.total_volume_error = std::abs(volume / exact - 1);
-  const auto median = [](std::vector<float>& values) {
-    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-    std::nth_element(values.begin(), middle, values.end());
-    return static_cast<double>(*middle);
-  };
+}
+
+double median(std::vector<float>& values) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return static_cast<double>(*middle);
+}
+
+} // namespace
+
+MeshReport report_mesh(const SpherePacking& packing, const PackingMesh& mesh, double nominal_size,
+                       const StepMaterial& material, int threads) {
+  MeshReport report;
+  report.grains = packing.radius.size();
+  report.nodes = mesh.node.size() / 3;
+  report.tets = mesh.tet.size() / 4;
+  report.material = material;
+  report.nominal_size = nominal_size;
+  std::vector<GrainReport> grains(report.grains);
+  std::vector<float> quality(report.tets), step(report.tets);
+  for_each_parallel(report.grains, threads, [&](std::size_t i) {
+    const auto first = static_cast<std::size_t>(mesh.grain_tet_offset[i]);
+    grains[i] = measure_grain(packing, mesh, i, material, quality.data() + first, step.data() + first);
+  });
+  add_up(grains, packing, report);
   report.smallest_quality = static_cast<double>(*std::min_element(quality.begin(), quality.end()));
   report.median_quality = median(quality);
   report.median_step = median(step);

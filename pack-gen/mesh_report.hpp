@@ -8,9 +8,9 @@
 namespace mpfem {
 
 /// Smallest facet gap between grains, or a grain and a wall, with its proof's place. `second` as in SurfaceGap.
-/// Each mesh is bounded by the convex hull of its nodes (for the meshes of mesh_packing it is that hull), so a separating
-/// plane between the hulls is a lower bound of the distance of any two facets. Grains farther apart than their bounding
-/// spheres' bound need no plane.
+/// Each mesh is bounded by the convex hull of its nodes (for the meshes of mesh_packing it is that hull), so a
+/// separating plane between the hulls is a lower bound of the distance of any two facets. Grains farther apart than
+/// their bounding spheres' bound need no plane.
 SurfaceGap smallest_facet_gap(const SpherePacking& packing, const PackingMesh& mesh, int threads = 1);
 
 struct MeshReport {
@@ -29,7 +29,8 @@ struct MeshReport {
   double nominal_size = 0; ///< mm
 };
 
-/// Measures a mesh. Throws SimulationError when a tet has no positive volume or a grain's surface is not a closed sphere.
+/// Measures a mesh. Throws SimulationError when a tet has no positive volume or a grain's surface is not a closed
+/// sphere.
 MeshReport report_mesh(const SpherePacking& packing, const PackingMesh& mesh, double nominal_size,
                        const StepMaterial& material, int threads);
 

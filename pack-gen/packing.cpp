@@ -333,20 +333,37 @@ double relative_density(const SpherePacking& packing) {
   return 4.0 / 3.0 * std::numbers::pi * cubes / (packing.box[0] * packing.box[1] * packing.box[2]);
 }
 
+namespace {
+
+void refuse_spheres_beyond_the_box(const PackingRequest& request) {
+  const double largest = *std::max_element(request.radius.begin(), request.radius.end());
+  for (const double edge : request.box)
+    if (2 * (largest + request.smallest_gap) > edge)
+      throw InputError(
+          fmt::format("the largest sphere (diameter {:g} mm) with a gap of {:g} mm to both walls does not fit "
+                      "into a box edge of {:g} mm",
+                      2 * largest, request.smallest_gap, edge));
+}
+
+[[noreturn]] void refuse_jammed(const PackingRequest& request, const SpherePacking& packing) {
+  const double factor = largest_radius_factor(packing, request.smallest_gap);
+  throw InputError(
+      fmt::format("{} spheres with a smallest gap of {:g} mm jam before the relative density {:.4f}; reached: "
+                  "{:.3f}; lower the density, the gap, or add spheres",
+                  request.radius.size(), request.smallest_gap, relative_density(packing),
+                  relative_density(packing) * factor * factor * factor));
+}
+
+} // namespace
+
 SpherePacking pack_spheres(const PackingRequest& request) {
   const std::size_t n = request.radius.size();
   double mean = 0;
   for (const double r : request.radius) mean += r / static_cast<double>(n);
-  const double largest = *std::max_element(request.radius.begin(), request.radius.end());
-  for (std::size_t k = 0; k < 3; ++k)
-    if (2 * (largest + request.smallest_gap) > request.box[k])
-      throw InputError(
-          fmt::format("the largest sphere (diameter {:g} mm) with a gap of {:g} mm to both walls does not fit "
-                      "into a box edge of {:g} mm",
-                      2 * largest, request.smallest_gap, request.box[k]));
+  refuse_spheres_beyond_the_box(request);
 
-  // 1. Inflate by half the gap and a margin: overlaps up to the margin then still keep the gap. The walls move inwards by
-  //    half the gap, which together with the inflation leaves the whole gap to them.
+  // 1. Inflate by half the gap and a margin: overlaps up to the margin then still keep the gap. The walls move inwards
+  //    by half the gap, which together with the inflation leaves the whole gap to them.
   const double unit = mean + 0.5 * request.smallest_gap, margin = 2e-4;
   std::vector<double> inflated(n);
   for (std::size_t i = 0; i < n; ++i) inflated[i] = (request.radius[i] + 0.5 * request.smallest_gap) / unit + margin;
@@ -385,11 +402,7 @@ SpherePacking pack_spheres(const PackingRequest& request) {
 
   // 5. Accept only what the independent check confirms.
   if (done && smallest_gap(packing).gap >= request.smallest_gap) return packing;
-  const double factor = largest_radius_factor(packing, request.smallest_gap);
-  throw InputError(fmt::format(
-      "{} spheres with a smallest gap of {:g} mm jam before the relative density {:.4f}; reached: "
-      "{:.3f}; lower the density, the gap, or add spheres",
-      n, request.smallest_gap, relative_density(packing), relative_density(packing) * factor * factor * factor));
+  refuse_jammed(request, packing);
 }
 
 } // namespace mpfem

@@ -9,16 +9,17 @@
 
 namespace mpfem {
 
-/// Moves one node at a time, interior nodes freely and surface nodes on the sphere, by pattern search on the sum over the
-/// tetrahedra around it of (omega^2)^8, a smooth stand-in for the largest omega. `sweeps` passes over the nodes that
-/// touch a tetrahedron with a step below `band` times the smallest. Connectivity is kept. `edge`: mean edge length.
+/// Moves one node at a time, interior nodes freely and surface nodes on the sphere, by pattern search on the sum over
+/// the tetrahedra around it of (omega^2)^8, a smooth stand-in for the largest omega. `sweeps` passes over the nodes
+/// that touch a tetrahedron with a step below `band` times the smallest. Connectivity is kept. `edge`: mean edge
+/// length.
 void raise_smallest_step(BallMesh& ball, double edge, int sweeps, double band, std::uint64_t seed);
 
 /// Where a node may be moved.
 enum class NodeFreedom : char { fixed, on_unit_sphere, everywhere };
 
-/// The same for any mesh: one freedom for every node. Where sizes vary, `edge` is that of the smallest tetrahedra, which
-/// are the ones that have the smallest step.
+/// The same for any mesh: one freedom for every node. Where sizes vary, `edge` is that of the smallest tetrahedra,
+/// which are the ones that have the smallest step.
 void raise_smallest_step(TetMesh& mesh, const std::vector<NodeFreedom>& freedom, double edge, int sweeps, double band,
                          std::uint64_t seed);
 

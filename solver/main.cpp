@@ -26,6 +26,7 @@ using namespace mpfem;
 struct Arguments {
   std::string scenario;
   std::vector<std::string> assignments;
+  std::string from; ///< checkpoint; empty: none
   RunOptions run;
 };
 
@@ -87,7 +88,7 @@ CLI::App* add_bond(CLI::App& app, BondProgrammeOptions& options) {
   return bond;
 }
 
-CLI::App* add_bench(CLI::App& app, Arguments& arguments, BenchOptions& options, std::string& from) {
+CLI::App* add_bench(CLI::App& app, Arguments& arguments, BenchOptions& options) {
   CLI::App* bench = app.add_subcommand(
       "bench",
       "Measure what a step costs here, part by part, beside what the machine can do.\n"
@@ -96,7 +97,7 @@ CLI::App* add_bench(CLI::App& app, Arguments& arguments, BenchOptions& options, 
       "  mpfem bench --tets 1600000 --threads 1 --json\n"
       "  mpfem bench compaction.toml --from run.compaction.checkpoint.h5 --set stages.0.relative_density=0.95");
   bench->add_option("scenario", arguments.scenario, "Scenario to measure instead of the built-in packing (TOML)");
-  bench->add_option("--from", from, "Checkpoint whose state is measured")->check(CLI::ExistingFile);
+  bench->add_option("--from", arguments.from, "Checkpoint whose state is measured")->check(CLI::ExistingFile);
   bench->add_option("--set", arguments.assignments, "Override a value of the scenario: KEY=VALUE")->take_all();
   add_threads(*bench, arguments);
   add_number(*bench, "--tets", options.tets, Range::between(8, 4e8), "", "Tetrahedra of the built-in packing, about")
@@ -116,73 +117,75 @@ CLI::App* add_bench(CLI::App& app, Arguments& arguments, BenchOptions& options, 
   return bench;
 }
 
-int body(int argc, char** argv) {
-#ifdef MPFEM_HANDS_OVER
-  hand_over_to_best_build(argv);
-#endif
-  CLI::App app("mpfem: compacts a meshed packing of deformable grains.\n"
-               "Examples:\n"
-               "  mpfem check compaction.toml\n"
-               "  mpfem run compaction.toml -o run.h5\n"
-               "  mpfem run compaction.toml -o run.h5 --set stages.0.wall_speed=2000 --threads 2\n"
-               "  mpfem run compaction.toml -o run.h5 --resume\n"
-               "  mpfem bond law.toml programme.csv -o result.csv\n"
-               "  mpfem bench\n"
-               "Exit codes: 0 done, 2 bad usage or input, 3 simulation failed (state saved), 4 storage failed, "
-               "5 interrupted (resumable).");
-  app.set_version_flag("--version", version_and_commit());
-  app.require_subcommand(1);
+constexpr const char* help_text =
+    "mpfem: compacts a meshed packing of deformable grains.\n"
+    "Examples:\n"
+    "  mpfem check compaction.toml\n"
+    "  mpfem run compaction.toml -o run.h5\n"
+    "  mpfem run compaction.toml -o run.h5 --set stages.0.wall_speed=2000 --threads 2\n"
+    "  mpfem run compaction.toml -o run.h5 --resume\n"
+    "  mpfem bond law.toml programme.csv -o result.csv\n"
+    "  mpfem bench\n"
+    "Exit codes: 0 done, 2 bad usage or input, 3 simulation failed (state saved), 4 storage failed, "
+    "5 interrupted (resumable).";
 
-  Arguments arguments;
-  arguments.run.threads = available_cores();
-
+CLI::App* add_run(CLI::App& app, Arguments& arguments) {
   CLI::App* run = app.add_subcommand("run", "Run a scenario.\nExample: mpfem run compaction.toml -o run.h5 --resume");
   add_common(*run, arguments);
   run->add_option("-o,--output", arguments.run.output, "Run file to write (HDF5)")->required();
   run->add_flag("--resume", arguments.run.resume, "Go on from the run's checkpoint if there is one");
-  std::string from;
-  run->add_option("--from", from, "Begin at the state of this checkpoint")->check(CLI::ExistingFile);
+  run->add_option("--from", arguments.from, "Begin at the state of this checkpoint")->check(CLI::ExistingFile);
   add_number(*run, "--time-limit", arguments.run.time_limit, Range::between(1e-9, 1e9), "s",
              "Stop resumably after so much wall-clock time");
+  return run;
+}
 
+CLI::App* add_check(CLI::App& app, Arguments& arguments) {
   CLI::App* check = app.add_subcommand("check", "Validate a scenario, print its plan and how long it takes here.\n"
                                                 "Examples:\n"
                                                 "  mpfem check compaction.toml\n"
                                                 "  mpfem check unloading.toml --from run.D0.850.checkpoint.h5");
   add_common(*check, arguments);
-  check->add_option("--from", from, "Of a branch that begins at the state of this checkpoint")
+  check->add_option("--from", arguments.from, "Of a branch that begins at the state of this checkpoint")
       ->check(CLI::ExistingFile);
+  return check;
+}
 
+void measure_steps(const Arguments& arguments, BenchOptions options) {
+  if (!arguments.scenario.empty()) options.scenario = load_scenario(arguments);
+  if (!arguments.from.empty()) options.from = arguments.from;
+  if (arguments.scenario.empty() && (!arguments.from.empty() || !arguments.assignments.empty()))
+    throw InputError("mpfem bench: found --from or --set without a scenario, allowed with one only");
+  options.threads = arguments.run.threads;
+  run_bench(options);
+}
+
+int body(int argc, char** argv) {
+#ifdef MPFEM_HANDS_OVER
+  hand_over_to_best_build(argv);
+#endif
+  CLI::App app(help_text);
+  app.set_version_flag("--version", version_and_commit());
+  app.require_subcommand(1);
+  Arguments arguments;
+  arguments.run.threads = available_cores();
   BondProgrammeOptions bond_options;
-  const CLI::App* bond = add_bond(app, bond_options);
-
   BenchOptions bench_options;
-  std::string bench_from;
-  const CLI::App* bench = add_bench(app, arguments, bench_options, bench_from);
+  const CLI::App* run = add_run(app, arguments);
+  const CLI::App* check = add_check(app, arguments);
+  const CLI::App* bond = add_bond(app, bond_options);
+  const CLI::App* bench = add_bench(app, arguments, bench_options);
 
   if (const auto done = parse_command_line(app, "mpfem", argc, argv)) return *done;
 
-  if (bond->parsed()) {
-    run_bond_programme(bond_options);
-    return 0;
-  }
-  if (bench->parsed()) {
-    if (!arguments.scenario.empty()) bench_options.scenario = load_scenario(arguments);
-    if (!bench_from.empty()) bench_options.from = bench_from;
-    if (arguments.scenario.empty() && (!bench_from.empty() || !arguments.assignments.empty()))
-      throw InputError("mpfem bench: found --from or --set without a scenario, allowed with one only");
-    bench_options.threads = arguments.run.threads;
-    run_bench(bench_options);
-    return 0;
-  }
+  if (bond->parsed()) run_bond_programme(bond_options);
+  if (bench->parsed()) measure_steps(arguments, bench_options);
+  if (!run->parsed() && !check->parsed()) return 0;
   const Scenario scenario = load_scenario(arguments);
-  if (!from.empty()) arguments.run.from = from;
-  if (run->parsed()) {
-    arguments.run.scenario_file = arguments.scenario;
-    run_scenario(scenario, arguments.run);
-  } else if (check->parsed()) {
-    check_scenario(scenario, arguments.run.threads, arguments.run.from);
-  }
+  if (!arguments.from.empty()) arguments.run.from = arguments.from;
+  arguments.run.scenario_file = arguments.scenario;
+  if (run->parsed()) run_scenario(scenario, arguments.run);
+  if (check->parsed()) check_scenario(scenario, arguments.run.threads, arguments.run.from);
   return 0;
 }
 

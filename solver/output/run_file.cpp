@@ -58,9 +58,14 @@ std::vector<float> contact_pressure(const Model& model, const Contact& contact, 
   return pressure;
 }
 
-/// Writes the bonds of a snapshot: pairs, nodes, and every bond.
-void write_bonds(schema::FileWriter& file, const std::string& name, const Model& model, const Contact& contact,
-                 const std::vector<PairContact>& pairs) {
+template <class Dataset, class Values>
+void write_rows(schema::FileWriter& file, const std::string& name, const Dataset& dataset, const Values& values,
+                std::size_t rows) {
+  file.write(dataset, std::span<const typename Values::value_type>(values), rows, name);
+}
+
+/// Writes what the bonds of each pair of grains come to.
+void write_bonds_of_pairs(schema::FileWriter& file, const std::string& name, const std::vector<PairContact>& pairs) {
   std::vector<double> bonded_area, pair_damage, energy, dissipation;
   for (const PairContact& pair : pairs) {
     const BondSums& b = pair.bonds;
@@ -69,15 +74,14 @@ void write_bonds(schema::FileWriter& file, const std::string& name, const Model&
     energy.push_back(b.stored);
     dissipation.push_back(b.dissipated);
   }
-  const auto write = [&](const auto& dataset, const auto& values, std::size_t rows) {
-    using T = typename std::decay_t<decltype(values)>::value_type;
-    file.write(dataset, std::span<const T>(values), rows, name);
-  };
-  write(run::snapshots_pair_bonded_area, bonded_area, pairs.size());
-  write(run::snapshots_pair_damage, pair_damage, pairs.size());
-  write(run::snapshots_pair_bond_energy, energy, pairs.size());
-  write(run::snapshots_pair_damage_dissipation, dissipation, pairs.size());
+  write_rows(file, name, run::snapshots_pair_bonded_area, bonded_area, pairs.size());
+  write_rows(file, name, run::snapshots_pair_damage, pair_damage, pairs.size());
+  write_rows(file, name, run::snapshots_pair_bond_energy, energy, pairs.size());
+  write_rows(file, name, run::snapshots_pair_damage_dissipation, dissipation, pairs.size());
+}
 
+/// Writes every bond of a snapshot, and the mean damage at nodes.
+void write_bonds(schema::FileWriter& file, const std::string& name, const Model& model, const Contact& contact) {
   const auto nodes = static_cast<std::size_t>(model.nodes());
   std::vector<double> sum(nodes, 0.0), count(nodes, 0.0);
   std::vector<std::int32_t> node, grain, law;
@@ -104,16 +108,68 @@ void write_bonds(schema::FileWriter& file, const std::string& name, const Model&
   std::vector<float> nodal(nodes, -1.0F);
   for (std::size_t n = 0; n < nodes; ++n)
     if (count[n] > 0) nodal[n] = static_cast<float>(sum[n] / count[n]);
-  write(run::snapshots_damage, nodal, nodes);
-  write(run::snapshots_bond_node, node, node.size());
-  write(run::snapshots_bond_grain, grain, node.size());
-  write(run::snapshots_bond_damage, damage, node.size());
-  write(run::snapshots_bond_area, area, node.size());
-  write(run::snapshots_bond_separation, separation, node.size());
+  write_rows(file, name, run::snapshots_damage, nodal, nodes);
+  write_rows(file, name, run::snapshots_bond_node, node, node.size());
+  write_rows(file, name, run::snapshots_bond_grain, grain, node.size());
+  write_rows(file, name, run::snapshots_bond_damage, damage, node.size());
+  write_rows(file, name, run::snapshots_bond_area, area, node.size());
+  write_rows(file, name, run::snapshots_bond_separation, separation, node.size());
   if (contact.bond_laws.size() > 1) {
-    write(run::snapshots_bond_law, law, node.size());
-    write(run::snapshots_bond_laws, flatten(contact.bond_laws), contact.bond_laws.size());
+    write_rows(file, name, run::snapshots_bond_law, law, node.size());
+    write_rows(file, name, run::snapshots_bond_laws, flatten(contact.bond_laws), contact.bond_laws.size());
   }
+}
+
+/// Connectivity, back in file order.
+void write_mesh(schema::FileWriter& file, const Model& model) {
+  std::vector<std::int32_t> tet(4 * static_cast<std::size_t>(model.tets()));
+  for (int grain = 0; grain < model.grains; ++grain) {
+    const auto g = static_cast<std::size_t>(grain);
+    for (std::int32_t t = model.tet_offset[g]; t < model.tet_offset[g + 1]; ++t) {
+      const auto corner = model.nodes_of_tet(grain, t - model.tet_offset[g]);
+      for (std::size_t c = 0; c < 4; ++c)
+        tet[4 * static_cast<std::size_t>(model.file_tet[static_cast<std::size_t>(t)]) + c] =
+            model.file_node[static_cast<std::size_t>(model.node_offset[g] + corner[c])];
+    }
+  }
+  file.write(run::mesh_tet, std::span<const std::int32_t>(tet), static_cast<std::size_t>(model.tets()));
+  file.write(run::mesh_grain_node_offset, std::span<const std::int32_t>(model.node_offset), model.node_offset.size());
+  file.write(run::mesh_grain_tet_offset, std::span<const std::int32_t>(model.tet_offset), model.tet_offset.size());
+}
+
+void write_stages(schema::FileWriter& file, const std::vector<StageResult>& stages) {
+  std::vector<std::string> name, end;
+  std::vector<double> overshoot, hold_error, hold_rms;
+  for (const StageResult& stage : stages) {
+    name.push_back(stage.name);
+    end.push_back(stage.ended_by);
+    overshoot.push_back(stage.overshoot);
+    hold_error.push_back(stage.hold_error);
+    hold_rms.push_back(stage.hold_rms);
+  }
+  file.write(run::provenance_stage_name, std::span<const std::string>(name), name.size());
+  file.write(run::provenance_stage_end, std::span<const std::string>(end), end.size());
+  file.write(run::provenance_stage_overshoot, std::span<const double>(overshoot), overshoot.size());
+  file.write(run::provenance_stage_hold_error, std::span<const double>(hold_error), hold_error.size());
+  file.write(run::provenance_stage_hold_rms, std::span<const double>(hold_rms), hold_rms.size());
+}
+
+void write_provenance(schema::FileWriter& file, const Model& model, const Provenance& provenance) {
+  file.write_scalar(run::provenance_version, std::string(version()));
+  file.write_scalar(run::provenance_scenario, provenance.scenario_text);
+  file.write_scalar(run::provenance_packing_hash, hash_text(model.mesh_hash));
+  file.write_scalar(run::provenance_smooth_grains, std::int32_t{model.smooth_grains});
+  file.write_scalar(run::provenance_seed, model.seed);
+  file.write_scalar(run::provenance_host, physical_host());
+  file.write_scalar(run::provenance_threads, std::int32_t{provenance.threads});
+  file.write_scalar(run::provenance_wall_time, provenance.wall_time);
+  file.write(run::provenance_profile_name, std::span<const std::string>(provenance.profile_name),
+             provenance.profile_name.size());
+  file.write(run::provenance_profile_seconds, std::span<const double>(provenance.profile_seconds),
+             provenance.profile_seconds.size());
+  file.write_scalar(run::provenance_status, provenance.status);
+  write_stages(file, provenance.stages);
+  if (!provenance.from.empty()) file.write_scalar(run::provenance_from, provenance.from);
 }
 
 } // namespace
@@ -149,7 +205,10 @@ void write_snapshot_file(const std::string& path, const SnapshotState& state) {
   file.write(run::snapshots_pair_grains, std::span<const std::int32_t>(grains), area.size(), name);
   file.write(run::snapshots_pair_force, std::span<const double>(force), area.size(), name);
   file.write(run::snapshots_pair_area, std::span<const double>(area), area.size(), name);
-  if (state.contact.bonding()) write_bonds(file, name, model, state.contact, pairs);
+  if (state.contact.bonding()) {
+    write_bonds_of_pairs(file, name, pairs);
+    write_bonds(file, name, model, state.contact);
+  }
   file.commit();
 }
 
@@ -158,54 +217,13 @@ void write_run_file(const std::string& path, const Model& model, const std::vect
   schema::FileWriter file(path, schema::FileKind::run, fmt::format("mpfem {}", version_and_commit()));
   write_history(file, history);
 
-  // Connectivity back in file order.
-  std::vector<std::int32_t> tet(4 * static_cast<std::size_t>(model.tets()));
-  for (int grain = 0; grain < model.grains; ++grain) {
-    const auto g = static_cast<std::size_t>(grain);
-    for (std::int32_t t = model.tet_offset[g]; t < model.tet_offset[g + 1]; ++t) {
-      const auto corner = model.nodes_of_tet(grain, t - model.tet_offset[g]);
-      for (std::size_t c = 0; c < 4; ++c)
-        tet[4 * static_cast<std::size_t>(model.file_tet[static_cast<std::size_t>(t)]) + c] =
-            model.file_node[static_cast<std::size_t>(model.node_offset[g] + corner[c])];
-    }
-  }
-  file.write(run::mesh_tet, std::span<const std::int32_t>(tet), static_cast<std::size_t>(model.tets()));
-  file.write(run::mesh_grain_node_offset, std::span<const std::int32_t>(model.node_offset), model.node_offset.size());
-  file.write(run::mesh_grain_tet_offset, std::span<const std::int32_t>(model.tet_offset), model.tet_offset.size());
-
+  write_mesh(file, model);
   for (std::size_t i = 0; i < snapshot_files.size(); ++i) {
     const schema::FileReader from(snapshot_files[i], schema::FileKind::run);
     file.copy_snapshot(from, "0000", fmt::format("{:04}", i));
   }
 
-  file.write_scalar(run::provenance_version, std::string(version()));
-  file.write_scalar(run::provenance_scenario, provenance.scenario_text);
-  file.write_scalar(run::provenance_packing_hash, hash_text(model.mesh_hash));
-  file.write_scalar(run::provenance_smooth_grains, std::int32_t{model.smooth_grains});
-  file.write_scalar(run::provenance_seed, model.seed);
-  file.write_scalar(run::provenance_host, physical_host());
-  file.write_scalar(run::provenance_threads, std::int32_t{provenance.threads});
-  file.write_scalar(run::provenance_wall_time, provenance.wall_time);
-  file.write(run::provenance_profile_name, std::span<const std::string>(provenance.profile_name),
-             provenance.profile_name.size());
-  file.write(run::provenance_profile_seconds, std::span<const double>(provenance.profile_seconds),
-             provenance.profile_seconds.size());
-  file.write_scalar(run::provenance_status, provenance.status);
-  std::vector<std::string> name, end;
-  std::vector<double> overshoot, hold_error, hold_rms;
-  for (const StageResult& stage : provenance.stages) {
-    name.push_back(stage.name);
-    end.push_back(stage.ended_by);
-    overshoot.push_back(stage.overshoot);
-    hold_error.push_back(stage.hold_error);
-    hold_rms.push_back(stage.hold_rms);
-  }
-  file.write(run::provenance_stage_name, std::span<const std::string>(name), name.size());
-  file.write(run::provenance_stage_end, std::span<const std::string>(end), end.size());
-  file.write(run::provenance_stage_overshoot, std::span<const double>(overshoot), overshoot.size());
-  file.write(run::provenance_stage_hold_error, std::span<const double>(hold_error), hold_error.size());
-  file.write(run::provenance_stage_hold_rms, std::span<const double>(hold_rms), hold_rms.size());
-  if (!provenance.from.empty()) file.write_scalar(run::provenance_from, provenance.from);
+  write_provenance(file, model, provenance);
   file.commit();
 }
 
