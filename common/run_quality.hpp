@@ -1,6 +1,6 @@
 #pragma once
-// What makes the results of a run doubtful, judged from the rows of its history: the same words at the end of a run and in
-// `postproc summary`.
+// What makes the results of a run doubtful, judged from the rows of its history: the same words at the end of a run and
+// in `postproc summary`.
 
 #include <span>
 #include <string>

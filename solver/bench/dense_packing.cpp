@@ -25,10 +25,42 @@ struct UnitBall {
   double radius = 1; ///< of its surface nodes
 };
 
+using Lattice = std::array<int, 3>;
+
+/// The tetrahedra of one octant, n^3 of them, by the lattice coordinates of their corners.
+std::vector<std::array<Lattice, 4>> octant_tets(int n) {
+  // A cube splits into six tetrahedra, each a path along the axes in some order from its low to its high corner. Those
+  // inside the simplex n >= x >= y >= z >= 0 fill it, and x - y, y - z, z are the coordinates in the octant.
+  std::vector<std::array<Lattice, 4>> tets;
+  Lattice axes{0, 1, 2};
+  do {
+    for (int x = 0; x < n; ++x)
+      for (int y = 0; y <= x; ++y)
+        for (int z = 0; z <= y; ++z) {
+          std::array<Lattice, 4> corner;
+          Lattice at{x, y, z};
+          bool inside = true;
+          for (std::size_t i = 0; i < 4; ++i) {
+            if (i > 0) ++at[static_cast<std::size_t>(axes[i - 1])];
+            inside = inside && at[1] <= at[0] && at[2] <= at[1];
+            corner[i] = {at[0] - at[1], at[1] - at[2], at[2]};
+          }
+          if (inside) tets.push_back(corner);
+        }
+  } while (std::next_permutation(axes.begin(), axes.end()));
+  return tets;
+}
+
+/// Six times the volume of a tet.
+double determinant(const UnitBall& ball, const std::array<std::int32_t, 4>& tet) {
+  const auto x = [&](std::size_t i) { return ball.node[static_cast<std::size_t>(tet[i])]; };
+  return (x(1) - x(0)).dot((x(2) - x(0)).cross(x(3) - x(0)));
+}
+
 UnitBall make_unit_ball(int n) {
   UnitBall ball;
-  std::map<std::array<int, 3>, std::int32_t> index;
-  const auto node_at = [&](const std::array<int, 3>& lattice) {
+  std::map<Lattice, std::int32_t> index;
+  const auto node_at = [&](const Lattice& lattice) {
     const auto [place, fresh] = index.try_emplace(lattice, static_cast<std::int32_t>(ball.node.size()));
     if (fresh) {
       // Octahedra of the lattice become spheres of the same distance from the centre.
@@ -38,45 +70,23 @@ UnitBall make_unit_ball(int n) {
     }
     return place->second;
   };
-  // A cube splits into six tetrahedra, each a path along the axes in some order from its low to its high corner. Those
-  // inside the simplex n >= x >= y >= z >= 0 fill it, and x - y, y - z, z are the coordinates in the octant.
-  std::vector<std::array<std::array<int, 3>, 4>> simplex;
-  std::array<int, 3> axes{0, 1, 2};
-  do {
-    for (int x = 0; x < n; ++x)
-      for (int y = 0; y <= x; ++y)
-        for (int z = 0; z <= y; ++z) {
-          std::array<std::array<int, 3>, 4> corner;
-          std::array<int, 3> at{x, y, z};
-          bool inside = true;
-          for (std::size_t i = 0; i < 4; ++i) {
-            if (i > 0) ++at[static_cast<std::size_t>(axes[i - 1])];
-            inside = inside && at[1] <= at[0] && at[2] <= at[1];
-            corner[i] = {at[0] - at[1], at[1] - at[2], at[2]};
-          }
-          if (inside) simplex.push_back(corner);
-        }
-  } while (std::next_permutation(axes.begin(), axes.end()));
-
+  const auto of_octant = octant_tets(n);
   for (int octant = 0; octant < 8; ++octant)
-    for (const auto& corners : simplex) {
+    for (const auto& corners : of_octant) {
       std::array<std::int32_t, 4> tet{};
       for (std::size_t i = 0; i < 4; ++i) {
-        std::array<int, 3> lattice = corners[i];
+        Lattice lattice = corners[i];
         for (std::size_t axis = 0; axis < 3; ++axis)
           if ((octant >> axis) & 1) lattice[axis] = -lattice[axis];
         tet[i] = node_at(lattice);
       }
-      const auto x = [&](std::size_t i) { return ball.node[static_cast<std::size_t>(tet[i])]; };
-      if ((x(1) - x(0)).dot((x(2) - x(0)).cross(x(3) - x(0))) < 0) std::swap(tet[2], tet[3]);
+      if (determinant(ball, tet) < 0) std::swap(tet[2], tet[3]);
       ball.tet.push_back(tet);
     }
-  // Flat facets lie inside the sphere: the volume is made good, so that contacts are as wide as a sphere's.
+  // Flat facets lie inside the sphere: the ball is scaled to the volume of the sphere, so that contacts are as wide as
+  // a sphere's.
   double volume = 0;
-  for (const auto& t : ball.tet) {
-    const auto x = [&](std::size_t i) { return ball.node[static_cast<std::size_t>(t[i])]; };
-    volume += (x(1) - x(0)).dot((x(2) - x(0)).cross(x(3) - x(0))) / 6;
-  }
+  for (const auto& tet : ball.tet) volume += determinant(ball, tet) / 6;
   ball.radius = std::cbrt(4.0 / 3.0 * std::acos(-1.0) / volume);
   for (Point& x : ball.node) x *= ball.radius;
   return ball;

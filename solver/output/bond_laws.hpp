@@ -1,6 +1,6 @@
 #pragma once
-// Laws of bonds as files hold them: four numbers a law, strengths (MPa), fracture energy (N/mm) and softening (0 exponential,
-// 1 energy).
+// Laws of bonds as files hold them: four numbers a law, strengths (MPa), fracture energy (N/mm) and softening (0
+// exponential, 1 energy).
 
 #include <span>
 #include <vector>

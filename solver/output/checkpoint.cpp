@@ -20,8 +20,8 @@ namespace {
 
 namespace check = schema::checkpoint;
 
-/// Calls visit(dataset, array, rows) for every array of contact whose type is that of its dataset; `rows` is 0 where the
-/// file decides.
+/// Calls visit(dataset, array, rows) for every array of contact whose type is that of its dataset; `rows` is 0 where
+/// the file decides.
 template <class ContactType, class Visitor>
 void for_each_contact_array(ContactType& contact, std::size_t grains, Visitor&& visit) {
   auto& k = contact.candidates;
@@ -52,8 +52,8 @@ void for_each_node_array(ModelType& model, Visitor&& visit) {
   visit(check::node_force, model.force);
 }
 
-/// Calls visit(dataset, place) for every number that a tet keeps; place(block) gives its lanes. One array each: a copy of
-/// all of them would be the most that a run holds.
+/// Calls visit(dataset, place) for every number that a tet keeps; place(block) gives its lanes. One array each: a copy
+/// of all of them would be the most that a run holds.
 template <class Visitor>
 void for_each_tet_array(Visitor&& visit) {
   visit(

@@ -1,13 +1,13 @@
-// Two elastic spheres that bond where they touch, by an axisymmetric boundary-element solution: the reference of fig04 for
-// bonds of finite strength. Prints one row an approach: case, approach and force.
+// Two elastic spheres that bond where they touch, by an axisymmetric boundary-element solution: the reference of fig04
+// for bonds of finite strength. Prints one row an approach: case, approach and force.
 //
 // The pair is one frictionless half-space of modulus E* pressed by a paraboloid of curvature 1/Rbar. A ring of uniform
 // pressure moves the surface by the difference of two discs (Johnson, Contact Mechanics, 1985, section 3.4):
 //   u(r) = 4 p b/(pi E*) E(r/b)                                    inside a disc of radius b,
 //   u(r) = 4 p r/(pi E*) (E(b/r) - (1 - b^2/r^2) K(b/r))           outside.
 // The gap g = r^2/(2 Rbar) - h + u and the pressure p(g) - penalty where closed, minus the bond's traction where open,
-// nothing where no contact was ever made - are solved together by Newton's method at every approach h. The bond is that of
-// solver/physics/bond.hpp on its envelope: gaps of bonded rings only grow while the spheres are pulled apart.
+// nothing where no contact was ever made - are solved together by Newton's method at every approach h. The bond is that
+// of solver/physics/bond.hpp on its envelope: gaps of bonded rings only grow while the spheres are pulled apart.
 
 #include <cmath>
 #include <cstdio>

@@ -1,11 +1,12 @@
-// The contact surface measured: what orientation, unequal meshes and faceted surfaces do to contact forces, and how much
-// contact pressure oscillates from node to node. The measurements of studies/contact-surface; each prints CSV.
+// The contact surface measured: what orientation, unequal meshes and faceted surfaces do to contact forces, and how
+// much contact pressure oscillates from node to node. The measurements of studies/contact-surface; each prints CSV.
 //
 //   contact-surface geometry                                      how far facets lie from the sphere
 //   contact-surface rotations ELEMENT SCALING R/h FIRST LAST      elastic columns of two, meshes turned by each seed
-//   contact-surface unequal ELEMENT R/h R/h FIRST LAST            lower and upper sphere meshed differently, also renumbered
-//   contact-surface pressure ELEMENT R/h FACTOR PROFILE.csv       elasto-plastic pair, flattened; pressure node by node
-//   contact-surface packing ELEMENT PACKING.h5 FACTOR             a meshed packing compacted to a relative density of 0.9
+//   contact-surface unequal ELEMENT R/h R/h FIRST LAST            lower and upper sphere meshed differently, also
+//   renumbered contact-surface pressure ELEMENT R/h FACTOR PROFILE.csv       elasto-plastic pair, flattened; pressure
+//   node by node contact-surface packing ELEMENT PACKING.h5 FACTOR             a meshed packing compacted to a relative
+//   density of 0.9
 //
 // ELEMENT: tet4, tet4-anp. SCALING: exact (volume, as pack-gen makes grains), smooth (the same with
 // contact.surface = "smooth") or inscribed (nodes on the sphere).

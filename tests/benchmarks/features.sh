@@ -1,9 +1,10 @@
 #!/usr/bin/env bash
 # What each feature of a scenario costs: tests/benchmarks/features.sh PACKING.h5 [MPFEM] > features.md
 #
-# Compacts the packing (pack-gen mesh) to a relative density of 0.90, with bonds, without, and with hardening from a table,
-# and measures steps of what follows with one feature after the other on or off. Every case is measured three times, in turn
-# with the others, and the medians are printed: a shared machine is noisy. 329 grains of 600 tets take ten minutes.
+# Compacts the packing (pack-gen mesh) to a relative density of 0.90, with bonds, without, and with hardening from a
+# table, and measures steps of what follows with one feature after the other on or off. Every case is measured three
+# times, in turn with the others, and the medians are printed: a shared machine is noisy. 329 grains of 600 tets take
+# ten minutes.
 set -euo pipefail
 
 packing=${1:?usage: features.sh PACKING.h5 [MPFEM]}

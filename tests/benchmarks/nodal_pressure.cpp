@@ -1,11 +1,13 @@
 // Is average nodal pressure free of weak modes? The measurements of studies/nodal-pressure; each prints CSV.
 //
 //   nodal-pressure frequencies                          eigenfrequencies of a free elastic sphere
-//   nodal-pressure vibration ELEMENT R/h MODE STEPS SPEED VISCOSITY   one free elastic grain; MODE: spheroidal, breathing,
-//                                                       torsional, noise; SPEED mm/s at the surface, at first; VISCOSITY:
-//                                                       bulk viscosity over its default
-//   nodal-pressure cycles ELEMENT PACKING.h5 CYCLES     a packing of Table 1 compacted to 60 MPa, then cycles of 1 to 60 MPa
-//   nodal-pressure flattening ELEMENT R/h               one elasto-plastic sphere between walls, to half of its height
+//   nodal-pressure vibration ELEMENT R/h MODE STEPS SPEED VISCOSITY   one free elastic grain; MODE: spheroidal,
+//   breathing,
+//                                                       torsional, noise; SPEED mm/s at the surface, at first;
+//                                                       VISCOSITY: bulk viscosity over its default
+//   nodal-pressure cycles ELEMENT PACKING.h5 CYCLES     a packing of Table 1 compacted to 60 MPa, then cycles of 1 to
+//   60 MPa nodal-pressure flattening ELEMENT R/h               one elasto-plastic sphere between walls, to half of its
+//   height
 //
 // ELEMENT: tet4, tet4-anp, tet4-patch. R/h: radius over nominal element size.
 
@@ -50,7 +52,8 @@ void frequencies() {
                sphere_frequency(m.mode, m.l, radius, youngs_modulus, poissons_ratio, density) / (2 * M_PI));
 }
 
-/// Angular frequency (1/s) at which the windowed Fourier sum of samples, `step` s apart, is largest, within `range` of a guess.
+/// Angular frequency (1/s) at which the windowed Fourier sum of samples, `step` s apart, is largest, within `range` of
+/// a guess.
 double peak_frequency(const std::vector<double>& sample, double step, double guess, double range) {
   const auto power = [&](double omega) {
     std::complex<double> sum = 0, turn = std::polar(1.0, -omega * step), phase = 1;
@@ -72,7 +75,8 @@ double peak_frequency(const std::vector<double>& sample, double step, double gue
   return best;
 }
 
-/// The columns frequency (1/s) and its relative error of a mode's amplitude so far; "-" where the mode has no reference.
+/// The columns frequency (1/s) and its relative error of a mode's amplitude so far; "-" where the mode has no
+/// reference.
 std::string frequency_columns(const std::string& mode, const std::vector<double>& amplitude,
                               const std::vector<double>& time) {
   for (const ModeName& m : modes) {

@@ -2,10 +2,11 @@
 # Tables of docs/performance.md from the built-in packing:
 #   tests/benchmarks/performance.sh [--large] [MPFEM [PORTABLE_MPFEM [SCALAR_MPFEM]]] > tables.md
 #
-# MPFEM is the executable to measure (build/bin/mpfem), PORTABLE_MPFEM one of `cmake --preset portable`, which is measured
-# with each instruction set that this machine knows, SCALAR_MPFEM one of `cmake -DMPFEM_SCALAR=ON`. Every case is measured
-# three times, in turn with the others of its table, and the medians are printed: a shared machine is noisy. --large adds
-# packings of 1.6 and 12 million tets (2 GB of memory, a quarter of an hour). Features in a real packing: features.sh.
+# MPFEM is the executable to measure (build/bin/mpfem), PORTABLE_MPFEM one of `cmake --preset portable`, which is
+# measured with each instruction set that this machine knows, SCALAR_MPFEM one of `cmake -DMPFEM_SCALAR=ON`. Every case
+# is measured three times, in turn with the others of its table, and the medians are printed: a shared machine is noisy.
+# --large adds packings of 1.6 and 12 million tets (2 GB of memory, a quarter of an hour). Features in a real packing:
+# features.sh.
 set -euo pipefail
 
 large=
@@ -27,7 +28,8 @@ table() {
   local title=$1 name executable options i=0
   local names=()
   printf '\n### %s\n\n' "$title"
-  printf '| case | tets | elements alone | whole step | of it contact | search | memory, B a tet |\n|---|---|---|---|---|---|---|\n'
+  printf '| case | tets | elements alone | whole step | of it contact | search | memory, B a tet |\n'
+  printf '|---|---|---|---|---|---|---|\n'
   local cases
   cases=$(cat)
   for ((repetition = 1; repetition <= repetitions; ++repetition)); do
@@ -83,7 +85,9 @@ for grains in 20 80 329 1000 2000; do echo "$grains grains|$mpfem|--grains $grai
   for tets in 200000 330000; do echo "about 329 grains|$mpfem|--tets $tets"; done
   if [[ $large ]]; then
     for ((t = 1; t <= cores; t *= 2)); do
-      for element in tet4 tet4-anp; do echo "$element, $t threads|$mpfem|--tets 1600000 --element $element --threads $t"; done
+      for element in tet4 tet4-anp; do
+        echo "$element, $t threads|$mpfem|--tets 1600000 --element $element --threads $t"
+      done
     done
     echo "12 million|$mpfem|--tets 12000000 --steps 450"
   fi

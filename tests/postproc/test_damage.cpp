@@ -1,4 +1,5 @@
-// Damage of bonds: in sections, in maps of one contact, in tables; against a plane square contact whose answers are known.
+// Damage of bonds: in sections, in maps of one contact, in tables; against a plane square contact whose answers are
+// known.
 
 #include <algorithm>
 #include <sstream>
@@ -98,7 +99,8 @@ TEST_CASE("the plane of a contact goes through the area centroid, across the for
   CHECK(position[1] == Approx(0.5));
   CHECK(position[2] == Approx(5));
 
-  // A force 20 degrees off is taken as it is; one of 80 degrees is a shear force, and the points say where the plane is.
+  // A force 20 degrees off is taken as it is; one of 80 degrees is a shear force, and the points say where the plane
+  // is.
   const auto tilted = [&](double degrees) {
     const double angle = degrees * M_PI / 180;
     return contact_plane(points, {5 * std::sin(angle), 0, 5 * std::cos(angle)}, {0, 0, -1});

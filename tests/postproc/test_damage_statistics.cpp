@@ -1,4 +1,5 @@
-// Damage of all bonds of a snapshot: against numbers worked out by hand, and against populations of contacts that are known.
+// Damage of all bonds of a snapshot: against numbers worked out by hand, and against populations of contacts that are
+// known.
 
 #include <algorithm>
 #include <random>
@@ -31,8 +32,8 @@ private:
   std::mt19937 engine_;
 };
 
-/// Contacts of one to eight bonds. A contact's u in (0, 1) makes its bonds' area grow as 1/2 + u; below 1/4 all of them are broken,
-/// else their damage is 1 - u v with v in (0, 1) of the bond.
+/// Contacts of one to eight bonds. A contact's u in (0, 1) makes its bonds' area grow as 1/2 + u; below 1/4 all of them
+/// are broken, else their damage is 1 - u v with v in (0, 1) of the bond.
 std::vector<BondSample> population(std::size_t pairs, unsigned seed) {
   Uniform uniform(seed);
   std::vector<BondSample> bonds;
@@ -43,7 +44,8 @@ std::vector<BondSample> population(std::size_t pairs, unsigned seed) {
   return bonds;
 }
 
-/// Share of that population's area with damage 1 - s or less, for s > 1/4: the integral of (1/2 + u) (1 - s/u) from s to 1.
+/// Share of that population's area with damage 1 - s or less, for s > 1/4: the integral of (1/2 + u) (1 - s/u) from s
+/// to 1.
 double population_share(double s) {
   return 1 - 1.5 * s + 0.5 * s * s + 0.5 * s * std::log(s);
 }
@@ -121,7 +123,8 @@ TEST_CASE("a share of none or of all is as unsure as so few contacts leave it") 
   CHECK(within(s.broken_share.half_width, 3.0 / 60, rounding));
   CHECK(within(s.wholly_broken_pairs.half_width, 3.0 / 60, rounding));
   CHECK(s.between_pairs.value == 0);
-  // Where 4 % of all contacts are broken, none of 60 is in 0.96^60 = 9 % of the samples; where 5 % are, in 4.6 %: 3/60 is the limit.
+  // Where 4 % of all contacts are broken, none of 60 is in 0.96^60 = 9 % of the samples; where 5 % are, in 4.6 %: 3/60
+  // is the limit.
   CHECK(std::pow(1 - 3.0 / 60, 60) < 0.05);
 }
 

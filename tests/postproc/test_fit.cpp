@@ -127,8 +127,9 @@ TEST_CASE("the intervals of a line hold its coefficients in 95 % of 400 trials")
 }
 
 TEST_CASE("every model's coefficients are found again in noise, within their intervals") {
-  // Noise as the fit takes it to be: of ln y where a line of ln y is fitted (log-log, spriggs), of y else. Of 200 trials a
-  // 95 % interval holds 190 +- 3 * 3.1; where it is linearised (the exponentials) twice as many misses are allowed.
+  // Noise as the fit takes it to be: of ln y where a line of ln y is fitted (log-log, spriggs), of y else. Of 200
+  // trials a 95 % interval holds 190 +- 3 * 3.1; where it is linearised (the exponentials) twice as many misses are
+  // allowed.
   struct Case {
     std::string model;
     double low, high;

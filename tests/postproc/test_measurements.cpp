@@ -37,7 +37,8 @@ Row isotropic(int stage, double density, double stress) {
   return row;
 }
 
-/// Compaction to 0.9 at 80 MPa in stage 0, unloading in stage 1 to `residual` MPa along D = 0.88 + 0.02 (p / 80)^exponent.
+/// Compaction to 0.9 at 80 MPa in stage 0, unloading in stage 1 to `residual` MPa along D = 0.88 + 0.02 (p /
+/// 80)^exponent.
 std::vector<Row> loaded_and_unloaded(double residual, double exponent) {
   std::vector<Row> rows;
   for (int i = 0; i <= 20; ++i) rows.push_back(isotropic(0, 0.6 + 0.015 * i, 0.2 * i * i));
@@ -400,8 +401,8 @@ TEST_CASE("a probe yields where the dissipation has grown by 0.3 %, between two 
 TEST_CASE("load cycles have the area, drift and dissipation that were put into them") {
   const Folder folder;
   // p between 0.5 and 85 MPa, in every cycle 0.3 MPa higher (walls that overshoot); strain = p / 4000 -+ w sin(pi u) on
-  // loading and unloading, drifting by -1e-4 a cycle: the area is 2 w times the integral of sin(pi u) over p, 2/pi of the
-  // rise (the drift adds its share of the path's mean height).
+  // loading and unloading, drifting by -1e-4 a cycle: the area is 2 w times the integral of sin(pi u) over p, 2/pi of
+  // the rise (the drift adds its share of the path's mean height).
   constexpr double w = 2e-4, low = 0.5, drift = -1e-4;
   const auto high = [](int cycle) { return 85 + 0.3 * cycle; };
   constexpr int half_rows = 60, cycles = 5;
@@ -568,8 +569,8 @@ TEST_CASE("the contact-area ratio is followed through the run") {
   CHECK(within(measure_contact(file, 0).value, 0.2, rounding));
   const auto columns = contact_history(HistoryTable(file));
   CHECK(within(columns[5].values[30], 0.3, rounding));
-  // Noise comes out as the uncertainty: Student's t of four degrees of freedom, 2.776, times a standard deviation of as many,
-  // which is 0.940 of the noise's in the mean; 200 of them know that to 3 %.
+  // Noise comes out as the uncertainty: Student's t of four degrees of freedom, 2.776, times a standard deviation of as
+  // many, which is 0.940 of the noise's in the mean; 200 of them know that to 3 %.
   Noise noise(7);
   double mean = 0;
   for (int trial = 0; trial < 200; ++trial) {

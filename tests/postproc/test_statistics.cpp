@@ -46,8 +46,8 @@ TEST_CASE("a quarter of outliers hardly moves Theil and Sen's slope") {
     x.push_back(i);
     y.push_back(2.0 * i + 0.1 * noise() + (i % 4 == 3 ? 1000.0 : 0.0));
   }
-  // Pairs of a good with a bad point lean to both sides, slightly unevenly: the median moves by a few per cent where the
-  // least squares slope is wrong by more than a half.
+  // Pairs of a good with a bad point lean to both sides, slightly unevenly: the median moves by a few per cent where
+  // the least squares slope is wrong by more than a half.
   CHECK(within(theil_sen_line(x, y).slope, 2, 0.05));
   CHECK(std::abs(least_squares_line(x, y).slope - 2) > 0.5);
 }
@@ -130,8 +130,8 @@ TEST_CASE("a parabola through points on one has its values and no scatter; one p
   CHECK(through.freedom == 2);
   CHECK(through.scatter < 1e-12);
   CHECK(within(through.at(1.2e-3), exact(1.2e-3), 1e-12));
-  // Five even points, the middle one off by 1: what is left is along (1, -4, 6, -4, 1) / sqrt(70) and (1, -2, 0, 2, -1) / sqrt(10),
-  // which is orthogonal to it: 36 / 70 in square.
+  // Five even points, the middle one off by 1: what is left is along (1, -4, 6, -4, 1) / sqrt(70) and (1, -2, 0, 2, -1)
+  // / sqrt(10), which is orthogonal to it: 36 / 70 in square.
   const std::vector<double> even = {0, 1, 2, 3, 4}, off = {0, 0, 1, 0, 0};
   CHECK(within(least_squares_parabola(even, off).scatter, std::sqrt(36.0 / 70 / 2), 1e-12));
 }

@@ -1,8 +1,9 @@
-// Uncertainties of the numbers beside a metric's value: on histories whose truth is known, with noise, they hold as often as they
-// say and are not much wider than they must be.
+// Uncertainties of the numbers beside a metric's value: on histories whose truth is known, with noise, they hold as
+// often as they say and are not much wider than they must be.
 //
-// Bounds: an interval of 95 % holds in 200 trials with a standard deviation of 1.5 %, so in 0.905 … 0.995 of them but for one
-// test in a few hundred; the trials are the same in every run. Uncertainties may be three times the errors (root mean square).
+// Bounds: an interval of 95 % holds in 200 trials with a standard deviation of 1.5 %, so in 0.905 … 0.995 of them but
+// for one test in a few hundred; the trials are the same in every run. Uncertainties may be three times the errors
+// (root mean square).
 
 #include <algorithm>
 #include <array>
@@ -40,7 +41,8 @@ double number(const Measurement& m, const std::string& name) {
   return m.details.at(name).get<double>();
 }
 
-/// Vibration that smoothing takes for a part of the curve: a sine of standard deviation 1 whose phase differs in every trial.
+/// Vibration that smoothing takes for a part of the curve: a sine of standard deviation 1 whose phase differs in every
+/// trial.
 double vibration(int row, double period_in_rows, int trial) {
   return std::numbers::sqrt2 * std::sin(2 * std::numbers::pi * (row / period_in_rows + 0.618034 * trial));
 }
@@ -150,7 +152,8 @@ TEST_CASE("energies hold their true values through vibration") {
 
 TEST_CASE("plastic dissipation holds its true value where the ledger does not close, and that of bonds is left alone") {
   const Folder folder;
-  // Plastic dissipation is integrated badly, by a random walk of every row, and the residual shows it with the other sign.
+  // Plastic dissipation is integrated badly, by a random walk of every row, and the residual shows it with the other
+  // sign.
   Coverage state, change;
   Noise noise(23);
   for (int trial = 0; trial < trials; ++trial) {
@@ -179,8 +182,8 @@ TEST_CASE("plastic dissipation holds its true value where the ledger does not cl
 
 TEST_CASE("dissipation, densities and drift of load cycles hold their true values") {
   const Folder folder;
-  // p rises and falls evenly between 0.5 and 85 MPa, each cycle 0.01 MPa higher; 117.3 rows a cycle, so that turning points lie
-  // anywhere between two rows. Strain is p / 4000, with a drift of -1e-4 a cycle; dissipation grows evenly.
+  // p rises and falls evenly between 0.5 and 85 MPa, each cycle 0.01 MPa higher; 117.3 rows a cycle, so that turning
+  // points lie anywhere between two rows. Strain is p / 4000, with a drift of -1e-4 a cycle; dissipation grows evenly.
   constexpr double low = 0.5, rows_a_cycle = 117.3, drift = -1e-4;
   constexpr int cycles = 5;
   std::map<std::string, Coverage> coverage;
@@ -244,8 +247,8 @@ TEST_CASE("dissipation, densities and drift of load cycles hold their true value
 TEST_CASE("the onset of damage holds its true strain and stress in noise of damage and vibration") {
   constexpr std::array<double, 4> periods = {12, 14, 16, 20}; // rows
   const Folder folder;
-  // Damage grows slowly, from a strain of 0.015 on a hundred times as fast: the tangent meets the level at 0.015 (1 - 0.01 / 2)
-  // but for what the slow growth leaves.
+  // Damage grows slowly, from a strain of 0.015 on a hundred times as fast: the tangent meets the level at 0.015 (1 -
+  // 0.01 / 2) but for what the slow growth leaves.
   const auto stress = [](double e) { return e < 0.02 ? 1000 * e : 20 - 500 * (e - 0.02); };
   const auto damage = [](double e) { return e < 0.015 ? 0.02 * e : 0.02 * 0.015 + 2 * (e - 0.015); };
   const double onset = 0.015 - 0.02 * 0.015 / 2;
@@ -301,7 +304,8 @@ TEST_CASE("the numbers beside a strength hold their true values in vibration, at
                       hard = strength(curve_of(folder, hardening), {});
     REQUIRE(soft.details["criterion"] == "peak");
     REQUIRE(hard.details["criterion"] == "at-strain");
-    // The peak is flat: a row's stress there is the peak's but for 1 % of the height at a quarter of its strain beside it.
+    // The peak is flat: a row's stress there is the peak's but for 1 % of the height at a quarter of its strain beside
+    // it.
     at_peak.add(number(soft, "mean_stress_at_strength_MPa") - (8 + 40 / 3.0),
                 number(soft, "mean_stress_at_strength_uncertainty_MPa"));
     lateral.add(number(soft, "lateral_stress_at_strength_MPa") - 8,

@@ -1,9 +1,10 @@
 // compare-numbers TOLERANCES KEPT FOUND: holds tables to kept ones, number by number.
 //
-// TOLERANCES is a table with the columns table, column, relative, absolute, times_uncertainty, why. `table` is a CSV file
-// below KEPT and FOUND, `column` one of its columns without the unit. A number may differ from the kept one by the largest
-// of relative * |kept|, absolute, and times_uncertainty * the kept value of the column NAME_uncertainty. Rows are taken in
-// order; texts and the number of rows must agree. Exit code 0: all within; 1: some are not; 2: a file cannot be used.
+// TOLERANCES is a table with the columns table, column, relative, absolute, times_uncertainty, why. `table` is a CSV
+// file below KEPT and FOUND, `column` one of its columns without the unit. A number may differ from the kept one by the
+// largest of relative * |kept|, absolute, and times_uncertainty * the kept value of the column NAME_uncertainty. Rows
+// are taken in order; texts and the number of rows must agree. Exit code 0: all within; 1: some are not; 2: a file
+// cannot be used.
 
 #include <cmath>
 #include <cstdlib>

@@ -1,20 +1,20 @@
 #!/usr/bin/env bash
-# Whether two builds compute bitwise the same: a fixed set of short scenarios on a packing of 25 grains, run by both, and every
-# number of their histories and snapshots compared.
+# Whether two builds compute bitwise the same: a fixed set of short scenarios on a packing of 25 grains, run by both,
+# and every number of their histories and snapshots compared.
 #
-#   same-histories.sh BUILD_A BUILD_B          runs both in a temporary folder and compares (two minutes on an idle core)
+#   same-histories.sh BUILD_A BUILD_B          runs both in a temporary folder and compares (two minutes on a core)
 #   same-histories.sh record BUILD FOLDER      packs, meshes and runs; the results stay in FOLDER
 #   same-histories.sh compare FOLDER FOLDER    compares two such folders
 #
-# BUILD is a folder with bin/mpfem and bin/pack-gen. PACKING in the environment names a meshed packing to use instead of a
-# new one. COMPARE names the program compare-results, build/bin/compare-results if not given.
+# BUILD is a folder with bin/mpfem and bin/pack-gen. PACKING in the environment names a meshed packing to use instead of
+# a new one. COMPARE names the program compare-results, build/bin/compare-results if not given.
 # Exit code 0: all the same; 1: something differs or a run failed; 2: bad usage.
 set -euo pipefail
 here=$(realpath "$(dirname "${BASH_SOURCE[0]}")/../..")
 compare=${COMPARE:-$here/build/bin/compare-results}
 
 usage() {
-  sed -n '2,13s/^# \{0,1\}//p' "${BASH_SOURCE[0]}" >&2
+  sed -n '2,11s/^# \{0,1\}//p' "${BASH_SOURCE[0]}" >&2
   exit 2
 }
 
@@ -170,7 +170,10 @@ compare_folders() {
   return "$failed"
 }
 
-[[ -x $compare ]] || { echo "same-histories: error: $compare is missing: build the target compare-results" >&2; exit 2; }
+if [[ ! -x $compare ]]; then
+  echo "same-histories: error: $compare is missing: build the target compare-results" >&2
+  exit 2
+fi
 case ${1:-} in
 record) [[ $# == 3 ]] || usage; record "$2" "$3" ;;
 compare) [[ $# == 3 ]] || usage; compare_folders "$2" "$3" ;;

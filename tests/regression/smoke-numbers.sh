@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# tests/regression/smoke-numbers.sh BUILD [OUT]: holds the tables that the smoke studies made (OUT, by default out/smoke) to
-# those kept in studies/results/smoke, within the tolerances of tolerances.csv.
+# tests/regression/smoke-numbers.sh BUILD [OUT]: holds the tables that the smoke studies made (OUT, by default
+# out/smoke) to those kept in studies/results/smoke, within the tolerances of tolerances.csv.
 # tests/regression/smoke-numbers.sh --hash: the hash of what is kept, for a file in changes/.
 # tests/regression/smoke-numbers.sh --check-changes: fails where no file in changes/ names that hash.
 set -euo pipefail
@@ -24,8 +24,8 @@ case ${1:-} in
 --check-changes)
   hash=$(hash_of_reference)
   grep -qx "reference: $hash" "$top"/changes/*.md || {
-    echo "the kept numbers of the smoke studies or their tolerances changed: found hash $hash, which no file in changes/" \
-      "names; changes/README.md says what to write" >&2
+    echo "the kept numbers of the smoke studies or their tolerances changed: found hash $hash, which no file in" \
+      "changes/ names; changes/README.md says what to write" >&2
     exit 1
   }
   ;;

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # tests/reliability/instrumented-run.sh BIN THREADS [PREFIX]: packs, meshes and compacts eight bonded grains with an
-# instrumented build (a sanitizer's, or under valgrind by PREFIX), interrupts nothing, and resumes from the checkpoint of the
-# compaction into an unloading. Exit code 0: the instruments found nothing.
+# instrumented build (a sanitizer's, or under valgrind by PREFIX), interrupts nothing, and resumes from the checkpoint
+# of the compaction into an unloading. Exit code 0: the instruments found nothing.
 set -euo pipefail
 bin=$(realpath "$1")
 threads=$2

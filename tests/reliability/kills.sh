@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
-# tests/reliability/kills.sh BIN COMPARE [KILLS]: kills runs of every kind of stage, branches of them, and a small study with two
-# jobs, KILLS times in all (default 10) with kill -9 at random moments, lets them go on, and compares every file with those
-# of undisturbed runs: all are there, and alike to the bit but for wall-clock times. BIN: folder of the executables, COMPARE:
-# compare-runs. Exit code 0: all alike. SEED in the environment repeats a sequence of moments.
+# tests/reliability/kills.sh BIN COMPARE [KILLS]: kills runs of every kind of stage, branches of them, and a small study
+# with two jobs, KILLS times in all (default 10) with kill -9 at random moments, lets them go on, and compares every
+# file with those of undisturbed runs: all are there, and alike to the bit but for wall-clock times. BIN: folder of the
+# executables, COMPARE: compare-runs. Exit code 0: all alike. SEED in the environment repeats a sequence of moments.
 set -euo pipefail
 bin=$(realpath "$1")
 compare=$(realpath "$2")
@@ -19,7 +19,8 @@ cd "$work"
 now() { date +%s%N; }
 killed=0
 
-# in_parts KILLS NANOSECONDS COMMAND...: kills the command so many times within the time that it takes, then lets it end.
+# in_parts KILLS NANOSECONDS COMMAND...: kills the command so many times within the time that it takes, then lets it
+# end.
 in_parts() {
   local wanted=$1 time=$2 done_before=$killed name=$5
   shift 2
@@ -65,7 +66,8 @@ time=$(($(now) - begun))
 in_parts "$share" "$time" run branch branch-killed --from loadings-whole.cycles.checkpoint.h5 --resume
 all_alike branch-whole branch-killed
 
-# The rules of the studies themselves, on this packing and with short tables: a compaction and what begins at its checkpoints.
+# The rules of the studies themselves, on this packing and with short tables: a compaction and what begins at its
+# checkpoints.
 repository=$(realpath "$here/../..")
 for name in whole killed; do
   mkdir -p "study-$name/pack-gen"

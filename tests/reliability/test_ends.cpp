@@ -6,7 +6,7 @@
 #include <fmt/format.h>
 
 #include "common/run_quality.hpp"
-#include "solver/run/history_pace.hpp"
+#include "solver/run/history_schedule.hpp"
 #include "tests/reliability/small_runs.hpp"
 #include "tests/support/folder.hpp"
 

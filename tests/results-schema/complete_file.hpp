@@ -13,7 +13,8 @@ using namespace schema;
 
 inline const std::vector<std::string> snapshot_names = {"0000", "0001"};
 
-/// Extents by name: all different, so that a mix-up of two names shows. Names of a snapshot differ from one to the next.
+/// Extents by name: all different, so that a mix-up of two names shows. Names of a snapshot differ from one to the
+/// next.
 class Extents {
 public:
   std::size_t of(std::string name, const std::string& snapshot) {

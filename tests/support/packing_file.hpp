@@ -10,8 +10,8 @@
 
 namespace mpfem::test {
 
-/// Writes a meshed packing as pack-gen would; sphere radii (mm) as given, centres at the grains' mean node. Offsets may be
-/// wrong.
+/// Writes a meshed packing as pack-gen would; sphere radii (mm) as given, centres at the grains' mean node. Offsets may
+/// be wrong.
 inline void write_packing(const std::string& path, const MeshedPacking& packing, const std::vector<double>& radius) {
   namespace file = schema::packing;
   using Doubles = std::span<const double>;

@@ -1,5 +1,6 @@
 #pragma once
-// Short runs of eight grains through the executable: their scenarios, how they are run, and whether two of them are the same.
+// Short runs of eight grains through the executable: their scenarios, how they are run, and whether two of them are the
+// same.
 
 #include <filesystem>
 #include <string>
@@ -167,8 +168,8 @@ inline void check_threads(const std::string& text, int cells) {
   CHECK(all[0] == all[2]);
 }
 
-/// Runs a command that writes `output`, stopping it and resuming, twice at least. Where the machine has become faster since
-/// the whole run took its `seconds`, it begins anew with shorter parts.
+/// Runs a command that writes `output`, stopping it and resuming, twice at least. Where the machine has become faster
+/// since the whole run took its `seconds`, it begins anew with shorter parts.
 inline void run_in_parts(const std::string& command, const std::string& output, double seconds) {
   int stops = 0;
   for (double limit = seconds / 5; stops < 2; limit /= 2) {
@@ -202,7 +203,8 @@ inline void check_resuming(const std::string& text, int cells) {
   CHECK(std::filesystem::exists(folder / "parts.compaction.checkpoint.h5"));
 }
 
-/// A scenario that is bitwise the same on any number of threads and when it is resumed, and whose plan says `what` it has.
+/// A scenario that is bitwise the same on any number of threads and when it is resumed, and whose plan says `what` it
+/// has.
 inline void check_variant(const std::string& text, const std::string& what) {
   check_threads(text, 4);
   check_resuming(text, 4);
