@@ -26,6 +26,17 @@ std::optional<double> servo_speed(const StageType& type) {
       type);
 }
 
+const LoadingEnds* loading_ends(const StageType& type) {
+  return std::visit(
+      [](const auto& stage) -> const LoadingEnds* {
+        if constexpr (requires { stage.ends; })
+          return &stage.ends;
+        else
+          return nullptr;
+      },
+      type);
+}
+
 Axes withdrawn_axes(const StageType& type) {
   if (std::holds_alternative<GripMotion>(type)) return {true, true, true};
   if (std::holds_alternative<UnconfinedCompression>(type)) return {true, true, false};

@@ -142,6 +142,8 @@ struct Stage {
 double driven_speed(const StageType& type);
 /// mm/s, the largest of walls that are held at a stress; none where none is held.
 std::optional<double> servo_speed(const StageType& type);
+/// What ends a loading; null for stages that are no loadings.
+const LoadingEnds* loading_ends(const StageType& type);
 /// Axes of the box, as flags.
 using Axes = std::array<bool, 3>;
 /// Axes whose walls are away while a stage lasts.
