@@ -89,13 +89,14 @@ private:
     if (distance == 0 || is_outside(model_, offset, closest, geometry))
       return evaluate_open_point(pair, point, node, x, distance);
     refuse_depth(pair, distance);
-    // 3. Inside: pushed back to the closest point. The intact share of a bond carries its share of the push itself.
+    // 3. Inside: pushed back to the closest point. What a bond carries of the push is not left to the penalty.
     const double k = pair.stiffness * model_.local_stiffness(at(node)) * model_.reference_area[at(node)];
     double pushed = k;
     if constexpr (bonding)
       pushed *= evaluate_closed_bond(pair, contact_.bond[at(point)], node, x, facet, closest, distance);
     ContactForce& record = contact_.force[at(pair.first_point + pair.active++)];
-    record = make_record(penalty_force(pushed, offset), closest.weight1, closest.weight2, pushed, node, geometry);
+    record = make_record(penalty_force(pushed, offset), closest.weight1, closest.weight2, std::abs(pushed), node,
+                         geometry);
     add_to_node(model_, record);
     sums.energy += penalty_energy(k, distance);
     sums.penetration = std::max(sums.penetration, distance / model_.element_size[pair.grain]);
@@ -157,15 +158,15 @@ private:
     }
     if (!bond.intact()) return 1.0;
     pull(pair, bond, node, x, -distance);
-    return 1.0 - bond.remaining;
+    const double penalty = 2 * pair.stiffness * model_.local_stiffness(at(node));
+    return penalty_left_by_bond(bond_law(contact_, bond, penalty), bond, penalty);
   }
 
   /// Takes a bond to the present position of its node and records its force. `gap` in mm, negative inside.
   void pull(PairOfGrains& pair, PointBond& bond, std::int32_t node, const Vector3<double>& x, double gap) {
     const Facet facet = facet_geometry(model_, bond.facet);
-    const double share = pair.stiffness * model_.local_stiffness(at(node)); // of this pass
-    const double k = share * model_.reference_area[at(node)];
-    const BondLaw law = bond_law(contact_, bond, 2 * share);
+    const BondLaw law = bond_law(contact_, bond, 2 * pair.stiffness * model_.local_stiffness(at(node)));
+    const double k = 0.5 * law.stiffness * model_.reference_area[at(node)]; // of this pass
     const BondPull pull =
         law.normal_only ? pull_of_normal_bond(law, bond, x, facet.x) : pull_of_bond(law, bond, x, facet.x, gap);
     ContactForce& record = contact_.bond_force[at(pair.first_point + pair.pulling++)];

@@ -37,8 +37,8 @@ struct Contact {
   std::vector<ContactForce> force;       ///< [points]: active points first within every pair's range
   std::vector<std::int32_t> active;      ///< [pairs]: number of active points
   /// Laws by which bonds formed; empty: no bonds, and the arrays below stay empty. New bonds form by the last one,
-  /// which in a branch may differ from that of the bonds of its checkpoint. Their stiffness is unset: it is the point's
-  /// (bond_law).
+  /// which in a branch may differ from that of the bonds of its checkpoint. Their stiffness is 0 where it follows the
+  /// point's penalty (bond_law).
   std::vector<BondLaw> bond_laws;
   bool rebond_on_contact = false;       ///< a broken bond's point bonds anew when it has opened and closes again
   std::vector<PointBond> bond;          ///< [points]
@@ -59,11 +59,9 @@ struct Contact {
   }
 };
 
-/// Law by which a bond formed, at a point with this penalty stiffness (MPa/mm, of both passes together).
-inline BondLaw bond_law(const Contact& contact, const PointBond& bond, double stiffness) {
-  BondLaw law = contact.bond_laws[static_cast<std::size_t>(bond.law)];
-  law.stiffness = stiffness;
-  return law;
+/// Law by which a bond formed, at a point with this penalty (MPa/mm, of both passes together).
+inline BondLaw bond_law(const Contact& contact, const PointBond& bond, double penalty) {
+  return law_at_point(contact.bond_laws[static_cast<std::size_t>(bond.law)], penalty);
 }
 
 } // namespace mpfem

@@ -36,6 +36,15 @@ void contact_stiffness_rate(const Model& model, const Contact& contact, int grai
 
 namespace {
 
+/// What bonds raise the stiffness of a point with this penalty (MPa/mm) to, over that penalty: a closed, intact bond
+/// with the stiffness ratio r counts |1 - r| + r.
+double raised_by_bonds(const Contact& contact, double penalty) {
+  double largest = 1;
+  for (const BondLaw& law : contact.bond_laws)
+    largest = std::max(largest, 2 * law_at_point(law, penalty).stiffness / penalty - 1);
+  return largest;
+}
+
 /// A node of a grain that is r times as coarse adds r^2/(1 + r) times what a node of an equal grain adds (the harmonic
 /// mean of both penalties, r^2 times the area). Below r = 1.5 that is less.
 void raise_near_coarser_grains(const Model& model, const Contact& contact, int grain, std::span<double> rate) {
@@ -48,7 +57,8 @@ void raise_near_coarser_grains(const Model& model, const Contact& contact, int g
     const double stiffness = pass_stiffness(model.penalty_stiffness[other], model.penalty_stiffness[g]);
     for (std::int32_t p = candidates.pair_point_offset[pair]; p < candidates.pair_point_offset[pair + 1]; ++p) {
       const std::size_t node = at(candidates.point_node[at(p)]);
-      const double k = stiffness * model.local_stiffness(node) * model.reference_area[node];
+      const double k = stiffness * model.local_stiffness(node) * model.reference_area[node] *
+                       raised_by_bonds(contact, 2 * stiffness * model.local_stiffness(node));
       for (std::int32_t f = candidates.point_facet_offset[at(p)]; f < candidates.point_facet_offset[at(p) + 1]; ++f)
         for (std::size_t corner = 0; corner < 3; ++corner) {
           const std::size_t touched = at(model.facet[3 * at(candidates.point_facet[at(f)]) + corner]);
@@ -83,7 +93,8 @@ void raise_to_expected_rate(const Model& model, const Contact& contact, int grai
   const double contrast = stiffness_contrast(model, contact, grain);
   for (std::int32_t node = first; node < first + model.surface_node_count[g]; ++node) {
     // A node with stiffness K/2 A and, by symmetry, a facet's share of the same size; against a wall K A alone.
-    const double expected = contrast * 2.0 * model.penalty_stiffness[g] * model.local_stiffness(at(node)) *
+    const double penalty = model.penalty_stiffness[g] * model.local_stiffness(at(node));
+    const double expected = contrast * raised_by_bonds(contact, penalty) * 2.0 * penalty *
                             model.reference_area[at(node)] * model.inverse_mass[at(node)];
     rate[at(node)] = std::max(rate[at(node)], expected);
   }

@@ -22,13 +22,13 @@ BondSums bond_sums(const Model& model, const Contact& contact, std::int32_t pair
   BondSums sums;
   if (contact.bond.empty()) return sums;
   const ContactCandidates& candidates = contact.candidates;
-  const double stiffness = 2 * pass_stiffness(model.penalty_stiffness[at(candidates.pair_first[at(pair)])],
+  const double penalty = 2 * pass_stiffness(model.penalty_stiffness[at(candidates.pair_first[at(pair)])],
                                               model.penalty_stiffness[at(candidates.pair_second[at(pair)])]);
   for (std::int32_t p = candidates.pair_point_offset[at(pair)]; p < candidates.pair_point_offset[at(pair) + 1]; ++p) {
     const PointBond& bond = contact.bond[at(p)];
     if (!bond.exists() && bond.spent == 0) continue;
     const double area = model.reference_area[at(candidates.point_node[at(p)])];
-    const BondLaw law = bond_law(contact, bond, stiffness * model.local_stiffness(at(candidates.point_node[at(p)])));
+    const BondLaw law = bond_law(contact, bond, penalty * model.local_stiffness(at(candidates.point_node[at(p)])));
     // Each of the two passes carries half of the traction, so half of the energy.
     const double share = 0.5 * area;
     sums.formed_area += area;

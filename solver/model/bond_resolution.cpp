@@ -20,11 +20,13 @@ BondResolution bond_resolution(const Model& model, const Scenario& scenario) {
   const double strength =
       bond.normal_only ? bond.tensile_strength : std::max(bond.tensile_strength, bond.shear_strength);
   // Two grains' penalties act as their harmonic mean, at least the softest's.
+  const BondLaw law = law_of_bonds(bond, scenario.contact);
   double stiffness = std::numeric_limits<double>::infinity();
   for (std::size_t g = 0; g < model.penalty_stiffness.size(); ++g) {
     const auto first = static_cast<std::size_t>(model.node_offset[g]);
     for (std::size_t n = first; n < first + static_cast<std::size_t>(model.surface_node_count[g]); ++n)
-      stiffness = std::min(stiffness, model.penalty_stiffness[g] * model.local_stiffness(n));
+      stiffness =
+          std::min(stiffness, law_at_point(law, model.penalty_stiffness[g] * model.local_stiffness(n)).stiffness);
   }
   BondResolution result;
   // Where grains are locally refined, bonds are taken to be where the elements are smallest.
@@ -44,8 +46,8 @@ std::vector<std::string> check_bonds(const Model& model, const Scenario& scenari
   const double energy = scenario.bond->fracture_energy;
   if (!(energy > 1.01 * r.smallest_fracture_energy))
     throw InputError(
-        fmt::format("{}[bond] key 'fracture_energy': found {:g} N/mm, allowed > {:.3g} N/mm with this mesh's "
-                    "penalty (strength^2/(2 K)): raise it, lower the strength or refine the mesh",
+        fmt::format("{}[bond] key 'fracture_energy': found {:g} N/mm, allowed > {:.3g} N/mm with bonds of this "
+                    "stiffness (strength^2/(2 K)): raise it or the stiffness, or lower the strength",
                     scenario.bond_places.prefix("fracture_energy"), energy, 1.01 * r.smallest_fracture_energy));
   if (energy < r.steep_fracture_energy)
     warnings.push_back(

@@ -42,13 +42,15 @@ Material make_material(const MaterialParameters& parameters, double mass_scaling
   return {moduli, density, std::sqrt(moduli.dilatational() / density), make_flow_law(parameters)};
 }
 
-BondLaw law_of_bonds(const BondParameters& parameters) {
-  return {.stiffness = 0,
+BondLaw law_of_bonds(const BondParameters& parameters, const ContactParameters& contact) {
+  return {.stiffness = parameters.stiffness.value_or(0),
           .tensile_strength = parameters.tensile_strength,
           .shear_strength = parameters.shear_strength,
           .fracture_energy = parameters.fracture_energy,
           .softening = parameters.softening,
-          .normal_only = parameters.normal_only};
+          .normal_only = parameters.normal_only,
+          .penalty_ratio =
+              parameters.stiffness_factor ? *parameters.stiffness_factor / contact.stiffness_factor : 1.0};
 }
 
 } // namespace mpfem

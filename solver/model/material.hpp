@@ -23,6 +23,6 @@ struct Material {
 Material make_material(const MaterialParameters& parameters, double mass_scaling);
 
 /// The law of bonds to form. Its stiffness is unset: it is that of the point.
-BondLaw law_of_bonds(const BondParameters& parameters);
+BondLaw law_of_bonds(const BondParameters& parameters, const ContactParameters& contact);
 
 } // namespace mpfem

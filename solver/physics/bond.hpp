@@ -5,7 +5,7 @@
 // Then the effective separation delta = sqrt(<delta_n>^2 + delta_t^2) softens it: t = (1 - D) K delta, D a function of
 // the largest effective separation so far. Both laws are in closed form, so that the area under the curve is exactly
 // G^c, whatever the size of a step. Unloading goes to the origin; a closing separation is carried by the contact's own
-// penalty, undamaged.
+// penalty, undamaged. The bond's K may differ from that penalty.
 
 #include <cmath>
 
@@ -19,14 +19,21 @@ enum class SofteningLaw {
 
 /// Constants of a bond.
 struct BondLaw {
-  double stiffness = 0;        ///< K, MPa/mm
+  double stiffness = 0;        ///< K, MPa/mm; 0 where it follows the penalty of the contact point
   double tensile_strength = 0; ///< t_n^m, MPa
   double shear_strength = 0;   ///< t_s^m = t_t^m, MPa (Table 1 has one value for both directions)
   double fracture_energy = 0;  ///< G^c, N/mm; must exceed t^2/(2 K) of the larger strength
   SofteningLaw softening = SofteningLaw::exponential;
   bool normal_only = false; ///< no traction against sliding (for comparison with theories of adhesion)
+  double penalty_ratio = 1; ///< K over the penalty of the contact point, where K follows that
   bool operator==(const BondLaw&) const = default;
 };
+
+/// The law at a contact point with this penalty (MPa/mm, > 0): its K is set.
+inline BondLaw law_at_point(BondLaw law, double penalty) {
+  if (law.stiffness == 0) law.stiffness = law.penalty_ratio * penalty;
+  return law;
+}
 
 /// What a bond remembers.
 struct BondState {

@@ -3,11 +3,12 @@
 //
 // A bond forms when its node first comes inside the other grain, and is attached to the material point of the surface
 // where that happens. With d = node - attachment, c the point of the surface that is closest to the node now, and
-// g = |node - c|, the energy of a point with penalty stiffness k (N/mm) is
-//   open:     (1 - D) k |d|^2 / 2
-//   closed:   (1 - D) k |d|^2 / 2 + D k g^2 / 2   =   k g^2 / 2 + (1 - D) k (|d|^2 - g^2) / 2
+// g = |node - c|, the energy of a point with penalty stiffness k and bond stiffness b (N/mm) is
+//   open:     (1 - D) b |d|^2 / 2
+//   closed:   k g^2 / 2 + (1 - D) b (|d|^2 - g^2) / 2   =   (1 - D) b |d|^2 / 2 + (k - (1 - D) b) g^2 / 2
 // that is, the undamaged penalty against closing and a bond whose effective separation delta^2 = |d|^2 - g^2 is the
-// drift along the surface. (|d| >= g, since c is the closest point of all.) Both terms are central forces between
+// drift along the surface. Of the penalty the bond leaves k - (1 - D) b to the point, which is negative where the bond
+// is the stiffer one. (|d| >= g, since c is the closest point of all.) Both terms are central forces between
 // material points: linear and angular momentum are kept exactly, a rigid rotation of both grains does nothing, and no
 // tangent plane has to be followed as the node slides over facets and edges. The force is continuous where the point
 // opens or closes. A chord between distant points of a curved surface is not along the surface; the bond then pulls
@@ -43,9 +44,15 @@ inline void update_bond(const BondLaw& law, PointBond& bond, double open, double
   if (bond.remaining == 0) bond.opening = bond.separation = 0; // broken: no longer followed
 }
 
-/// Force of a bond on its node per unit of point stiffness, and where the reaction acts on the facet.
+/// Part of the penalty that a bond leaves to its closed point, which the bond's own pull makes up for: 1 - (1 - D) b/k.
+/// `law` at the point, `penalty` K of the point (MPa/mm).
+inline double penalty_left_by_bond(const BondLaw& law, const PointBond& bond, double penalty) {
+  return 1.0 - bond.remaining * (law.stiffness / penalty);
+}
+
+/// Force of a bond on its node per unit of the bond's stiffness, and where the reaction acts on the facet.
 struct BondPull {
-  Vector3<double> pull;    ///< mm: times point stiffness gives N
+  Vector3<double> pull;    ///< mm: times the bond's stiffness b gives N
   double weight1, weight2; ///< shape functions of the attachment facet's second and third node
 };
 

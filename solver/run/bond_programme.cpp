@@ -75,13 +75,13 @@ BondedPoint::Response BondedPoint::move_to(const Separation& separation) {
 
   Response response;
   const double penetration = closed ? separation.opening : 0.0;
-  response.normal = traction.normal + law.stiffness * penetration;
+  response.normal = traction.normal + law_.penalty * penetration;
   response.shear1 = traction.shear[0];
   response.shear2 = traction.shear[1];
   const double open = closed ? 0.0 : separation.opening;
   response.effective = law.normal_only ? open : std::sqrt(open * open + shear1 * shear1 + shear2 * shear2);
   response.damage = 1 - remaining_stiffness(law, state_);
-  response.stored = traction.stored + 0.5 * law.stiffness * penetration * penetration;
+  response.stored = traction.stored + 0.5 * law_.penalty * penetration * penetration;
   response.dissipated = spent_ + damage_dissipation(law, state_);
   response.state = broken ? "broken" : state_.initiation > 0 ? "damaged" : "intact";
   return response;
@@ -89,10 +89,13 @@ BondedPoint::Response BondedPoint::move_to(const Separation& separation) {
 
 BondedPointLaw read_bonded_point_law(const TomlDocument& document) {
   TableReader root(document);
-  const double stiffness = root.number("stiffness", positive_stiffness);
+  const double penalty = root.number("stiffness", positive_stiffness);
   TableReader table = root.table("bond");
   const BondParameters bond = read_bond(table);
   root.finish();
+  if (bond.stiffness_factor)
+    table.fail("stiffness_factor", "has no meaning without a mesh; allowed is 'stiffness' (MPa/mm)");
+  const double stiffness = bond.stiffness.value_or(penalty);
   const double strength =
       bond.normal_only ? bond.tensile_strength : std::max(bond.tensile_strength, bond.shear_strength);
   // As for a run: a little more than the area before damage, or there is nothing left to soften.
@@ -102,7 +105,7 @@ BondedPointLaw read_bonded_point_law(const TomlDocument& document) {
                                               bond.fracture_energy, smallest));
   return {
       {stiffness, bond.tensile_strength, bond.shear_strength, bond.fracture_energy, bond.softening, bond.normal_only},
-      bond.rebond_on_contact};
+      penalty, bond.rebond_on_contact};
 }
 
 std::vector<WayPoint> read_bond_programme(CsvReader reader, int increments) {

@@ -27,7 +27,8 @@ struct WayPoint {
 
 /// What the point is made of.
 struct BondedPointLaw {
-  BondLaw bond;                   ///< its stiffness is the contact's penalty as well
+  BondLaw bond;
+  double penalty = 0;             ///< MPa/mm, of the closed contact
   bool rebond_on_contact = false; ///< a broken bond that has opened is made anew when the point closes
 };
 

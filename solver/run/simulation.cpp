@@ -32,7 +32,7 @@ Simulation::Simulation(Model model, const Scenario& scenario, ThreadTeam& team, 
   energies_.initial = set_initial_velocities(model_, scenario);
   state_.initial_lengths = box_.cell().lengths();
   if (scenario.bond) {
-    contact_.bond_laws = {law_of_bonds(*scenario.bond)};
+    contact_.bond_laws = {law_of_bonds(*scenario.bond, scenario.contact)};
     contact_.rebond_on_contact = scenario.bond->rebond_on_contact;
   }
   margin_ = scenario.contact.search_margin * *std::max_element(model_.element_size.begin(), model_.element_size.end());

@@ -25,6 +25,7 @@ inline constexpr Range positive_time = Range::between(1e-15, 1e9);      // s
 inline constexpr Range positive_length = Range::between(1e-12, 1e9);    // mm
 inline constexpr Range any_length = Range::between(-1e9, 1e9);          // mm
 inline constexpr Range rate_or_zero = Range::between(0, 1e15);          // 1/s
+inline constexpr Range stiffness_factors = Range::between(1e-6, 1e4);        // of E/h
 inline constexpr Range positive_stiffness = Range::between(1e-9, 1e18); // MPa/mm
 inline constexpr Range positive_energy = Range::between(1e-18, 1e12);   // N/mm
 inline constexpr Range strain_or_zero = Range::between(0, 1e3);

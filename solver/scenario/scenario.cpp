@@ -48,7 +48,7 @@ std::vector<GrainMaterial> read_grain_materials(TableReader& root) {
 
 ContactParameters read_contact(TableReader table) {
   ContactParameters contact;
-  contact.stiffness_factor = table.number_or("stiffness_factor", contact.stiffness_factor, Range::between(1e-6, 1e4));
+  contact.stiffness_factor = table.number_or("stiffness_factor", contact.stiffness_factor, stiffness_factors);
   if (table.has("stiffness")) {
     if (table.has("stiffness_factor")) table.fail("stiffness", "has no meaning with 'stiffness_factor'");
     contact.stiffness = table.number("stiffness", positive_stiffness);
@@ -171,6 +171,9 @@ BondParameters read_bond(TableReader table) {
   bond.fracture_energy = table.number("fracture_energy", positive_energy);
   if (table.choice_or("softening", "exponential", {"exponential", "energy"}) == "energy")
     bond.softening = SofteningLaw::energy;
+  bond.stiffness = table.optional_number("stiffness", positive_stiffness);
+  bond.stiffness_factor = table.optional_number("stiffness_factor", stiffness_factors);
+  if (bond.stiffness && bond.stiffness_factor) table.fail("stiffness", "has no meaning with 'stiffness_factor'");
   bond.rebond_on_contact = table.choice_or("rebond", "never", {"never", "on_contact"}) == "on_contact";
   bond.normal_only = table.boolean_or("normal_only", bond.normal_only);
   table.finish();
@@ -191,6 +194,8 @@ Scenario read_scenario(const TomlDocument& document) {
   if (auto table = root.optional_table("bond")) {
     scenario.bond_places = table->places();
     scenario.bond = read_bond(*table);
+    if (scenario.bond->stiffness_factor && scenario.contact.stiffness)
+      table->fail("stiffness_factor", "has no meaning with 'contact.stiffness'; allowed is 'stiffness' (MPa/mm)");
   }
   if (auto table = root.optional_table("numerics")) scenario.numerics = read_numerics(*table);
   scenario.numerics.element = default_element;

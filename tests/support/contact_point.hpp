@@ -28,7 +28,7 @@ struct ContactPoint {
   double area = 0.02;                                       ///< A, mm^2
   Vector3<double> x[3] = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}; ///< mm; outward normal z
   Vector3<double> node{0.25, 0.25, 0.1};                    ///< mm
-  std::optional<BondLaw> law;                               ///< its stiffness is that of the point
+  std::optional<BondLaw> law;                               ///< its stiffness follows the penalty where it is 0
   PointBond bond;
 
   /// Signed distance of the node, mm. The sign is that of the facet's own normal.
@@ -46,11 +46,11 @@ struct ContactPoint {
     double pushed = k;
     if (law && (bond.intact() || distance < 0)) {
       if (!bond.exists()) bond.facet = 0, bond.weight1 = closest.weight1, bond.weight2 = closest.weight2;
-      law->stiffness = stiffness;
-      const BondPull pull = pull_of_bond(*law, bond, node, x, distance);
-      forces.add(k * pull.pull, pull.weight1, pull.weight2);
-      forces.energy += 0.5 * bond.remaining * k * bond.separation * bond.separation;
-      if (distance < 0) pushed *= 1 - bond.remaining;
+      const BondLaw here = law_at_point(*law, stiffness);
+      const BondPull pull = pull_of_bond(here, bond, node, x, distance);
+      forces.add(here.stiffness * area * pull.pull, pull.weight1, pull.weight2);
+      forces.energy += 0.5 * bond.remaining * here.stiffness * area * bond.separation * bond.separation;
+      if (distance < 0) pushed *= penalty_left_by_bond(here, bond, stiffness);
     }
     if (distance >= 0) return forces;
     forces.add(penalty_force(pushed, offset), closest.weight1, closest.weight2);

@@ -50,6 +50,36 @@ TEST_CASE("the force of a pair that opens uniformly is that of the law") {
   CHECK(-record.last[1].wall_stress[5] * 0.36 == Approx(expected).epsilon(0.01));
 }
 
+TEST_CASE("a bond with a stiffness of its own keeps the ledger, its fracture energy and, softer or stiffer, its strength") {
+  for (const SofteningLaw softening : {SofteningLaw::exponential, SofteningLaw::energy})
+    for (const double factor : {1.0, 100.0}) { // the penalty has 10
+      BondParameters bond = table_1(0.05);
+      bond.softening = softening;
+      bond.stiffness_factor = factor;
+      const Scenario scenario =
+          bonded_scenario(bond, {grip("press", -6e-4, 500), grip("slide", 0, 1000, {5e-4, 0, 0}), grip("pull", 0.05, 2000)});
+      const Record record = run_stages(two_cubes(4), scenario);
+      CAPTURE(factor, record.worst_residual, record.largest_tension);
+      const double area = 0.5 * record.last[0].bonded_area;
+      CHECK(record.last[0].bonds == cube_bonds);
+      CHECK(record.last[2].bonds == 0);
+      CHECK(record.last[2].damage_dissipation == Approx(0.05 * area).epsilon(1e-9));
+      CHECK(record.worst_residual < 0.01);
+      if (softening == SofteningLaw::exponential) CHECK(record.largest_tension < 1.02 * 25 * area);
+    }
+}
+
+TEST_CASE("a bond stiffness that is as large as the penalty is the same run as none, bit by bit") {
+  const std::vector<Stage> stages = {grip("press", -6e-4, 500), grip("pull", 0.01, 2000)};
+  const Record plain = run_stages(two_cubes(4), bonded_scenario(table_1(0.1), stages));
+  BondParameters bond = table_1(0.1);
+  bond.stiffness_factor = 10;
+  const Record given = run_stages(two_cubes(4), bonded_scenario(bond, stages));
+  CHECK(given.last[1].damage_dissipation == plain.last[1].damage_dissipation);
+  CHECK(given.last[1].energy_residual == plain.last[1].energy_residual);
+  CHECK(given.largest_tension == plain.largest_tension);
+}
+
 TEST_CASE("compression never damages a bond, and unloading goes to the origin") {
   Scenario scenario = bonded_scenario(table_1(0.5), {grip("press", -6e-4, 500), grip("press more", -1e-3, 500),
                                                      grip("open", 4.5e-3, 500), grip("press again", -3e-3, 500)});

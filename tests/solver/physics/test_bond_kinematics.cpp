@@ -47,15 +47,51 @@ double work_to(ContactPoint& point, const Vector3<double>& end, int steps) {
 } // namespace
 
 TEST_CASE("an undamaged bond gives back all work, on a closed way through opening, sliding and closing") {
-  ContactPoint point = bonded_point(law_of(1e6, 1e6));
-  const Vector3<double> start = point.node;
-  double work = 0;
-  for (const Vector3<double>& corner :
-       {Vector3<double>{0.25, 0.25, 0.02}, Vector3<double>{0.3, 0.2, 0.02}, Vector3<double>{0.3, 0.2, -0.01}, start})
-    work += work_to(point, corner, 1000);
-  CHECK(point.bond.state.initiation == 0);
-  point.node = {0.3, 0.2, 0.02};
-  CHECK(std::abs(work) < 1e-9 * point.evaluate().energy); // forces are linear in the positions: no error of steps
+  for (const double penalty_ratio : {0.0, 0.2, 1.0, 5.0}) { // 0: a stiffness of its own
+    BondLaw law = law_of(1e6, 1e6);
+    law.stiffness = penalty_ratio == 0 ? 120 : 0;
+    law.penalty_ratio = penalty_ratio;
+    ContactPoint point = bonded_point(law);
+    const Vector3<double> start = point.node;
+    double work = 0;
+    for (const Vector3<double>& corner :
+         {Vector3<double>{0.25, 0.25, 0.02}, Vector3<double>{0.3, 0.2, 0.02}, Vector3<double>{0.3, 0.2, -0.01}, start})
+      work += work_to(point, corner, 1000);
+    CHECK(point.bond.state.initiation == 0);
+    point.node = {0.3, 0.2, 0.02};
+    CHECK(std::abs(work) < 1e-9 * point.evaluate().energy); // forces are linear in the positions: no error of steps
+  }
+}
+
+TEST_CASE("the stiffness of a bond acts on opening and sliding, the penalty alone against closing") {
+  for (const double stiffness : {10.0, 50.0, 400.0}) { // the penalty is 50
+    BondLaw law = law_of(1e6, 1e6);
+    law.stiffness = stiffness;
+    ContactPoint point = bonded_point(law);
+    const double area = point.area;
+    point.node = {0.25, 0.25, 0.02};
+    CHECK(within(point.evaluate().node.z, -stiffness * area * 0.02, 1e-9));
+    point.node = {0.28, 0.25, 0};
+    CHECK(within(point.evaluate().node.x, -stiffness * area * 0.03, 1e-9));
+    point.node = {0.25, 0.25, -0.02};
+    CHECK(within(point.evaluate().node.z, point.stiffness * area * 0.02, 1e-9));
+  }
+}
+
+TEST_CASE("damage leaves the work that a closed point takes to what it spends, whatever the bond's stiffness") {
+  for (const double stiffness : {20.0, 50.0, 400.0}) {
+    BondLaw law = law_of(25, 18);
+    law.stiffness = stiffness;
+    ContactPoint point = bonded_point(law);
+    const double start = point.evaluate().energy;
+    // Far enough to spend half of the fracture energy in sliding, held closed, and back in depth.
+    for (Vector3<double>& x : point.x) x = {20 * x.x - 8, 20 * x.y - 8, 0};
+    point.bond.weight1 = point.bond.weight2 = 8.25 / 20;
+    const double work = work_to(point, {1.75, 0.25, -0.02}, 200000) + work_to(point, {1.75, 0.25, -1e-3}, 1000);
+    const double spent = point.area * damage_dissipation(law, point.bond.state);
+    REQUIRE(spent > 0.1 * point.area * law.fracture_energy);
+    CHECK(within(work, point.evaluate().energy - start + spent, 1e-4)); // 200,000 steps over a softening of some mm
+  }
 }
 
 TEST_CASE("turning a bonded point with its facet turns its force and leaves its energy") {
@@ -79,7 +115,7 @@ TEST_CASE("pulling a bond apart takes the fracture energy of its area, opening o
     point.bond.weight1 = point.bond.weight2 = weight;
     point.node = {0.25, 0.25, 0};
     const double work = work_to(point, end, 200000);
-    law.stiffness = point.stiffness;
+    law = law_at_point(law, point.stiffness);
     CHECK_FALSE(point.bond.intact());
     CHECK(within(work, point.area * law.fracture_energy, 1e-4)); // 200,000 steps over a softening of some mm
     CHECK(within(damage_dissipation(law, point.bond.state), law.fracture_energy, rounding));

@@ -54,7 +54,7 @@ std::vector<double> fracture_energies(const std::string& path) {
   const auto laws = file.read(schema::run::snapshots_bond_laws, file.snapshots().back());
   std::vector<double> energies;
   for (const std::int32_t law : file.read(schema::run::snapshots_bond_law, file.snapshots().back()))
-    energies.push_back(laws.at(4 * static_cast<std::size_t>(law) + 2));
+    energies.push_back(laws.at(6 * static_cast<std::size_t>(law) + 2));
   return energies;
 }
 
