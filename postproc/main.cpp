@@ -15,6 +15,7 @@
 #include "postproc/contact_history.hpp"
 #include "postproc/contact_picture.hpp"
 #include "postproc/damage_section.hpp"
+#include "postproc/figure/figure_commands.hpp"
 #include "postproc/metric_commands.hpp"
 #include "postproc/section_picture.hpp"
 #include "postproc/summary.hpp"
@@ -195,6 +196,7 @@ int body(int argc, char** argv) {
       "  postproc fit points.csv --x relative_density --y strength --model exponential -o fits.json\n"
       "  postproc vtk run.h5 -o vtk        (open vtk/run.pvd in ParaView)\n"
       "  postproc validate run.h5\n"
+      "  postproc table, fits, plot, verdict, report: of a figure or study declared in one file (docs/figure-file.md)\n"
       "Exit codes: 0 done, 2 bad usage or input, 3 a picture could not be drawn, 4 storage failed.");
   app.set_version_flag("--version", version_and_commit());
   app.require_subcommand(1);
@@ -302,6 +304,7 @@ int body(int argc, char** argv) {
       "--data", arguments.data,
       "Also write the section's polygons as CSV; of damage the cut boundaries, a row a segment");
   const MetricCommands metrics(app);
+  const FigureCommands figures(app);
   CLI::App* validate_command =
       app.add_subcommand("validate", "Hold files to the results schema.\nExample: postproc validate run.h5 packing.h5");
   validate_command->add_option("files", arguments.files, "Files of any kind (HDF5)")->required();
@@ -327,6 +330,7 @@ int body(int argc, char** argv) {
   if (vtk_command->parsed()) vtk(arguments);
   if (section_command->parsed()) section(arguments);
   metrics.run();
+  figures.run();
   if (validate_command->parsed()) validate_files(arguments);
   return 0;
 }
