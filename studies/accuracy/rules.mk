@@ -1,3 +1,4 @@
+#: accuracy         speed against error: docs/speed-against-error (40 min of processor time, no MESH; -j pays)
 # Speed against error: how far each setting is from the answer, and what it costs. Included by Makefile.studies, whose habits
 # hold here. Independent of MESH: cases.csv says what is run, case.awk what a row means.
 #

@@ -13,7 +13,7 @@ for figure in "$@"; do
   mkdir -p "$kept/$figure"
   rm -f "$kept/$figure"/*.png "$kept/$figure"/*.json "$kept/$figure"/*.csv # of other settings
   find "out/$mesh/$figure" -maxdepth 1 -type f \
-    \( -name '*.png' -size -720k -o -name '*.json' -o -name '*.csv' -size -101k \) -exec cp {} "$kept/$figure/" \;
+    \( -name '*.json' -o -name '*.csv' -size -101k \) -exec cp {} "$kept/$figure/" \;
   find "out/$mesh/$figure" -maxdepth 1 -type f -name '*.csv' -size +100k | while read -r table; do
     every=$(($(wc -c <"$table") / 100000 + 1))
     awk -v every="$every" 'NR == 1 || (NR - 2) % every == 0' "$table" >"$kept/$figure/$(basename "$table" .csv).every-$every.csv"
