@@ -120,10 +120,6 @@ struct FigureCommands::State {
   void report() const {
     std::vector<ReportEntry> entries;
     for (const std::string& file : files) {
-      if (file.ends_with(".md")) {
-        entries.push_back(entry_of_readme(std::filesystem::path(file).parent_path().filename().string(), file));
-        continue;
-      }
       const Figure f = read_figure(file, programmes);
       entries.push_back({f.name, f.name == f.title ? f.title : fmt::format("{}: {}", f.name, f.title), f.question});
     }
@@ -168,7 +164,7 @@ FigureCommands::FigureCommands(CLI::App& app) : state_(std::make_unique<State>()
   s.add_on_figure(app, "verdict", "What a figure states, what was found, and whether they agree, as JSON.",
                   [&s] { s.verdict(); });
   CLI::App& report = s.add(app, "report", "Pictures and verdicts of figures as one HTML page.", [&s] { s.report(); });
-  report.add_option("figures", s.files, "Figures' files (TOML), or the README.md of one without")->required();
+  report.add_option("figures", s.files, "Figures' files (TOML)")->required();
   s.add_common(report);
   report.add_option("--title", s.title, "Title of the page")->required();
 }

@@ -77,24 +77,6 @@ std::string statements_table(const std::filesystem::path& folder) {
 
 } // namespace
 
-ReportEntry entry_of_readme(const std::string& name, const std::string& path) {
-  std::ifstream file(path);
-  if (!file) throw InputError(fmt::format("{}: no such file, or no permission to read it", one_line(path)));
-  ReportEntry entry{name, name, ""};
-  std::string line;
-  for (bool heading = true; std::getline(file, line);) {
-    if (heading && line.starts_with("# ")) {
-      entry.title = line.substr(2);
-      heading = false;
-    } else if (!line.empty()) {
-      entry.question += (entry.question.empty() ? "" : " ") + line;
-    } else if (!entry.question.empty()) {
-      break;
-    }
-  }
-  return entry;
-}
-
 std::string report_page(const std::vector<ReportEntry>& entries, const std::string& results, const std::string& title) {
   std::string page = fmt::format("<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
                                  "<title>{0}</title>\n<style>\n{1}</style>\n</head>\n<body>\n<h1>{0}</h1>\n",

@@ -12,9 +12,6 @@ struct ReportEntry {
   std::string title, question; ///< plain text
 };
 
-/// Title and question of a README (Markdown): its heading and first paragraph. Throws InputError.
-ReportEntry entry_of_readme(const std::string& name, const std::string& path);
-
 /// The page, pictures included. Throws InputError where a verdict is missing.
 std::string report_page(const std::vector<ReportEntry>& entries, const std::string& results, const std::string& title);
 

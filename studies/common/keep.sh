@@ -1,8 +1,8 @@
 #!/bin/sh
 # keep.sh MESH MPFEM FIGURE...: copies the small results of figures from out/MESH to studies/results/MESH, with what their runs took
 # (out/MESH/times.csv, plan.csv) and from what they came (provenance.txt: program, packing, settings of every run). The verdicts of all
-# figures kept for that mesh go to verdicts.md there, those of all meshes side by side to docs/verdicts.md. Of tables above 100 kB every
-# N-th row is kept, as NAME.every-N.csv.
+# figures kept for that mesh go to verdicts.md there, those of all meshes side by side to docs/verdicts.md. Pictures and tables above
+# 20 kB, which make writes again from the runs, are not kept.
 set -eu
 mesh=$1
 mpfem=$2
@@ -12,12 +12,7 @@ for figure in "$@"; do
   [ -e "out/$mesh/$figure/verdict.json" ] || { echo "keep.sh: out/$mesh/$figure has no verdict.json: left out" >&2 && continue; }
   mkdir -p "$kept/$figure"
   rm -f "$kept/$figure"/*.png "$kept/$figure"/*.json "$kept/$figure"/*.csv # of other settings
-  find "out/$mesh/$figure" -maxdepth 1 -type f \
-    \( -name '*.json' -o -name '*.csv' -size -101k \) -exec cp {} "$kept/$figure/" \;
-  find "out/$mesh/$figure" -maxdepth 1 -type f -name '*.csv' -size +100k | while read -r table; do
-    every=$(($(wc -c <"$table") / 100000 + 1))
-    awk -v every="$every" 'NR == 1 || (NR - 2) % every == 0' "$table" >"$kept/$figure/$(basename "$table" .csv).every-$every.csv"
-  done
+  find "out/$mesh/$figure" -maxdepth 1 -type f \( -name '*.json' -o -name '*.csv' -size -20k \) -exec cp {} "$kept/$figure/" \;
 done
 {
   echo "# Verdicts, MESH=$mesh"
