@@ -172,6 +172,12 @@ void section(Arguments arguments) {
   if (!arguments.output.empty()) write_section_picture(arguments.output, state, request);
 }
 
+void cost(const Arguments& arguments) {
+  std::vector<Summary> runs;
+  for (const std::string& path : arguments.files) runs.push_back(summarise({path, schema::FileKind::run}));
+  deliver(arguments, cost_of_runs(runs));
+}
+
 void validate_files(const Arguments& arguments) {
   std::size_t bad = 0;
   for (const std::string& path : arguments.files) {
@@ -310,6 +316,10 @@ int body(int argc, char** argv) {
   validate_command->add_option("files", arguments.files, "Files of any kind (HDF5)")->required();
   validate_command->add_flag("--quiet", arguments.quiet, "Nothing but findings");
 
+  CLI::App* cost_command = app.add_subcommand(
+      "cost", "What runs took together: runs,tet_steps,wall_time_s,core_time_s.\nExample: postproc cost a.h5 b.h5");
+  cost_command->add_option("files", arguments.files, "Run files (HDF5); none: zeros");
+
   if (const auto done = parse_command_line(app, "postproc", argc, argv)) return *done;
   if (section_command->parsed() && !arguments.relative && section_command->count("--position") == 0)
     arguments.relative = true;
@@ -331,6 +341,7 @@ int body(int argc, char** argv) {
   if (section_command->parsed()) section(arguments);
   metrics.run();
   figures.run();
+  if (cost_command->parsed()) cost(arguments);
   if (validate_command->parsed()) validate_files(arguments);
   return 0;
 }

@@ -154,4 +154,14 @@ std::string to_text(const Summary& s) {
   return text;
 }
 
+std::string cost_of_runs(const std::vector<Summary>& runs) {
+  double steps = 0, wall = 0, core = 0;
+  for (const Summary& run : runs) {
+    steps += run.nanoseconds_per_tet_step > 0 ? run.wall_time / run.nanoseconds_per_tet_step * 1e9 : 0;
+    wall += run.wall_time;
+    core += run.wall_time * run.threads;
+  }
+  return fmt::format("{},{:.4g},{:.1f},{:.1f}\n", runs.size(), steps, wall, core);
+}
+
 } // namespace mpfem

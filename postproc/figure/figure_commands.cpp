@@ -14,6 +14,7 @@
 #include "postproc/figure/depends.hpp"
 #include "postproc/figure/figure_plot.hpp"
 #include "postproc/figure/report.hpp"
+#include "postproc/figure/verdict_pages.hpp"
 #include "postproc/gnuplot.hpp"
 #include "postproc/text_file.hpp"
 
@@ -117,6 +118,17 @@ struct FigureCommands::State {
     deliver(verdict_text(data, mesh));
   }
 
+  void verdicts() const {
+    std::vector<MeshVerdicts> meshes;
+    for (const std::string& text : files) {
+      const std::size_t equals = text.find('=');
+      if (equals == std::string::npos)
+        throw InputError(fmt::format("found '{}', allowed: MESH=FOLDER", one_line(text)));
+      meshes.push_back({text.substr(0, equals), text.substr(equals + 1)});
+    }
+    deliver(meshes.size() == 1 ? verdicts_of_mesh(meshes.front()) : verdicts_of_meshes(meshes));
+  }
+
   void report() const {
     std::vector<ReportEntry> entries;
     for (const std::string& file : files) {
@@ -163,6 +175,12 @@ FigureCommands::FigureCommands(CLI::App& app) : state_(std::make_unique<State>()
   plot.get_option("--output")->required();
   s.add_on_figure(app, "verdict", "What a figure states, what was found, and whether they agree, as JSON.",
                   [&s] { s.verdict(); });
+  s.add(app, "verdicts",
+        "Verdicts as Markdown: of one mesh figure by figure, or of several side by side.\n"
+        "Example: postproc verdicts coarse=studies/results/coarse smoke=studies/results/smoke -o verdicts.md",
+        [&s] { s.verdicts(); })
+      .add_option("folders", s.files, "MESH=FOLDER: where its figures have their verdict.json")
+      ->required();
   CLI::App& report = s.add(app, "report", "Pictures and verdicts of figures as one HTML page.", [&s] { s.report(); });
   report.add_option("figures", s.files, "Figures' files (TOML)")->required();
   s.add_common(report);

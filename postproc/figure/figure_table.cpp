@@ -99,7 +99,7 @@ const std::vector<CurveColumn>& curve_columns() {
       {"upper_plate_force", "force of the upper z wall, N",
        [](const HistoryRow& r) { return r("wall_stress_5") * r("box_lengths_0") * r("box_lengths_1"); }},
       {"displacement", "approach of the z walls since the stage began, mm",
-       [](const HistoryRow& r) { return -r.since("box_lengths_2"); }},
+       [](const HistoryRow& r) { return r.then("box_lengths_2") - r("box_lengths_2"); }},
       {"stage_axial_strain", "logarithmic, since the stage began; compression positive",
        [](const HistoryRow& r) { return std::log(r.then("box_lengths_2") / r("box_lengths_2")); }},
       {"stage_volumetric_strain", "likewise of the volume",

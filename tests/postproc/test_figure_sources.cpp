@@ -9,6 +9,7 @@
 
 #include "postproc/figure/depends.hpp"
 #include "postproc/figure/figure_plot.hpp"
+#include "postproc/figure/verdict_pages.hpp"
 #include "tests/support/folder.hpp"
 
 using namespace mpfem;
@@ -314,4 +315,24 @@ series = [
   const std::string surface = plot_script(figure.plots[1], data, folder, "svg", "p.svg", 0);
   CHECK_THAT(surface, Contains("4 0.5 2 \n") || Contains("4 0.5 2\n"));
   CHECK_THAT(surface, Contains("3 1 3"));
+}
+
+TEST_CASE("verdicts of meshes stand side by side, counted, and what a mesh did not state stays empty") {
+  const Studies studies;
+  write_text(studies.path("c/fig03/verdict.json"),
+             R"([{"statement": "a|b", "paper": "1", "ours": "2", "agrees": true, "note": ""},
+                {"statement": "s", "paper": "p", "ours": "o", "agrees": null, "note": ""}])");
+  write_text(studies.path("f/fig03/verdict.json"),
+             R"([{"statement": "a|b", "paper": "1", "ours": "3", "agrees": false, "note": ""}])");
+  write_text(studies.path("c/other/verdict.json"), "[]");
+  const std::string page = verdicts_of_meshes({{"coarse", studies.path("c")}, {"fine", studies.path("f")}});
+  CHECK_THAT(page, Contains("| study | coarse | fine |") && Contains("| [fig03](#fig03) | 1 / 0 / 1 | 0 / 1 / 0 |"));
+  CHECK_THAT(page, Contains("| a\\|b | 1 | agrees: 2 | **differs**: 3 |\n| s | p | not judged: o |  |"));
+  CHECK_THAT(page, !Contains("other"));
+  const std::string mesh = verdicts_of_mesh({"coarse", studies.path("c")});
+  CHECK_THAT(mesh, Contains("## fig03\n\n| statement | paper | here | verdict |") && Contains("## other") &&
+                       Contains("| expected | here |") && Contains("| s | p | o | not judged |"));
+  write_text(studies.path("c/fig03/verdict.json"), "{}");
+  CHECK_THROWS_WITH(verdicts_of_mesh({"coarse", studies.path("c")}), Contains("is no list of statements"));
+  CHECK_THROWS_WITH(verdicts_of_mesh({"coarse", studies.path("nothing")}), Contains("nothing: "));
 }
