@@ -62,7 +62,8 @@ void deliver(const Arguments& arguments, const std::string& text) {
 
 void summary(const Arguments& arguments) {
   const Summary result = summarise(open_run(arguments));
-  if (!arguments.output.empty()) write_file(arguments.output, to_json(result).dump(2) + "\n");
+  if (!arguments.output.empty())
+    write_file(arguments.output, arguments.output.ends_with(".csv") ? to_csv(result) : to_json(result).dump(2) + "\n");
   if (!arguments.quiet) fmt::print("{}", to_text(result));
 }
 
@@ -236,7 +237,7 @@ int body(int argc, char** argv) {
   };
 
   CLI::App* summary_command = add("summary", "What a run came to.\nExample: postproc summary run.h5 -o summary.json",
-                                  false, "JSON file to write");
+                                  false, "JSON file to write, or CSV of its numbers (.csv)");
   add_run(*summary_command, true);
   CLI::App* curve_command =
       add("curve",

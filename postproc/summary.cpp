@@ -154,6 +154,14 @@ std::string to_text(const Summary& s) {
   return text;
 }
 
+std::string to_csv(const Summary& summary) {
+  std::string text = "name,value\n";
+  const auto json = to_json(summary);
+  for (const auto& [name, value] : json.items())
+    if (value.is_number()) text += fmt::format("{},{}\n", name, value.dump());
+  return text;
+}
+
 std::string cost_of_runs(const std::vector<Summary>& runs) {
   double steps = 0, wall = 0, core = 0;
   for (const Summary& run : runs) {

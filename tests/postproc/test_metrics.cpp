@@ -43,6 +43,7 @@ TEST_CASE("what runs took together adds up their steps, and their time times thr
   two.threads = 1; // without a cost: it took no step
   CHECK(cost_of_runs({one, two}) == "2,5e+08,11.0,21.0\n");
   CHECK(cost_of_runs({}) == "0,0,0.0,0.0\n");
+  CHECK_THAT(to_csv(one), Catch::StartsWith("name,value\n") && Catch::Contains("\nthreads,2\n"));
 }
 
 TEST_CASE("a summary holds the numbers of the run") {
