@@ -240,6 +240,14 @@ std::string reference_lines(const PlotSpec& plot) {
   return text;
 }
 
+/// A round distance of ticks, so that some three fit.
+std::string few_ticks(double low, double high) {
+  const double third = (high - low) / 3, power = std::pow(10, std::floor(std::log10(third)));
+  for (const double digit : {1, 2, 5})
+    if (third <= digit * power) return fmt::format("{:g}", digit * power);
+  return fmt::format("{:g}", 10 * power);
+}
+
 /// The axis of an inset: over the rows that the inset shows, with a margin, where it does not say from where to where.
 AxisSpec inset_x(const PlotSpec& plot, FigureData& data) {
   AxisSpec axis = plot.inset->x;
@@ -257,6 +265,7 @@ AxisSpec inset_x(const PlotSpec& plot, FigureData& data) {
   const double margin = 0.08 * (*high - *low);
   axis.low = axis.low.value_or((*low - margin) * s.x_scale);
   axis.high = axis.high.value_or((*high + margin) * s.x_scale);
+  if (axis.ticks.empty() && *axis.high > *axis.low) axis.ticks = few_ticks(*axis.low, *axis.high);
   return axis;
 }
 

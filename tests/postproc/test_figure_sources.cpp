@@ -311,7 +311,8 @@ series = [
   const std::string folder = studies.path("out/study");
   FigureData data(figure, folder);
   const std::string script = plot_script(figure.plots[0], data, folder, "svg", "p.svg", 0);
-  CHECK_THAT(script, Contains("set multiplot") && Contains("set xrange [19.2:30.8]") && Contains("set yrange [1:2]"));
+  CHECK_THAT(script, Contains("set multiplot") && Contains("set xrange [19.2:30.8]") && Contains("set xtics 5") &&
+                         Contains("set yrange [1:2]"));
   const std::string surface = plot_script(figure.plots[1], data, folder, "svg", "p.svg", 0);
   CHECK_THAT(surface, Contains("4 0.5 2 \n") || Contains("4 0.5 2\n"));
   CHECK_THAT(surface, Contains("3 1 3"));
