@@ -213,6 +213,16 @@ bool TableReader::has(std::string_view key) const {
   return table_->get(key) != nullptr;
 }
 
+std::vector<std::string> TableReader::keys() const {
+  std::vector<const toml::key*> found;
+  for (const auto& entry : *table_) found.push_back(&entry.first);
+  std::sort(found.begin(), found.end(),
+            [](const toml::key* a, const toml::key* b) { return a->source().begin < b->source().begin; });
+  std::vector<std::string> names;
+  for (const toml::key* key : found) names.emplace_back(key->str());
+  return names;
+}
+
 const toml::node* TableReader::find(std::string_view key) {
   asked_.emplace(key);
   return table_->get(key);

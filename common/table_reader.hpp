@@ -60,6 +60,10 @@ public:
   explicit TableReader(const TomlDocument& document);
 
   bool has(std::string_view key) const;
+  /// All keys of the table, in the order of the file.
+  std::vector<std::string> keys() const;
+  /// The value as it stands, for keys that take several types; nothing where it is absent.
+  const toml::node* value(std::string_view key) { return find(key); }
 
   double number(std::string_view key, Range range = {});                     ///< required
   double number_or(std::string_view key, double fallback, Range range = {}); ///< optional with default

@@ -16,6 +16,7 @@
 #include "pack-gen/hemispheres.hpp"
 #include "pack-gen/mesh_report.hpp"
 #include "pack-gen/packing_description.hpp"
+#include "pack-gen/packing_quality.hpp"
 #include "pack-gen/sphere_file.hpp"
 #include "pack-gen/sphere_import.hpp"
 
@@ -24,7 +25,7 @@ namespace {
 using namespace mpfem;
 
 struct Arguments {
-  std::string input, output;
+  std::string input, output, description, sizes, target;
   std::vector<std::string> assignments;
   std::optional<std::int64_t> seed;
   std::vector<double> box;
@@ -131,16 +132,39 @@ void import(const Arguments& arguments) {
                relative_density(packing), smallest_gap(packing).gap, arguments.output);
 }
 
-void quality(const Arguments& arguments) {
-  const SphereFile file = read_spheres(arguments.input);
+/// What would be a failure of the mesher is a mistake of the file here.
+MeshReport report_of_file(const Arguments& arguments, const SpherePacking& packing) {
   const MeshFromFile mesh = read_mesh(arguments.input);
   try {
-    fmt::print("{}", report_text(report_mesh(file.packing, mesh.mesh, mesh.nominal_size, arguments.material,
-                                             arguments.threads)));
-  } catch (const SimulationError& error) { // what would be a failure of the mesher is a mistake of the file here
+    return report_mesh(packing, mesh.mesh, mesh.nominal_size, arguments.material, arguments.threads);
+  } catch (const SimulationError& error) {
     throw InputError(fmt::format("{}: {}, allowed closed grains of tetrahedra with positive volume",
                                  one_line(arguments.input), error.what()));
   }
+}
+
+void quality(const Arguments& arguments) {
+  const SphereFile file = read_spheres(arguments.input);
+  const MeshReport report = report_of_file(arguments, file.packing);
+  std::optional<PackingDescription> description;
+  if (!arguments.description.empty()) {
+    const TomlDocument document = TomlDocument::from_file(arguments.description);
+    description = read_packing_description(document);
+    if (!arguments.target.empty()) write_file(arguments.target, target_csv(document));
+  }
+  if (!arguments.sizes.empty()) write_file(arguments.sizes, sizes_csv(file.packing));
+  if (!arguments.output.empty())
+    write_file(arguments.output, quality_json(file.packing, report, description ? &*description : nullptr));
+  if (!arguments.quiet) fmt::print("{}", report_text(report));
+}
+
+void add_quality_outputs(CLI::App& command, Arguments& arguments) {
+  command.add_option("-o,--output", arguments.output, "JSON file to write: the report's numbers by name");
+  command.add_option("--description", arguments.description,
+                     "What the packing was made from (TOML): also how far its sizes are from it");
+  command.add_option("--sizes", arguments.sizes, "CSV file to write: diameters with their cumulative fraction");
+  command.add_option("--target", arguments.target, "CSV file to write: the size table of --description")
+      ->needs("--description");
 }
 
 void add_material(CLI::App& command, StepMaterial& material) {
@@ -231,6 +255,7 @@ CLI::App* add_export(CLI::App& app, Arguments& arguments) {
 CLI::App* add_quality(CLI::App& app, Arguments& arguments) {
   CLI::App* command = add_command(app, arguments, "quality", "Measure a mesh.\nExample: pack-gen quality packing.h5",
                                   "Meshed packing (HDF5)");
+  add_quality_outputs(*command, arguments);
   add_threads(*command, arguments);
   add_material(*command, arguments.material);
   return command;
@@ -280,8 +305,11 @@ int body(int argc, char** argv) {
   const CLI::App* hemispheres_command = add_hemispheres(app, arguments);
 
   if (const auto done = parse_command_line(app, "pack-gen", argc, argv)) return *done;
-  if (!quality_command->parsed())
-    check_output(arguments, export_command->parsed() ? OutputKind::text : OutputKind::binary);
+  if (!quality_command->parsed() || !arguments.output.empty())
+    check_output(arguments,
+                 export_command->parsed() || quality_command->parsed() ? OutputKind::text : OutputKind::binary);
+  for (const auto& [option, path] : {std::pair("--sizes", &arguments.sizes), std::pair("--target", &arguments.target)})
+    if (!path->empty()) check_output_path(option, *path, OutputKind::text);
   if (spheres_command->parsed()) spheres(arguments);
   if (mesh_command->parsed()) mesh(arguments);
   if (hemispheres_command->parsed()) hemispheres(arguments);

@@ -339,6 +339,8 @@ Fit fit(const std::string& model, const FitPoints& points, bool x_is_relative_de
     need_positive(points.y, "y", points, model);
     result.fitted_in = "ln y";
     fit_linear(result, points, line_basis(-as_vector(x)), y.array().log(), {"b", "a"});
+    const Coefficient& b = result.coefficients[0];
+    result.derived.push_back({"at_zero_porosity", std::exp(b.value), std::exp(b.low), std::exp(b.high)});
     result.at = [b = value(0), a = value(1)](double at, double) { return std::exp(b - a * at); };
   } else if (model == "rumpf") {
     for (const double p : x)
@@ -392,6 +394,8 @@ nlohmann::ordered_json to_json(const Fit& f) {
                                  {"scatter", f.scatter}};
   for (const Coefficient& c : f.coefficients)
     json["coefficients"][c.name] = {{"value", c.value}, {"low", c.low}, {"high", c.high}};
+  for (const Coefficient& c : f.derived)
+    json["derived"][c.name] = {{"value", c.value}, {"low", c.low}, {"high", c.high}};
   json["notes"] = f.notes;
   return json;
 }

@@ -24,6 +24,7 @@ struct Fit {
   std::string model, formula;
   std::string fitted_in = "y"; ///< "y" or "ln y": where squares are summed, and what r_squared is of
   std::vector<Coefficient> coefficients;
+  std::vector<Coefficient> derived; ///< what follows from them: of spriggs E_p / E "at_zero_porosity"
   double r_squared = 0;
   double r_squared_of_y = 0; ///< of y itself, where ln y is fitted
   double scatter = 0;        ///< standard deviation of the residuals, in `fitted_in`

@@ -159,9 +159,13 @@ std::vector<Column> cycle_table(const Hysteresis& h, std::size_t first_row) {
                                  {"relative_density_at_low_stress_uncertainty", "1", {}},
                                  {"relative_density_at_high_stress_uncertainty", "1", {}},
                                  {"plastic_dissipation_uncertainty", "mJ", {}},
-                                 {"damage_dissipation_uncertainty", "mJ", {}}};
+                                 {"damage_dissipation_uncertainty", "mJ", {}},
+                                 {"cycles_before", "1", {}},
+                                 {"change_of_density_at_low_stress", "1", {}},
+                                 {"change_of_density_at_high_stress", "1", {}}};
   for (std::size_t i = 0; i < h.cycles.size(); ++i) {
     const CycleResult& c = h.cycles[i];
+    const CycleResult& before = h.cycles[i > 0 ? i - 1 : 0]; // the first row has no change
     const double row[] = {static_cast<double>(h.cycles.front().rows.whole ? i + 1 : i),
                           static_cast<double>(first_row + c.rows.begin),
                           static_cast<double>(first_row + c.rows.top),
@@ -177,7 +181,10 @@ std::vector<Column> cycle_table(const Hysteresis& h, std::size_t first_row) {
                           c.density_at_low_uncertainty,
                           c.density_at_high_uncertainty,
                           c.plastic_uncertainty,
-                          c.damage_uncertainty};
+                          c.damage_uncertainty,
+                          static_cast<double>(i),
+                          c.density_at_low - before.density_at_low,
+                          c.density_at_high - before.density_at_high};
     for (std::size_t k = 0; k < columns.size(); ++k) columns[k].values.push_back(row[k]);
   }
   return columns;

@@ -15,6 +15,7 @@
 #include "postproc/contact_history.hpp"
 #include "postproc/contact_picture.hpp"
 #include "postproc/damage_section.hpp"
+#include "postproc/figure/figure_commands.hpp"
 #include "postproc/metric_commands.hpp"
 #include "postproc/section_picture.hpp"
 #include "postproc/summary.hpp"
@@ -61,7 +62,8 @@ void deliver(const Arguments& arguments, const std::string& text) {
 
 void summary(const Arguments& arguments) {
   const Summary result = summarise(open_run(arguments));
-  if (!arguments.output.empty()) write_file(arguments.output, to_json(result).dump(2) + "\n");
+  if (!arguments.output.empty())
+    write_file(arguments.output, arguments.output.ends_with(".csv") ? to_csv(result) : to_json(result).dump(2) + "\n");
   if (!arguments.quiet) fmt::print("{}", to_text(result));
 }
 
@@ -171,6 +173,12 @@ void section(Arguments arguments) {
   if (!arguments.output.empty()) write_section_picture(arguments.output, state, request);
 }
 
+void cost(const Arguments& arguments) {
+  std::vector<Summary> runs;
+  for (const std::string& path : arguments.files) runs.push_back(summarise({path, schema::FileKind::run}));
+  deliver(arguments, cost_of_runs(runs));
+}
+
 void validate_files(const Arguments& arguments) {
   std::size_t bad = 0;
   for (const std::string& path : arguments.files) {
@@ -195,6 +203,7 @@ int body(int argc, char** argv) {
       "  postproc fit points.csv --x relative_density --y strength --model exponential -o fits.json\n"
       "  postproc vtk run.h5 -o vtk        (open vtk/run.pvd in ParaView)\n"
       "  postproc validate run.h5\n"
+      "  postproc table, fits, plot, verdict, report: of a figure or study declared in one file (docs/figure-file.md)\n"
       "Exit codes: 0 done, 2 bad usage or input, 3 a picture could not be drawn, 4 storage failed.");
   app.set_version_flag("--version", version_and_commit());
   app.require_subcommand(1);
@@ -228,7 +237,7 @@ int body(int argc, char** argv) {
   };
 
   CLI::App* summary_command = add("summary", "What a run came to.\nExample: postproc summary run.h5 -o summary.json",
-                                  false, "JSON file to write");
+                                  false, "JSON file to write, or CSV of its numbers (.csv)");
   add_run(*summary_command, true);
   CLI::App* curve_command =
       add("curve",
@@ -302,10 +311,15 @@ int body(int argc, char** argv) {
       "--data", arguments.data,
       "Also write the section's polygons as CSV; of damage the cut boundaries, a row a segment");
   const MetricCommands metrics(app);
+  const FigureCommands figures(app);
   CLI::App* validate_command =
       app.add_subcommand("validate", "Hold files to the results schema.\nExample: postproc validate run.h5 packing.h5");
   validate_command->add_option("files", arguments.files, "Files of any kind (HDF5)")->required();
   validate_command->add_flag("--quiet", arguments.quiet, "Nothing but findings");
+
+  CLI::App* cost_command = app.add_subcommand(
+      "cost", "What runs took together: runs,tet_steps,wall_time_s,core_time_s.\nExample: postproc cost a.h5 b.h5");
+  cost_command->add_option("files", arguments.files, "Run files (HDF5); none: zeros");
 
   if (const auto done = parse_command_line(app, "postproc", argc, argv)) return *done;
   if (section_command->parsed() && !arguments.relative && section_command->count("--position") == 0)
@@ -327,6 +341,8 @@ int body(int argc, char** argv) {
   if (vtk_command->parsed()) vtk(arguments);
   if (section_command->parsed()) section(arguments);
   metrics.run();
+  figures.run();
+  if (cost_command->parsed()) cost(arguments);
   if (validate_command->parsed()) validate_files(arguments);
   return 0;
 }

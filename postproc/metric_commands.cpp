@@ -12,6 +12,7 @@
 #include "common/command_line.hpp"
 #include "common/errors.hpp"
 #include "common/one_line.hpp"
+#include "postproc/compaction_curve.hpp"
 #include "postproc/contact_history.hpp"
 #include "postproc/csv_file.hpp"
 #include "postproc/damage_statistics.hpp"
@@ -22,8 +23,12 @@
 #include "postproc/hysteresis.hpp"
 #include "postproc/mean_radius.hpp"
 #include "postproc/modulus.hpp"
+#include "postproc/quasi_static.hpp"
+#include "postproc/section_statistics.hpp"
 #include "postproc/strength.hpp"
+#include "postproc/stress_path.hpp"
 #include "postproc/text_file.hpp"
+#include "postproc/triaxial_test.hpp"
 #include "postproc/yield_point.hpp"
 
 namespace mpfem {
@@ -44,7 +49,10 @@ struct MetricCommands::State {
   ModulusRule modulus;
   std::vector<double> strain_range;
   StrengthRule strength;
-  double yield_ratio = 1.003;
+  bool need_window = false;
+  double yield_ratio = 1.003, lateral_stress = 0, threshold = 0, from_density = 0;
+  std::vector<double> relative_densities;
+  std::string axis = "z";
   std::string x, y, z, curve;
   std::vector<std::string> models;
   bool x_is_relative_density = false;
@@ -174,7 +182,10 @@ MetricCommands::MetricCommands(CLI::App& app) : state_(std::make_unique<State>()
                                          s.strain_range[0], s.strain_range[1]));
           s.modulus.strain_range = {s.strain_range[0], s.strain_range[1]};
         }
-        s.deliver(measure_modulus(s.open_run(), s.stage, s.modulus, s.youngs_modulus));
+        const Measurement m = measure_modulus(s.open_run(), s.stage, s.modulus, s.youngs_modulus);
+        if (s.need_window && !m.details["window_meets_rule"].get<bool>())
+          throw InputError(fmt::format("{}: {}", one_line(s.input), m.notes.front()));
+        s.deliver(m);
       });
   add_number(modulus, "--slope-change", s.modulus.slope_change, share, "",
              "Largest change of slope between the window's halves, share")
@@ -189,6 +200,7 @@ MetricCommands::MetricCommands(CLI::App& app) : state_(std::make_unique<State>()
              "low,high: axial strain since the stage began, in place of the rule")
       ->delimiter(',')
       ->expected(2);
+  modulus.add_flag("--need-window", s.need_window, "Refuse a stage in which no window meets the rule");
   add_number(modulus, "--youngs-modulus", s.youngs_modulus, moduli, "MPa", "Of the grains (default: the scenario's)");
 
   CLI::App& strength = s.add_metric(
@@ -255,6 +267,72 @@ MetricCommands::MetricCommands(CLI::App& app) : state_(std::make_unique<State>()
   add_number(damage, "--snapshot", s.snapshot, whole_numbers, "", "Number of the snapshot; -1 is the last")
       ->capture_default_str();
   damage.add_option("--data", s.table, "CSV file to write: the share of the area whose damage is not above each value");
+
+  s.add_metric(
+      app, "quasi-static",
+      "How quasi-static a loading was: kinetic over internal energy, balance of opposite walls and of energy.\n"
+      "Example: postproc quasi-static run.h5 -o quality.json",
+      "the last", [&s] { s.deliver(measure_quasi_static(s.open_run(), s.stage)); });
+  s.add(app, "stress-path",
+        "Where a run ends in the plane of p and q, its largest stresses and what it dissipates.\n"
+        "Example: postproc stress-path run.h5 -o path.json",
+        "JSON file to write", [&s] { s.deliver(measure_stress_path(s.open_run())); })
+      .add_option("run", s.input, "Run file (HDF5)")
+      ->required();
+  CLI::App& triaxial = s.add_metric(
+      app, "triaxial",
+      "A triaxial compression: stresses and strains at its end and where q is largest, dissipation, and how well "
+      "the lateral force was kept.\n"
+      "Example: postproc triaxial run.h5 --lateral-stress 8 -o triaxial.json",
+      "the last triaxial_compression",
+      [&s] { s.deliver(measure_triaxial_test(s.open_run(), s.stage, s.lateral_stress)); });
+  add_number(triaxial, "--lateral-stress", s.lateral_stress, moduli, "MPa", "At the beginning")->required();
+  const auto add_section = [&](const char* name, const char* help, const char* threshold_help,
+                               Measurement (*measure)(const schema::FileReader&, int, int, double)) {
+    CLI::App& section = s.add(app, name, help, "JSON file to write", [&s, measure] {
+      s.deliver(measure(s.open_run(), s.snapshot, s.axis == "x" ? 0 : s.axis == "y" ? 1 : 2, s.threshold));
+    });
+    section.add_option("run", s.input, "Run file (HDF5)")->required();
+    add_number(section, "--snapshot", s.snapshot, whole_numbers, "", "Number of the snapshot; -1 is the last")
+        ->capture_default_str();
+    section.add_option("--axis", s.axis, "Axis that the middle plane is normal to")
+        ->check(CLI::IsMember({"x", "y", "z"}))
+        ->capture_default_str();
+    add_number(section, "--threshold", s.threshold, Range::between(0, 1e12), "", threshold_help)->required();
+  };
+  add_section("section-stress",
+              "Von Mises stress on the middle plane: mean, percentiles, share above a threshold.\n"
+              "Example: postproc section-stress run.h5 --threshold 25 -o stress.json",
+              "MPa", measure_section_stress);
+  add_section("section-damage",
+              "Damage along the grains' boundaries on the middle plane: mean, share above a threshold.\n"
+              "Example: postproc section-damage run.h5 --axis x --threshold 0.99 -o damage.json",
+              "Damage from which on a bond counts as opened", measure_section_damage);
+
+  CLI::App& at_densities =
+      s.add(app, "stress-at-densities",
+            "Mean stress where a compaction passes given relative densities, between the rows beside each.\n"
+            "Example: postproc stress-at-densities run.h5 --densities 0.8,0.92 -o stress.json --data stress.csv",
+            "JSON file to write", [&s] {
+              if (!s.table.empty()) write_file(s.table, stress_at_densities_csv(s.open_run(), s.relative_densities));
+              s.deliver(measure_stress_at_densities(s.open_run(), s.relative_densities));
+            });
+  at_densities.add_option("run", s.input, "Run file (HDF5)")->required();
+  add_number(at_densities, "--densities", s.relative_densities, Range::between(0, 2), "",
+             "Relative densities, by comma, ascending")
+      ->required()
+      ->delimiter(',');
+  at_densities.add_option("--data", s.table, "CSV file to write: a row a density");
+  CLI::App& compaction_quality =
+      s.add(app, "compaction-quality",
+            "How sound a compaction is from a relative density on: kinetic over internal energy, balance of energy, "
+            "penetration.\n"
+            "Example: postproc compaction-quality run.h5 --from-density 0.7 -o quality.json",
+            "JSON file to write", [&s] { s.deliver(measure_compaction_quality(s.open_run(), s.from_density)); });
+  compaction_quality.add_option("run", s.input, "Run file (HDF5)")->required();
+  add_number(compaction_quality, "--from-density", s.from_density, Range::between(0, 2), "",
+             "Relative density of the first row that counts")
+      ->required();
 
   CLI::App& energy = s.add_metric(
       app, "energy",

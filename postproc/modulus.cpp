@@ -167,6 +167,7 @@ Measurement modulus(const StageCurve& c, const ModulusRule& rule) {
                {"scatter_of_stress_MPa", line.scatter},
                {"damage_over_axial_work", nullptr},
                {"unconfined", c.unconfined},
+               {"window_meets_rule", !note.starts_with("no window")},
                {"relative_density_at_start", c.relative_density.front()}};
   if (const double work = c.axial_work[rows.end] - c.axial_work[rows.begin]; work > 0)
     m.details["damage_over_axial_work"] = (c.damage_dissipation[rows.end] - c.damage_dissipation[rows.begin]) / work;

@@ -154,4 +154,22 @@ std::string to_text(const Summary& s) {
   return text;
 }
 
+std::string to_csv(const Summary& summary) {
+  std::string text = "name,value\n";
+  const auto json = to_json(summary);
+  for (const auto& [name, value] : json.items())
+    if (value.is_number()) text += fmt::format("{},{}\n", name, value.dump());
+  return text;
+}
+
+std::string cost_of_runs(const std::vector<Summary>& runs) {
+  double steps = 0, wall = 0, core = 0;
+  for (const Summary& run : runs) {
+    steps += run.nanoseconds_per_tet_step > 0 ? run.wall_time / run.nanoseconds_per_tet_step * 1e9 : 0;
+    wall += run.wall_time;
+    core += run.wall_time * run.threads;
+  }
+  return fmt::format("{},{:.4g},{:.1f},{:.1f}\n", runs.size(), steps, wall, core);
+}
+
 } // namespace mpfem

@@ -44,5 +44,10 @@ struct Summary {
 Summary summarise(const schema::FileReader& file);
 nlohmann::ordered_json to_json(const Summary& summary);
 std::string to_text(const Summary& summary);
+/// CSV "name,value" of all its numbers, by the names of the JSON.
+std::string to_csv(const Summary& summary);
+
+/// What several runs took together, as "runs,tet_steps,wall_time_s,core_time_s"; core time is wall time times threads.
+std::string cost_of_runs(const std::vector<Summary>& runs);
 
 } // namespace mpfem

@@ -75,6 +75,8 @@ Measurement yield_point(const StageCurve& c, double ratio) {
                {"volumetric_strain_at_yield_uncertainty", at.half_spacing(c.volumetric_strain)},
                {"mean_stress_at_start_MPa", c.mean_stress.front()},
                {"deviatoric_stress_at_start_MPa", c.deviatoric_stress.front()},
+               {"distance_from_start_MPa", std::hypot(at.of(c.mean_stress) - c.mean_stress.front(),
+                                                      at.of(c.deviatoric_stress) - c.deviatoric_stress.front())},
                {"dissipation_at_start_mJ", dissipated.front()},
                {"damage_share_of_dissipation_since_start",
                 (at.of(c.damage_dissipation) - c.damage_dissipation.front()) / (threshold - dissipated.front())}};

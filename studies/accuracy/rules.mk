@@ -1,3 +1,4 @@
+#: accuracy         speed against error: docs/speed-against-error (40 min of processor time, no MESH; -j pays)
 # Speed against error: how far each setting is from the answer, and what it costs. Included by Makefile.studies, whose habits
 # hold here. Independent of MESH: cases.csv says what is run, case.awk what a row means.
 #
@@ -70,14 +71,14 @@ $(accuracy)/work/%.curve.csv: $(accuracy)/work/%.h5 | $(BIN)/postproc
 	$(BIN)/postproc curve $< --columns step,stage,relative_density,box_lengths,wall_stress,mean_stress --quiet -o $(@D)/new-$*.curve.csv
 	mv $(@D)/new-$*.curve.csv $@
 
-$(accuracy)/work/%.summary.json: $(accuracy)/work/%.h5 | $(BIN)/postproc
-	$(BIN)/postproc summary $< --quiet -o $(@D)/new-$*.summary.json
-	mv $(@D)/new-$*.summary.json $@
+$(accuracy)/work/%.summary.csv: $(accuracy)/work/%.h5 | $(BIN)/postproc
+	$(BIN)/postproc summary $< --quiet -o $(@D)/new-$*.summary.csv
+	mv $(@D)/new-$*.summary.csv $@
 # ------------------------------------------------------------------------------------------------ numbers
 # kept.csv: what finer meshes gave that were run once; they give way to runs of this folder.
 accuracy_kept := studies/accuracy/kept.csv
 accuracy_values := $(accuracy_cases:%=$(accuracy)/work/%.values.csv)
-accuracy_summaries := $(accuracy_cases:%=$(accuracy)/work/%.summary.json) $(foreach row,$(accuracy_recovered),$(accuracy)/work/$(call accuracy_field,$(row),1).recovery.summary.json)
+accuracy_summaries := $(accuracy_cases:%=$(accuracy)/work/%.summary.csv) $(foreach row,$(accuracy_recovered),$(accuracy)/work/$(call accuracy_field,$(row),1).recovery.summary.csv)
 $(eval $(call stamp,$(accuracy)/cases.settings,$(accuracy_cases)))
 
 $(accuracy)/runs.csv: studies/accuracy/runs.awk studies/accuracy/cases.csv $(accuracy_kept) $(accuracy)/cases.settings $(accuracy_summaries)

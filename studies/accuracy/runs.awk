@@ -13,15 +13,11 @@ BEGIN {
 file == 1 { row[++n] = $1; settings[$1] = $1 OFS $2 OFS $3 OFS $4 OFS $5 OFS $6 OFS $7 OFS $8; next }
 file == 2 { kept[$1] = 1; number[$1, $2] = $3 }
 
-# Of one `"key": value` a line; empty where the file is not there.
-function value_of(file, key,   text, found, line) {
-  text = "\"" key "\":"
+# Of a summary, a line a number; empty where the file is not there.
+function value_of(file, key,   found, line, part) {
   found = ""
   while ((getline line < file) > 0)
-    if (found == "" && index(line, text)) {
-      found = substr(line, index(line, text) + length(text))
-      gsub(/[ ",]/, "", found)
-    }
+    if (split(line, part, ",") == 2 && part[1] == key) found = part[2]
   close(file)
   return found
 }
@@ -34,8 +30,8 @@ function sum_of(file,   line, sum) {
 END {
   for (i = 1; i <= n; ++i) {
     name = row[i]
-    file = work "/" name ".summary.json"
-    later = work "/" name ".recovery.summary.json"
+    file = work "/" name ".summary.csv"
+    later = work "/" name ".recovery.summary.csv"
     if (name in asked) {
       steps = value_of(file, "steps")
       all = value_of(later, "steps") # goes on counting

@@ -1,23 +1,19 @@
 #!/bin/sh
-# keep.sh MESH MPFEM FIGURE...: copies the small results of figures from out/MESH to studies/results/MESH, with what their runs took
+# keep.sh MESH BIN FIGURE...: copies the small results of figures from out/MESH to studies/results/MESH, with what their runs took
 # (out/MESH/times.csv, plan.csv) and from what they came (provenance.txt: program, packing, settings of every run). The verdicts of all
-# figures kept for that mesh go to verdicts.md there, those of all meshes side by side to docs/verdicts.md. Of tables above 100 kB every
-# N-th row is kept, as NAME.every-N.csv.
+# figures kept for that mesh go to verdicts.md there, those of all meshes side by side to docs/verdicts.md. Pictures and tables above
+# 20 kB, which make writes again from the runs, are not kept.
 set -eu
 mesh=$1
-mpfem=$2
+mpfem=$2/mpfem
+postproc=$2/postproc
 shift 2
 kept=studies/results/$mesh
 for figure in "$@"; do
   [ -e "out/$mesh/$figure/verdict.json" ] || { echo "keep.sh: out/$mesh/$figure has no verdict.json: left out" >&2 && continue; }
   mkdir -p "$kept/$figure"
   rm -f "$kept/$figure"/*.png "$kept/$figure"/*.json "$kept/$figure"/*.csv # of other settings
-  find "out/$mesh/$figure" -maxdepth 1 -type f \
-    \( -name '*.png' -size -720k -o -name '*.json' -o -name '*.csv' -size -101k \) -exec cp {} "$kept/$figure/" \;
-  find "out/$mesh/$figure" -maxdepth 1 -type f -name '*.csv' -size +100k | while read -r table; do
-    every=$(($(wc -c <"$table") / 100000 + 1))
-    awk -v every="$every" 'NR == 1 || (NR - 2) % every == 0' "$table" >"$kept/$figure/$(basename "$table" .csv).every-$every.csv"
-  done
+  find "out/$mesh/$figure" -maxdepth 1 -type f \( -name '*.json' -o -name '*.csv' -size -20k \) -exec cp {} "$kept/$figure/" \;
 done
 {
   echo "# Verdicts, MESH=$mesh"
@@ -25,15 +21,7 @@ done
   echo 'Statements of Ku, Zhao, Mollon and Zhao beside what the studies of this folder found, computed from their data. How each is'
   echo 'judged, and what differs why, is in the notes of the verdict.json files and the README of each study. A study that is no'
   echo 'figure states what it expects itself.'
-  for folder in "$kept"/*/; do
-    [ -e "$folder/verdict.json" ] || continue
-    case $folder in
-    */fig*) reference=paper ;;
-    *) reference=expected ;; # a study of its own
-    esac
-    printf '\n## %s\n\n| statement | %s | here | verdict |\n|---|---|---|---|\n' "$(basename "$folder")" "$reference"
-    awk -v format=markdown -f studies/common/fields.awk -f studies/common/report.awk "$folder/verdict.json"
-  done
+  "$postproc" verdicts "$mesh=$kept"
   # Times of the figures at hand take the place of those kept before; of the plan, what is not this machine's.
   kept_times=$kept/times.csv
   [ -e "$kept_times" ] || head -n 1 "out/$mesh/times.csv" >"$kept_times"
@@ -67,6 +55,6 @@ judged is in the notes of studies/results/MESH/figNN/verdict.json, why it differ
 `make -f Makefile.studies keep MESH=NAME` writes this page.
 
 END
-  awk -f studies/common/fields.awk -f studies/common/verdicts.awk -v meshes='coarse medium smoke' studies/results/*/fig*/verdict.json
+  "$postproc" verdicts coarse=studies/results/coarse medium=studies/results/medium smoke=studies/results/smoke
 } >docs/verdicts.md.partial
 mv docs/verdicts.md.partial docs/verdicts.md

@@ -1,3 +1,4 @@
+#: contact-surface  contact over orientations and unequal meshes (some twenty minutes; builds its program)
 # contact-surface: what orientation, unequal meshes and facets do to contact forces and pressures. Included by Makefile.studies,
 # whose habits hold here. Its programs are not built by default; the rules below ask for them where BIN is a build's.
 
@@ -14,9 +15,9 @@ $(BIN)/contact-surface $(BIN)/nodal-pressure:
 
 $(eval $(call stamp,$(contact_surface)/work/settings,$(call content_of,studies/contact-surface/measure.sh)))
 
-$(contact_surface)/work/done: studies/contact-surface/measure.sh $(contact_surface)/work/settings | $(bonding_mesh) $(contact_surface)/work $(BIN)/contact-surface
+$(contact_surface)/work/done: studies/contact-surface/measure.sh $(contact_surface)/work/settings | $(small_mesh) $(contact_surface)/work $(BIN)/contact-surface
 	for file in $(@D)/*.csv; do [ $$file -nt $(@D)/settings ] || rm -f $$file; done
-	$(RUN) sh $< $(BIN) $(bonding_mesh) $(@D)
+	$(RUN) sh $< $(BIN) $(small_mesh) $(@D)
 	touch $@
 
 $(contact_surface)/rotations.csv $(contact_surface)/unequal.csv: $(contact_surface)/%.csv: studies/contact-surface/%.awk $(contact_surface)/work/done

@@ -1,3 +1,4 @@
+#: hard-cases       what breaks codes of this kind: steps too large, slivers, impact, a million steps (-j2 pays)
 # hard-cases: what breaks codes of this kind. Its packings are its own and the small one, whatever MESH says. Every case is a
 # run of one thread; -j pays.
 hard := $(out)/hard-cases
@@ -8,7 +9,7 @@ hard_field = $(word $(2),$(subst |, ,$(1)))
 hard_cases := $(foreach c,$(hard_lines),$(call hard_field,$(c),1))
 # Where the run begins, if not anew: the case that leaves the checkpoint.
 hard_from = $(patsubst %,$(hard)/work/%.csv,$(firstword $(subst ., ,$(filter-out -,$(call hard_field,$(1),4)))))
-hard_packing = $(if $(filter smoke,$(1)),$(bonding_mesh),$(hard)/work/$(1).packing.h5)
+hard_packing = $(if $(filter smoke,$(1)),$(small_mesh),$(hard)/work/$(1).packing.h5)
 
 hard-cases: $(addprefix $(hard)/,summary.csv still.csv fourteen.csv verdict.json)
 .PHONY: hard-cases

@@ -1,3 +1,4 @@
+#: nodal-pressure   averaged pressure in vibration, cycles and strong flow (some ten minutes; likewise)
 # nodal-pressure: is average nodal pressure free of weak modes? Included by Makefile.studies, whose habits hold here.
 
 nodal_pressure := out/nodal-pressure
@@ -9,9 +10,9 @@ $(nodal_pressure)/work:
 
 $(eval $(call stamp,$(nodal_pressure)/work/settings,$(call content_of,studies/nodal-pressure/measure.sh)))
 
-$(nodal_pressure)/work/done: studies/nodal-pressure/measure.sh $(nodal_pressure)/work/settings | $(bonding_mesh) $(nodal_pressure)/work $(BIN)/nodal-pressure
+$(nodal_pressure)/work/done: studies/nodal-pressure/measure.sh $(nodal_pressure)/work/settings | $(small_mesh) $(nodal_pressure)/work $(BIN)/nodal-pressure
 	for file in $(@D)/*.csv; do [ $$file -nt $(@D)/settings ] || rm -f $$file; done
-	$(RUN) sh $< $(BIN) $(bonding_mesh) $(@D)
+	$(RUN) sh $< $(BIN) $(small_mesh) $(@D)
 	touch $@
 
 $(nodal_pressure)/vibration.csv: studies/nodal-pressure/vibration.awk $(nodal_pressure)/work/done

@@ -270,3 +270,32 @@ TEST_CASE("a packing that means nothing is refused by its meaning") {
                Catch::Contains("s.h5: dataset /spheres/radius: found -0.25 at index 0, allowed: finite and > 0"));
   }
 }
+
+TEST_CASE("a packing's quality is numbers by name, its sizes a table, and their distance that from the description") {
+  const Folder folder;
+  write_text(folder / "pack.toml", description);
+  REQUIRE(pack_gen(fmt::format("spheres {} -o {}", folder / "pack.toml", folder / "s.h5")).exit_code == 0);
+  REQUIRE(pack_gen(fmt::format("mesh {} --size 0.05 -o {} --quiet", folder / "s.h5", folder / "p.h5")).exit_code == 0);
+  const std::string quality = "quality " + (folder / "p.h5");
+  REQUIRE(pack_gen(fmt::format("{} --quiet -o {} --description {} --sizes {} --target {}", quality, folder / "q.json",
+                               folder / "pack.toml", folder / "sizes.csv", folder / "target.csv"))
+              .exit_code == 0);
+  const std::string json = read_text(folder / "q.json");
+  CHECK_THAT(json, Catch::Contains("\"grains\": 11,"));
+  const auto number = [&](const std::string& key) {
+    return std::stod(json.substr(json.find("\"" + key + "\": ") + key.size() + 4));
+  };
+  CHECK(number("relative_density") == Approx(0.3).epsilon(1e-12));
+  CHECK(number("smallest_gap_mm") >= 0.002 * (1 - 1e-9));
+  CHECK(number("smallest_facet_gap_mm") > 0);
+  CHECK(number("size_distance") > 0);
+  CHECK(number("size_distance") < 0.2); // sizes were scaled to reach the density
+  CHECK(number("tets_per_grain") == Approx(number("tets") / 11).epsilon(1e-12));
+  CHECK(read_text(folder / "target.csv") == "diameter_mm,cumulative_number\n0.100,0.000\n0.200,1.000\n");
+  const std::string sizes = read_text(folder / "sizes.csv");
+  CHECK(std::count(sizes.begin(), sizes.end(), '\n') == 12);
+  CHECK_THAT(sizes, Catch::EndsWith("0.954545455\n")); // 10.5/11
+  const Outcome refused = pack_gen(quality + " --target x.csv");
+  CHECK(refused.exit_code == 2);
+  CHECK_THAT(refused.messages, Catch::Contains("--description"));
+}

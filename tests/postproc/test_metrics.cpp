@@ -34,6 +34,18 @@ TEST_CASE("a branch's cost a step is that of its own steps") {
   CHECK(s.nanoseconds_per_tet_step == Approx(0.96e9 / (20 * 48)));
 }
 
+TEST_CASE("what runs took together adds up their steps, and their time times threads") {
+  Summary one, two;
+  one.wall_time = 10;
+  one.threads = 2;
+  one.nanoseconds_per_tet_step = 20;
+  two.wall_time = 1;
+  two.threads = 1; // without a cost: it took no step
+  CHECK(cost_of_runs({one, two}) == "2,5e+08,11.0,21.0\n");
+  CHECK(cost_of_runs({}) == "0,0,0.0,0.0\n");
+  CHECK_THAT(to_csv(one), Catch::StartsWith("name,value\n") && Catch::Contains("\nthreads,2\n"));
+}
+
 TEST_CASE("a summary holds the numbers of the run") {
   const Folder folder;
   write_run(folder / "run.h5", small_run());

@@ -11,7 +11,7 @@ here=$(realpath "$(dirname "${BASH_SOURCE[0]}")")
 RANDOM=${SEED:-$$}
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
-cp "$here"/*.toml "$here"/*.csv "$work"
+cp "$here"/*.toml "$work"
 cd "$work"
 "$bin/pack-gen" spheres packing.toml -o spheres.h5 --quiet
 "$bin/pack-gen" mesh spheres.h5 --size 0.05 -o packing.h5 --quiet
@@ -66,42 +66,47 @@ time=$(($(now) - begun))
 in_parts "$share" "$time" run branch branch-killed --from loadings-whole.cycles.checkpoint.h5 --resume
 all_alike branch-whole branch-killed
 
-# The rules of the studies themselves, on this packing and with short tables: a compaction and what begins at its
-# checkpoints.
+# The rules of the studies themselves, with a short study: a compaction, what begins at its checkpoints, and a table.
 repository=$(realpath "$here/../..")
 for name in whole killed; do
   mkdir -p "study-$name/pack-gen"
   cp -r "$repository/Makefile.studies" "$repository/studies" "study-$name"/
   cp -r "$repository/pack-gen/examples" "study-$name/pack-gen"/
-  cp packing.toml "study-$name/pack-gen/examples/mcc_ph102_smoke.toml"
-  cp compactions.csv branches.csv "study-$name/studies/branches"/
   sed -i 's/^relative_density = .*/relative_density = 0.52/; s/^wall_speed = .*/wall_speed = 20000/' \
     "study-$name/studies/branches/compaction.toml"
 done
-study=(make -s -f Makefile.studies -j2 MESH=smoke size_smoke=0.05 sizes_smoke=0.05 "BIN=$bin" THREADS=1 branches)
+study=(make -s -f Makefile.studies -j2 "BIN=$bin" THREADS=1 STUDY=../study.toml out/own/study/index.html)
 begun=$(now)
 (cd study-whole && "${study[@]}")
 time=$(($(now) - begun))
+
+study_alike() {
+  local run remaining
+  for run in parent left right; do
+    all_alike "study-whole/out/own/$run/run" "study-killed/out/own/$run/run"
+    all_alike "study-whole/out/own/$run/work/run" "study-killed/out/own/$run/work/run"
+  done
+  cmp study-whole/out/own/study/ends.csv study-killed/out/own/study/ends.csv
+  remaining=$(cd study-killed && "${study[@]}" -n)
+  [ -z "$remaining" ] || { echo "make has more to do: $remaining" >&2; exit 1; }
+}
 while ((killed < kills)); do
   (cd study-killed && exec setsid "${study[@]}" >/dev/null 2>&1) &
   group=$!
   sleep "$(awk -v r="$RANDOM" -v t="$time" 'BEGIN { print t * 1e-9 * r / 32768 }')"
-  if kill -KILL -- "-$group" 2>/dev/null; then killed=$((killed + 1)); fi
-  wait "$group" 2>/dev/null || true
+  if kill -KILL -- "-$group" 2>/dev/null; then
+    killed=$((killed + 1))
+    wait "$group" 2>/dev/null || true
+  else # it has ended: compared, and begun anew
+    wait "$group"
+    study_alike
+    rm -r study-killed/out
+  fi
 done
 (cd study-killed && "${study[@]}")
-alike() {
-  local run
-  for run in compactions/parent branches/left branches/right; do
-    all_alike "study-whole/out/smoke/$run/run" "study-killed/out/smoke/$run/run"
-    all_alike "study-whole/out/smoke/$run/work/run" "study-killed/out/smoke/$run/work/run"
-  done
-  remaining=$(cd study-killed && "${study[@]}" -n)
-  [ -z "$remaining" ] || { echo "make has more to do: $remaining" >&2; exit 1; }
-}
-alike
+study_alike
 # A parent's checkpoint that is lost is made again where a branch needs it.
-rm study-killed/out/smoke/compactions/parent/work/run.D0.480.checkpoint.h5 study-killed/out/smoke/branches/left/run.h5
+rm study-killed/out/own/parent/work/run.D0.480.checkpoint.h5 study-killed/out/own/left/run.h5
 (cd study-killed && "${study[@]}")
-alike
+study_alike
 echo "$killed kills, all files alike"

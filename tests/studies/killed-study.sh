@@ -47,7 +47,7 @@ echo "to the end: $(date +%T)"
 
 cd "$work/undisturbed/out/smoke/$figure"
 tables=0
-for table in *.csv *.fits.json; do
+for table in *.csv fits.json; do
   [ -e "$table" ] || continue
   cmp "$table" "$work/disturbed/out/smoke/$figure/$table"
   tables=$((tables + 1))

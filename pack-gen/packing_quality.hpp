@@ -1,0 +1,24 @@
+#pragma once
+// What a packing is like, as numbers by name and as tables: for `pack-gen quality -o`.
+
+#include <optional>
+#include <string>
+
+#include "pack-gen/mesh_report.hpp"
+#include "pack-gen/packing_description.hpp"
+
+namespace mpfem {
+
+/// JSON of grains, relative_density, smallest_gap_mm (between spheres and to the walls) and, where they are given, the mesh's
+/// nodes, tets, tets_per_grain, smallest_quality, smallest_facet_gap_mm …, and size_distance, the largest distance between
+/// the cumulative curve of the spheres (at each sphere's middle, (i + 1/2)/n) and that of the description.
+std::string quality_json(const SpherePacking& packing, const std::optional<MeshReport>& mesh,
+                         const PackingDescription* description);
+
+/// CSV of diameter (mm) and cumulative fraction by number at each sphere's middle, ascending.
+std::string sizes_csv(const SpherePacking& packing);
+
+/// CSV of the points of a description's table. Throws InputError where its sizes are no table with values of its own.
+std::string target_csv(const TomlDocument& description);
+
+} // namespace mpfem

@@ -1,0 +1,102 @@
+#include "postproc/compaction_curve.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "common/errors.hpp"
+#include "common/one_line.hpp"
+
+namespace mpfem {
+
+namespace {
+
+constexpr double reached = 1e-6; ///< of a relative density
+
+std::vector<std::optional<double>> stresses(const HistoryTable& history, const std::vector<double>& wanted) {
+  if (wanted.empty() || std::adjacent_find(wanted.begin(), wanted.end(), std::greater_equal<>()) != wanted.end())
+    throw InputError("--densities: expected one or more, each larger than the one before");
+  return stress_at_densities(history["relative_density"], history["mean_stress"], wanted);
+}
+
+Measurement of_rows(const char* metric, const HistoryTable& history, std::size_t first) {
+  Measurement m;
+  m.metric = metric;
+  m.window.first_row = first;
+  m.window.last_row = history.rows() - 1;
+  m.window.strain_name = "relative_density";
+  m.window.strain = range_of(history["relative_density"], first, m.window.last_row);
+  m.window.stress_name = "mean_stress";
+  m.window.stress = range_of(history["mean_stress"], first, m.window.last_row);
+  return m;
+}
+
+} // namespace
+
+std::vector<std::optional<double>> stress_at_densities(const std::vector<double>& density,
+                                                       const std::vector<double>& stress,
+                                                       const std::vector<double>& wanted) {
+  std::vector<std::optional<double>> found(wanted.size());
+  std::size_t next = 0;
+  for (std::size_t row = 0; row < density.size(); ++row)
+    for (; next < wanted.size() && density[row] >= wanted[next] - reached; ++next) {
+      if (row == 0 && density[row] > wanted[next] + reached) continue; // it began denser
+      const double before = row > 0 ? density[row - 1] : density[row];
+      const double share = density[row] > before ? std::min(1.0, (wanted[next] - before) / (density[row] - before)) : 1;
+      const double from = row > 0 ? stress[row - 1] : stress[row];
+      found[next] = from + share * (stress[row] - from);
+    }
+  return found;
+}
+
+Measurement measure_stress_at_densities(const schema::FileReader& file, const std::vector<double>& wanted) {
+  const HistoryTable history(file);
+  const auto found = stresses(history, wanted);
+  Measurement m = of_rows("stress-at-densities", history, 0);
+  m.unit = "MPa";
+  m.uncertainty_meaning = "none: between two rows of the history";
+  m.method = "mean stress where the relative density is passed first, linear between the rows beside it";
+  if (!found.back())
+    throw InputError(fmt::format("{}: a relative density of {} is not passed", one_line(file.path()), wanted.back()));
+  m.value = *found.back();
+  for (std::size_t i = 0; i < wanted.size(); ++i) {
+    auto& entry = m.details[fmt::format("at_{:.2f}", wanted[i])];
+    if (found[i]) entry = *found[i];
+  }
+  return m;
+}
+
+std::string stress_at_densities_csv(const schema::FileReader& file, const std::vector<double>& wanted) {
+  const auto found = stresses(HistoryTable(file), wanted);
+  std::string text = "name,relative_density [1],mean_stress [MPa]\n";
+  for (std::size_t i = 0; i < wanted.size(); ++i)
+    text += fmt::format("D{0:.2f},{0:.2f},{1}\n", wanted[i], found[i] ? fmt::format("{:.10g}", *found[i]) : "");
+  return text;
+}
+
+Measurement measure_compaction_quality(const schema::FileReader& file, double from_density) {
+  const HistoryTable history(file);
+  const auto& density = history["relative_density"];
+  std::size_t first = history.rows();
+  double kinetic = 0, residual = 0, penetration = 0;
+  for (std::size_t row = 0; row < history.rows(); ++row) {
+    if (density[row] < from_density) continue;
+    first = std::min(first, row);
+    const double internal = internal_energy(history, row), work = history["external_work"][row];
+    if (internal > 0) kinetic = std::max(kinetic, history["kinetic_energy"][row] / internal);
+    if (work != 0) residual = std::max(residual, std::abs(history["energy_residual"][row] / work));
+    penetration = std::max(penetration, history["max_penetration"][row]);
+  }
+  if (first == history.rows())
+    throw InputError(fmt::format("{}: no row from a relative density of {} on", one_line(file.path()), from_density));
+  Measurement m = of_rows("compaction-quality", history, first);
+  m.value = kinetic;
+  m.uncertainty_meaning = "none: a largest value over rows";
+  m.method = fmt::format("largest values over the rows from a relative density of {:g} on", from_density);
+  m.details = {
+      {"kinetic_over_internal", kinetic}, {"residual_over_work", residual}, {"largest_penetration", penetration}};
+  return m;
+}
+
+} // namespace mpfem

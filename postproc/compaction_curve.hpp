@@ -1,0 +1,28 @@
+#pragma once
+// The curve of mean stress over relative density of a compaction, read at given densities, and how sound it is.
+
+#include <vector>
+
+#include "postproc/history_table.hpp"
+#include "postproc/measurement.hpp"
+
+namespace mpfem {
+
+/// Mean stress (MPa) at each of these relative densities (ascending), between the rows beside each; nothing for one that
+/// the run has not passed. A run that ends a rounding (1e-6) below a density has reached it.
+std::vector<std::optional<double>> stress_at_densities(const std::vector<double>& density,
+                                                       const std::vector<double>& stress,
+                                                       const std::vector<double>& wanted);
+
+/// The last of these stresses, and each as "at_0.80"; the densities as printed with two digits.
+/// Throws InputError where `wanted` is empty or does not rise.
+Measurement measure_stress_at_densities(const schema::FileReader& file, const std::vector<double>& wanted);
+
+/// CSV "name,relative_density [1],mean_stress [MPa]", an empty cell for a density that was not passed.
+std::string stress_at_densities_csv(const schema::FileReader& file, const std::vector<double>& wanted);
+
+/// Over the rows from a relative density on: largest kinetic over internal energy, largest residual of the energy balance
+/// over external work, largest penetration over the element size. Throws InputError where no row is as dense.
+Measurement measure_compaction_quality(const schema::FileReader& file, double from_density);
+
+} // namespace mpfem

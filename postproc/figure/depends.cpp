@@ -1,0 +1,314 @@
+#include "postproc/figure/depends.hpp"
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "common/errors.hpp"
+#include "common/hash.hpp"
+#include "common/one_line.hpp"
+
+namespace mpfem {
+
+namespace {
+
+std::string content_of(const std::string& path) {
+  std::ifstream file(path, std::ios::binary);
+  std::ostringstream text;
+  text << file.rdbuf();
+  return text.str();
+}
+
+std::string set_options(const Settings& settings) {
+  std::string text;
+  for (const auto& [key, value] : settings) text += fmt::format(" --set '{}={}'", key, value);
+  return text;
+}
+
+class Rules {
+public:
+  explicit Rules(const DependsRequest& request) : request_(request) {}
+
+  void add(const Figure& figure) {
+    current_ = &figure;
+    folder_ = fmt::format("{}/{}", request_.results.path, figure.name);
+    sources_ = fmt::format("{}", fmt::join(figure.files, " "));
+    files_.clear();
+    runs_.clear();
+    for (const ScriptSpec& script : figure.scripts) add_script(script);
+    std::string data = sources_;
+    for (const TableSpec& table : figure.tables) {
+      add_table(table);
+      data += fmt::format(" {}", path_of_table(table, folder_));
+    }
+    if (!figure.fits.empty()) {
+      std::string fitted;
+      for (const FitSpec& fit : figure.fits)
+        fitted += fmt::format(" {}", path_of_table(figure.table(fit.table, fit.place), folder_));
+      rule(folder_ + "/fits.json", sources_ + fitted, "fit_files");
+      data += fmt::format(" {}/fits.json", folder_);
+    }
+    for (const PlotSpec& plot : figure.plots)
+      for (const char* format : {"png", "svg"}) {
+        const std::string file = fmt::format("{}/{}.{}", folder_, plot.name, format);
+        rule(file, data_of(plot), "plot_files");
+        add_spread(plot, file);
+      }
+    for (const PictureSpec& picture : figure.pictures) add_picture(picture);
+    rule(folder_ + "/verdict.json", data, "verdict_files");
+    add_runs(graph_, runs_, figure.path);
+    const std::string& name = figure.name;
+    text_ += fmt::format("{}_files := {}\n{}_source := {}\n.PHONY: {}\n{}: $({}_files)\n", name, fmt::join(files_, " "),
+                         name, figure.path, name, name, name);
+    lists_["declared_figures"].insert(name);
+  }
+
+  std::string text() {
+    for (const auto& [folder, run] : graph_)
+      if (run.is_packing)
+        add_packing_rules(run);
+      else if (run.is_made)
+        add_run_rules(folder, run);
+    force_lost_parents();
+    for (const auto& [name, files] : lists_) text_ += fmt::format("{} := {}\n", name, fmt::join(files, " "));
+    return "# Written by postproc depends.\n" + text_;
+  }
+
+private:
+  void rule(const std::string& file, const std::string& needed, const std::string& list) {
+    text_ += fmt::format("{}: {}\n", file, needed);
+    variable(file, "figure", current_->path);
+    lists_[list].insert(file);
+    files_.push_back(file);
+  }
+
+  void variable(const std::string& file, const char* name, const std::string& value) {
+    text_ += fmt::format("{}: private {} := {}\n", file, name, value);
+  }
+
+  void add_table(const TableSpec& table) {
+    if (!table.file.empty()) return; // beside the figure's file, or made by a script
+    rule(path_of_table(table, folder_), fmt::format("{} {}", sources_, fmt::join(needs_of(table), " ")), "table_files");
+    if (table.spread.empty()) return;
+    const std::string file = fmt::format("{}/{}.spread.csv", folder_, table.name);
+    variable(file, "figure", current_->path);
+    lists_["spread_files"].insert(file);
+  }
+
+  /// With SEEDS a plot also shows the spread over packings.
+  void add_spread(const PlotSpec& plot, const std::string& file) {
+    for (const SeriesSpec& series : plot.series) {
+      if (!series.spread) continue;
+      lists_["spread_plots"].insert(file);
+      text_ += fmt::format("{}: $(if $(SEEDS),{}/{}.spread.csv)\n", file, folder_, series.table);
+    }
+  }
+
+  std::string data_of(const PlotSpec& plot) const {
+    std::set<std::string> needed;
+    for (const SeriesSpec& series : plot.series) {
+      if (!series.table.empty()) needed.insert(path_of_table(current_->table(series.table, series.place), folder_));
+      if (!series.fit.empty()) needed.insert(folder_ + "/fits.json");
+    }
+    return fmt::format("{} {}", sources_, fmt::join(needed, " "));
+  }
+
+  const RunInstance& run_of(const std::string& name, const Case& row, const Place& place) {
+    return add_run(runs_, *current_, current_->run(name, place), row);
+  }
+
+  /// The files that a table is read from; adds the runs that they are measured on.
+  std::vector<std::string> needs_of(const TableSpec& table) {
+    std::vector<std::string> needed;
+    const auto add = [&](const std::string& file) {
+      if (std::find(needed.begin(), needed.end(), file) == needed.end()) needed.push_back(file);
+    };
+    const auto belongs = [&](const std::string& name, const Case& row) {
+      return belongs_to(current_->run(name, table.place), row);
+    };
+    for (const Case& row :
+         available_cases(*current_, table.series, table.where, runs_of(table), request_.results, table.place)) {
+      for (const std::string& name : table.curves)
+        if (belongs(name, row)) add(file_of_run(run_of(name, row, table.place)));
+      if (const std::size_t slash = table.list.find('/'); slash != std::string::npos)
+        add(add_metric(run_of(table.list.substr(0, slash), row, table.place), table.list.substr(slash + 1), row));
+      for (const ColumnSpec& column : table.columns)
+        if (!column.run.empty() && belongs(column.run, row))
+          add(add_metric(run_of(column.run, row, table.place), filled_at(table.place, column.metric, row.values), row));
+    }
+    return needed;
+  }
+
+  std::string file_of_run(const RunInstance& run) const { return file_of(run, request_.results, request_.packing); }
+
+  /// The command of a metric: of postproc, or of another program that it names.
+  std::string command_of(const std::string& metric) const {
+    std::string command = metric;
+    for (const auto& [name, words] : current_->metrics)
+      if (name == metric) command = words;
+    return command.starts_with("pack-gen ") ? command : fmt::format("postproc {}", command);
+  }
+
+  std::string add_metric(const RunInstance& run, const std::string& metric, const Case& row) {
+    const std::string command = command_of(metric);
+    const std::string folder = request_.results.of(run.folder), file = fmt::format("{}/{}.json", folder, metric);
+    const std::size_t end = command.find(' ', command.find(' ') + 1); // behind the program and its verb
+    Words words = row.values;
+    words["packing"] = {request_.packing, {}};
+    words["description"] = {request_.description, {}};
+    words["folder"] = {folder, {}};
+    const std::string full = fmt::format("{} {}{}", command.substr(0, end), file_of_run(run),
+                                         end == std::string::npos ? "" : filled(command.substr(end), words));
+    const auto [known, added] = metrics_.try_emplace(file, full);
+    if (!added && known->second != full)
+      throw InputError(fmt::format("{}: metric '{}' is '{}' here, but '{}' in another figure", current_->path, metric,
+                                   full, known->second));
+    if (!added) return file;
+    const std::string settings = fmt::format("{}/metrics/{}.settings", request_.results.path, metric);
+    text_ += fmt::format("{}: {} {}\n", file, file_of_run(run), settings);
+    variable(file, "measure", full);
+    if (lists_["metric_settings"].insert(settings).second) stamp(settings, command);
+    lists_["metric_files"].insert(file);
+    return file;
+  }
+
+  /// A file that tells what something was made with; where it says something else, it is made anew.
+  void stamp(const std::string& file, const std::string& settings) {
+    variable(file, "settings", settings);
+    if (content_of(file) != settings + "\n") text_ += fmt::format("{}: FORCE\n", file);
+  }
+
+  void add_picture(const PictureSpec& picture) {
+    const auto cases =
+        available_cases(*current_, picture.series, picture.where, {picture.run}, request_.results, picture.place);
+    for (const Case& row : cases) {
+      const std::string run = file_of_run(run_of(picture.run, row, picture.place));
+      Words words = row.values;
+      words["run"] = {run, {}};
+      const std::string file = fmt::format("{}/{}", folder_, filled_at(picture.place, picture.name, words));
+      if (std::find(files_.begin(), files_.end(), file) != files_.end()) continue;
+      text_ += fmt::format("{}: {} {}\n", file, sources_, run);
+      variable(file, "picture", filled_at(picture.place, picture.command, words));
+      lists_["picture_files"].insert(file);
+      files_.push_back(file);
+      if (!file.ends_with(".png")) continue;
+      const std::string svg = file.substr(0, file.size() - 3) + "svg";
+      lists_["traced_files"].insert(svg);
+      files_.push_back(svg);
+    }
+  }
+
+  /// One rule for each file; where several cases make the same, it needs what each of them says.
+  void add_script(const ScriptSpec& script) {
+    std::map<std::string, std::string> commands;
+    for (const Case& row : cases_of(*current_, script.series, script.where, request_.results.mesh, script.place)) {
+      Words words = row.values;
+      words["here"] = {std::filesystem::path(current_->path).parent_path().string(), {}};
+      words["folder"] = {folder_, {}};
+      words["mpfem"] = {"$(BIN)/mpfem", {}};
+      words["postproc"] = {"$(BIN)/postproc", {}};
+      std::string needed;
+      if (!script.run.empty()) {
+        const std::string run = file_of_run(run_of(script.run, row, script.place));
+        needed = fmt::format(" {}", run);
+        words["run"] = {run, {}};
+      }
+      for (const std::string& need : script.needs) needed += fmt::format(" {}", filled_at(script.place, need, words));
+      const std::string file = fmt::format("{}/{}", folder_, filled_at(script.place, script.name, words));
+      words["file"] = {"$@.partial", {}};
+      const std::string command = filled_at(script.place, script.command, words);
+      const auto [known, added] = commands.try_emplace(file, command);
+      if (!added && known->second != command)
+        script.place.fail(fmt::format("two commands make {}: '{}' and '{}'", file, known->second, command));
+      text_ += fmt::format("{}: {}{}\n", file, added ? sources_ : "", needed);
+      if (!added) continue;
+      text_ += fmt::format("{}: private script = {}\n", file, command);
+      lists_["script_files"].insert(file);
+      files_.push_back(file);
+    }
+  }
+
+  /// Packings of a mesh's size have their rule in rules.mk; those with a command of their own have a stamp.
+  void add_packing_rules(const RunInstance& packing) {
+    if (packing.command.empty()) return;
+    const std::string file = file_of_run(packing), settings = file.substr(0, file.size() - 2) + "settings";
+    text_ += fmt::format("{}: {}\n", file, settings);
+    variable(file, "command", packing.command);
+    stamp(settings, packing.command);
+    lists_["declared_packings"].insert(file);
+  }
+
+  void add_run_rules(const std::string& folder, const RunInstance& run) {
+    const std::string file = file_of_run(run), settings_file = file.substr(0, file.size() - 2) + "settings";
+    const std::string packing =
+        run.packing.empty() ? request_.packing : request_.results.of(run.packing) + "/packing.h5";
+    Settings settings = {{"packing", packing}};
+    if (run.common_settings)
+      settings.insert(settings.end(), request_.common_settings.begin(), request_.common_settings.end());
+    settings.insert(settings.end(), run.settings.begin(), run.settings.end());
+    std::string options;
+    if (!run.parent.empty()) options = fmt::format(" --from {}", checkpoint_of(run));
+    if (!run.densities.empty()) {
+      std::vector<std::string> densities;
+      for (const double density : run.densities) densities.push_back(fmt::format("{:.3f}", density));
+      settings.emplace_back("output.checkpoint_relative_densities", fmt::format("[{}]", fmt::join(densities, ",")));
+    }
+    options += set_options(settings);
+    // Of the values, not of the file: another comment makes no run old.
+    std::string settings_text = fmt::format(
+        "{} {}{}", run.programme, hash_text(hash_string(TomlDocument::from_file(run.programme).text())), options);
+    std::erase(settings_text, '\''); // as it stands in the file
+    const std::string parent = run.parent.empty() ? packing : request_.results.of(run.parent) + "/run.h5";
+    text_ += fmt::format("{}: {} {}\n", file, parent, settings_file);
+    variable(file, "programme", run.programme);
+    variable(file, "options", options);
+    stamp(settings_file, settings_text);
+    lists_["declared_runs"].insert(file);
+    if (!std::filesystem::exists(file) || content_of(settings_file) != settings_text + "\n")
+      outstanding_.insert(folder);
+  }
+
+  std::string checkpoint_of(const RunInstance& run) const {
+    return fmt::format("{}/work/run.{}.checkpoint.h5", request_.results.of(run.parent), run.checkpoint);
+  }
+
+  /// A run whose checkpoint is missing is made again, with all that takes, for a branch that is to be made.
+  void force_lost_parents() {
+    std::set<std::string> forced;
+    while (!outstanding_.empty()) {
+      const RunInstance& run = graph_.at(*outstanding_.begin());
+      outstanding_.erase(outstanding_.begin());
+      if (run.parent.empty() || forced.contains(run.parent) || std::filesystem::exists(checkpoint_of(run))) continue;
+      const std::string parent = request_.results.of(run.parent) + "/run.h5";
+      if (!std::filesystem::exists(parent)) continue; // it will be made anyway
+      text_ += fmt::format("{}: FORCE\n", parent);
+      forced.insert(run.parent);
+      outstanding_.insert(run.parent);
+    }
+  }
+
+  const DependsRequest& request_;
+  const Figure* current_ = nullptr; ///< with its folder, its files, and what is made of it
+  std::string folder_, sources_;
+  std::vector<std::string> files_;
+  RunGraph runs_;
+  RunGraph graph_;                    ///< of all figures
+  std::set<std::string> outstanding_; ///< folders of runs that are to be made
+  std::map<std::string, std::string> metrics_;
+  std::map<std::string, std::set<std::string>> lists_;
+  std::string text_;
+};
+
+} // namespace
+
+std::string make_rules(const std::vector<Figure>& figures, const DependsRequest& request) {
+  Rules rules(request);
+  for (const Figure& figure : figures) rules.add(figure);
+  return rules.text();
+}
+
+} // namespace mpfem

@@ -1,0 +1,20 @@
+#pragma once
+// What make needs to know of figures: their files, what each is made from, and the settings of their runs.
+
+#include "postproc/figure/figure_table.hpp"
+
+namespace mpfem {
+
+struct DependsRequest {
+  ResultsFolder results;
+  std::string packing;      ///< the meshed packing
+  std::string description;  ///< what it was made from
+  Settings common_settings; ///< element, contact surface …: of every run that does not decline them
+};
+
+/// Lines for make (docs/figure-file.md, "What make does"): for all figures together, so that they share runs. Where the
+/// settings of a run differ from those written beside it, that file of settings depends on FORCE.
+/// Throws InputError: runs that two figures describe differently.
+std::string make_rules(const std::vector<Figure>& figures, const DependsRequest& request);
+
+} // namespace mpfem

@@ -1,0 +1,200 @@
+#include "postproc/figure/figure_commands.hpp"
+
+#include <filesystem>
+#include <fstream>
+#include <functional>
+#include <iterator>
+
+#include <fmt/format.h>
+
+#include "common/command_line.hpp"
+#include "common/errors.hpp"
+#include "common/one_line.hpp"
+#include "common/output_file.hpp"
+#include "postproc/figure/depends.hpp"
+#include "postproc/figure/figure_plot.hpp"
+#include "postproc/figure/report.hpp"
+#include "postproc/figure/verdict_pages.hpp"
+#include "postproc/gnuplot.hpp"
+#include "postproc/text_file.hpp"
+
+namespace mpfem {
+
+struct FigureCommands::State {
+  std::string figure, name, output, results = "out/coarse", mesh = "coarse", programmes = "studies/branches", packing,
+                                    description;
+  std::string title;
+  std::vector<std::string> files, settings;
+  int packings = 0;
+  std::vector<std::pair<CLI::App*, std::function<void()>>> commands;
+
+  CLI::App& add(CLI::App& app, const char* command_name, const std::string& help, std::function<void()> action) {
+    CLI::App* command = app.add_subcommand(command_name, help);
+    command->add_option("-o,--output", output, "File to write (default: standard output)");
+    command->add_option("--results", results, "Folder of the mesh's results")->capture_default_str();
+    commands.emplace_back(command, std::move(action));
+    return *command;
+  }
+
+  CLI::App& add_on_figure(CLI::App& app, const char* command_name, const std::string& help,
+                          std::function<void()> action) {
+    CLI::App& command = add(app, command_name, help, std::move(action));
+    command.add_option("figure", figure, "The figure's file (TOML)")->required();
+    add_common(command);
+    return command;
+  }
+
+  void add_common(CLI::App& command) {
+    command.add_option("--mesh", mesh, "Name of the mesh: which cases there are")->capture_default_str();
+    command.add_option("--programmes", programmes, "Folder of the scenarios named without a path")
+        ->capture_default_str();
+  }
+
+  void deliver(const std::string& text) const {
+    if (output.empty())
+      fmt::print("{}", text);
+    else
+      write_file(output, text);
+  }
+
+  Figure read() const { return read_figure(figure, programmes); }
+  std::string folder(const Figure& f) const { return fmt::format("{}/{}", results, f.name); }
+
+  void depends() const {
+    std::vector<Figure> figures;
+    for (const std::string& file : files) figures.push_back(read_figure(file, programmes));
+    DependsRequest request{{results, mesh}, packing, description, {}};
+    for (const std::string& setting : settings) {
+      const std::size_t equals = setting.find('=');
+      if (equals == std::string::npos)
+        throw InputError(fmt::format("--set: found '{}', allowed: KEY=VALUE", one_line(setting)));
+      request.common_settings.emplace_back(setting.substr(0, equals), setting.substr(equals + 1));
+    }
+    const std::string text = make_rules(figures, request);
+    std::ifstream old(output);
+    if (std::string(std::istreambuf_iterator<char>(old), {}) == text) return; // unchanged: make need not read it again
+    deliver(text);
+  }
+
+  void powder() const {
+    const Figure f = read();
+    deliver(f.powder.empty() ? "" : fmt::format("# element_size = {}\n{}", f.element_size, f.powder));
+  }
+
+  void table() const {
+    const Figure f = read();
+    const TableSpec& spec = f.table(name, {});
+    const TextTable result = files.empty() ? make_table(f, spec, {results, mesh}) : spread_of(spec, files);
+    if (output.empty()) throw InputError("found no -o, allowed: the CSV file to write");
+    write_text_table(output, result);
+  }
+
+  void fits() const {
+    const Figure f = read();
+    const auto list = make_fits(f, folder(f));
+    for (const auto& fit : list)
+      if (fit.contains("refused"))
+        fmt::print(stderr, "postproc: note: fit '{}': {}\n", fit.at("name").get<std::string>(),
+                   fit.at("refused").get<std::string>());
+    deliver(list.dump(2) + "\n");
+  }
+
+  void plot() const {
+    const Figure f = read();
+    const auto found = std::find_if(f.plots.begin(), f.plots.end(), [&](const PlotSpec& p) { return p.name == name; });
+    if (found == f.plots.end()) throw InputError(fmt::format("{}: there is no plot '{}'", f.path, one_line(name)));
+    const std::string format = std::filesystem::path(output).extension() == ".svg" ? "svg" : "png";
+    const std::string partial = output + ".partial";
+    FigureData data(f, folder(f));
+    run_gnuplot(plot_script(*found, data, folder(f), format, partial, packings));
+    std::error_code error;
+    std::filesystem::rename(partial, output, error);
+    if (error) throw StorageError(fmt::format("{}: cannot be written: {}", one_line(output), error.message()));
+  }
+
+  void verdict() const {
+    const Figure f = read();
+    FigureData data(f, folder(f));
+    deliver(verdict_text(data, mesh));
+  }
+
+  void verdicts() const {
+    std::vector<MeshVerdicts> meshes;
+    for (const std::string& text : files) {
+      const std::size_t equals = text.find('=');
+      if (equals == std::string::npos)
+        throw InputError(fmt::format("found '{}', allowed: MESH=FOLDER", one_line(text)));
+      meshes.push_back({text.substr(0, equals), text.substr(equals + 1)});
+    }
+    deliver(meshes.size() == 1 ? verdicts_of_mesh(meshes.front()) : verdicts_of_meshes(meshes));
+  }
+
+  void report() const {
+    std::vector<ReportEntry> entries;
+    for (const std::string& file : files) {
+      const Figure f = read_figure(file, programmes);
+      entries.push_back({f.name, f.name == f.title ? f.title : fmt::format("{}: {}", f.name, f.title), f.question});
+    }
+    deliver(report_page(entries, results, title));
+  }
+};
+
+FigureCommands::FigureCommands(CLI::App& app) : state_(std::make_unique<State>()) {
+  State& s = *state_;
+  CLI::App& depends = s.add(app, "depends",
+                            "What make needs to know of figures: files, what they are made from, settings of runs.\n"
+                            "Example: postproc depends studies/fig12/figure.toml --results out/smoke --mesh smoke",
+                            [&s] { s.depends(); });
+  depends.add_option("figures", s.files, "Figures' files (TOML)")->required();
+  s.add_common(depends);
+  depends.add_option("--packing", s.packing, "The meshed packing")->required();
+  depends.add_option("--description", s.description, "The file that the packing was made from, for metrics");
+  depends.add_option("--set", s.settings, "Setting of every run that does not decline it, KEY=VALUE")
+      ->allow_extra_args(false);
+  s.add_on_figure(app, "powder", "The packing that a study has of its own, as pack-gen takes it; else nothing.",
+                  [&s] { s.powder(); });
+  CLI::App& table =
+      s.add_on_figure(app, "table",
+                      "A table of a figure, from the numbers of its runs.\nColumns of curves beside those of the "
+                      "history:\n" +
+                          curve_help() +
+                          "Example: postproc table studies/fig12/figure.toml modulus --results out/smoke --mesh smoke "
+                          "-o modulus.csv",
+                      [&s] { s.table(); });
+  table.add_option("name", s.name, "Name of the table")->required();
+  table.add_option("--spread", s.files,
+                   "Instead mean and deviation over these tables of several packings, that of this one first");
+  s.add_on_figure(app, "fits", "All fits of a figure, from its tables, as JSON.", [&s] { s.fits(); });
+  CLI::App& plot = s.add_on_figure(app, "plot",
+                                   "A plot of a figure, from its tables and fits; -o says whether PNG or SVG.\n"
+                                   "Example: postproc plot studies/fig12/figure.toml modulus --results out/smoke -o "
+                                   "modulus.png",
+                                   [&s] { s.plot(); });
+  plot.add_option("name", s.name, "Name of the plot")->required();
+  add_number(plot, "--packings", s.packings, Range::between(0, 1e6), "", "Draw the spread over so many packings");
+  plot.get_option("--output")->required();
+  s.add_on_figure(app, "verdict", "What a figure states, what was found, and whether they agree, as JSON.",
+                  [&s] { s.verdict(); });
+  s.add(app, "verdicts",
+        "Verdicts as Markdown: of one mesh figure by figure, or of several side by side.\n"
+        "Example: postproc verdicts coarse=studies/results/coarse smoke=studies/results/smoke -o verdicts.md",
+        [&s] { s.verdicts(); })
+      .add_option("folders", s.files, "MESH=FOLDER: where its figures have their verdict.json")
+      ->required();
+  CLI::App& report = s.add(app, "report", "Pictures and verdicts of figures as one HTML page.", [&s] { s.report(); });
+  report.add_option("figures", s.files, "Figures' files (TOML)")->required();
+  s.add_common(report);
+  report.add_option("--title", s.title, "Title of the page")->required();
+}
+
+FigureCommands::~FigureCommands() = default;
+
+void FigureCommands::run() const {
+  for (const auto& [command, action] : state_->commands) {
+    if (!command->parsed()) continue;
+    if (!state_->output.empty()) check_output_path("--output", state_->output, OutputKind::text);
+    action();
+  }
+}
+
+} // namespace mpfem

@@ -1,0 +1,329 @@
+#include "postproc/figure/figure_plot.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "common/errors.hpp"
+#include "postproc/gnuplot.hpp"
+
+namespace mpfem {
+
+namespace {
+
+constexpr int curve_points = 201;
+
+/// Colours that stay apart for colour-blind readers (Okabe and Ito), with the points that belong to them.
+constexpr const char* style = R"(set encoding utf8
+set border 3 linewidth 1.2
+set tics nomirror out
+set grid linecolor rgb '#dddddd' linetype 1
+set linetype 1 linecolor rgb '#0072b2' linewidth 2 pointtype 7
+set linetype 2 linecolor rgb '#d55e00' linewidth 2 pointtype 5
+set linetype 3 linecolor rgb '#009e73' linewidth 2 pointtype 9
+set linetype 4 linecolor rgb '#cc79a7' linewidth 2 pointtype 11
+set linetype 5 linecolor rgb '#000000' linewidth 2 pointtype 13
+set linetype 6 linecolor rgb '#56b4e9' linewidth 2 pointtype 2
+set linetype 7 linecolor rgb '#e69f00' linewidth 2 pointtype 15
+set linetype 8 linecolor rgb '#999999' linewidth 2 pointtype 3
+set datafile missing 'NaN'
+)";
+
+std::string number(const std::optional<double>& value) {
+  return value ? fmt::format("{}", *value) : "*";
+}
+
+std::string axis_text(const char* axis, const AxisSpec& spec) {
+  std::string text = fmt::format("set {}label {}\n", axis, gnuplot_string(spec.label));
+  if (spec.low || spec.high) text += fmt::format("set {}range [{}:{}]\n", axis, number(spec.low), number(spec.high));
+  if (spec.logarithmic) text += fmt::format("set logscale {}\n", axis);
+  if (!spec.format.empty()) text += fmt::format("set format {} {}\n", axis, gnuplot_string(spec.format));
+  if (!spec.ticks.empty()) {
+    if (spec.ticks.find_first_not_of("0123456789.eE+-(), ") != std::string::npos)
+      throw InputError(fmt::format("ticks: found '{}', allowed: a distance or numbers in brackets", spec.ticks));
+    text += fmt::format("set {}tics {}\n", axis, spec.ticks);
+  }
+  return text;
+}
+
+std::string line_style(const SeriesSpec& s) {
+  std::string text = fmt::format(" linetype {}", s.colour);
+  if (s.dash == "dashed") text += " dashtype 2";
+  if (s.dash == "dotted") text += " dashtype (2, 3)";
+  if (s.dash == "long") text += " dashtype (8, 4)";
+  if (s.width > 0) text += fmt::format(" linewidth {}", s.width);
+  if (s.point > 0) text += fmt::format(" pointtype {}", s.point);
+  if (s.style != "lines") text += fmt::format(" pointsize {}", s.size);
+  return text;
+}
+
+std::string title_text(const std::string& title) {
+  return title.empty() ? " notitle" : " title " + gnuplot_string(title);
+}
+
+/// Data blocks and the lines of the plot command that draw them.
+class Script {
+public:
+  Script(const PlotSpec& plot, FigureData& data, std::string folder, int packings)
+      : plot_(plot), data_(data), folder_(std::move(folder)), packings_(packings) {}
+
+  void add(const SeriesSpec& s) {
+    if (s.table.empty())
+      add_model(s);
+    else if (s.group.empty())
+      add_rows(s, s.where, s.colour, s.title);
+    else
+      add_groups(s);
+    if (s.spread && packings_ > 0) add_spread(s);
+  }
+  const std::string& blocks() const { return blocks_; }
+  std::string drawings() const { return fmt::format("{}", fmt::join(drawings_, ", \\\n  ")); }
+  bool empty() const { return drawings_.empty(); }
+
+private:
+  void draw(const std::string& block, const std::string& with) {
+    const std::string name = fmt::format("$data{}", ++count_);
+    blocks_ += fmt::format("{} << EOD\n{}EOD\n", name, block);
+    drawings_.push_back(fmt::format("{} {}", name, with));
+  }
+
+  void add_groups(const SeriesSpec& s) {
+    const TextTable& table = data_.table(s.table);
+    const std::size_t group = table.column(s.group, s.place);
+    std::vector<Value> seen;
+    for (const std::size_t row : table.rows_of(s.where, s.place)) {
+      const Value& value = table.rows[row][group];
+      if (std::find(seen.begin(), seen.end(), value) != seen.end()) continue;
+      seen.push_back(value);
+      auto where = s.where;
+      where.push_back({s.group, {value}, {}, {}});
+      const int colour = (s.colour - 1 + static_cast<int>(seen.size()) - 1) % 8 + 1;
+      add_rows(s, where, colour, filled_at(s.place, s.title, {{"value", value}}, Unknown::kept));
+    }
+  }
+
+  void add_rows(const SeriesSpec& s, const std::vector<Filter>& where, int colour, const std::string& title) {
+    const TextTable& table = data_.table(s.table);
+    std::vector<std::pair<std::size_t, double>> columns = {{table.column(s.x, s.place), s.x_scale},
+                                                           {table.column(s.y, s.place), s.y_scale}};
+    if (!s.error.empty()) columns.emplace_back(table.column(s.error, s.place), s.y_scale);
+    if (!s.colour_by.empty()) columns.emplace_back(table.column(s.colour_by, s.place), 1);
+    std::string block;
+    for (const std::size_t row : table.rows_of(where, s.place)) {
+      for (const auto& [column, scale] : columns) {
+        const auto& value = table.rows[row][column].number;
+        block += value ? fmt::format("{:.9g} ", *value * scale) : "NaN ";
+      }
+      block += '\n';
+    }
+    if (block.find_first_of("0123456789") == std::string::npos) return; // nothing of it could be measured
+    SeriesSpec drawn = s;
+    drawn.colour = colour;
+    if (!s.colour_by.empty())
+      draw(block, fmt::format("using 1:2:3 with lines linewidth 1.5 palette{}", title_text(title)));
+    else if (!s.error.empty())
+      draw(block, fmt::format("using 1:2:3 with yerrorbars{}{}", line_style(drawn), title_text(title)));
+    else
+      draw(block, fmt::format("using 1:2 with {}{}{}", s.style, line_style(drawn), title_text(title)));
+  }
+
+  void add_spread(const SeriesSpec& s) {
+    const TextTable table = read_text_table(fmt::format("{}/{}.spread.csv", folder_, s.table));
+    const std::size_t x = table.column(s.x, s.place), y = table.column(s.y, s.place),
+                      deviation = table.column(s.y + "_deviation", s.place);
+    std::string block;
+    for (const auto& row : table.rows)
+      if (row[x].number && row[y].number && row[deviation].number)
+        block += fmt::format("{:.9g} {:.9g} {:.9g}\n", *row[x].number * s.x_scale, *row[y].number * s.y_scale,
+                             *row[deviation].number * s.y_scale);
+    if (block.empty()) return;
+    const bool first = spreads_++ == 0; // named once in the key
+    draw(block,
+         fmt::format("using 1:2:3 with yerrorbars linetype {} pointtype 6 pointsize 1.5{}", first ? 5 : 4,
+                     title_text(first ? fmt::format("mean and standard deviation of {} packings", packings_) : "")));
+  }
+
+  /// A fit, over the range of its points or the one given, or a model with coefficients of its own.
+  void add_model(const SeriesSpec& s) {
+    std::map<std::string, double> coefficients(s.model.begin(), s.model.end());
+    std::string model = s.fit_model;
+    bool relative_density = false;
+    double from = s.from.value_or(plot_.x.low.value_or(0)), to = s.to.value_or(plot_.x.high.value_or(1));
+    if (!s.fit.empty()) {
+      const auto& fit = data_.fit(s.fit);
+      if (fit.contains("refused")) return;
+      for (const auto& [name, value] : fit.at("coefficients").items())
+        if (value.at("value").is_number()) coefficients[name] = value.at("value").template get<double>();
+      model = fit.at("model").get<std::string>();
+      relative_density = fit.at("relative_density").get<bool>();
+      const auto& range = fit.at(s.x == "z" ? "z" : "x").at("range");
+      from = s.from.value_or(range[0].get<double>());
+      to = s.to.value_or(range[1].get<double>());
+    }
+    const auto y = model_with(model, coefficients, relative_density);
+    if (plot_.surface) {
+      add_surface(s, y);
+      return;
+    }
+    std::string block;
+    for (int i = 0; i < curve_points; ++i) {
+      const double at = from + (to - from) * i / (curve_points - 1), other = s.at.value_or(0);
+      const double value = s.x == "z" ? y(other, at) : y(at, other);
+      if (std::isfinite(value)) block += fmt::format("{:.9g} {:.9g}\n", at * s.x_scale, value * s.y_scale);
+    }
+    draw(block, fmt::format("using 1:2 with lines{}{}", line_style(s), title_text(s.title)));
+  }
+
+  void add_surface(const SeriesSpec& s, const std::function<double(double, double)>& y) {
+    constexpr int cells = 24;
+    std::string block;
+    for (int j = 0; j <= cells; ++j) {
+      for (int i = 0; i <= cells; ++i) {
+        const double p = plot_.x.low.value_or(0) + (plot_.x.high.value_or(1) - plot_.x.low.value_or(0)) * i / cells;
+        const double g = plot_.y.low.value_or(0) + (plot_.y.high.value_or(1) - plot_.y.low.value_or(0)) * j / cells;
+        block += fmt::format("{:.9g} {:.9g} {:.9g}\n", p, g, y(p, g) * s.y_scale);
+      }
+      block += '\n';
+    }
+    draw(block, fmt::format("using 1:2:3 with lines{}{}", line_style(s), title_text(s.title)));
+  }
+
+  const PlotSpec& plot_;
+  FigureData& data_;
+  std::string folder_;
+  int packings_ = 0, count_ = 0, spreads_ = 0;
+  std::string blocks_;
+  std::vector<std::string> drawings_;
+};
+
+/// The points of a surface's series: x, y and z from columns x, group and y of its table.
+std::string surface_points(const SeriesSpec& s, FigureData& data) {
+  const TextTable& table = data.table(s.table);
+  std::string block;
+  for (const std::size_t row : table.rows_of(s.where, s.place)) {
+    const auto& cells = table.rows[row];
+    const auto x = cells[table.column(s.x, s.place)].number, y = cells[table.column(s.group, s.place)].number,
+               z = cells[table.column(s.y, s.place)].number;
+    if (x && y && z)
+      block +=
+          fmt::format("{:.9g} {:.9g} {:.9g}\n", s.fixed_x.value_or(*x), s.fixed_group.value_or(*y), *z * s.y_scale);
+  }
+  return block;
+}
+
+std::string terminal(const std::string& format) {
+  if (format == "svg")
+    return "set terminal svg size 800,600 dynamic enhanced font 'DejaVu Sans,16' background 'white'\n";
+  if (format == "png") return "set terminal pngcairo size 1200,900 enhanced font 'DejaVu Sans,20' linewidth 1.5\n";
+  throw InputError(fmt::format("found the format '{}', allowed: png, svg", format));
+}
+
+std::string key_text(const PlotSpec& plot) {
+  if (plot.key.find_first_not_of("abcdefghijklmnopqrstuvwxyzLR0123456789 ") != std::string::npos)
+    throw InputError(
+        fmt::format("key: found '{}', allowed: words of place as 'left top' or 'outside right'", plot.key));
+  std::string text = "set key Left reverse samplen 2 spacing 1.2 noautotitle\n";
+  text += fmt::format("set key {}\n", plot.key);
+  if (!plot.key_title.empty()) text += fmt::format("set key title {} left\n", gnuplot_string(plot.key_title));
+  return text;
+}
+
+std::string reference_lines(const PlotSpec& plot) {
+  std::string text;
+  for (const LineSpec& line : plot.lines) {
+    const std::string look = " with lines linewidth 1 dashtype (2, 3) linecolor rgb '#777777'" + title_text(line.title);
+    if (line.slope) text += fmt::format(", \\\n  {} * x{}", *line.slope, look);
+    if (line.y) text += fmt::format(", \\\n  {}{}", *line.y, look);
+  }
+  return text;
+}
+
+/// A round distance of ticks, so that some three fit.
+std::string few_ticks(double low, double high) {
+  const double third = (high - low) / 3, power = std::pow(10, std::floor(std::log10(third)));
+  for (const double digit : {1, 2, 5})
+    if (third <= digit * power) return fmt::format("{:g}", digit * power);
+  return fmt::format("{:g}", 10 * power);
+}
+
+/// The axis of an inset: over the rows that the inset shows, with a margin, where it does not say from where to where.
+AxisSpec inset_x(const PlotSpec& plot, FigureData& data) {
+  AxisSpec axis = plot.inset->x;
+  const SeriesSpec& s = plot.series.front();
+  if (plot.inset->where.empty() || s.table.empty()) return axis;
+  const TextTable& table = data.table(s.table);
+  const std::size_t x = table.column(s.x, s.place);
+  std::optional<double> low, high;
+  for (const std::size_t row : table.rows_of(plot.inset->where, plot.place))
+    if (const auto value = table.rows[row][x].number) {
+      low = std::min(low.value_or(*value), *value);
+      high = std::max(high.value_or(*value), *value);
+    }
+  if (!low) plot.place.fail(fmt::format("inset of plot '{}': no row that it shows", plot.name));
+  const double margin = 0.08 * (*high - *low);
+  axis.low = axis.low.value_or((*low - margin) * s.x_scale);
+  axis.high = axis.high.value_or((*high + margin) * s.x_scale);
+  if (axis.ticks.empty() && *axis.high > *axis.low) axis.ticks = few_ticks(*axis.low, *axis.high);
+  return axis;
+}
+
+std::string surface_script(const PlotSpec& plot, FigureData& data, Script& script) {
+  std::string text = R"(set xlabel rotate parallel offset 0,-0.5
+set ylabel rotate parallel offset 0,-0.5
+set zlabel rotate by 90 offset -1
+set ticslevel 0
+set border 4095 linewidth 0.6
+set view 62,320
+set key at screen 0.02,0.98 left top Left reverse samplen 2
+)";
+  std::string points;
+  for (const SeriesSpec& s : plot.series) {
+    if (s.table.empty()) {
+      script.add(s);
+      continue;
+    }
+    const std::string name = fmt::format("$points{}", points.size());
+    text += fmt::format("{} << EOD\n{}EOD\n", name, surface_points(s, data));
+    points += fmt::format(", \\\n  {} using 1:2:3 with points{}{}", name, line_style(s), title_text(s.title));
+  }
+  return script.blocks() + text + "splot " + script.drawings() + points + "\n";
+}
+
+} // namespace
+
+std::string plot_script(const PlotSpec& plot, FigureData& data, const std::string& folder, const std::string& format,
+                        const std::string& image, int packings) {
+  std::string text = terminal(format) + style + fmt::format("set output {}\n", gnuplot_string(image));
+  if (!plot.title.empty()) text += fmt::format("set title {}\n", gnuplot_string(plot.title));
+  text += key_text(plot) + axis_text("x", plot.x) + axis_text("y", plot.y);
+  if (plot.surface) text += axis_text("z", plot.z);
+  Script script(plot, data, folder, packings);
+  if (plot.surface) return text + surface_script(plot, data, script);
+  for (const SeriesSpec& s : plot.series) script.add(s);
+  if (script.empty()) plot.place.fail(fmt::format("plot '{}': nothing that it shows could be measured", plot.name));
+  for (const LineSpec& line : plot.lines)
+    if (line.x)
+      text += fmt::format("set arrow from {0},graph 0 to {0},graph 1 nohead dashtype (2, 3) linecolor rgb '#777777'\n",
+                          *line.x);
+  const bool palette =
+      std::any_of(plot.series.begin(), plot.series.end(), [](const SeriesSpec& s) { return !s.colour_by.empty(); });
+  if (palette)
+    text += "set palette defined (0 '#c6dbef', 0.5 '#4292c6', 1 '#08306b')\nset cblabel " +
+            gnuplot_string(plot.key_title) + "\nset colorbox user origin 0.90,0.2 size 0.02,0.6\n" +
+            "set rmargin at screen 0.86\nunset key\n";
+  text += script.blocks();
+  if (plot.inset) text += "set multiplot\n";
+  text += "plot " + script.drawings() + reference_lines(plot) + "\n";
+  if (!plot.inset) return text;
+  const InsetSpec& inset = *plot.inset;
+  text += fmt::format("set origin {},{}\nset size {},{}\nset rmargin -1\nunset colorbox\nunset key\nunset title\n",
+                      inset.place[0], inset.place[1], inset.place[2], inset.place[3]);
+  text += "set tics font ',14'\nset object 1 rectangle from graph -0.16,-0.16 to graph 1.02,1.04 behind fillcolor rgb "
+          "'white' fillstyle solid noborder\n";
+  text += "set autoscale\nset xtics auto\nset ytics auto\n";
+  return text + axis_text("x", inset_x(plot, data)) + axis_text("y", inset.y) + "replot\nunset multiplot\n";
+}
+
+} // namespace mpfem

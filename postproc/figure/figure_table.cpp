@@ -1,0 +1,356 @@
+#include "postproc/figure/figure_table.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <functional>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <nlohmann/json.hpp>
+
+#include "common/errors.hpp"
+#include "common/nearest_word.hpp"
+#include "common/one_line.hpp"
+#include "postproc/stages.hpp"
+
+namespace mpfem {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// The JSON files of metrics, each read once.
+class MetricFiles {
+public:
+  const Json& at(const std::string& path) {
+    const auto known = files_.find(path);
+    if (known != files_.end()) return known->second;
+    std::ifstream file(path);
+    if (!file) throw InputError(fmt::format("{}: no such file; the figure's rules make it first", one_line(path)));
+    Json json = Json::parse(file, nullptr, false);
+    if (!json.is_object()) throw InputError(fmt::format("{}: is no JSON object", one_line(path)));
+    return files_.emplace(path, std::move(json)).first->second;
+  }
+
+private:
+  std::map<std::string, Json> files_;
+};
+
+/// Of a metric that could not be measured every key is empty; of one that could, a key that is not there is a mistake.
+Value value_of_key(const Json& metric, const std::string& key, const std::string& path, const Place& place) {
+  const auto found = metric.find(key);
+  if (found == metric.end()) {
+    const auto value = metric.find("value");
+    if (value != metric.end() && value->is_null()) return {};
+    std::vector<std::string> keys;
+    for (const auto& [name, entry] : metric.items()) keys.push_back(name);
+    const auto near = nearest_word(key, keys);
+    place.fail(fmt::format("{} has no key '{}'; {}", one_line(path), key,
+                           near ? fmt::format("did you mean '{}'?", *near)
+                                : fmt::format("allowed: {}", fmt::join(keys, ", "))));
+  }
+  if (found->is_null()) return {};
+  if (found->is_number()) return {found->dump(), found->get<double>()};
+  if (found->is_string()) return {found->get<std::string>(), {}};
+  if (found->is_boolean()) return {found->get<bool>() ? "true" : "false", {}};
+  place.fail(fmt::format("{}: key '{}' is a list or a table, allowed: a number or a text", one_line(path), key));
+}
+
+/// Row of a history, with the row in which its stage began.
+struct HistoryRow {
+  const HistoryTable& history;
+  std::size_t row, begin;
+  double operator()(const char* column) const { return history[column][row]; }
+  double then(const char* column) const { return history[column][begin]; }
+  double since(const char* column) const { return (*this)(column)-then(column); }
+};
+
+struct CurveColumn {
+  std::string name, meaning;
+  std::function<double(const HistoryRow&)> value;
+};
+
+/// How often the mean stress has begun to rise again after falling to a fiftieth of its largest value.
+double cycles_before(const HistoryTable& h, std::size_t begin, std::size_t row) {
+  const auto& p = h["mean_stress"];
+  const double low = *std::max_element(p.begin(), p.end()) / 50;
+  int cycles = 0;
+  bool loaded = true;
+  for (std::size_t i = begin + 1; i <= row; ++i) {
+    if (!loaded && p[i] > p[i - 1]) {
+      ++cycles;
+      loaded = true;
+    }
+    if (p[i] <= low && p[i - 1] > p[i]) loaded = false;
+  }
+  return cycles;
+}
+
+double volume(const HistoryTable& h, std::size_t row) {
+  return h["box_lengths_0"][row] * h["box_lengths_1"][row] * h["box_lengths_2"][row];
+}
+
+const std::vector<CurveColumn>& curve_columns() {
+  static const std::vector<CurveColumn> columns = {
+      {"axial_stress", "mean of both z walls, MPa",
+       [](const HistoryRow& r) { return (r("wall_stress_4") + r("wall_stress_5")) / 2; }},
+      {"upper_plate_force", "force of the upper z wall, N",
+       [](const HistoryRow& r) { return r("wall_stress_5") * r("box_lengths_0") * r("box_lengths_1"); }},
+      {"displacement", "approach of the z walls since the stage began, mm",
+       [](const HistoryRow& r) { return r.then("box_lengths_2") - r("box_lengths_2"); }},
+      {"stage_axial_strain", "logarithmic, since the stage began; compression positive",
+       [](const HistoryRow& r) { return std::log(r.then("box_lengths_2") / r("box_lengths_2")); }},
+      {"stage_volumetric_strain", "likewise of the volume",
+       [](const HistoryRow& r) { return std::log(volume(r.history, r.begin) / volume(r.history, r.row)); }},
+      {"stage_plastic_dissipation", "since the stage began, mJ",
+       [](const HistoryRow& r) { return r.since("plastic_dissipation"); }},
+      {"stage_damage_dissipation", "since the stage began, mJ",
+       [](const HistoryRow& r) { return r.since("damage_dissipation"); }},
+      {"dissipation", "plastic and damage, since the run's chain began, mJ",
+       [](const HistoryRow& r) { return r("plastic_dissipation") + r("damage_dissipation"); }},
+      {"cycle", "how often p has risen again from below a fiftieth of its largest value",
+       [](const HistoryRow& r) { return cycles_before(r.history, r.begin, r.row); }},
+      {"kinetic_ratio", "kinetic over internal energy",
+       [](const HistoryRow& r) { return r("kinetic_energy") / (r("elastic_energy") + r("plastic_dissipation")); }}};
+  return columns;
+}
+
+std::function<double(const HistoryRow&)> curve_column(const HistoryTable& history, const std::string& name,
+                                                      const Place& place) {
+  for (const CurveColumn& column : curve_columns())
+    if (column.name == name) return column.value;
+  std::vector<std::string> names;
+  for (const CurveColumn& column : curve_columns()) names.push_back(column.name);
+  for (const Column& column : history.columns()) {
+    if (column.name == name) return [name](const HistoryRow& r) { return r(name.c_str()); };
+    names.push_back(column.name);
+  }
+  const auto near = nearest_word(name, names);
+  place.fail(fmt::format("the history has no column '{}'; {}", name,
+                         near ? fmt::format("did you mean '{}'?", *near)
+                              : fmt::format("allowed: {}", fmt::join(names, ", "))));
+}
+
+/// The JSON file of the metric that a column names.
+std::string metric_path(const Figure& figure, const ColumnSpec& column, const Place& place,
+                        const ResultsFolder& results, const Case& row) {
+  return fmt::format("{}/{}.json", results.of(folder_of(figure, figure.run(column.run, place), row)),
+                     filled_at(place, column.metric, row.values));
+}
+
+/// What the numbers of a curve's columns are divided by: 1, or a metric's number.
+std::vector<double> divisors_of(const Figure& figure, const TableSpec& spec, const ResultsFolder& results,
+                                const Case& row, MetricFiles& files) {
+  std::vector<double> divisors;
+  for (const ColumnSpec& column : spec.columns) {
+    divisors.push_back(1);
+    if (column.run.empty()) continue;
+    const std::string path = metric_path(figure, column, spec.place, results, row);
+    divisors.back() = value_of_key(files.at(path), column.key, path, spec.place).number.value_or(std::nan(""));
+  }
+  return divisors;
+}
+
+/// In the column's own format, else with the table's digits; 17 stand for the shortest text that reads back to the number.
+Value curve_cell(double number, const TableSpec& spec, const ColumnSpec& column) {
+  if (!column.format.empty())
+    return Value::of_text(
+        filled_at(spec.place, fmt::format("{{value:{}}}", column.format), {{"value", Value::of(number)}}));
+  return spec.digits == 17 ? Value::of(number) : Value::of_text(fmt::format("{:.{}g}", number, spec.digits));
+}
+
+void add_curve(TextTable& table, const TableSpec& spec, const Words& values, const std::vector<double>& divisors,
+               const std::string& path) {
+  const schema::FileReader file(path, schema::FileKind::run);
+  const HistoryTable history(file);
+  const auto stages = stages_of(history, scenario_facts(file));
+  const StageRows* stage = spec.stage ? &stage_by_number(stages, *spec.stage, path) : nullptr;
+  std::vector<std::function<double(const HistoryRow&)>> sources;
+  for (const ColumnSpec& column : spec.columns)
+    sources.push_back(column.history.empty() ? nullptr : curve_column(history, column.history, spec.place));
+  const auto& number = history["stage"];
+  for (std::size_t row = 0; row < history.rows(); ++row) {
+    if (stage && number[row] != stage->number) continue;
+    std::size_t begin = 0;
+    for (const StageRows& s : stages)
+      if (s.number == number[row]) begin = s.first;
+    std::vector<Value> cells;
+    for (std::size_t c = 0; c < sources.size(); ++c)
+      cells.push_back(sources[c] ? curve_cell(sources[c]({history, row, begin}) / divisors[c], spec, spec.columns[c])
+                                 : Value::of_text(filled_at(spec.place, spec.columns[c].pattern, values)));
+    table.rows.push_back(std::move(cells));
+  }
+}
+
+void add_curves(TextTable& table, const Figure& figure, const TableSpec& spec, const ResultsFolder& results,
+                const std::vector<Case>& cases, MetricFiles& files) {
+  std::vector<std::string> drawn;
+  for (const Case& row : cases)
+    for (const std::string& name : spec.curves) {
+      const RunTemplate& run = figure.run(name, spec.place);
+      const std::string folder = folder_of(figure, run, row);
+      if (!belongs_to(run, row) || std::find(drawn.begin(), drawn.end(), folder) != drawn.end()) continue;
+      drawn.push_back(folder);
+      Words values = row.values;
+      values["run"] = {name, {}};
+      add_curve(table, spec, values, divisors_of(figure, spec, results, row, files), results.of(folder) + "/run.h5");
+    }
+}
+
+/// All rows of the CSV file beside a metric's JSON.
+void add_list(TextTable& table, const Figure& figure, const TableSpec& spec, const ResultsFolder& results,
+              const Case& row) {
+  const std::size_t slash = spec.list.find('/');
+  const std::string folder = folder_of(figure, figure.run(spec.list.substr(0, slash), spec.place), row);
+  const TextTable list = read_text_table(fmt::format("{}/{}.csv", results.of(folder), spec.list.substr(slash + 1)));
+  for (std::size_t i = 0; i < list.rows.size(); ++i) {
+    std::vector<Value> cells;
+    for (const ColumnSpec& column : spec.columns)
+      cells.push_back(column.history.empty() ? Value::of_text(filled_at(spec.place, column.pattern, row.values))
+                                             : list.rows[i][list.column(column.history, spec.place)]);
+    table.rows.push_back(std::move(cells));
+  }
+}
+
+void keep_rows(TextTable& table, const TableSpec& spec) {
+  if (spec.keep.empty()) return;
+  std::vector<std::vector<Value>> kept;
+  for (const std::size_t row : table.rows_of(spec.keep, spec.place)) kept.push_back(table.rows[row]);
+  table.rows = std::move(kept);
+}
+
+void add_row(TextTable& table, const Figure& figure, const TableSpec& spec, const ResultsFolder& results,
+             const Case& row, MetricFiles& files) {
+  std::vector<Value> cells;
+  if (!spec.row.empty()) cells.push_back(Value::of_text(filled_at(spec.place, spec.row, row.values)));
+  for (const ColumnSpec& column : spec.columns) {
+    if (column.run.empty()) {
+      cells.push_back(Value::of_text(filled_at(spec.place, column.pattern, row.values)));
+      continue;
+    }
+    if (!belongs_to(figure.run(column.run, spec.place), row)) {
+      cells.emplace_back();
+      continue;
+    }
+    const std::string path = metric_path(figure, column, spec.place, results, row);
+    Value value = value_of_key(files.at(path), column.key, path, spec.place);
+    if (value.number && !column.format.empty())
+      value = Value::of_text(filled_at(spec.place, fmt::format("{{value:{}}}", column.format), {{"value", value}}));
+    cells.push_back(std::move(value));
+  }
+  if (!spec.distinct || std::find(table.rows.begin(), table.rows.end(), cells) == table.rows.end())
+    table.rows.push_back(std::move(cells));
+}
+
+} // namespace
+
+std::string ResultsFolder::of(const std::string& folder) const {
+  if (!folder.starts_with("../")) return fmt::format("{}/{}", path, folder);
+  return (std::filesystem::path(path).parent_path() / folder.substr(3)).string(); // of another mesh, whatever the seed
+}
+
+std::string file_of(const RunInstance& run, const ResultsFolder& results, const std::string& packing) {
+  if (!run.is_packing) return results.of(run.folder) + "/run.h5";
+  if (!run.command.empty()) return results.of(run.folder) + "/packing.h5";
+  if (run.size.empty()) return packing;
+  return (std::filesystem::path(packing).parent_path() / fmt::format("mesh-{}.h5", run.size)).string();
+}
+
+std::vector<std::string> runs_of(const TableSpec& spec) {
+  std::vector<std::string> names = spec.curves;
+  if (const std::size_t slash = spec.list.find('/'); slash != std::string::npos)
+    names.push_back(spec.list.substr(0, slash));
+  for (const ColumnSpec& column : spec.columns)
+    if (!column.run.empty()) names.push_back(column.run);
+  return names;
+}
+
+std::vector<Case> available_cases(const Figure& figure, const std::vector<std::string>& series,
+                                  const std::vector<Filter>& where, const std::vector<std::string>& runs,
+                                  const ResultsFolder& results, const Place& place) {
+  auto cases = cases_of(figure, series, where, results.mesh, place);
+  std::erase_if(cases, [&](const Case& row) {
+    return std::any_of(runs.begin(), runs.end(), [&](const std::string& name) {
+      const std::string folder = folder_of(figure, figure.run(name, place), row);
+      return folder.starts_with("../") && !std::filesystem::exists(results.of(folder) + "/run.h5");
+    });
+  });
+  return cases;
+}
+
+TextTable make_table(const Figure& figure, const TableSpec& spec, const ResultsFolder& results) {
+  TextTable table;
+  table.path = spec.name;
+  if (!spec.row.empty()) table.add_column("name");
+  for (const ColumnSpec& column : spec.columns) table.add_column(column.title);
+  const auto cases = available_cases(figure, spec.series, spec.where, runs_of(spec), results, spec.place);
+  MetricFiles files;
+  if (!spec.curves.empty()) add_curves(table, figure, spec, results, cases, files);
+  for (const Case& row : cases)
+    if (!spec.list.empty())
+      add_list(table, figure, spec, results, row);
+    else if (spec.curves.empty())
+      add_row(table, figure, spec, results, row, files);
+  keep_rows(table, spec);
+  return table;
+}
+
+std::string curve_help() {
+  std::string text;
+  for (const CurveColumn& column : curve_columns()) text += fmt::format("  {:<26} {}\n", column.name, column.meaning);
+  return text;
+}
+
+TextTable spread_of(const TableSpec& spec, const std::vector<std::string>& files) {
+  struct Moments {
+    std::size_t count = 0;
+    std::vector<double> mean, squares;
+  };
+  TextTable result;
+  result.add_column("name");
+  result.add_column("packings");
+  std::vector<std::string> order;
+  std::map<std::string, Moments> moments;
+  for (const std::string& path : files) {
+    const TextTable table = read_text_table(path);
+    const bool own = path == files.front();
+    std::vector<std::size_t> columns;
+    for (const std::string& name : spec.spread) {
+      columns.push_back(table.column(name));
+      if (!own) continue;
+      const std::string& title = table.titles[columns.back()];
+      const std::size_t bracket = title.find(" [");
+      result.add_column(title);
+      result.add_column(name + "_deviation" + (bracket == std::string::npos ? "" : title.substr(bracket)));
+    }
+    for (const auto& row : table.rows) {
+      if (own) order.push_back(row.front().text);
+      Moments& m = moments[row.front().text];
+      m.mean.resize(columns.size());
+      m.squares.resize(columns.size());
+      if (std::any_of(columns.begin(), columns.end(), [&](std::size_t c) { return !row[c].number; })) continue;
+      ++m.count;
+      for (std::size_t c = 0; c < columns.size(); ++c) { // Welford: no difference of large sums
+        const double value = *row[columns[c]].number, change = value - m.mean[c];
+        m.mean[c] += change / static_cast<double>(m.count);
+        m.squares[c] += change * (value - m.mean[c]);
+      }
+    }
+  }
+  for (const std::string& name : order) {
+    const Moments& m = moments[name];
+    std::vector<Value> row = {{name, {}}, Value::of(static_cast<double>(m.count))};
+    for (std::size_t c = 0; c < spec.spread.size(); ++c) {
+      row.push_back(m.count > 0 ? Value::of_text(fmt::format("{:.10g}", m.mean[c])) : Value{});
+      row.push_back(m.count > 1 ? Value::of_text(fmt::format(
+                                      "{:.10g}", std::sqrt(m.squares[c] / static_cast<double>(m.count - 1))))
+                                : Value{});
+    }
+    result.rows.push_back(std::move(row));
+  }
+  return result;
+}
+
+} // namespace mpfem

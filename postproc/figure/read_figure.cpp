@@ -1,0 +1,793 @@
+#include <algorithm>
+#include <filesystem>
+#include <map>
+#include <sstream>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "common/errors.hpp"
+#include "common/nearest_word.hpp"
+#include "common/one_line.hpp"
+#include "postproc/figure/figure.hpp"
+#include "postproc/fit.hpp"
+
+namespace mpfem {
+
+namespace {
+
+namespace filesystem = std::filesystem;
+
+Value value_of(const toml::node& node, const Place& place) {
+  if (const auto* text = node.as_string()) return {text->get(), {}};
+  if (const auto number = node.is_number() ? node.value<double>() : std::nullopt) return Value::of(*number);
+  place.fail("expected a number or a text");
+}
+
+/// One value or a list of them.
+std::vector<Value> values_of(TableReader& reader, const std::string& key) {
+  const Place place(reader, key);
+  const toml::node* node = reader.value(key);
+  std::vector<Value> values;
+  if (const toml::array* list = node->as_array())
+    for (const toml::node& element : *list) values.push_back(value_of(element, place));
+  else
+    values.push_back(value_of(*node, place));
+  if (values.empty()) place.fail("found an empty list, expected a value or more");
+  return values;
+}
+
+/// What `mpfem run --set` takes: numbers and words as they are, lists in brackets.
+std::string setting_text(const toml::node& node, const Place& place) {
+  if (const toml::array* list = node.as_array()) {
+    std::vector<std::string> parts;
+    for (const toml::node& element : *list) parts.push_back(setting_text(element, place));
+    return fmt::format("[{}]", fmt::join(parts, ","));
+  }
+  if (const auto* flag = node.as_boolean()) return flag->get() ? "true" : "false";
+  return value_of(node, place).text;
+}
+
+Settings read_settings(TableReader reader) {
+  Settings settings;
+  for (const std::string& key : reader.keys())
+    settings.emplace_back(key, setting_text(*reader.value(key), Place(reader, key)));
+  return settings;
+}
+
+/// Names become files and targets of make.
+std::string checked_name(TableReader& reader, const std::string& key, std::string name) {
+  if (name.empty() ||
+      name.find_first_not_of("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789._-") != std::string::npos)
+    reader.fail(key, fmt::format("found '{}', allowed: letters, digits, '.', '_' and '-'", name));
+  return name;
+}
+
+/// Entries of `for_each` that are lists.
+using Lists = std::map<std::string, std::vector<Value>>;
+
+/// The texts of one table of the file, in which the words of `for_each` are replaced.
+class Texts {
+public:
+  Texts(TableReader& reader, const Words& words) : reader_(reader), words_(words) {}
+  Texts(TableReader& reader, const Words& words, const Lists& lists) : reader_(reader), words_(words), lists_(&lists) {}
+
+  std::string required(const std::string& key) { return filled_in(key, reader_.string(key)); }
+  std::string optional(const std::string& key, std::string_view fallback = "") {
+    return filled_in(key, reader_.string_or(key, fallback));
+  }
+  std::string name(const std::string& key) { return checked_name(reader_, key, required(key)); }
+  std::vector<std::string> list(const std::string& key) {
+    std::vector<std::string> texts = reader_.strings_or(key, {});
+    for (std::string& text : texts) text = filled_in(key, text);
+    return texts;
+  }
+  std::vector<Filter> filters(const std::string& key) {
+    std::vector<Filter> result;
+    auto table = reader_.optional_table(key);
+    if (!table) return result;
+    for (const std::string& name : table->keys()) {
+      Filter filter{name, {}, {}, {}};
+      if (table->value(name)->is_table()) {
+        TableReader limits = table->table(name);
+        Texts texts(limits, words_);
+        filter.at_least = texts.number("at_least");
+        filter.at_most = texts.number("at_most");
+        limits.finish();
+      } else {
+        filter.equal = values_of(*table, name);
+        for (Value& value : filter.equal)
+          if (!value.number) value = Value::of_text(filled_in(key, value.text));
+      }
+      result.push_back(std::move(filter));
+    }
+    return result;
+  }
+  /// A number, or a text in which a word of `for_each` stands for one; nothing where it is absent.
+  std::optional<double> number(const std::string& key) {
+    if (!reader_.has(key) || !reader_.value(key)->is_string()) return reader_.optional_number(key);
+    const auto number = Value::of_text(required(key)).number;
+    if (!number) reader_.fail(key, "expected a number");
+    return number;
+  }
+  /// A whole number, or a text in which a word of `for_each` stands for one.
+  int integer(const std::string& key, int fallback, Range range) {
+    if (!reader_.has(key) || !reader_.value(key)->is_string())
+      return static_cast<int>(reader_.integer_or(key, fallback, range));
+    const auto number = Value::of_text(required(key)).number;
+    if (!number || *number != static_cast<int>(*number) || !range.contains(*number))
+      reader_.fail(key, fmt::format("expected a whole number {}", range.text()));
+    return static_cast<int>(*number);
+  }
+  /// The value of a key, a list or one; "{name}" alone stands for a list of `for_each`.
+  std::vector<Value> values(const std::string& key) {
+    std::vector<Value> result = values_of(reader_, key);
+    if (lists_ != nullptr && result.size() == 1 && !result.front().number)
+      for (const auto& [name, list] : *lists_)
+        if (result.front().text == fmt::format("{{{}}}", name)) return list;
+    for (Value& value : result)
+      if (!value.number) value = Value::of_text(filled_in(key, value.text));
+    return result;
+  }
+  TableReader& reader() { return reader_; }
+  const Words& words() const { return words_; }
+
+private:
+  std::string filled_in(const std::string& key, const std::string& text) {
+    return filled_at(Place(reader_, key), text, words_, Unknown::kept);
+  }
+  TableReader& reader_;
+  const Words& words_;
+  const Lists* lists_ = nullptr;
+};
+
+/// Calls `read` for a table of the file, once for each entry of its `for_each`, and checks that all keys were known.
+template <class Read>
+void for_each(TableReader table, const Read& read) {
+  std::vector<std::pair<Words, Lists>> variants;
+  for (TableReader& variant : table.tables("for_each")) {
+    auto& [words, lists] = variants.emplace_back();
+    for (const std::string& key : variant.keys()) {
+      std::vector<Value> values = values_of(variant, key);
+      if (values.size() == 1)
+        words[key] = values.front();
+      else
+        lists[key] = std::move(values);
+    }
+  }
+  if (variants.empty()) variants.emplace_back();
+  for (const auto& [words, lists] : variants) {
+    TableReader again = table;
+    Texts texts(again, words, lists);
+    read(texts);
+    again.finish();
+  }
+}
+
+struct Heading {
+  std::string name, unit;
+};
+
+Heading heading_of(const std::string& title) {
+  const std::size_t bracket = title.find(" [");
+  if (bracket == std::string::npos) return {title, "1"};
+  return {title.substr(0, bracket), title.substr(bracket + 2, title.find(']') - bracket - 2)};
+}
+
+/// "RUN/METRIC.KEY" or "RUN/METRIC.KEY:FORMAT"; a metric's name may hold values in braces.
+bool read_metric_key(const std::string& source, ColumnSpec& column) {
+  const std::size_t slash = source.find('/'), dot = source.rfind('.', source.find(':'));
+  if (slash == std::string::npos || slash == 0 || dot == std::string::npos || dot < slash) return false;
+  const std::size_t colon = source.find(':', dot);
+  column.run = source.substr(0, slash);
+  column.metric = source.substr(slash + 1, dot - slash - 1);
+  column.key = source.substr(dot + 1, colon == std::string::npos ? colon : colon - dot - 1);
+  if (colon != std::string::npos) column.format = source.substr(colon + 1);
+  return true;
+}
+
+ColumnSpec read_column(const std::string& text, bool curves, const Place& place) {
+  const std::size_t equals = text.find(" = ");
+  if (equals == std::string::npos)
+    place.fail(fmt::format("found '{}', expected 'NAME [UNIT] = SOURCE' or the name of a list in [columns]", text));
+  ColumnSpec column;
+  column.title = text.substr(0, equals);
+  const Heading heading = heading_of(column.title);
+  column.name = heading.name;
+  column.unit = heading.unit;
+  std::string source = text.substr(equals + 3);
+  if (const std::size_t over = source.find(" over "); curves && over != std::string::npos) {
+    if (!read_metric_key(source.substr(over + 6), column))
+      place.fail(fmt::format("found '{}', expected 'COLUMN over RUN/METRIC.KEY'", source));
+    source.resize(over);
+  }
+  if (source.starts_with('\'')) {
+    column.pattern = source.substr(1, source.find_last_of('\'') - 1);
+  } else if (!curves && read_metric_key(source, column)) {
+    return column;
+  } else if (source.find('{') != std::string::npos) {
+    column.pattern = source;
+  } else if (curves && source.find('/') == std::string::npos) {
+    const std::size_t colon = source.find(':');
+    column.history = source.substr(0, colon);
+    if (colon != std::string::npos) column.format = source.substr(colon + 1);
+  } else {
+    place.fail(fmt::format("found '{}', expected {}", source,
+                           curves ? "a column of the history, or a value in braces"
+                                  : "'RUN/METRIC.KEY' or a value in braces"));
+  }
+  return column;
+}
+
+AxisSpec read_axis(TableReader reader, const Words& words) {
+  Texts t(reader, words);
+  AxisSpec axis;
+  axis.label = t.optional("label");
+  axis.format = t.optional("format");
+  axis.ticks = t.optional("ticks");
+  axis.low = t.number("low");
+  axis.high = t.number("high");
+  axis.logarithmic = reader.boolean_or("logarithmic", false);
+  reader.finish();
+  return axis;
+}
+
+SeriesSpec read_series(Texts& t) {
+  TableReader& r = t.reader();
+  SeriesSpec s;
+  s.place = Place(r, "");
+  s.fit = t.optional("fit");
+  if (auto model = r.optional_table("model")) {
+    s.fit_model = model->choice("name", fit_models());
+    for (const std::string& key : model->keys())
+      if (key != "name") s.model.emplace_back(key, model->number(key));
+  }
+  if (s.fit.empty() && s.fit_model.empty()) {
+    s.table = t.required("table");
+    s.x = t.required("x");
+    s.y = t.required("y");
+    s.error = t.optional("error");
+    s.group = t.optional("group");
+    s.colour_by = t.optional("colour_by");
+    s.where = t.filters("where");
+    s.spread = r.boolean_or("spread", false);
+    s.fixed_x = t.number("fixed_x");
+    s.fixed_group = t.number("fixed_group");
+  } else {
+    s.from = t.number("from");
+    s.to = t.number("to");
+    s.at = t.number("at");
+    s.x = t.optional("along", "x");
+  }
+  s.x_scale = r.number_or("x_scale", 1);
+  s.y_scale = r.number_or("y_scale", 1);
+  const bool of_fit = s.table.empty();
+  s.style = r.choice_or("style", of_fit ? "lines" : "points", {"points", "lines", "linespoints"});
+  s.colour = t.integer("colour", 1, Range::between(1, 8));
+  s.point = t.integer("point", 0, Range::between(0, 15));
+  s.width = r.number_or("width", 0, Range::non_negative());
+  s.size = r.number_or("size", 1.5, Range::positive());
+  s.dash = t.optional("dash", "solid");
+  if (s.dash != "solid" && s.dash != "dashed" && s.dash != "dotted" && s.dash != "long")
+    r.fail("dash", fmt::format("found '{}', allowed 'solid', 'dashed', 'dotted', 'long'", s.dash));
+  s.title = t.optional("title");
+  return s;
+}
+
+QuantitySpec read_quantity(TableReader reader, const std::string& name, const Words& words) {
+  Texts t(reader, words);
+  QuantitySpec q;
+  q.name = name;
+  q.place = Place(reader, "");
+  if (reader.has("fit")) {
+    q.fit = t.required("fit");
+    if (reader.has("coefficient")) {
+      q.coefficient = t.required("coefficient");
+    } else {
+      q.measure = reader.choice("measure", {"r_squared", "r_squared_of_y", "scatter", "points"});
+    }
+  } else if (reader.has("of")) {
+    q.of = t.required("of");
+    q.divided_by = t.optional("over");
+    q.minus = t.optional("minus");
+  } else {
+    q.table = t.required("table");
+    q.column = t.required("column");
+    q.over = t.optional("over");
+    q.take = reader.choice_or(
+        "take", "only",
+        {"only", "first", "last", "smallest", "largest", "mean", "sum", "count", "spread", "list", "before_last"});
+    q.otherwise = reader.optional_number("otherwise");
+    q.item = t.optional("item", "{value:.3g}");
+    q.where = t.filters("where");
+    q.relative_to = t.filters("relative_to");
+    if (!q.relative_to.empty()) q.by = t.required("by");
+  }
+  reader.finish();
+  return q;
+}
+
+std::vector<Operand> operands_of(TableReader& reader, const std::string& key, const Words& words) {
+  std::vector<Operand> operands;
+  for (const Value& value : values_of(reader, key))
+    operands.push_back({value.number, value.number ? "" : filled(value.text, words, Unknown::kept)});
+  return operands;
+}
+
+const std::vector<std::string>& predicates() {
+  static const std::vector<std::string> list = {"near",
+                                                "at_least",
+                                                "at_most",
+                                                "above",
+                                                "below",
+                                                "between",
+                                                "rises",
+                                                "falls",
+                                                "ordered",
+                                                "interval_includes",
+                                                "interval_excludes",
+                                                "interval_width_at_most",
+                                                "either"};
+  return list;
+}
+
+ConditionSpec read_condition(TableReader reader, const Words& words) {
+  Texts t(reader, words);
+  ConditionSpec c;
+  c.place = Place(reader, "");
+  for (const std::string& predicate : predicates()) {
+    if (!reader.has(predicate)) continue;
+    if (!c.predicate.empty())
+      reader.fail(predicate, fmt::format("found beside '{}', allowed: one predicate", c.predicate));
+    c.predicate = predicate;
+  }
+  if (c.predicate.empty())
+    reader.fail("quantity", fmt::format("no predicate, allowed: one of {}", fmt::join(predicates(), ", ")));
+  if (c.predicate == "either") {
+    for (TableReader& one : reader.tables("either")) c.either.push_back(read_condition(one, words));
+    reader.finish();
+    return c;
+  }
+  if (c.predicate != "ordered") c.quantity = t.required("quantity");
+  if (c.predicate == "rises" || c.predicate == "falls") {
+    if (!reader.boolean_or(c.predicate, true)) reader.fail(c.predicate, "found false, allowed: true");
+    c.absolute = reader.has("tolerance_absolute");
+    c.tolerance = c.absolute ? reader.number("tolerance_absolute", Range::positive())
+                             : reader.number_or("tolerance", 0, Range::between(0, 1));
+    c.along = t.optional("along");
+    c.each = t.optional("each");
+  } else {
+    c.operands = operands_of(reader, c.predicate, words);
+    const std::size_t least = c.predicate == "between" || c.predicate == "ordered" ? 2 : 1;
+    if (c.operands.size() < least || (c.predicate != "ordered" && c.operands.size() > least))
+      reader.fail(c.predicate, fmt::format("found {} values, expected {}", c.operands.size(), least));
+  }
+  if (c.predicate == "near") {
+    c.absolute = reader.has("within_absolute");
+    c.within =
+        c.absolute ? reader.number("within_absolute", Range::positive()) : reader.number("within", Range::positive());
+  }
+  reader.finish();
+  return c;
+}
+
+/// Reads one file into the figure; its `include`d files first.
+class FigureReader {
+public:
+  FigureReader(Figure& figure, std::string programmes) : figure_(figure), programmes_(std::move(programmes)) {}
+
+  void read(const std::string& path, bool main) {
+    if (std::find(figure_.files.begin(), figure_.files.end(), path) != figure_.files.end()) return;
+    figure_.files.push_back(path);
+    const auto document = std::make_shared<const TomlDocument>(TomlDocument::from_file(path));
+    figure_.documents.push_back(document);
+    TableReader root(*document);
+    const filesystem::path folder = filesystem::path(path).parent_path();
+    for (const std::string& other : root.strings_or("include", {})) {
+      const filesystem::path beside = folder / other;
+      const bool plain = filesystem::path(other).parent_path().empty() && !filesystem::exists(beside);
+      read((plain ? filesystem::path(programmes_) / other : beside).lexically_normal().string(), false);
+    }
+    if (main) read_heading(root);
+    read_runs(root, folder);
+    read_tables(root, folder);
+    read_plots(root);
+    for (TableReader& table : root.tables("statements"))
+      for_each(table, [&](Texts& t) { read_statement(t, main ? figure_.statements : included_statements_); });
+    root.finish();
+    if (main) // what many figures state alike stands behind what this one states
+      figure_.statements.insert(figure_.statements.end(), included_statements_.begin(), included_statements_.end());
+  }
+
+private:
+  void read_heading(TableReader& root) {
+    figure_.title = root.string("title");
+    figure_.question = root.string_or("question", "");
+    figure_.source = root.string_or("source", "");
+    if (auto powder = root.optional_table("powder")) {
+      figure_.element_size = powder->number("element_size", Range::positive());
+      toml::table description = *root.value("powder")->as_table();
+      description.erase("element_size");
+      std::ostringstream text;
+      text << description << '\n';
+      figure_.powder = text.str();
+    }
+  }
+
+  void read_runs(TableReader& root, const filesystem::path& folder) {
+    if (auto defaults = root.optional_table("defaults"))
+      for (const std::string& key : defaults->keys()) figure_.defaults[key] = values_of(*defaults, key).front();
+    if (auto follows = root.optional_table("follows"))
+      for (const std::string& name : follows->keys()) {
+        TableReader of_name = follows->table(name);
+        for (const std::string& text : of_name.keys()) {
+          TableReader values = of_name.table(text);
+          for (const std::string& key : values.keys())
+            figure_.follows[name][text][key] = values_of(values, key).front();
+        }
+      }
+    for (TableReader& r : root.tables("packings")) read_packing(r);
+    for (TableReader& r : root.tables("runs")) read_run(r, folder);
+    for (TableReader& r : root.tables("cases"))
+      for_each(r, [&](Texts& t) {
+        CaseBlock block;
+        block.place = Place(t.reader(), "series");
+        block.series = t.optional("series");
+        block.meshes = t.list("meshes");
+        block.only = t.filters("only");
+        for (const std::string& key : t.reader().keys()) {
+          if (key == "series" || key == "meshes" || key == "only" || key == "for_each") continue;
+          block.values.emplace_back(key, t.values(key));
+        }
+        figure_.cases.push_back(std::move(block));
+      });
+    if (auto metrics = root.optional_table("metrics"))
+      for (const std::string& key : metrics->keys())
+        figure_.metrics.emplace_back(checked_name(*metrics, key, key), metrics->string(key));
+    if (auto columns = root.optional_table("columns"))
+      for (const std::string& key : columns->keys()) columns_[key] = columns->strings_or(key, {});
+  }
+
+  void read_packing(TableReader& r) {
+    RunTemplate packing;
+    packing.place = Place(r, "name");
+    packing.is_packing = true;
+    packing.name = checked_name(r, "name", r.string("name"));
+    packing.size = r.string_or("size", "");
+    packing.command = r.string_or("command", "");
+    packing.series = r.strings_or("series", {});
+    if (!packing.size.empty() && !packing.command.empty())
+      r.fail("command", "found beside 'size', allowed: one of both");
+    r.finish();
+    figure_.runs.push_back(std::move(packing));
+  }
+
+  void read_run(TableReader& r, const filesystem::path& folder) {
+    RunTemplate run;
+    run.place = Place(r, "name");
+    run.name = checked_name(r, "name", r.string("name"));
+    run.folder = r.string_or("folder", "");
+    run.from = r.string_or("from", "");
+    run.chain = r.string_or("chain", "");
+    run.packing = r.string_or("packing", "");
+    run.mesh = r.string_or("mesh", "");
+    run.series = r.strings_or("series", {});
+    run.programme = programme_path(r, r.string("programme"), folder);
+    run.common_settings = r.boolean_or("common_settings", true);
+    if (auto settings = r.optional_table("settings")) run.settings = read_settings(*settings);
+    if (auto groups = r.optional_table("settings_unless_zero"))
+      for (const std::string& key : groups->keys())
+        run.settings_unless_zero.emplace_back(key, read_settings(groups->table(key)));
+    if (!run.mesh.empty() && run.folder.empty())
+      r.fail("mesh", "found without 'folder', which says where that run lies");
+    r.finish();
+    figure_.runs.push_back(std::move(run));
+  }
+
+  std::string programme_path(TableReader& r, const std::string& name, const filesystem::path& folder) const {
+    filesystem::path path = name.ends_with(".toml") ? folder / name : filesystem::path(programmes_) / (name + ".toml");
+    path = path.lexically_normal();
+    if (!filesystem::exists(path)) {
+      std::vector<std::string> known;
+      std::error_code ignored;
+      for (const auto& entry : filesystem::directory_iterator(programmes_, ignored))
+        if (entry.path().extension() == ".toml") known.push_back(entry.path().stem().string());
+      std::sort(known.begin(), known.end());
+      const auto near = nearest_word(name, known);
+      r.fail("programme", fmt::format("found '{}', but there is no {}{}", name, path.string(),
+                                      near ? fmt::format("; did you mean '{}'?", *near) : ""));
+    }
+    return path.string();
+  }
+
+  /// A CSV file: of the figure's results, where a script makes it, else beside the figure's file.
+  void read_table_of_file(Texts& t, TableSpec& spec, const filesystem::path& folder) {
+    spec.file = t.required("file");
+    spec.beside = filesystem::exists(folder / spec.file);
+    if (spec.beside) spec.file = (folder / spec.file).lexically_normal().string();
+    for (const std::string& text : t.list("columns")) {
+      const Heading heading = heading_of(text);
+      ColumnSpec column;
+      column.title = text;
+      column.name = heading.name;
+      column.unit = heading.unit;
+      spec.columns.push_back(column);
+    }
+    figure_.tables.push_back(std::move(spec));
+  }
+
+  void read_tables(TableReader& root, const filesystem::path& folder) {
+    for (TableReader& table : root.tables("tables"))
+      for_each(table, [&](Texts& t) {
+        TableSpec spec;
+        spec.place = Place(t.reader(), "columns");
+        spec.name = t.name("name");
+        if (t.reader().has("file")) {
+          read_table_of_file(t, spec, folder);
+          return;
+        }
+        spec.row = t.optional("row");
+        spec.series = t.list("series");
+        spec.where = t.filters("where");
+        spec.curves = t.list("curves");
+        spec.list = t.optional("list");
+        spec.keep = t.filters("keep");
+        const bool rows_of_files = !spec.curves.empty() || !spec.list.empty();
+        if (t.reader().has("stage")) spec.stage = static_cast<int>(t.reader().integer("stage"));
+        spec.digits = static_cast<int>(t.reader().integer_or("digits", 6, Range::between(1, 17)));
+        spec.distinct = t.reader().boolean_or("distinct", false);
+        spec.spread = t.list("spread");
+        for (const std::string& text : t.list("columns")) {
+          const auto group = columns_.find(text);
+          if (group == columns_.end())
+            spec.columns.push_back(read_column(text, rows_of_files, spec.place));
+          else
+            for (const std::string& one : group->second)
+              spec.columns.push_back(read_column(one, rows_of_files, spec.place));
+        }
+        if (spec.columns.empty()) spec.place.fail("expected a column or more");
+        figure_.tables.push_back(std::move(spec));
+      });
+    for (TableReader& table : root.tables("fits"))
+      for_each(table, [&](Texts& t) {
+        FitSpec spec;
+        spec.place = Place(t.reader(), "name");
+        spec.name = t.name("name");
+        spec.table = t.required("table");
+        spec.x = t.required("x");
+        spec.y = t.required("y");
+        spec.z = t.optional("z");
+        spec.model = t.required("model");
+        if (std::find(fit_models().begin(), fit_models().end(), spec.model) == fit_models().end())
+          t.reader().fail("model", fmt::format("found '{}', allowed: {}", spec.model, fmt::join(fit_models(), ", ")));
+        spec.relative_density = t.reader().boolean_or("relative_density", false);
+        spec.where = t.filters("where");
+        figure_.fits.push_back(std::move(spec));
+      });
+  }
+
+  void read_plots(TableReader& root) {
+    for (TableReader& table : root.tables("plots"))
+      for_each(table, [&](Texts& t) {
+        TableReader& r = t.reader();
+        PlotSpec plot;
+        plot.place = Place(r, "name");
+        plot.name = t.name("name");
+        plot.title = t.optional("title");
+        plot.key = t.optional("key", "left top");
+        plot.key_title = t.optional("key_title");
+        plot.x = read_axis(r.table("x"), t.words());
+        plot.y = read_axis(r.table("y"), t.words());
+        if (auto z = r.optional_table("z")) {
+          plot.z = read_axis(*z, t.words());
+          plot.surface = true;
+        }
+        for (TableReader& series : r.tables("series"))
+          for_each(series, [&](Texts& s) {
+            Words words = t.words();
+            words.insert(s.words().begin(), s.words().end());
+            Texts both(s.reader(), words);
+            plot.series.push_back(read_series(both));
+          });
+        for (TableReader& line : r.tables("lines")) {
+          Texts words(line, t.words());
+          plot.lines.push_back({words.number("y"), words.number("x"), words.number("slope"), words.optional("title")});
+          line.finish();
+        }
+        if (auto inset = r.optional_table("inset")) {
+          InsetSpec spec;
+          spec.x = read_axis(inset->table("x"), t.words());
+          spec.y = read_axis(inset->table("y"), t.words());
+          const auto place = inset->numbers("place", Range::between(0, 1));
+          if (place.size() != 4) inset->fail("place", "expected four numbers: left, bottom, width, height");
+          std::copy(place.begin(), place.end(), spec.place.begin());
+          Texts inside(*inset, t.words());
+          spec.where = inside.filters("where");
+          inset->finish();
+          plot.inset = spec;
+        }
+        figure_.plots.push_back(std::move(plot));
+      });
+    for (TableReader& table : root.tables("pictures"))
+      for_each(table, [&](Texts& t) {
+        PictureSpec spec;
+        spec.place = Place(t.reader(), "command");
+        spec.name = t.required("name");
+        spec.run = t.required("run");
+        spec.command = t.required("command");
+        spec.series = t.list("series");
+        spec.where = t.filters("where");
+        figure_.pictures.push_back(std::move(spec));
+      });
+    for (TableReader& table : root.tables("scripts"))
+      for_each(table, [&](Texts& t) {
+        ScriptSpec spec;
+        spec.place = Place(t.reader(), "command");
+        spec.name = t.required("name");
+        spec.run = t.optional("run");
+        spec.command = t.required("command");
+        spec.series = t.list("series");
+        spec.needs = t.list("needs");
+        spec.where = t.filters("where");
+        figure_.scripts.push_back(std::move(spec));
+      });
+  }
+
+  static void read_statement(Texts& t, std::vector<StatementSpec>& statements) {
+    TableReader& r = t.reader();
+    StatementSpec s;
+    s.place = Place(r, "ours");
+    s.text = t.required("text");
+    s.paper = t.required("paper");
+    s.source = t.optional("source");
+    s.ours = t.required("ours");
+    s.note = t.optional("note");
+    if (auto unjudged = r.optional_table("unjudged")) {
+      Texts texts(*unjudged, t.words());
+      s.ours_unjudged = texts.required("ours");
+      s.note_unjudged = texts.optional("note", s.note);
+      unjudged->finish();
+    }
+    s.only_refutes = r.boolean_or("only_refutes", false);
+    s.only_if_judged = r.boolean_or("only_if_judged", false);
+    s.meshes = t.list("meshes");
+    TableReader quantities = r.table("quantities");
+    for (const std::string& key : quantities.keys())
+      s.quantities.push_back(read_quantity(quantities.table(key), key, t.words()));
+    for (TableReader& condition : r.tables("require")) s.require.push_back(read_condition(condition, t.words()));
+    for (TableReader& condition : r.tables("judged_if")) s.judged_if.push_back(read_condition(condition, t.words()));
+    statements.push_back(std::move(s));
+  }
+
+  Figure& figure_;
+  std::string programmes_;
+  std::vector<StatementSpec> included_statements_;
+  std::map<std::string, std::vector<std::string>> columns_;
+};
+
+template <class Item>
+const Item& by_name(const std::vector<Item>& items, const std::string& name, const char* kind, const Place& place) {
+  std::vector<std::string> names;
+  for (const Item& item : items) {
+    if (item.name == name) return item;
+    names.push_back(item.name);
+  }
+  const auto near = nearest_word(name, names);
+  place.fail(fmt::format("there is no {} '{}'{}", kind, name,
+                         near            ? fmt::format("; did you mean '{}'?", *near)
+                         : names.empty() ? ""
+                                         : fmt::format("; allowed: {}", fmt::join(names, ", "))));
+}
+
+template <class Item>
+void check_once(const std::vector<Item>& items, const char* kind) {
+  for (std::size_t i = 0; i < items.size(); ++i)
+    for (std::size_t k = 0; k < i; ++k)
+      if (items[i].name == items[k].name)
+        items[i].place.fail(fmt::format("a {} '{}' is declared twice", kind, items[i].name));
+}
+
+void check_column(const Figure& figure, const std::string& table, const std::string& column, const Place& place) {
+  if (column.empty()) return;
+  const TableSpec& spec = figure.table(table, place);
+  std::vector<std::string> names;
+  if (!spec.row.empty()) names.emplace_back("name");
+  for (const ColumnSpec& c : spec.columns) names.push_back(c.name);
+  if (std::find(names.begin(), names.end(), column) != names.end()) return;
+  const auto near = nearest_word(column, names);
+  place.fail(fmt::format("table '{}' has no column '{}'{}", table, column,
+                         near ? fmt::format("; did you mean '{}'?", *near)
+                              : fmt::format("; allowed: {}", fmt::join(names, ", "))));
+}
+
+/// Names that nothing has are found before anything is run.
+void check_names(const Figure& figure) {
+  check_once(figure.runs, "run");
+  check_once(figure.tables, "table");
+  check_once(figure.fits, "fit");
+  check_once(figure.plots, "plot");
+  for (const RunTemplate& run : figure.runs) {
+    if (!run.from.empty()) figure.run(run.from.substr(0, run.from.find_first_of("@:")), run.place);
+    if (!run.packing.empty() && !figure.run(run.packing, run.place).is_packing)
+      run.place.fail(fmt::format("packing: '{}' is a run, allowed: one of [[packings]]", run.packing));
+  }
+  for (const TableSpec& table : figure.tables) {
+    for (const ColumnSpec& column : table.columns)
+      if (!column.run.empty()) figure.run(column.run, table.place);
+    for (const std::string& curve : table.curves) figure.run(curve, table.place);
+    if (!table.list.empty()) figure.run(table.list.substr(0, table.list.find('/')), table.place);
+    for (const Filter& filter : table.keep) check_column(figure, table.name, filter.name, table.place);
+    for (const std::string& column : table.spread) check_column(figure, table.name, column, table.place);
+  }
+  for (const FitSpec& fit : figure.fits)
+    for (const std::string& column : {fit.x, fit.y, fit.z}) check_column(figure, fit.table, column, fit.place);
+  for (const PlotSpec& plot : figure.plots)
+    for (const SeriesSpec& series : plot.series) {
+      if (!series.fit.empty()) figure.fit(series.fit, series.place);
+      if (series.table.empty()) continue;
+      for (const std::string& column : {series.x, series.y, series.error, series.group, series.colour_by})
+        check_column(figure, series.table, column, series.place);
+      for (const Filter& filter : series.where) check_column(figure, series.table, filter.name, series.place);
+    }
+  for (const PictureSpec& picture : figure.pictures) figure.run(picture.run, picture.place);
+  for (const ScriptSpec& script : figure.scripts)
+    if (!script.run.empty()) figure.run(script.run, script.place);
+  for (const StatementSpec& statement : figure.statements)
+    for (const QuantitySpec& q : statement.quantities) {
+      if (!q.fit.empty()) figure.fit(q.fit, q.place);
+      if (q.table.empty()) continue;
+      for (const std::string& column : {q.column, q.over, q.by}) check_column(figure, q.table, column, q.place);
+      for (const Filter& filter : q.where) check_column(figure, q.table, filter.name, q.place);
+    }
+}
+
+} // namespace
+
+void Place::fail(const std::string& message) const {
+  if (!reader_) throw InputError(one_line(message));
+  if (key_.empty()) {
+    const auto keys = reader_->keys();
+    reader_->fail(keys.empty() ? "" : keys.front(), message);
+  }
+  reader_->fail(key_, message);
+}
+
+std::string filled_at(const Place& place, std::string_view pattern, const Words& words, Unknown unknown) {
+  try {
+    return filled(pattern, words, unknown);
+  } catch (const InputError& error) {
+    place.fail(error.what());
+  }
+}
+
+bool Filter::accepts(const Value& value) const {
+  if ((at_least || at_most) && !value.number) return false;
+  if (at_least && !(*value.number >= *at_least)) return false;
+  if (at_most && !(*value.number <= *at_most)) return false;
+  return equal.empty() || std::find(equal.begin(), equal.end(), value) != equal.end();
+}
+
+const RunTemplate& Figure::run(const std::string& wanted, const Place& place) const {
+  return by_name(runs, wanted, "run", place);
+}
+
+const TableSpec& Figure::table(const std::string& wanted, const Place& place) const {
+  return by_name(tables, wanted, "table", place);
+}
+
+const FitSpec& Figure::fit(const std::string& wanted, const Place& place) const {
+  return by_name(fits, wanted, "fit", place);
+}
+
+Figure read_figure(const std::string& path, const std::string& programmes) {
+  Figure figure;
+  figure.path = path;
+  const filesystem::path file(path);
+  figure.name = (file.filename() == "figure.toml" && file.has_parent_path()) ? file.parent_path().filename().string()
+                                                                             : file.stem().string();
+  FigureReader(figure, programmes).read(path, true);
+  check_names(figure);
+  return figure;
+}
+
+} // namespace mpfem

@@ -1,0 +1,102 @@
+#include "postproc/figure/report.hpp"
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "common/errors.hpp"
+#include "common/one_line.hpp"
+
+namespace mpfem {
+
+namespace {
+
+constexpr const char* style =
+    R"(  body { font: 16px/1.45 sans-serif; max-width: 75rem; margin: 2rem auto; padding: 0 1rem; color: #222; }
+  table { border-collapse: collapse; margin: 1rem 0; }
+  td, th { border: 1px solid #bbb; padding: 0.3rem 0.6rem; text-align: left; vertical-align: top; }
+  tr.true td:nth-child(4) { background: #d9f0d9; }
+  tr.false td:nth-child(4) { background: #f7d4cf; }
+  .pictures { display: flex; flex-wrap: wrap; gap: 1rem; }
+  figure { margin: 0; width: 36rem; max-width: 100%; }
+  img { width: 100%; }
+  figcaption { font-size: 0.85rem; color: #555; }
+)";
+
+std::string html(const std::string& text) {
+  std::string result;
+  for (const char c : text) result += c == '&' ? "&amp;" : c == '<' ? "&lt;" : c == '>' ? "&gt;" : std::string(1, c);
+  return result;
+}
+
+std::string base64(const std::string& bytes) {
+  constexpr const char* letters = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  std::string text;
+  for (std::size_t i = 0; i < bytes.size(); i += 3) {
+    unsigned int group = 0;
+    for (std::size_t k = 0; k < 3; ++k)
+      group = group << 8U | (i + k < bytes.size() ? static_cast<unsigned char>(bytes[i + k]) : 0U);
+    for (std::size_t k = 0; k < 4; ++k) text += i + k > bytes.size() ? '=' : letters[group >> (18 - 6 * k) & 63U];
+  }
+  return text;
+}
+
+std::string content_of(const std::filesystem::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+std::vector<std::filesystem::path> files_with(const std::filesystem::path& folder, const std::string& ending) {
+  std::vector<std::filesystem::path> files;
+  std::error_code ignored;
+  for (const auto& entry : std::filesystem::directory_iterator(folder, ignored))
+    if (entry.path().extension() == ending) files.push_back(entry.path());
+  std::sort(files.begin(), files.end());
+  return files;
+}
+
+std::string statements_table(const std::filesystem::path& folder) {
+  const std::filesystem::path path = folder / "verdict.json";
+  const auto list = nlohmann::json::parse(content_of(path), nullptr, false);
+  if (!list.is_array()) throw InputError(fmt::format("{}: is no list of statements", one_line(path.string())));
+  std::string text = "<table>\n<tr><th>statement</th><th>paper</th><th>here</th><th>verdict</th><th>note</th></tr>\n";
+  for (const auto& s : list) {
+    const auto& agrees = s.at("agrees");
+    const char* word = agrees.is_null() ? "not judged" : agrees.get<bool>() ? "agrees" : "differs";
+    const char* row = agrees.is_null() ? "null" : agrees.get<bool>() ? "true" : "false";
+    const auto cell = [&](const char* key) { return html(s.at(key).get<std::string>()); };
+    text += fmt::format("<tr class=\"{}\"><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td></tr>\n", row,
+                        cell("statement"), cell("paper"), cell("ours"), word, cell("note"));
+  }
+  return text + "</table>\n";
+}
+
+} // namespace
+
+std::string report_page(const std::vector<ReportEntry>& entries, const std::string& results, const std::string& title) {
+  std::string page = fmt::format("<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
+                                 "<title>{0}</title>\n<style>\n{1}</style>\n</head>\n<body>\n<h1>{0}</h1>\n",
+                                 html(title), style);
+  page += "<p>Each table sets what was stated or expected beside what was computed here; the last but one column is "
+          "computed from the data.</p>\n";
+  for (const ReportEntry& entry : entries) {
+    const std::filesystem::path folder = std::filesystem::path(results) / entry.name;
+    page += fmt::format("<h2 id=\"{}\">{}</h2>\n<p>{}</p>\n<div class=\"pictures\">\n", entry.name, html(entry.title),
+                        html(entry.question));
+    for (const auto& picture : files_with(folder, ".png"))
+      page +=
+          fmt::format("<figure><img alt=\"{}\" src=\"data:image/png;base64,{}\"><figcaption>{}</figcaption></figure>\n",
+                      picture.stem().string(), base64(content_of(picture)), picture.string());
+    page += "</div>\n" + statements_table(folder) + "<p>Numbers:";
+    for (const auto& table : files_with(folder, ".csv"))
+      page += fmt::format(" <a href=\"../{0}/{1}\">{1}</a>", entry.name, table.filename().string());
+    page += "</p>\n";
+  }
+  return page + "</body>\n</html>\n";
+}
+
+} // namespace mpfem

@@ -1,0 +1,43 @@
+#pragma once
+// A figure's statements, judged from its tables and fits.
+
+#include "postproc/figure/figure_fits.hpp"
+
+namespace mpfem {
+
+/// The tables and fits of one figure, each read when it is first needed.
+class FigureData {
+public:
+  FigureData(const Figure& figure, std::string folder) : figure_(figure), folder_(std::move(folder)) {}
+  const Figure& figure() const { return figure_; }
+  const TextTable& table(const std::string& name);
+  const nlohmann::ordered_json& fit(const std::string& name);
+
+private:
+  const Figure& figure_;
+  std::string folder_;
+  std::map<std::string, TextTable> tables_;
+  std::optional<nlohmann::ordered_json> fits_;
+};
+
+struct Quantity {
+  Value value;                                   ///< empty where it is not known
+  std::optional<std::array<double, 2>> interval; ///< of a fit's coefficient, 95 %
+  std::string row; ///< first cell of the row that it was taken from, where it was taken from one
+};
+
+/// Quantities by name. Throws InputError: names, columns and coefficients that do not exist, "only" of several rows.
+std::map<std::string, Quantity> quantities_of(const StatementSpec& statement, FigureData& data);
+
+/// Whether a condition holds; nothing where a quantity that it needs is not known.
+std::optional<bool> holds(const ConditionSpec& condition, const StatementSpec& statement,
+                          const std::map<std::string, Quantity>& quantities, FigureData& data);
+
+/// {statement, paper, ours, agrees, note}; `agrees` is null where the statement cannot be judged: a condition of judged_if
+/// does not hold, a quantity is not known, or nothing but disagreement could be shown and was not.
+nlohmann::ordered_json judge(const StatementSpec& statement, FigureData& data);
+
+/// The list of all statements for a mesh, one object a line.
+std::string verdict_text(FigureData& data, const std::string& mesh);
+
+} // namespace mpfem

@@ -1,0 +1,152 @@
+#include "postproc/figure/verdict_pages.hpp"
+
+#include <algorithm>
+#include <array>
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <set>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "common/errors.hpp"
+#include "common/one_line.hpp"
+
+namespace mpfem {
+
+namespace {
+
+namespace filesystem = std::filesystem;
+
+struct Statement {
+  std::string text, paper, ours;
+  int agrees = 2; ///< 0 agrees, 1 differs, 2 not judged
+};
+
+using Verdicts = std::map<std::string, std::vector<Statement>>; ///< by figure
+
+std::vector<Statement> read_statements(const filesystem::path& path) {
+  std::ifstream file(path);
+  const auto list = nlohmann::json::parse(file, nullptr, false);
+  const auto refuse = [&] { throw InputError(fmt::format("{}: is no list of statements", one_line(path.string()))); };
+  if (!list.is_array()) refuse();
+  std::vector<Statement> statements;
+  for (const auto& s : list) {
+    if (!s.is_object() || !s.contains("agrees")) refuse();
+    const auto& agrees = s["agrees"];
+    statements.push_back({s.value("statement", ""), s.value("paper", ""), s.value("ours", ""),
+                          agrees.is_boolean() ? (agrees.get<bool>() ? 0 : 1) : 2});
+  }
+  return statements;
+}
+
+Verdicts read_verdicts(const std::string& folder) {
+  Verdicts verdicts;
+  std::error_code error;
+  for (const auto& entry : filesystem::directory_iterator(folder, error))
+    if (const auto path = entry.path() / "verdict.json"; filesystem::exists(path))
+      verdicts[entry.path().filename().string()] = read_statements(path);
+  if (error) throw InputError(fmt::format("{}: {}", one_line(folder), error.message()));
+  return verdicts;
+}
+
+/// As a cell of a table.
+std::string cell(const std::string& text) {
+  std::string result;
+  for (const char c : text) result += c == '|' ? "\\|" : std::string(1, c);
+  return result;
+}
+
+/// "agrees / differs / could not be judged".
+std::string tally(const std::array<int, 3>& count) {
+  return count == std::array<int, 3>{} ? "" : fmt::format("{} / {} / {}", count[0], count[1], count[2]);
+}
+
+const Statement* find(const std::vector<Statement>& statements, const std::string& text) {
+  const auto found =
+      std::find_if(statements.begin(), statements.end(), [&](const Statement& s) { return s.text == text; });
+  return found == statements.end() ? nullptr : &*found;
+}
+
+/// The statements of all meshes, in the order in which they first come.
+std::vector<Statement> all_statements(const std::vector<Verdicts>& meshes, const std::string& figure) {
+  std::vector<Statement> all;
+  for (const Verdicts& mesh : meshes)
+    if (const auto at = mesh.find(figure); at != mesh.end())
+      for (const Statement& s : at->second)
+        if (find(all, s.text) == nullptr) all.push_back(s);
+  return all;
+}
+
+std::string tallies(const std::vector<Verdicts>& meshes, const std::set<std::string>& figures) {
+  std::string text;
+  std::vector<std::array<int, 3>> sums(meshes.size());
+  for (const std::string& figure : figures) {
+    text += fmt::format("| [{0}](#{0}) |", figure);
+    for (std::size_t m = 0; m < meshes.size(); ++m) {
+      std::array<int, 3> count{};
+      if (const auto at = meshes[m].find(figure); at != meshes[m].end())
+        for (const Statement& s : at->second) {
+          ++count.at(static_cast<std::size_t>(s.agrees));
+          ++sums[m].at(static_cast<std::size_t>(s.agrees));
+        }
+      text += fmt::format(" {} |", tally(count));
+    }
+    text += '\n';
+  }
+  text += "| **all** |";
+  for (const auto& sum : sums) text += fmt::format(" {} |", tally(sum));
+  return text + "\n";
+}
+
+} // namespace
+
+std::string verdicts_of_mesh(const MeshVerdicts& mesh) {
+  static constexpr std::array words = {"agrees", "differs", "not judged"};
+  std::string text;
+  for (const auto& [figure, statements] : read_verdicts(mesh.folder)) {
+    text += fmt::format("\n## {}\n\n| statement | {} | here | verdict |\n|---|---|---|---|\n", figure,
+                        figure.starts_with("fig") ? "paper" : "expected");
+    for (const Statement& s : statements)
+      text += fmt::format("| {} | {} | {} | {} |\n", cell(s.text), cell(s.paper), cell(s.ours),
+                          words.at(static_cast<std::size_t>(s.agrees)));
+  }
+  return text;
+}
+
+std::string verdicts_of_meshes(const std::vector<MeshVerdicts>& meshes) {
+  static constexpr std::array words = {"agrees", "**differs**", "not judged"};
+  std::vector<Verdicts> verdicts;
+  std::set<std::string> figures;
+  std::string head, rule;
+  for (const MeshVerdicts& mesh : meshes) {
+    head += fmt::format(" {} |", mesh.mesh);
+    rule += "---|";
+    verdicts.push_back(read_verdicts(mesh.folder));
+    for (const auto& [figure, statements] : verdicts.back())
+      if (figure.starts_with("fig")) figures.insert(figure);
+  }
+  std::string text = fmt::format("Statements that agree / differ / could not be judged:\n\n| study |{}\n|---|{}\n{}",
+                                 head, rule, tallies(verdicts, figures));
+  for (const std::string& figure : figures) {
+    text +=
+        fmt::format("\n## {0}\n\n[How it is made and judged](../studies/{0}/README.md)\n\n| statement | paper |{1}\n"
+                    "|---|---|{2}\n",
+                    figure, head, rule);
+    for (const Statement& statement : all_statements(verdicts, figure)) {
+      text += fmt::format("| {} | {} |", cell(statement.text), cell(statement.paper));
+      for (const Verdicts& mesh : verdicts) {
+        const auto at = mesh.find(figure);
+        const Statement* found = at == mesh.end() ? nullptr : find(at->second, statement.text);
+        text += found == nullptr
+                    ? "  |"
+                    : fmt::format(" {}: {} |", words.at(static_cast<std::size_t>(found->agrees)), cell(found->ours));
+      }
+      text += '\n';
+    }
+  }
+  return text;
+}
+
+} // namespace mpfem

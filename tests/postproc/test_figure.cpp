@@ -1,0 +1,395 @@
+// Figures declared in TOML: reading, runs, tables, statements, plots, and what make is told.
+
+#include <filesystem>
+#include <fstream>
+
+#include <catch2/catch.hpp>
+#include <fmt/format.h>
+
+#include "common/errors.hpp"
+#include "postproc/figure/depends.hpp"
+#include "postproc/figure/figure_plot.hpp"
+#include "tests/support/folder.hpp"
+
+using namespace mpfem;
+using Catch::Matchers::Contains;
+
+namespace {
+
+void write_text(const std::string& path, const std::string& text) {
+  std::filesystem::create_directories(std::filesystem::path(path).parent_path());
+  std::ofstream(path) << text;
+}
+
+/// A folder with the programmes "press" and "crush", and files of figures.
+class Toolkit {
+public:
+  Toolkit() {
+    write_text(folder_ / "programmes/press.toml", "[[stages]]\nname = \"pressing\"\n");
+    write_text(folder_ / "programmes/crush.toml", "[[stages]]\nname = \"rest\"\n[[stages]]\nname = \"crushing\"\n");
+  }
+  std::string path(const std::string& name) const { return folder_ / name; }
+  Figure figure(const std::string& text, const std::string& name = "study.toml") const {
+    write_text(path(name), text);
+    return read_figure(path(name), path("programmes"));
+  }
+  ResultsFolder results() const { return {path("out"), "smoke"}; }
+
+private:
+  test::Folder folder_;
+};
+
+/// Two samples, pressed to two densities each and crushed.
+const std::string tablets = R"(title = "tablets"
+[[cases]]
+sample = ["a", "b"]
+density = [0.7, 0.85]
+[[runs]]
+name = "pressed"
+folder = "{sample}"
+programme = "press"
+settings = { "bond.fracture_energy" = 0.5 }
+[[runs]]
+name = "crushed"
+programme = "crush"
+from = "pressed@{density:.3f}"
+settings = { "stages.1.wall_speed" = 500 }
+[[tables]]
+name = "strength"
+row = "{sample}-{density:.2f}"
+columns = ["density [1] = {density}", "strength [MPa] = crushed/strength.value"]
+)";
+
+/// A figure whose table `t` is what is given, and one statement.
+nlohmann::ordered_json judged(const std::string& rows, const std::string& statement, const std::string& fits = "[]") {
+  const Toolkit toolkit;
+  const Figure figure =
+      toolkit.figure("title = \"x\"\n[[cases]]\nx = 1\n[[tables]]\nname = \"t\"\nrow = \"r\"\n"
+                     "columns = [\"x [1] = {x}\", \"y [1] = {x}\", \"g [1] = {x}\"]\n"
+                     "[[fits]]\nname = \"line\"\ntable = \"t\"\nx = \"x\"\ny = \"y\"\nmodel = \"linear\"\n"
+                     "[[statements]]\ntext = \"s\"\npaper = \"p\"\n" +
+                     statement);
+  write_text(toolkit.path("out/t.csv"), "name,x [1],y [1],g [1]\n" + rows);
+  write_text(toolkit.path("out/fits.json"), fits);
+  FigureData data(figure, toolkit.path("out"));
+  return judge(figure.statements.front(), data);
+}
+
+const std::string rising = "a,1,2,0\nb,2,3,0\nc,3,5,1\n";
+const std::string y_of_last = "ours = \"{y:.1f}\"\nquantities.y = { table = \"t\", column = \"y\", take = \"last\" }\n";
+
+} // namespace
+
+TEST_CASE("names in braces become values, numbers in the format given") {
+  const Words words = {{"density", Value::of(0.7)}, {"law", {"energy", {}}}, {"share", Value::of(0.0123)}};
+  CHECK(filled("{law}-D{density:.2f}", words) == "energy-D0.70");
+  CHECK(filled("{share:.2g%} of {{all}}", words) == "1.2 % of {all}");
+  CHECK(filled("D^{max} {law}", words, Unknown::kept) == "D^{max} energy");
+  CHECK_THROWS_WITH(filled("{densty}", words), Contains("did you mean 'density'?"));
+  CHECK_THROWS_WITH(filled("{law:.2f}", words), Contains("which has no format"));
+  CHECK_THROWS_WITH(filled("{density:.2q}", words), Contains("found the format '.2q'"));
+}
+
+TEST_CASE("a mistake in a figure's file is told with file, line and the nearest word") {
+  const Toolkit toolkit;
+  CHECK_THROWS_WITH(toolkit.figure("tilte = \"x\"\n"),
+                    Contains("key 'title': missing") && Contains("'tilte' in line 1"));
+  CHECK_THROWS_WITH(toolkit.figure("title = \"x\"\n[[tables]]\nname = \"t\"\ncolumms = []\ncolumns = [\"a = {a}\"]\n"),
+                    Contains("study.toml:4:1: unknown key 'tables.0.columms' (did you mean 'columns'?)"));
+  CHECK_THROWS_WITH(toolkit.figure(tablets + "[[fits]]\nname = \"f\"\ntable = \"strength\"\nx = \"densty\"\n"
+                                             "y = \"strength\"\nmodel = \"linear\"\n"),
+                    Contains("table 'strength' has no column 'densty'; did you mean 'density'?"));
+  CHECK_THROWS_WITH(toolkit.figure("title = \"x\"\n[[runs]]\nname = \"r\"\nprogramme = \"pres\"\n"),
+                    Contains("study.toml:4") && Contains("did you mean 'press'?"));
+  CHECK_THROWS_WITH(judged(rising, y_of_last + "require = [{ quantity = \"y\", nearly = 3 }]\n"),
+                    Contains("no predicate, allowed: one of near"));
+  CHECK_THROWS_WITH(toolkit.figure("title = \"x\"\n[[tables]]\nname = \"../t\"\ncolumns = [\"a = {a}\"]\n"),
+                    Contains("found '../t', allowed: letters"));
+}
+
+TEST_CASE("every combination of a case's values is a row, and runs that do not depend on a value are shared") {
+  const Toolkit toolkit;
+  const Figure figure = toolkit.figure(tablets);
+  const auto cases = cases_of(figure, {}, {}, "smoke", {});
+  REQUIRE(cases.size() == 4);
+  RunGraph graph;
+  for (const Case& row : cases) add_run(graph, figure, figure.runs[1], row);
+  REQUIRE(graph.size() == 6); // two pressed, four crushed
+  CHECK(graph.at("a").densities == std::set<double>{0.7, 0.85});
+  const RunInstance& crushed = graph.at("study/runs/crushed-b-0.85");
+  CHECK(crushed.parent == "b");
+  CHECK(crushed.checkpoint == "D0.850");
+  // The sample's own settings first, then those of the test.
+  CHECK(crushed.settings == Settings{{"bond.fracture_energy", "0.5"}, {"stages.1.wall_speed", "500"}});
+}
+
+TEST_CASE("a chain's runs begin where the one before in the list ended, the first at its parent") {
+  const Toolkit toolkit;
+  const Figure figure = toolkit.figure(R"(title = "x"
+[[cases]]
+pressure = [60, 16, 8]
+only = { pressure = 8 }
+[[runs]]
+name = "pressed"
+programme = "press"
+[[runs]]
+name = "held"
+folder = "p{pressure}"
+programme = "crush"
+from = "pressed"
+chain = "pressure"
+)");
+  const auto cases = cases_of(figure, {}, {}, "smoke", {});
+  REQUIRE(cases.size() == 1); // the others are on the way only
+  RunGraph graph;
+  CHECK(add_run(graph, figure, figure.runs[1], cases[0]).parent == "p16");
+  CHECK(graph.at("p8").checkpoint == "crushing");
+  CHECK(graph.at("p60").checkpoint == "pressing");
+}
+
+TEST_CASE("values follow from others, and settings can depend on a value that is not 0") {
+  const Toolkit toolkit;
+  const Figure figure = toolkit.figure(R"(title = "x"
+[follows.sample]
+"loose" = { energy = 0 }
+"bonded" = { energy = 0.5 }
+[[cases]]
+sample = ["loose", "bonded"]
+[[runs]]
+name = "pressed"
+folder = "{sample}"
+programme = "press"
+[runs.settings_unless_zero.energy]
+"bond.fracture_energy" = "{energy}"
+)");
+  RunGraph graph;
+  for (const Case& row : cases_of(figure, {}, {}, "smoke", {})) add_run(graph, figure, figure.runs[0], row);
+  CHECK(graph.at("loose").settings.empty());
+  CHECK(graph.at("bonded").settings == Settings{{"bond.fracture_energy", "0.5"}});
+}
+
+TEST_CASE("a folder named of its own accord tells apart what a run depends on by way of another value") {
+  const Toolkit toolkit;
+  const Figure figure = toolkit.figure(R"(title = "x"
+[follows.powder]
+"soft" = { yield = 10 }
+"hard" = { yield = 40 }
+[[cases]]
+powder = ["soft", "hard"]
+seen = [1, 2]
+[[runs]]
+name = "pressed"
+programme = "press"
+settings = { "material.hardening.yield_stress" = "{yield}" }
+)");
+  RunGraph graph;
+  for (const Case& row : cases_of(figure, {}, {}, "smoke", {})) add_run(graph, figure, figure.runs[0], row);
+  REQUIRE(graph.size() == 2); // `seen` makes no run of its own
+  CHECK(graph.contains("study/runs/pressed-soft"));
+  CHECK(graph.contains("study/runs/pressed-hard"));
+}
+
+TEST_CASE("one folder for two different runs is refused, in one figure and in two") {
+  const Toolkit toolkit;
+  std::string text = tablets;
+  text.replace(text.find("0.5 }"), 5, "\"{density}\" }");
+  const Figure figure = toolkit.figure(text);
+  RunGraph graph;
+  CHECK_THROWS_WITH(
+      [&] {
+        for (const Case& row : cases_of(figure, {}, {}, "smoke", {})) add_run(graph, figure, figure.runs[0], row);
+      }(),
+      Contains("stands for two runs with different settings"));
+  std::string other = tablets;
+  other.replace(other.find("0.5 }"), 5, "0.6 }");
+  CHECK_THROWS_WITH(make_rules({toolkit.figure(tablets), toolkit.figure(other, "other.toml")},
+                               {toolkit.results(), "packing.h5", {}, {}}),
+                    Contains("the run 'a' has other settings in another figure"));
+}
+
+TEST_CASE("make is told what a table, a metric and a run are made from, and rewrites settings only when they differ") {
+  const Toolkit toolkit;
+  const Figure figure = toolkit.figure(tablets);
+  const DependsRequest request{toolkit.results(), "packing.h5", {}, {{"element.type", "tet4"}}};
+  const std::string out = toolkit.path("out"), rules = make_rules({figure}, request);
+  const std::string run = out + "/study/runs/crushed-a-0.7/run";
+  CHECK_THAT(rules, Contains(fmt::format("{0}/a/run.h5: packing.h5 {0}/a/run.settings", out)));
+  CHECK_THAT(rules, Contains(fmt::format("{0}.h5: {1}/a/run.h5 {0}.settings", run, out)));
+  CHECK_THAT(rules, Contains(fmt::format("--from {}/a/work/run.D0.700.checkpoint.h5 --set 'packing=packing.h5' "
+                                         "--set 'element.type=tet4'",
+                                         out)));
+  CHECK_THAT(rules, Contains("output.checkpoint_relative_densities=[0.700,0.850]"));
+  CHECK_THAT(rules, Contains(fmt::format("{}.settings: FORCE", run)));
+  const std::size_t at = rules.find(run + ".settings: private settings := ");
+  REQUIRE(at != std::string::npos);
+  const std::size_t begin = rules.find(":= ", at) + 3;
+  write_text(run + ".settings", rules.substr(begin, rules.find('\n', begin) - begin + 1));
+  CHECK_THAT(make_rules({figure}, request), !Contains(fmt::format("{}.settings: FORCE", run)));
+}
+
+TEST_CASE("a table has the numbers of its runs, and an empty cell for what could not be measured") {
+  const Toolkit toolkit;
+  const Figure figure = toolkit.figure(tablets);
+  const auto metric = [&](const std::string& name, const std::string& text) {
+    write_text(toolkit.path(fmt::format("out/study/runs/crushed-{}/strength.json", name)), text);
+  };
+  metric("a-0.7", R"({"value": 0.30000000000000004})");
+  metric("a-0.85", R"({"value": null})");
+  metric("b-0.7", R"({"value": 2})");
+  CHECK_THROWS_WITH(make_table(figure, figure.tables[0], toolkit.results()), Contains("b-0.85/strength.json: no such"));
+  metric("b-0.85", R"({"valu": 2})");
+  CHECK_THROWS_WITH(make_table(figure, figure.tables[0], toolkit.results()),
+                    Contains("study.toml:") && Contains("has no key 'value'; did you mean 'valu'?"));
+  metric("b-0.85", R"({"value": 4})");
+  const TextTable table = make_table(figure, figure.tables[0], toolkit.results());
+  REQUIRE(table.rows.size() == 4);
+  CHECK(table.titles == std::vector<std::string>{"name", "density [1]", "strength [MPa]"});
+  CHECK(table.rows[0][0].text == "a-0.70");
+  CHECK(table.rows[0][2].text == "0.30000000000000004");
+  CHECK(table.rows[1][2].text.empty());
+  CHECK_FALSE(table.rows[1][2].number);
+}
+
+TEST_CASE("the spread over packings is the sample's mean and deviation, and a single one has no deviation") {
+  const Toolkit toolkit;
+  TableSpec spec;
+  spec.spread = {"y"};
+  write_text(toolkit.path("one.csv"), "name,y [MPa]\na,1\nb,5\n");
+  write_text(toolkit.path("two.csv"), "name,y [MPa]\na,3\nb,\n");
+  const TextTable spread = spread_of(spec, {toolkit.path("one.csv"), toolkit.path("two.csv")});
+  CHECK(spread.titles == std::vector<std::string>{"name", "packings", "y [MPa]", "y_deviation [MPa]"});
+  CHECK(*spread.rows[0][2].number == 2);
+  CHECK(*spread.rows[0][3].number == Approx(std::sqrt(2.0)).epsilon(1e-9));
+  CHECK(spread.rows[1][1].text == "1");
+  CHECK(spread.rows[1][3].text.empty());
+}
+
+TEST_CASE("a figure's fits leave empty rows out, and one that the points do not allow says why") {
+  const Toolkit toolkit;
+  const Figure figure = toolkit.figure(tablets + "[[fits]]\nname = \"line\"\ntable = \"strength\"\nx = \"density\"\n"
+                                                 "y = \"strength\"\nmodel = \"linear\"\n");
+  write_text(toolkit.path("out/strength.csv"), "name,density [1],strength [MPa]\na,1,3\nb,2,\nc,3,7\nd,4,9\n");
+  const auto fits = make_fits(figure, toolkit.path("out"));
+  CHECK(fits[0]["points"] == 3);
+  CHECK(fits[0]["coefficients"]["b"]["value"].get<double>() == Approx(2).epsilon(1e-12));
+  CHECK(fits[0]["y"]["unit"] == "MPa");
+  write_text(toolkit.path("out/strength.csv"), "name,density [1],strength [MPa]\na,1,3\nb,2,\n");
+  CHECK_THAT(make_fits(figure, toolkit.path("out"))[0]["refused"].get<std::string>(), Contains("found 1 points"));
+}
+
+TEST_CASE("predicates judge by number, by other quantities, by order and by interval") {
+  const auto agrees = [](const std::string& condition) {
+    return judged(rising, y_of_last +
+                              "quantities.first = { table = \"t\", column = \"y\", take = \"first\" }\n"
+                              "quantities.ratio = { of = \"y\", over = \"first\" }\nrequire = [{ " +
+                              condition + " }]\n")["agrees"];
+  };
+  CHECK(agrees("quantity = \"y\", near = 5.4, within = 0.1") == true);
+  CHECK(agrees("quantity = \"y\", near = 5.6, within = 0.1") == false);
+  CHECK(agrees("quantity = \"y\", near = 5.4, within_absolute = 0.3") == false);
+  CHECK(agrees("quantity = \"y\", at_least = 5") == true);
+  CHECK(agrees("quantity = \"y\", above = 5") == false);
+  CHECK(agrees("quantity = \"y\", above = \"first\"") == true);
+  CHECK(agrees("quantity = \"ratio\", between = [2.4, 2.6]") == true);
+  CHECK(agrees("quantity = \"y\", rises = true") == true);
+  CHECK(agrees("quantity = \"y\", falls = true") == false);
+  CHECK(agrees("ordered = [\"first\", 4, \"y\"]") == true);
+  CHECK(agrees("ordered = [\"y\", \"first\"]") == false);
+  CHECK(agrees("either = [{ quantity = \"y\", below = 1 }, { quantity = \"y\", at_most = 5 }]") == true);
+  const std::string fits = R"([{"name": "line", "model": "linear", "points": 3, "r_squared": 0.9,
+    "coefficients": {"b": {"value": 1.5, "low": 1.0, "high": 2.0}}}])";
+  const auto of_fit = [&](const std::string& condition) {
+    return judged(rising,
+                  "ours = \"{b:.1f} [{b.low:.1f}, {b.high:.1f}]\"\nquantities.b = { fit = \"line\", "
+                  "coefficient = \"b\" }\nrequire = [{ quantity = \"b\", " +
+                      condition + " }]\n",
+                  fits);
+  };
+  CHECK(of_fit("interval_includes = 1.9")["agrees"] == true);
+  CHECK(of_fit("interval_excludes = 1.9")["agrees"] == false);
+  CHECK(of_fit("interval_width_at_most = 0.5")["agrees"] == false);
+  CHECK(of_fit("above = 0")["ours"] == "1.5 [1.0, 2.0]");
+}
+
+TEST_CASE("a rise with noise holds within its tolerance, sorted along a column and within equal rows of another") {
+  const auto agrees = [](const std::string& rows, const std::string& more) {
+    return judged(rows, y_of_last + "require = [{ quantity = \"y\", rises = true" + more + " }]\n")["agrees"];
+  };
+  const std::string noisy = "a,1,100,0\nb,2,99.5,0\nc,3,120,0\n";
+  CHECK(agrees(noisy, "") == false);
+  CHECK(agrees(noisy, ", tolerance = 0.01") == true);
+  CHECK(agrees(noisy, ", tolerance = 0.001") == false);
+  CHECK(agrees("a,3,5,0\nb,1,2,0\nc,2,3,0\n", ", along = \"x\"") == true);
+  CHECK(agrees("a,1,5,0\nb,1,2,1\nc,2,6,0\nd,2,3,1\n", ", along = \"x\", each = \"g\"") == true);
+  CHECK(agrees("a,1,5,0\n", "") == false); // one row is no trend
+}
+
+TEST_CASE(
+    "a statement is not judged where a quantity is unknown, a condition of judged_if fails, or only refuting counts") {
+  CHECK(judged("a,1,,0\n", y_of_last + "require = [{ quantity = \"y\", above = 0 }]\n")["agrees"].is_null());
+  CHECK(judged("a,1,,0\n", y_of_last + "require = [{ quantity = \"y\", above = 0 }]\n")["ours"] == "not known");
+  const std::string met = "require = [{ quantity = \"y\", above = 0 }]\n",
+                    failed = "require = [{ quantity = \"y\", below = 0 }]\n";
+  CHECK(judged(rising, y_of_last + met + "judged_if = [{ quantity = \"y\", above = 9 }]\n")["agrees"].is_null());
+  CHECK(judged(rising, y_of_last + met + "only_refutes = true\n")["agrees"].is_null());
+  CHECK(judged(rising, y_of_last + failed + "only_refutes = true\n")["agrees"] == false);
+  CHECK_THROWS_WITH(judged(rising, "ours = \"{y}\"\nquantities.y = { table = \"t\", column = \"y\" }\n" + met),
+                    Contains("3 rows of table 't' are meant, allowed: one"));
+}
+
+TEST_CASE("values are compared row by row with those of another sample, and rows without partner are left out") {
+  const auto verdict = judged("a,1,2,0\nb,2,3,0\nc,1,4,1\nd,3,9,1\n",
+                              "ours = \"{r}\"\nquantities.r = { table = \"t\", column = \"y\", take = \"list\", item = "
+                              "\"{value:.1f} at {x}\", where = { g = 1 }, relative_to = { g = 0 }, by = \"x\" }\n");
+  CHECK(verdict["ours"] == "2.0 at 1");
+}
+
+TEST_CASE("a plot draws the points with their errors, a curve of the fit, and refuses to draw nothing") {
+  const Toolkit toolkit;
+  const Figure figure = toolkit.figure(tablets + R"([[fits]]
+name = "line"
+table = "strength"
+x = "density"
+y = "strength"
+model = "linear"
+[[plots]]
+name = "p"
+x = { label = "it's D", low = 0.5 }
+y = { label = "s", logarithmic = true }
+series = [
+  { table = "strength", x = "density", y = "strength", error = "density", y_scale = 10, title = "computed" },
+  { fit = "line", to = 2, dash = "dashed" },
+]
+)");
+  const std::string folder = toolkit.path("out");
+  write_text(folder + "/strength.csv", "name,density [1],strength [MPa]\na,1,3\nb,2,\n");
+  write_text(folder + "/fits.json",
+             R"([{"name": "line", "model": "linear", "relative_density": false, "x": {"range": [1, 1.5]},
+    "coefficients": {"a": {"value": 1}, "b": {"value": 2}}}])");
+  FigureData data(figure, folder);
+  const std::string script = plot_script(figure.plots[0], data, folder, "svg", "p.svg", 0);
+  CHECK_THAT(script, Contains("set xlabel 'it''s D'") && Contains("set logscale y") && Contains("set xrange [0.5:*]"));
+  CHECK_THAT(script, Contains("1 30 10 \n2 NaN 20 \n"));
+  CHECK_THAT(script, Contains("using 1:2:3 with yerrorbars linetype 1") && Contains("title 'computed'"));
+  CHECK_THAT(script, Contains("\n2 5\nEOD") && Contains("dashtype 2"));
+  write_text(folder + "/strength.csv", "name,density [1],strength [MPa]\na,,\n");
+  write_text(folder + "/fits.json", R"([{"name": "line", "refused": "too few points"}])");
+  FigureData empty(figure, folder);
+  CHECK_THROWS_WITH(plot_script(figure.plots[0], empty, folder, "svg", "p.svg", 0), Contains("nothing that it shows"));
+}
+
+TEST_CASE("every model is drawn with the coefficients that its fit gives") {
+  const std::vector<double> x = {0.1, 0.15, 0.2, 0.3, 0.35, 0.4, 0.45}, z = {0, 0.1, 0.3, 0, 0.1, 0.3, 0.5};
+  for (const std::string& model : fit_models()) {
+    FitPoints points;
+    points.x = x;
+    for (std::size_t i = 0; i < x.size(); ++i)
+      points.y.push_back(5 - 3 * std::exp(-x[i] / 0.2) * std::exp(-z[i] / 0.2));
+    if (model == "pc-gc-surface") points.z = z;
+    CAPTURE(model);
+    const Fit fitted = fit(model, points);
+    std::map<std::string, double> coefficients;
+    for (const Coefficient& c : fitted.coefficients) coefficients[c.name] = c.value;
+    CHECK(model_with(model, coefficients, false)(0.27, 0.2) == Approx(fitted.at(0.27, 0.2)).epsilon(1e-12));
+  }
+}

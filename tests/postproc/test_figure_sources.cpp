@@ -1,0 +1,339 @@
+// Where a figure's tables come from beside its own runs: packings, scripts, other files, other meshes; and which parents are
+// made again.
+
+#include <filesystem>
+#include <fstream>
+
+#include <catch2/catch.hpp>
+#include <fmt/format.h>
+
+#include "postproc/figure/depends.hpp"
+#include "postproc/figure/figure_plot.hpp"
+#include "postproc/figure/verdict_pages.hpp"
+#include "tests/support/folder.hpp"
+
+using namespace mpfem;
+using Catch::Matchers::Contains;
+
+namespace {
+
+void write_text(const std::string& path, const std::string& text) {
+  std::filesystem::create_directories(std::filesystem::path(path).parent_path());
+  std::ofstream(path) << text;
+}
+
+/// A folder of figures "study.toml", with the programme "press" beside.
+class Studies {
+public:
+  Studies() { write_text(folder_ / "programmes/press.toml", "[[stages]]\nname = \"pressing\"\n"); }
+  std::string path(const std::string& name) const { return folder_ / name; }
+  Figure figure(const std::string& text) const {
+    write_text(path("study.toml"), "title = \"x\"\n" + text);
+    return read_figure(path("study.toml"), path("programmes"));
+  }
+  ResultsFolder results() const { return {path("out"), "coarse"}; }
+  std::string rules(const Figure& figure) const {
+    return make_rules({figure}, {results(), path("packings/mesh-0.03.h5"), "powder.toml", {}});
+  }
+
+private:
+  test::Folder folder_;
+};
+
+const std::string chain = R"([[cases]]
+x = 1
+[[runs]]
+name = "first"
+folder = "first"
+programme = "press"
+[[runs]]
+name = "second"
+folder = "second"
+programme = "press"
+from = "first"
+[[runs]]
+name = "third"
+folder = "third"
+programme = "press"
+from = "second"
+[[tables]]
+name = "t"
+columns = ["y = third/strength.value"]
+)";
+
+/// The settings that make would write beside a run.
+std::string settings_of(const std::string& rules, const std::string& run) {
+  const std::string before = fmt::format("{}/run.settings: private settings := ", run);
+  const std::size_t begin = rules.find(before) + before.size();
+  return rules.substr(begin, rules.find('\n', begin) - begin + 1);
+}
+
+} // namespace
+
+TEST_CASE("a run whose checkpoint is lost is made again, with those before it, only for a branch that is to be made") {
+  const Studies studies;
+  const Figure figure = studies.figure(chain);
+  const std::string first = studies.path("out/first"), second = studies.path("out/second"),
+                    third = studies.path("out/third");
+  const std::string rules = studies.rules(figure);
+  CHECK_THAT(rules, !Contains("run.h5: FORCE")); // nothing is there: all is made anyway
+  for (const std::string& run : {first, second, third}) {
+    write_text(run + "/run.h5", "");
+    write_text(run + "/run.settings", settings_of(rules, run));
+  }
+  CHECK_THAT(studies.rules(figure), !Contains("FORCE\n" + third)); // all is made: lost checkpoints do not matter
+  CHECK_THAT(studies.rules(figure), !Contains("run.h5: FORCE"));
+  std::filesystem::remove(third + "/run.h5");
+  CHECK_THAT(studies.rules(figure), Contains(second + "/run.h5: FORCE") && Contains(first + "/run.h5: FORCE"));
+  write_text(first + "/work/run.pressing.checkpoint.h5", "");
+  CHECK_THAT(studies.rules(figure), Contains(second + "/run.h5: FORCE") && !Contains(first + "/run.h5: FORCE"));
+  write_text(second + "/work/run.pressing.checkpoint.h5", "");
+  CHECK_THAT(studies.rules(figure), !Contains("run.h5: FORCE"));
+  // A branch whose settings changed is to be made, too.
+  write_text(third + "/run.h5", "");
+  write_text(third + "/run.settings", "others\n");
+  std::filesystem::remove(second + "/work/run.pressing.checkpoint.h5");
+  CHECK_THAT(studies.rules(figure), Contains(second + "/run.h5: FORCE"));
+}
+
+TEST_CASE("a packing of a case's own is made by its command, a run begins at it, and metrics measure it") {
+  const Studies studies;
+  const Figure figure = studies.figure(R"([[cases]]
+size = [0.001, 0.002]
+[[packings]]
+name = "pair"
+command = "hemispheres --size {size}"
+[[packings]]
+name = "mesh"
+size = "{size}"
+[[runs]]
+name = "pressed"
+programme = "press"
+packing = "pair"
+[metrics]
+quality = "pack-gen quality --description {description} --sizes {folder}/sizes.csv"
+[[tables]]
+name = "t"
+columns = ["tets = mesh/quality.tets", "p = pressed/strength.value:.2f"]
+)");
+  const std::string rules = studies.rules(figure), out = studies.path("out");
+  const std::string pair = out + "/study/packings/pair-0.001/packing";
+  CHECK_THAT(rules, Contains(pair + ".h5: private command := hemispheres --size 0.001"));
+  CHECK_THAT(rules, Contains(fmt::format("{0}/study/runs/pressed-0.001/run.h5: {1}.h5", out, pair)));
+  CHECK_THAT(rules, Contains(fmt::format("--set 'packing={}.h5'", pair)));
+  const std::string mesh = studies.path("packings/mesh-0.002.h5");
+  CHECK_THAT(rules, Contains(fmt::format("{}/packing-0.002/quality.json: {}", out, mesh)));
+  CHECK_THAT(rules,
+             Contains(fmt::format("pack-gen quality {} --description powder.toml --sizes {}/packing-0.002/sizes.csv",
+                                  mesh, out)));
+  for (const char* size : {"0.001", "0.002"}) {
+    write_text(fmt::format("{}/packing-{}/quality.json", out, size), R"({"tets": 7})");
+    write_text(fmt::format("{}/study/runs/pressed-{}/strength.json", out, size), R"({"value": 1.239})");
+  }
+  const TextTable table = make_table(figure, figure.tables[0], studies.results());
+  REQUIRE(table.rows.size() == 2);
+  CHECK(table.rows[0][0].text == "7");
+  CHECK(table.rows[0][1].text == "1.24");
+}
+
+TEST_CASE("a packing is a size or a command, and a run begins at one") {
+  const Studies studies;
+  CHECK_THROWS_WITH(studies.figure("[[packings]]\nname = \"p\"\nsize = \"1\"\ncommand = \"spheres\"\n"),
+                    Contains("study.toml:5") && Contains("found beside 'size'"));
+  CHECK_THROWS_WITH(studies.figure("[[runs]]\nname = \"r\"\nprogramme = \"press\"\npacking = \"r\"\n"),
+                    Contains("'r' is a run, allowed: one of [[packings]]"));
+}
+
+TEST_CASE("a script makes one file for all cases that name the same, from what each of them needs") {
+  const Studies studies;
+  const std::string text = R"([[cases]]
+case = ["a", "b"]
+[[scripts]]
+name = "{case}.csv"
+command = "sh {here}/run.sh {case} > {file}"
+[[scripts]]
+name = "all.csv"
+needs = ["{folder}/{case}.csv"]
+command = "cat $^ > {file}"
+[[tables]]
+name = "t"
+file = "all.csv"
+columns = ["x [mm]", "y"]
+)";
+  const std::string rules = studies.rules(studies.figure(text)), out = studies.path("out/study");
+  CHECK_THAT(rules, Contains(fmt::format("{0}/all.csv: {1}/study.toml {0}/a.csv\n", out, studies.path("."))) ||
+                        Contains(out + "/a.csv\n"));
+  CHECK_THAT(rules, Contains(fmt::format("{0}/all.csv:  {0}/b.csv", out)));
+  CHECK_THAT(rules, Contains(out + "/a.csv: private script = sh ") && Contains("run.sh a > $@.partial"));
+  std::string conflicting = text;
+  conflicting.replace(conflicting.find("cat $^"), 6, "cat {case}");
+  CHECK_THROWS_WITH(studies.rules(studies.figure(conflicting)), Contains("two commands make"));
+  CHECK_THROWS_WITH(
+      studies.figure(text + "[[fits]]\nname = \"f\"\ntable = \"t\"\nx = \"z\"\ny = \"y\"\nmodel = \"linear\"\n"),
+      Contains("table 't' has no column 'z'"));
+}
+
+TEST_CASE("a table of a file lies beside the figure where there is such a file, else among its results") {
+  const Studies studies;
+  write_text(studies.path("paper.csv"), "x,y\n1,2\n");
+  const Figure figure = studies.figure("[[tables]]\nname = \"p\"\nfile = \"paper.csv\"\ncolumns = [\"x\", \"y\"]\n"
+                                       "[[tables]]\nname = \"s\"\nfile = \"made.csv\"\ncolumns = [\"x\"]\n");
+  CHECK(path_of_table(figure.tables[0], "out/study") == studies.path("paper.csv"));
+  CHECK(path_of_table(figure.tables[1], "out/study") == "out/study/made.csv");
+  CHECK_THAT(studies.rules(figure), !Contains("paper.csv:"));
+}
+
+TEST_CASE("the run of another mesh is taken where it lies and never made; rows without one are left out") {
+  const Studies studies;
+  const Figure figure = studies.figure(R"([[cases]]
+of_mesh = ["coarse", "medium", "paper"]
+[[runs]]
+name = "pressed"
+folder = "pressed"
+mesh = "{of_mesh}"
+programme = "press"
+[[tables]]
+name = "t"
+columns = ["mesh = {of_mesh}", "p = pressed/strength.value"]
+)");
+  write_text(studies.path("medium/pressed/run.h5"), "");
+  const std::string rules = studies.rules(figure);
+  CHECK_THAT(rules, Contains(studies.path("out/pressed/run.h5") + ": "));
+  CHECK_THAT(rules,
+             Contains(studies.path("medium/pressed/strength.json") + ": " + studies.path("medium/pressed/run.h5")));
+  CHECK_THAT(rules, !Contains(studies.path("medium/pressed/run.h5") + ": "));
+  CHECK_THAT(rules, !Contains("paper/pressed"));
+  write_text(studies.path("out/pressed/strength.json"), R"({"value": 1})");
+  write_text(studies.path("medium/pressed/strength.json"), R"({"value": 2})");
+  const TextTable table = make_table(figure, figure.tables[0], studies.results());
+  REQUIRE(table.rows.size() == 2);
+  CHECK(table.rows[1][0].text == "medium");
+  CHECK(table.rows[1][1].text == "2");
+  CHECK_THROWS_WITH(studies.figure("[[runs]]\nname = \"r\"\nprogramme = \"press\"\nmesh = \"medium\"\n"),
+                    Contains("found without 'folder'"));
+}
+
+TEST_CASE("cells of cases that a run is not meant for are empty, and it is not made for them") {
+  const Studies studies;
+  const Figure figure = studies.figure(R"([[cases]]
+for_each = [{ series = "made", sizes = [1, 2] }, { series = "known", sizes = [3] }]
+series = "{series}"
+size = "{sizes}"
+[[runs]]
+name = "pressed"
+programme = "press"
+series = ["made"]
+settings = { a = "{size}" }
+[[tables]]
+name = "t"
+columns = ["size = {size}", "p = pressed/strength.value"]
+)");
+  CHECK_THAT(studies.rules(figure), Contains("pressed-2/run.h5") && !Contains("pressed-3"));
+  for (const int size : {1, 2})
+    write_text(studies.path(fmt::format("out/study/runs/pressed-{}/strength.json", size)), R"({"value": 1})");
+  const TextTable table = make_table(figure, figure.tables[0], studies.results());
+  REQUIRE(table.rows.size() == 3);
+  CHECK(table.rows[1][1].text == "1");
+  CHECK(table.rows[2][0].text == "3");
+  CHECK(table.rows[2][1].text.empty());
+}
+
+TEST_CASE("a statement that cannot be judged says so in its own words, or is left out") {
+  const Studies studies;
+  const auto verdict = [&](const std::string& more) {
+    const Figure figure = studies.figure(
+        "[[tables]]\nname = \"t\"\nfile = \"t.csv\"\ncolumns = [\"x\", \"y\"]\n[[statements]]\ntext = \"s\"\n"
+        "paper = \"p\"\nours = \"{y:.1f}\"\nnote = \"n\"\n" +
+        more +
+        "quantities.y = { table = \"t\", column = \"y\", where = { x = 2 } }\n"
+        "require = [{ quantity = \"y\", above = 0 }]\n");
+    write_text(studies.path("out/study/t.csv"), "x,y\n1,5\n2,\n");
+    FigureData data(figure, studies.path("out/study"));
+    return nlohmann::json::parse(verdict_text(data, "coarse"));
+  };
+  const auto plain = verdict("")[0];
+  CHECK(plain["agrees"].is_null());
+  CHECK(plain["ours"] == "not known");
+  const auto worded = verdict("unjudged = { ours = \"not run\", note = \"needs MESH=paper\" }\n")[0];
+  CHECK(worded["ours"] == "not run");
+  CHECK(worded["note"] == "needs MESH=paper");
+  CHECK(verdict("unjudged = { ours = \"not run\" }\n")[0]["note"] == "n");
+  CHECK(verdict("only_if_judged = true\n").empty());
+}
+
+TEST_CASE("numbers of axes, limits and lines may be words of for_each, and what is no number is told") {
+  const Studies studies;
+  const std::string text = R"([[tables]]
+name = "t"
+file = "t.csv"
+columns = ["x", "y"]
+[[plots]]
+for_each = [{ name = "a", low = -1.5 }]
+name = "{name}"
+x = { low = "{low}" }
+y = {}
+lines = [{ y = "{low}" }]
+series = [{ table = "t", x = "x", y = "y", where = { x = { at_least = "{low}" } } }]
+)";
+  const Figure figure = studies.figure(text);
+  CHECK(figure.plots[0].x.low == -1.5);
+  CHECK(figure.plots[0].lines[0].y == -1.5);
+  CHECK(figure.plots[0].series[0].where[0].at_least == -1.5);
+  std::string wrong = text;
+  wrong.replace(wrong.find("-1.5"), 4, "\"b\"");
+  CHECK_THROWS_WITH(studies.figure(wrong), Contains("low") && Contains("expected a number"));
+}
+
+TEST_CASE("an inset reaches over the rows that it shows, and a surface's points can be projected") {
+  const Studies studies;
+  const Figure figure = studies.figure(R"([[tables]]
+name = "t"
+file = "t.csv"
+columns = ["part", "x", "g", "y"]
+[[plots]]
+name = "p"
+x = {}
+y = {}
+inset = { x = {}, y = { low = 1, high = 2 }, place = [0.5, 0.1, 0.4, 0.4], where = { part = "probe" } }
+series = [{ table = "t", x = "x", y = "y", x_scale = 10 }]
+[[plots]]
+name = "surface"
+x = { low = 0, high = 4 }
+y = { low = 0, high = 1 }
+z = {}
+series = [
+  { model = { name = "pc-gc-surface", A = 1, B = 1, C = 1, D = 1 } },
+  { table = "t", x = "x", group = "g", y = "y", fixed_x = 4 },
+  { table = "t", x = "x", group = "g", y = "y", fixed_group = 1 },
+]
+)");
+  write_text(studies.path("out/study/t.csv"), "part,x,g,y\nloading,0,0.5,1\nprobe,2,0.5,2\nprobe,3,0.25,3\n");
+  const std::string folder = studies.path("out/study");
+  FigureData data(figure, folder);
+  const std::string script = plot_script(figure.plots[0], data, folder, "svg", "p.svg", 0);
+  CHECK_THAT(script, Contains("set multiplot") && Contains("set xrange [19.2:30.8]") && Contains("set xtics 5") &&
+                         Contains("set yrange [1:2]"));
+  const std::string surface = plot_script(figure.plots[1], data, folder, "svg", "p.svg", 0);
+  CHECK_THAT(surface, Contains("4 0.5 2 \n") || Contains("4 0.5 2\n"));
+  CHECK_THAT(surface, Contains("3 1 3"));
+}
+
+TEST_CASE("verdicts of meshes stand side by side, counted, and what a mesh did not state stays empty") {
+  const Studies studies;
+  write_text(studies.path("c/fig03/verdict.json"),
+             R"([{"statement": "a|b", "paper": "1", "ours": "2", "agrees": true, "note": ""},
+                {"statement": "s", "paper": "p", "ours": "o", "agrees": null, "note": ""}])");
+  write_text(studies.path("f/fig03/verdict.json"),
+             R"([{"statement": "a|b", "paper": "1", "ours": "3", "agrees": false, "note": ""}])");
+  write_text(studies.path("c/other/verdict.json"), "[]");
+  const std::string page = verdicts_of_meshes({{"coarse", studies.path("c")}, {"fine", studies.path("f")}});
+  CHECK_THAT(page, Contains("| study | coarse | fine |") && Contains("| [fig03](#fig03) | 1 / 0 / 1 | 0 / 1 / 0 |"));
+  CHECK_THAT(page, Contains("| a\\|b | 1 | agrees: 2 | **differs**: 3 |\n| s | p | not judged: o |  |"));
+  CHECK_THAT(page, !Contains("other"));
+  const std::string mesh = verdicts_of_mesh({"coarse", studies.path("c")});
+  CHECK_THAT(mesh, Contains("## fig03\n\n| statement | paper | here | verdict |") && Contains("## other") &&
+                       Contains("| expected | here |") && Contains("| s | p | o | not judged |"));
+  write_text(studies.path("c/fig03/verdict.json"), "{}");
+  CHECK_THROWS_WITH(verdicts_of_mesh({"coarse", studies.path("c")}), Contains("is no list of statements"));
+  CHECK_THROWS_WITH(verdicts_of_mesh({"coarse", studies.path("nothing")}), Contains("nothing: "));
+}
