@@ -84,6 +84,9 @@ while ((killed < kills)); do
   sleep "$(awk -v r="$RANDOM" -v t="$time" 'BEGIN { print t * 1e-9 * r / 32768 }')"
   if kill -KILL -- "-$group" 2>/dev/null; then killed=$((killed + 1)); fi
   wait "$group" 2>/dev/null || true
+  # Complete: it begins anew, with its packing.
+  [ ! -e study-killed/out/own/study/index.html ] ||
+    rm -rf study-killed/out/own/{parent,left,right} study-killed/out/own/study/index.html
 done
 (cd study-killed && "${study[@]}")
 alike() {
