@@ -35,7 +35,7 @@ NR == 1 || /^#/ || !($9 in wanted) { next }
     options = options sprintf(" numerics.mass_scaling_step=%.4g", 4e-7 * contact_radius[scene] / $5 * sqrt($8))
     options = options speed(0, 300)
   } else if ($8 != 1) options = options " numerics.mass_scaling=" $8
-  # Maugis' lambda = 2; pressing until the contact radius is 1.25 of that at the pull-off, then away (studies/fig04/case.awk).
+  # Maugis' lambda = 2; pressing until the contact radius is 1.25 of that at the pull-off, then away (studies/fig04/figure.toml).
   if (scene == "pull-off")
     options = options speed(1, 300) " bond.fracture_energy=0.1 bond.tensile_strength=438.48 bond.shear_strength=438.48" \
               " stages.0.displacement=-0.00146798 stages.1.displacement=0.00240583"
