@@ -73,10 +73,10 @@ struct BondParameters {
   double shear_strength = 0;   ///< MPa, in both tangential directions
   double fracture_energy = 0;  ///< G^c, N/mm, in every mode
   SofteningLaw softening = SofteningLaw::exponential;
-  std::optional<double> stiffness{};        ///< K, MPa/mm; none, and no factor: the contact's penalty
+  bool rebond_on_contact = false;    ///< a broken bond's point bonds anew when it has opened and closes again
+  bool normal_only = false;          ///< no resistance against sliding (for comparison with theories of adhesion)
+  std::optional<double> stiffness{}; ///< K, MPa/mm; none, and no factor: the contact's penalty
   std::optional<double> stiffness_factor{}; ///< K h/E
-  bool rebond_on_contact = false;           ///< a broken bond's point bonds anew when it has opened and closes again
-  bool normal_only = false; ///< no resistance against sliding (for comparison with theories of adhesion)
   bool operator==(const BondParameters&) const = default;
 };
 

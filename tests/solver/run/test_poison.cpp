@@ -24,7 +24,7 @@ constexpr int poisoned_grain = 5;
 const std::vector<std::string> stages_of_all_types = {
     "type = \"isotropic_compaction\"\nrelative_density = 0.75\nwall_speed = 20000\n",
     "type = \"isotropic_compaction\"\nmean_stress = 500\nwall_speed = 20000\n",
-    "type = \"isotropic_unloading\"\nmean_stress = 0\nwall_speed = 20000\n",
+    "type = \"isotropic_unloading\"\nmean_stress = 0\nwall_speed = 1000\n",
     "type = \"stress_cycles\"\nlowest_mean_stress = 1\nhighest_mean_stress = 500\ncycles = 1\nwall_speed = 20000\n",
     "type = \"unconfined_compression\"\naxial_strain = 0.3\nwall_speed = 20000\n",
     "type = \"die_compression\"\naxial_strain = 0.3\nwall_speed = 20000\n",
