@@ -1,11 +1,12 @@
-# How figures and studies are made from their TOML files (docs/figure-file.md): packing, mesh, runs, metrics, tables, fits,
-# plots, verdicts, page. Included by Makefile.studies; installed under that name, it makes users' own studies anywhere.
+# How figures and studies are made from their TOML files (docs/figure-file.md): packing, mesh, runs, metrics, tables,
+# fits, plots, verdicts, page. Included by Makefile.studies; installed under that name, it makes users' own studies
+# anywhere.
 #
 # What is made from what is said by `postproc depends`, whose output is included as compilers' dependencies are. One
 # principal output a rule, written as NAME.partial (or in a work folder) and renamed, so that nothing half written ever
-# stands under its own name. Folders and executables are order-only: a rebuilt program does not make results old (`clean`
-# does). Settings enter through stamps, files which are rewritten only when their content changes. Checkpoints are no
-# targets: make deletes targets when it is interrupted.
+# stands under its own name. Folders and executables are order-only: a rebuilt program does not make results old
+# (`clean` does). Settings enter through stamps, files which are rewritten only when their content changes. Checkpoints
+# are no targets: make deletes targets when it is interrupted.
 
 ifeq ($(filter oneshell else-if,$(.FEATURES)),)
   $(error GNU Make 3.82 or newer is needed)
@@ -34,7 +35,9 @@ help:
 	@for file in $(wildcard $(studies)/fig*/figure.toml); do \
 	  printf '  %-16s %s\n' "$$(basename "$$(dirname $$file)")" "$$(sed -n '1s/^title = "\(.*\)"$$/\1/p' $$file)"; done
 	@sed -n 's/^#: /  /p' $(MAKEFILE_LIST)
-	@echo && echo 'An interrupted run (Ctrl-C, SIGTERM, kill) goes on from its checkpoint with the same command. make -n shows all' && \
+	@echo && \
+	  echo 'An interrupted run (Ctrl-C, SIGTERM, kill) goes on from its checkpoint with the same command.' \
+	    'make -n shows all' && \
 	  echo 'commands. Results land in out/MESH/.'
 
 # ------------------------------------------------------------------------------------------------ settings
@@ -64,8 +67,8 @@ BIN ?= $(if $(wildcard $(toolkit)/../../bin/postproc),$(toolkit)/../../bin,build
 ELEMENT ?= tet4-anp
 $(call allowed,ELEMENT,tet4 tet4-anp tet4-patch)
 
-#: SURFACE=TYPE     of their contact: facets (default, the paper's) or smooth (nearer to round grains: stresses at a given
-#:                  density are an eighth lower at 0.03 mm, docs/speed-against-error)
+#: SURFACE=TYPE     of their contact: facets (default, the paper's) or smooth (nearer to round grains: stresses at a
+#:                  given density are an eighth lower at 0.03 mm, docs/speed-against-error)
 SURFACE ?= facets
 $(call allowed,SURFACE,facets smooth)
 
@@ -90,7 +93,8 @@ endif
 # A study with a powder of its own has its own packing; all others share that of the figures.
 STUDY ?=
 study_name := $(patsubst %.toml,%,$(notdir $(patsubst %/figure.toml,%.toml,$(STUDY))))
-of_powder := $(if $(STUDY),$(shell $(BIN)/postproc powder '$(STUDY)' --programmes $(studies)/branches | sed -n '1s/^# element_size = //p'))
+powder_of_study = $(BIN)/postproc powder '$(STUDY)' --programmes $(studies)/branches
+of_powder := $(if $(STUDY),$(shell $(powder_of_study) | sed -n '1s/^# element_size = //p'))
 ifneq ($(and $(filter study,$(MAKECMDGOALS)),$(if $(wildcard $(STUDY)),,missing)),)
   $(error STUDY=$(STUDY): expected the file of a study, e.g. make -f $(makefile) study STUDY=my.toml)
 endif
@@ -104,7 +108,8 @@ ifneq ($(of_powder),)
 else
   out := out/$(MESH)$(SEED:%=-seed%)
   packings := out/packings/$(packing)$(SEED:%=-seed%)
-  examples := $(or $(patsubst $(toolkit)/../%/mcc_ph102.toml,%,$(wildcard $(toolkit)/../pack-gen/examples/mcc_ph102.toml)),$(studies)/packings)
+  examples := $(patsubst $(toolkit)/../%/mcc_ph102.toml,%,$(wildcard $(toolkit)/../pack-gen/examples/mcc_ph102.toml))
+  examples := $(or $(examples),$(studies)/packings)
   description := $(examples)/$(if $(filter smoke,$(packing)),mcc_ph102_smoke,mcc_ph102).toml
   size := $(size_$(MESH))
 endif
@@ -131,9 +136,9 @@ $(BIN)/pack-gen $(BIN)/mpfem $(BIN)/postproc:
 
 # ------------------------------------------------------------------------------------------------ packings
 ifneq ($(of_powder),)
-content_of_description := $(firstword $(shell $(BIN)/postproc powder '$(STUDY)' --programmes $(studies)/branches | sha256sum))
+content_of_description := $(firstword $(shell $(powder_of_study) | sha256sum))
 $(description): $(packings)/spheres.settings | $(BIN)/postproc
-	$(BIN)/postproc powder '$(STUDY)' --programmes $(studies)/branches -o $@
+	$(powder_of_study) -o $@
 $(packings)/spheres.h5: $(description)
 else
 content_of_description := $(call content_of,$(description))
@@ -158,20 +163,30 @@ goals := $(or $(MAKECMDGOALS),help)
 ifneq ($(filter-out help clean clean-figures,$(goals)),)
 # postproc is no prerequisite: make -B -n, by which times.sh lists runs, would carry out its rule.
 $(declared): FORCE
-	@[ -x $(BIN)/postproc ] || { echo 'Makefile.studies: $(BIN)/postproc is not built; ./bootstrap build builds it' >&2; exit 1; }
+	@[ -x $(BIN)/postproc ] || { \
+	  echo 'Makefile.studies: $(BIN)/postproc is not built; ./bootstrap build builds it' >&2; exit 1; }
 	@mkdir -p $(@D)
-	@$(BIN)/postproc depends $(declared_sources) $(of_mesh) --packing $(mesh) --description $(description) --set element.type=$(ELEMENT) --set contact.surface=$(SURFACE) -o $@
+	@$(BIN)/postproc depends $(declared_sources) $(of_mesh) --packing $(mesh) --description $(description) \
+	  --set element.type=$(ELEMENT) --set contact.surface=$(SURFACE) -o $@
 include $(declared)
 endif
 
-# A run works in work/ and is moved out when it is complete; a rerun goes on from its own checkpoints, unless an input is
-# newer than all that the run has made.
+# $(call say_why,LOG): for a run that failed, the end of what it said; 5 is the exit code of an interrupted one.
+say_why = { code=$$?; tail -n 3 $(1) >&2; \
+  [ $$code != 5 ] || echo 'The same make command goes on where this run stopped.' >&2; exit $$code; }
+
+# A run works in work/ and is moved out when it is complete; a rerun goes on from its own checkpoints, unless an input
+# is newer than all that the run has made.
+made_by_run = $(addprefix $(@D)/work/,run.checkpoint.h5 run.checkpoint.previous.h5 run.h5) $@
+begin_anew_if_old = for input in $(filter-out FORCE,$^); do \
+  for own in $(made_by_run); do [ ! $$own -nt $$input ] || continue 2; done; rm -f $(@D)/work/run.*h5*; done
+need_checkpoint = [ -e $(1) ] || { rm -f $@; echo '$(1) is missing; the same make command makes it again' >&2; exit 1; }
 $(declared_runs): | $(BIN)/mpfem
 	@mkdir -p $(@D)/work
-	@$(if $(filter --from,$(options)),[ -e $(word 2,$(options)) ] || { rm -f $@; echo '$(word 2,$(options)) is missing; the same make command makes it again' >&2; exit 1; })
-	for input in $(filter-out FORCE,$^); do for own in $(@D)/work/run.checkpoint.h5 $(@D)/work/run.checkpoint.previous.h5 $(@D)/work/run.h5 $@; do [ ! $$own -nt $$input ] || continue 2; done; rm -f $(@D)/work/run.*h5*; done
+	@$(if $(filter --from,$(options)),$(call need_checkpoint,$(word 2,$(options))))
+	$(begin_anew_if_old)
 	$(RUN) $(BIN)/mpfem run $(programme) -o $(@D)/work/run.h5 $(options) --resume $(threads) > $(@D)/work/log.txt 2>&1 || \
-	  { code=$$?; tail -n 3 $(@D)/work/log.txt >&2; [ $$code != 5 ] || echo 'The same make command goes on where this run stopped.' >&2; exit $$code; }
+	  $(call say_why,$(@D)/work/log.txt)
 	mv $(@D)/work/run.h5 $@
 
 $(declared_packings): | $(BIN)/pack-gen
@@ -183,11 +198,14 @@ $(declared_runs:.h5=.settings) $(declared_packings:.h5=.settings) $(metric_setti
 	printf '%s\n' '$(settings)' > $@.partial
 	mv $@.partial $@
 
-# What cannot be measured leaves "value": null, so that the other runs of a figure still make it; the reason stands beside.
+# What cannot be measured leaves "value": null, so that the other runs of a figure still make it; the reason stands
+# beside.
+leave_null = { code=$$?; cat $*.refused >&2; [ $$code = 2 ] || exit $$code; \
+  printf '{"value": null, "notes": ["see %s"]}\n' $*.refused > $*.new.json; }
 $(metric_files): %.json: | $(BIN)/postproc
 	@mkdir -p $(@D)
 	$(BIN)/$(measure) --quiet -o $*.new.json 2> $*.refused || \
-	  { code=$$?; cat $*.refused >&2; [ $$code = 2 ] || exit $$code; printf '{"value": null, "notes": ["see %s"]}\n' $*.refused > $*.new.json; }
+	  $(leave_null)
 	@[ -s $*.refused ] || rm -f $*.refused
 	mv $*.new.json $@
 
@@ -204,8 +222,9 @@ $(table_files): | $(BIN)/postproc
 $(fit_files): | $(BIN)/postproc
 	$(BIN)/postproc fits $(figure) $(of_mesh) -o $@
 
+how_many_packings = $(if $(filter $@,$(spread_plots)),$(if $(SEEDS),--packings $(words own $(SEEDS))))
 $(plot_files): | $(BIN)/postproc
-	$(BIN)/postproc plot $(figure) $(basename $(@F)) $(of_mesh) $(if $(filter $@,$(spread_plots)),$(if $(SEEDS),--packings $(words own $(SEEDS)))) -o $@
+	$(BIN)/postproc plot $(figure) $(basename $(@F)) $(of_mesh) $(how_many_packings) -o $@
 
 $(picture_files): | $(BIN)/postproc
 	@mkdir -p $(@D)
@@ -221,16 +240,19 @@ $(verdict_files): | $(BIN)/postproc
 	@mkdir -p $(@D)
 	$(BIN)/postproc verdict $(figure) $(of_mesh) -o $@
 
-# ------------------------------------------------------------------------------------------------ SEEDS: several packings
+# ---------------------------------------------------------------------------------------------- SEEDS: several packings
 $(eval $(call stamp,$(out)/packings.settings,packings $(SEEDS)))
 $(spread_plots): $(out)/packings.settings
 $(spread_files): $(out)/%.spread.csv: $(out)/%.csv $(out)/packings.settings $(foreach s,$(SEEDS),$(out)-seed$(s)/%.csv)
 	$(BIN)/postproc table $(figure) $(patsubst %.spread,%,$(basename $(@F))) $(of_mesh) --spread $(filter %.csv,$^) -o $@
 
-# Only of what is requested, since the runs of a packing take long; one make for all tables of a seed, since two would make
-# the same runs. Its tables are newer only if it made them anew.
-wanted_figures := $(if $(SEEDS),$(if $(filter all report smoke study,$(goals)),$(declared_figures),$(filter $(declared_figures),$(goals))))
-seed_tables = $(patsubst $(out)/%.spread.csv,$(out)-seed$(1)/%.csv,$(filter $(foreach f,$(wanted_figures),$(out)/$(f)/%),$(spread_files)))
+# Only of what is requested, since the runs of a packing take long; one make for all tables of a seed, since two would
+# make the same runs. Its tables are newer only if it made them anew.
+requested_figures := $(filter $(declared_figures),$(goals))
+requested_figures := $(if $(filter all report smoke study,$(goals)),$(declared_figures),$(requested_figures))
+wanted_figures := $(if $(SEEDS),$(requested_figures))
+wanted_spreads = $(filter $(foreach f,$(wanted_figures),$(out)/$(f)/%),$(spread_files))
+seed_tables = $(patsubst $(out)/%.spread.csv,$(out)-seed$(1)/%.csv,$(wanted_spreads))
 seeds_wanted := $(if $(wanted_figures),$(SEEDS))
 .PHONY: $(seeds_wanted:%=seed-%)
 $(seeds_wanted:%=seed-%): seed-%:
