@@ -9,9 +9,10 @@
 
 namespace mpfem {
 
-/// JSON of grains, relative_density, smallest_gap_mm (between spheres and to the walls) and, where they are given, the mesh's
-/// nodes, tets, tets_per_grain, smallest_quality, smallest_facet_gap_mm …, and size_distance, the largest distance between
-/// the cumulative curve of the spheres (at each sphere's middle, (i + 1/2)/n) and that of the description.
+/// JSON of grains, relative_density, smallest_gap_mm (between spheres and to the walls) and, where they are given, the
+/// mesh's nodes, tets, tets_per_grain, smallest_quality, smallest_facet_gap_mm …, and size_distance, the largest
+/// distance between the cumulative curve of the spheres (at each sphere's middle, (i + 1/2)/n) and that of the
+/// description.
 std::string quality_json(const SpherePacking& packing, const std::optional<MeshReport>& mesh,
                          const PackingDescription* description);
 

@@ -8,8 +8,8 @@
 
 namespace mpfem {
 
-/// Mean stress (MPa) at each of these relative densities (ascending), between the rows beside each; nothing for one that
-/// the run has not passed. A run that ends a rounding (1e-6) below a density has reached it.
+/// Mean stress (MPa) at each of these relative densities (ascending), between the rows beside each; nothing for one
+/// that the run has not passed. A run that ends a rounding (1e-6) below a density has reached it.
 std::vector<std::optional<double>> stress_at_densities(const std::vector<double>& density,
                                                        const std::vector<double>& stress,
                                                        const std::vector<double>& wanted);
@@ -21,8 +21,8 @@ Measurement measure_stress_at_densities(const schema::FileReader& file, const st
 /// CSV "name,relative_density [1],mean_stress [MPa]", an empty cell for a density that was not passed.
 std::string stress_at_densities_csv(const schema::FileReader& file, const std::vector<double>& wanted);
 
-/// Over the rows from a relative density on: largest kinetic over internal energy, largest residual of the energy balance
-/// over external work, largest penetration over the element size. Throws InputError where no row is as dense.
+/// Over the rows from a relative density on: largest kinetic over internal energy, largest residual of the energy
+/// balance over external work, largest penetration over the element size. Throws InputError where no row is as dense.
 Measurement measure_compaction_quality(const schema::FileReader& file, double from_density);
 
 } // namespace mpfem

@@ -13,9 +13,9 @@ struct ContactTable {
   double relative_density = 0, mean_stress = 0; ///< 1, MPa
   double contact_area_ratio = 0;  ///< area in contact over total surface, at the history row nearest in time
   double coordination_number = 0; ///< 2 pairs / grains
-  std::vector<Column>
-      columns; ///< a row per pair: first, second, force_x, _y, _z, force, area, pressure; with bonds also bonded_area, damage
-               ///< (-1: never bonded), bond_energy, damage_dissipation
+  std::vector<Column> columns;    ///< a row per pair: first, second, force_x, _y, _z, force, area, pressure; with bonds
+                                  ///< also bonded_area, damage
+                                  ///< (-1: never bonded), bond_energy, damage_dissipation
 };
 
 /// Throws InputError where the run has no such snapshot (numbered as in snapshot_name).

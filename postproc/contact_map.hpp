@@ -35,8 +35,8 @@ struct ContactMap {
   std::vector<ContactBond> bonds;                 ///< of both sides, broken ones too, in the file's order
 };
 
-/// The contact of two grains, named in either order, at a snapshot (numbered as in snapshot_name). Throws InputError where
-/// there is no such snapshot, where it has no bonds, and where these are not two grains in contact.
+/// The contact of two grains, named in either order, at a snapshot (numbered as in snapshot_name). Throws InputError
+/// where there is no such snapshot, where it has no bonds, and where these are not two grains in contact.
 ContactMap contact_map(const schema::FileReader& file, int snapshot, std::pair<int, int> grains);
 
 nlohmann::ordered_json to_json(const ContactMap& map);

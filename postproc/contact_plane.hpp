@@ -18,12 +18,12 @@ struct ContactPlane {
   enum class NormalFrom { force, points, centres } from = NormalFrom::centres; ///< what gave the normal
 };
 
-/// The plane through the area centroid of the points. Its normal is the direction of the pair's force (N, either sense).
-/// Where that is zero, or lies nearer to the plane of the points than to its normal (a sheared bond), it is the principal
-/// axis of the points with the smallest area-weighted second moment; where they do not span a plane either, the direction
-/// `across` from the centre of the first grain to that of the second. u is the projection of the coordinate axis that
-/// follows, in cyclic order, the one nearest to the normal (as in sections: y for a normal along x); v = normal x u.
-/// Without points the origin is zero.
+/// The plane through the area centroid of the points. Its normal is the direction of the pair's force (N, either
+/// sense). Where that is zero, or lies nearer to the plane of the points than to its normal (a sheared bond), it is the
+/// principal axis of the points with the smallest area-weighted second moment; where they do not span a plane either,
+/// the direction `across` from the centre of the first grain to that of the second. u is the projection of the
+/// coordinate axis that follows, in cyclic order, the one nearest to the normal (as in sections: y for a normal along
+/// x); v = normal x u. Without points the origin is zero.
 ContactPlane contact_plane(const std::vector<AreaPoint>& points, const std::array<double, 3>& force,
                            const std::array<double, 3>& across);
 

@@ -9,8 +9,9 @@
 
 namespace mpfem {
 
-/// Columns of a CSV file. The first line that is neither empty nor a comment (#) names them, "name [unit]" with the unit
-/// where there is one, quotes allowed; every other such line has a number in each. Throws InputError with file and line.
+/// Columns of a CSV file. The first line that is neither empty nor a comment (#) names them, "name [unit]" with the
+/// unit where there is one, quotes allowed; every other such line has a number in each. Throws InputError with file and
+/// line.
 std::vector<Column> read_csv(const std::string& path);
 std::vector<Column> read_csv(CsvReader reader);
 

@@ -17,10 +17,10 @@ struct BoundarySegment {
   std::int32_t grain = 0;
 };
 
-/// The boundaries of all grains that the plane cuts, with the damage of their nodes (the node field "damage") interpolated
-/// along the cut edges. Next to a node that was never bonded, a bonded node's damage holds as far as half way, as its
-/// tributary area does; a segment of which one end is bonded is cut in two there. Throws InputError where the snapshot
-/// has no damage.
+/// The boundaries of all grains that the plane cuts, with the damage of their nodes (the node field "damage")
+/// interpolated along the cut edges. Next to a node that was never bonded, a bonded node's damage holds as far as half
+/// way, as its tributary area does; a segment of which one end is bonded is cut in two there. Throws InputError where
+/// the snapshot has no damage.
 std::vector<BoundarySegment> cut_boundaries(const Snapshot& snapshot, const CutPlane& plane);
 
 /// The segments as CSV: grain, both ends, length, damage at both ends.

@@ -16,8 +16,8 @@ namespace mpfem {
 
 namespace {
 
-/// What none of n units has, fewer than 3 / n of all have, with 95 % confidence (Hanley and Lippman-Hand, J. Am. Med. Assoc. 249
-/// (1983) 1743).
+/// What none of n units has, fewer than 3 / n of all have, with 95 % confidence (Hanley and Lippman-Hand, J. Am. Med.
+/// Assoc. 249 (1983) 1743).
 constexpr double rule_of_three = 3;
 
 /// Sums over each pair's bonds of area times what `weight` makes of a bond.

@@ -22,8 +22,9 @@ struct BondSample {
 /// Percentiles that are told, in per cent.
 constexpr std::array<int, 5> damage_percentiles = {10, 25, 50, 75, 90};
 
-/// Shares and mean are of the area of all bonds ever formed. Half widths are of 95 % intervals, the pairs of grains being the
-/// independent units (bonds of one contact break together): they tell what other packings of so many contacts would differ by.
+/// Shares and mean are of the area of all bonds ever formed. Half widths are of 95 % intervals, the pairs of grains
+/// being the independent units (bonds of one contact break together): they tell what other packings of so many contacts
+/// would differ by.
 struct DamageStatistics {
   std::size_t bonds = 0, pairs = 0;
   double area = 0;           ///< mm^2, both sides of every contact
@@ -35,19 +36,20 @@ struct DamageStatistics {
   std::array<Ratio, damage_percentiles.size()> percentile; ///< area-weighted, see damage_percentile
 };
 
-/// Needs bonds whose areas are positive. Means and shares by ratio_of_sums over the n pairs, a share of 0 or 1 with 3 / n; the
-/// half width of a percentile is that of the share below it, read off the distribution on both sides (Woodruff, J. Am. Stat.
-/// Assoc. 47 (1952) 635).
+/// Needs bonds whose areas are positive. Means and shares by ratio_of_sums over the n pairs, a share of 0 or 1 with 3 /
+/// n; the half width of a percentile is that of the share below it, read off the distribution on both sides (Woodruff,
+/// J. Am. Stat. Assoc. 47 (1952) 635).
 DamageStatistics damage_statistics(std::span<const BondSample> bonds);
 
 /// The least damage that so large a share of the area does not exceed. `distribution` as of damage_distribution.
 double damage_percentile(const std::vector<Column>& distribution, double share);
 
-/// Area-weighted cumulative distribution: columns `damage`, each value once, ascending, and `area_share`, the share of the
-/// area whose damage is not larger.
+/// Area-weighted cumulative distribution: columns `damage`, each value once, ascending, and `area_share`, the share of
+/// the area whose damage is not larger.
 std::vector<Column> damage_distribution(std::span<const BondSample> bonds);
 
-/// Bonds of a snapshot (numbered as in snapshot_name). Throws InputError where there is no such snapshot or it has no bonds.
+/// Bonds of a snapshot (numbered as in snapshot_name). Throws InputError where there is no such snapshot or it has no
+/// bonds.
 std::vector<BondSample> read_bonds(const schema::FileReader& file, int snapshot);
 
 /// damage_statistics of a snapshot; the value is the mean.

@@ -20,11 +20,12 @@ struct ElasticRecovery {
   std::size_t densest_row = 0, extrapolated_from_row = 0; ///< of the spans
 };
 
-/// Eq. 9 of Ku, Zhao, Mollon and Zhao. `density` and `mean_stress` (MPa) hold loading and unloading, row by row, and end
-/// where the unloading ends. A line of density over stress through the last rows (those with at most three times the
-/// residual stress, five at least) gives the recovery at zero stress. The uncertainty is what the rest of the stress adds by
-/// that line, or by one over p^(2/3) where that is more (contacts that open as in Hertz's theory), together with half of
-/// the 95 % interval that the better of both leaves to the density at zero stress, and what the last row is off it. Throws InputError naming `path` where nothing is unloaded.
+/// Eq. 9 of Ku, Zhao, Mollon and Zhao. `density` and `mean_stress` (MPa) hold loading and unloading, row by row, and
+/// end where the unloading ends. A line of density over stress through the last rows (those with at most three times
+/// the residual stress, five at least) gives the recovery at zero stress. The uncertainty is what the rest of the
+/// stress adds by that line, or by one over p^(2/3) where that is more (contacts that open as in Hertz's theory),
+/// together with half of the 95 % interval that the better of both leaves to the density at zero stress, and what the
+/// last row is off it. Throws InputError naming `path` where nothing is unloaded.
 ElasticRecovery elastic_recovery(std::span<const double> density, std::span<const double> mean_stress,
                                  const std::string& path);
 

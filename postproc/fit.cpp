@@ -231,8 +231,8 @@ void fit_bilinear(Fit& result, const FitPoints& points) {
   const auto solution = solve(kink_at(best));
   if (!solution) undetermined(points, result.model, "x hardly varies");
   const auto freedom = static_cast<std::size_t>(x.size()) - 4;
-  // The kink's interval is that of its profile: kinks whose squares are not larger than chance allows (Student's t). The
-  // least squares are kept off 0, where points lie on two lines to rounding.
+  // The kink's interval is that of its profile: kinks whose squares are not larger than chance allows (Student's t).
+  // The least squares are kept off 0, where points lie on two lines to rounding.
   const double t = student_t_95(freedom);
   const double least = std::max(solution->squares, 1e-24 * y.squaredNorm());
   const double limit = least * (1 + t * t / static_cast<double>(freedom));

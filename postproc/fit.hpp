@@ -49,8 +49,8 @@ std::string fit_help();
 ///   ryshkewitch-duckworth y = sigma_0 exp(-B P) (Eq. 11)
 ///   rumpf                 y = c (1 - P) / P, c = F / d^2 (Eq. 12)
 ///   pc-gc-surface         y = A - B exp(-x / C) exp(-z / D), x = p_c, z = G^c (Eq. 13 with the sign of p_c mended)
-/// Models that are not linear in their coefficients are searched on a grid of those that enter otherwise, the rest solved
-/// linearly, then refined by Levenberg and Marquardt from the best grid points: no start values are needed.
+/// Models that are not linear in their coefficients are searched on a grid of those that enter otherwise, the rest
+/// solved linearly, then refined by Levenberg and Marquardt from the best grid points: no start values are needed.
 /// Throws InputError: unknown model, too few points, values outside a model's domain, points that do not determine a
 /// coefficient.
 Fit fit(const std::string& model, const FitPoints& points, bool x_is_relative_density = false);

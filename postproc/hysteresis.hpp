@@ -16,14 +16,14 @@ struct CycleRows {
   bool whole = true; ///< false: a first loading from a stress between the cycles', and the unloading after it
 };
 
-/// Cycles of a curve of the mean stress: turning points are those from which it goes back by more than a fifth of its whole
-/// range, so that noise makes none. The first row is a lowest point where the stress rises from it. An end that makes no
-/// whole cycle is left out; a first loading that rises by less than four fifths of what the stress falls after it is in the
-/// list, as not whole.
+/// Cycles of a curve of the mean stress: turning points are those from which it goes back by more than a fifth of its
+/// whole range, so that noise makes none. The first row is a lowest point where the stress rises from it. An end that
+/// makes no whole cycle is left out; a first loading that rises by less than four fifths of what the stress falls after
+/// it is in the list, as not whole.
 std::vector<CycleRows> find_cycles(std::span<const double> mean_stress);
 
-/// Area of the loop, integral of (p - p_0) over the volumetric strain (trapezoids), MPa = mJ/mm^3, where p_0 is the mean of
-/// both lowest stresses: a drift of the strain then counts for nothing where the loop is not closed.
+/// Area of the loop, integral of (p - p_0) over the volumetric strain (trapezoids), MPa = mJ/mm^3, where p_0 is the
+/// mean of both lowest stresses: a drift of the strain then counts for nothing where the loop is not closed.
 double loop_area(std::span<const double> mean_stress, std::span<const double> volumetric_strain, CycleRows cycle);
 
 struct CycleResult {
@@ -46,15 +46,16 @@ struct Hysteresis {
   double drift_at_low_uncertainty = 0, drift_at_high_uncertainty = 0; ///< from those of the first and the last density
 };
 
-/// Curves row by row: MPa, 1 (compression positive), 1, mJ, mJ, mJ. Densities are read at common stresses because turning
-/// points overshoot by varying amounts, which would pass for a drift. Throws InputError naming `path` without a whole cycle.
+/// Curves row by row: MPa, 1 (compression positive), 1, mJ, mJ, mJ. Densities are read at common stresses because
+/// turning points overshoot by varying amounts, which would pass for a drift. Throws InputError naming `path` without a
+/// whole cycle.
 Hysteresis hysteresis(std::span<const double> mean_stress, std::span<const double> volumetric_strain,
                       std::span<const double> relative_density, std::span<const double> plastic_dissipation,
                       std::span<const double> damage_dissipation, std::span<const double> energy_residual,
                       const std::string& path);
 
-/// A row a cycle: its number from 1 (0: a first loading that is not whole), rows of the history (`first_row` is that of the
-/// curves' first), stresses, area, densities, dissipation, uncertainties.
+/// A row a cycle: its number from 1 (0: a first loading that is not whole), rows of the history (`first_row` is that of
+/// the curves' first), stresses, area, densities, dissipation, uncertainties.
 std::vector<Column> cycle_table(const Hysteresis& hysteresis, std::size_t first_row);
 
 struct HysteresisMeasurement {

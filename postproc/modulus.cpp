@@ -101,8 +101,8 @@ Choice window_by_rule(const StageCurve& c, const ModulusRule& rule, std::string&
     }
     return {};
   };
-  // A toe, where the slope still grows over the first fifth of the rise, is no elastic response of the whole sample yet:
-  // the window begins at the first row from which it spans as much.
+  // A toe, where the slope still grows over the first fifth of the rise, is no elastic response of the whole sample
+  // yet: the window begins at the first row from which it spans as much.
   const double fifth = 0.2 * (smooth[peak] - smooth[begin]);
   std::size_t toe_end = begin + shortest_window - 1;
   while (toe_end < end && smooth[toe_end] < smooth[begin] + fifth) ++toe_end;

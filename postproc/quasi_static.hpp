@@ -9,10 +9,10 @@
 
 namespace mpfem {
 
-/// Largest kinetic over internal energy over the rows of a stage in which the axial stress exceeds a fifth of its largest
-/// value and, where it rises, up to that value; over the same rows the mean difference of both z walls' stress over the
-/// mean axial stress; over the whole stage the largest change of the energy residual since the run began, over the
-/// largest work since then.
+/// Largest kinetic over internal energy over the rows of a stage in which the axial stress exceeds a fifth of its
+/// largest value and, where it rises, up to that value; over the same rows the mean difference of both z walls' stress
+/// over the mean axial stress; over the whole stage the largest change of the energy residual since the run began, over
+/// the largest work since then.
 Measurement quasi_static(const HistoryTable& history, const StageRows& stage);
 
 /// The same of a file, for `number` as in choose_stage (the last without). Throws InputError.

@@ -36,8 +36,8 @@ struct Lines {
   double band_pixels = 5;     ///< width of a band
 };
 
-/// Fills the polygons with their tets' colours (one a tet) and draws lines over them. `pixels` along the longer side; smoothed by
-/// drawing three times as fine.
+/// Fills the polygons with their tets' colours (one a tet) and draws lines over them. `pixels` along the longer side;
+/// smoothed by drawing three times as fine.
 Raster draw_section(const std::vector<SectionPolygon>& polygons, const std::vector<Colour>& tet_colour,
                     const std::vector<std::int32_t>& tet_grain, const View& view, int pixels, const Lines& lines = {});
 

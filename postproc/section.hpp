@@ -14,8 +14,8 @@ struct CutPlane {
   double position = 0;
 };
 
-/// A triangle or quadrilateral in the plane, in the plane's own coordinates: the two other axes in cyclic order (for z: x
-/// and y).
+/// A triangle or quadrilateral in the plane, in the plane's own coordinates: the two other axes in cyclic order (for z:
+/// x and y).
 struct SectionPolygon {
   int corners = 0;
   std::array<std::array<double, 2>, 4> corner{}; ///< mm, convex, either sense

@@ -23,8 +23,9 @@ struct PictureRequest {
 };
 
 /// The field "damage" is drawn along the grains' boundaries, on a scale from 0 to 1 where no range is given: a coloured
-/// line inside either grain where its nodes have been bonded, a thin grey one elsewhere. Writes the PNG through gnuplot. Throws InputError where the plane misses the grains or the field is unknown,
-/// SimulationError where gnuplot is missing or fails, StorageError.
+/// line inside either grain where its nodes have been bonded, a thin grey one elsewhere. Writes the PNG through
+/// gnuplot. Throws InputError where the plane misses the grains or the field is unknown, SimulationError where gnuplot
+/// is missing or fails, StorageError.
 void write_section_picture(const std::string& path, const Snapshot& snapshot, const PictureRequest& request);
 
 /// The section's polygons as CSV: tet, grain, value, area, centroid.

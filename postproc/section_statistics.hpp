@@ -15,8 +15,8 @@ struct SectionStress {
 /// Throws InputError where there is no area.
 SectionStress section_stress(std::vector<std::pair<double, double>> value_and_area, double threshold);
 
-/// Bonded length (mm), mean damage of it and its share that is at least `threshold`; segments that were never bonded are
-/// left out.
+/// Bonded length (mm), mean damage of it and its share that is at least `threshold`; segments that were never bonded
+/// are left out.
 struct SectionDamage {
   double bonded_length = 0, mean = 0, share_above = 0;
 };

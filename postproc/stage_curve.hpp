@@ -29,8 +29,8 @@ struct StageCurve {
 };
 
 /// A stage is unconfined where the median over its rows (its first left out) of the lateral stress is below 1 % of the
-/// largest axial stress. Lateral walls that are gone no longer tell the sample's cross-section: then the axial stress is
-/// the walls' force over the face at the stage's beginning, else the mean wall stress, over the face of the row.
+/// largest axial stress. Lateral walls that are gone no longer tell the sample's cross-section: then the axial stress
+/// is the walls' force over the face at the stage's beginning, else the mean wall stress, over the face of the row.
 /// Throws InputError.
 StageCurve stage_curve(const HistoryTable& history, const StageRows& rows, const std::string& path);
 

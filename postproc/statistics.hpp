@@ -28,13 +28,13 @@ Line least_squares_line(std::span<const double> x, std::span<const double> y);
 /// follow each other (ringing) by sqrt((1 + r) / (1 - r)) with their lag-1 autocorrelation r. Needs two different x.
 Line theil_sen_line(std::span<const double> x, std::span<const double> y);
 
-/// Values at each row of parabolas that are fitted around it, to `half_rows` rows on either side (near the ends to as many
-/// rows, none beyond the end). A parabola, unlike a running mean, does not cut off peaks.
-/// Needs 2 * half_rows + 1 values or more, half_rows >= 1.
+/// Values at each row of parabolas that are fitted around it, to `half_rows` rows on either side (near the ends to as
+/// many rows, none beyond the end). A parabola, unlike a running mean, does not cut off peaks. Needs 2 * half_rows + 1
+/// values or more, half_rows >= 1.
 std::vector<double> local_parabolas(std::span<const double> y, std::size_t half_rows);
 
-/// Share of the rows' noise (variance, independent from row to row) that is left in a row of local_parabolas away from the
-/// ends: a third for half_rows = 3 (Savitzky and Golay 1964).
+/// Share of the rows' noise (variance, independent from row to row) that is left in a row of local_parabolas away from
+/// the ends: a third for half_rows = 3 (Savitzky and Golay 1964).
 double noise_left_by_parabolas(std::size_t half_rows);
 
 /// A parabola, in x taken from `centre` and over `scale` so that its coefficients are of one order.
@@ -58,13 +58,13 @@ struct Ratio {
   double half_width = 0; ///< half of the 95 % interval; 0 for one unit, which says nothing of others
 };
 
-/// sum(y) / sum(x) over units that are independent of each other (y and x of one unit need not be): the ratio estimator of
-/// cluster samples. Variance by linearisation, n / (n - 1) sum((y - R x)^2) / sum(x)^2 (Cochran, Sampling Techniques, 3rd ed.
-/// 1977, chapter 6), interval by Student's t with n - 1 degrees of freedom. Needs sum(x) > 0.
+/// sum(y) / sum(x) over units that are independent of each other (y and x of one unit need not be): the ratio estimator
+/// of cluster samples. Variance by linearisation, n / (n - 1) sum((y - R x)^2) / sum(x)^2 (Cochran, Sampling
+/// Techniques, 3rd ed. 1977, chapter 6), interval by Student's t with n - 1 degrees of freedom. Needs sum(x) > 0.
 Ratio ratio_of_sums(std::span<const double> y, std::span<const double> x);
 
-/// Standard deviation (n - 1) and half of its 95 % interval from its variance (m_4 - s^4) / (4 n s^2), m_4 the fourth central
-/// moment: no normal distribution is supposed. Both 0 for fewer than two values.
+/// Standard deviation (n - 1) and half of its 95 % interval from its variance (m_4 - s^4) / (4 n s^2), m_4 the fourth
+/// central moment: no normal distribution is supposed. Both 0 for fewer than two values.
 Ratio standard_deviation(std::span<const double> values);
 
 double median(std::vector<double> values); ///< of at least one value

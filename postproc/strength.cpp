@@ -23,7 +23,8 @@ std::size_t largest_row(const std::vector<double>& values) {
   return static_cast<std::size_t>(std::max_element(values.begin(), values.end()) - values.begin());
 }
 
-/// Rows to either side of parabolas twice as wide as the smoothing's: they show ringing whose period the narrow ones follow.
+/// Rows to either side of parabolas twice as wide as the smoothing's: they show ringing whose period the narrow ones
+/// follow.
 std::size_t wide_half_rows(std::size_t rows) {
   const std::size_t half = smoothing_half_rows(rows);
   return rows > 4 * half ? 2 * half : half;
@@ -60,8 +61,8 @@ double half_change(const std::vector<double>& column, const std::vector<double>&
          std::abs(at_strain(strain, at + reach, last).of(column) - at_strain(strain, at - reach, last).of(column));
 }
 
-/// How far from the peak the smoothed curve may have its true peak: the farther end of the strains about it where the curve is
-/// lower by no more than what ringing makes of the difference of two smoothed rows; a row at least.
+/// How far from the peak the smoothed curve may have its true peak: the farther end of the strains about it where the
+/// curve is lower by no more than what ringing makes of the difference of two smoothed rows; a row at least.
 double strain_uncertainty_of_peak(const std::vector<double>& strain, const std::vector<double>& smooth,
                                   std::size_t peak, double ringing_of_row) {
   const double left = noise_left_by_parabolas(smoothing_half_rows(strain.size()));
@@ -79,8 +80,8 @@ struct Tangent {
   double onset = 0;           ///< the strain where it meets the level at the stage's beginning
 };
 
-/// The steepest one up to the peak, over twice `reach` of strain, whatever rows fall there: while walls start, rows lie so close
-/// that the slope between neighbours is noise over nothing.
+/// The steepest one up to the peak, over twice `reach` of strain, whatever rows fall there: while walls start, rows lie
+/// so close that the slope between neighbours is noise over nothing.
 std::optional<Tangent> steepest_tangent(const StageCurve& c, const std::vector<double>& damage, std::size_t peak,
                                         double reach) {
   Tangent steepest;
@@ -115,7 +116,8 @@ std::optional<DamageOnset> damage_onset(const StageCurve& c, const std::vector<d
   const double lever = (c.axial_strain[tangent->row] - tangent->onset) / tangent->span;
   const double noise =
       ringing(c.damage_dissipation, tangent->row) / tangent->slope * std::sqrt(1 + left + 2 * left * lever * lever);
-  // The steepest of many noisy slopes is too steep, that over more rows less so: a bias, which noise does not make up for.
+  // The steepest of many noisy slopes is too steep, that over more rows less so: a bias, which noise does not make up
+  // for.
   onset.strain_uncertainty = noise + (wider ? std::abs(wider->onset - tangent->onset) : 0.0);
   onset.stress_uncertainty =
       std::hypot(half_change(smooth, c.axial_strain, onset.strain, onset.strain_uncertainty), ringing(raw, at.row));

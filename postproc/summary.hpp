@@ -38,9 +38,9 @@ struct Summary {
   std::vector<double> profile_share; ///< of the wall-clock time
 };
 
-/// Kinetic over internal energy: internal is elastic plus plastic (internal_energy of history_table.hpp); before jamming
-/// that is next to nothing, and the ratio row by row says nothing; hence the restriction to rows under load, and the
-/// second measure over the whole run. Throws InputError.
+/// Kinetic over internal energy: internal is elastic plus plastic (internal_energy of history_table.hpp); before
+/// jamming that is next to nothing, and the ratio row by row says nothing; hence the restriction to rows under load,
+/// and the second measure over the whole run. Throws InputError.
 Summary summarise(const schema::FileReader& file);
 nlohmann::ordered_json to_json(const Summary& summary);
 std::string to_text(const Summary& summary);

@@ -9,8 +9,8 @@
 
 namespace mpfem {
 
-/// Deviatoric stress and volumetric strain at the end and at their largest, dissipation, damage; how far the force on the
-/// lateral walls departs from what `lateral_stress` (MPa) makes on their faces at the beginning, after 2 % of axial
+/// Deviatoric stress and volumetric strain at the end and at their largest, dissipation, damage; how far the force on
+/// the lateral walls departs from what `lateral_stress` (MPa) makes on their faces at the beginning, after 2 % of axial
 /// strain, and the largest kinetic over internal energy. Strains are logarithmic, compression positive, and like the
 /// dissipated energies counted from the stage's first row.
 Measurement triaxial_test(const HistoryTable& history, const StageRows& stage, double lateral_stress);

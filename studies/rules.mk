@@ -5,8 +5,8 @@
 # What is made from what is said by `postproc depends`, whose output is included as compilers' dependencies are. One
 # principal output a rule, written as NAME.partial (or in a work folder) and renamed, so that nothing half written ever
 # stands under its own name. Folders and executables are order-only: a rebuilt program does not make results old
-# (`clean` does). Settings enter through stamps, files which are rewritten only when their content changes. Checkpoints
-# are no targets: make deletes targets when it is interrupted.
+# (`clean` does). Settings enter through stamps, files which are rewritten only when their content changes.
+# Checkpoints are no targets: make deletes targets when it is interrupted.
 
 ifeq ($(filter oneshell else-if,$(.FEATURES)),)
   $(error GNU Make 3.82 or newer is needed)
@@ -28,6 +28,7 @@ FORCE:
 toolkit := $(patsubst %/,%,$(dir $(lastword $(MAKEFILE_LIST))))
 studies := $(if $(wildcard $(toolkit)/branches),$(toolkit),$(toolkit)/studies)
 makefile := $(firstword $(MAKEFILE_LIST))
+source := $(patsubst %studies/,%,$(toolkit)/)
 
 # What lines that begin with "#:" say, and the figures' titles.
 help:
@@ -35,12 +36,10 @@ help:
 	@for file in $(wildcard $(studies)/fig*/figure.toml); do \
 	  printf '  %-16s %s\n' "$$(basename "$$(dirname $$file)")" "$$(sed -n '1s/^title = "\(.*\)"$$/\1/p' $$file)"; done
 	@sed -n 's/^#: /  /p' $(MAKEFILE_LIST)
-	@echo && \
-	  echo 'An interrupted run (Ctrl-C, SIGTERM, kill) goes on from its checkpoint with the same command.' \
-	    'make -n shows all' && \
-	  echo 'commands. Results land in out/MESH/.'
+	@echo && echo 'An interrupted run (Ctrl-C, SIGTERM, kill) goes on from its checkpoint with the same command.' && \
+	  echo 'make -n shows all commands. Results land in out/MESH/.'
 
-# ------------------------------------------------------------------------------------------------ settings
+# -------------------------------------------------------------------------------- settings
 # $(call allowed,NAME,VALUES): ends where NAME has another value.
 allowed = $(if $(filter $($(1)),$(2)),,$(error $(1)=$($(1)): allowed are $(2)))
 
@@ -60,7 +59,7 @@ RUN ?=
 #:                  once, each with its own memory; a paper mesh wants about 8 GiB
 THREADS ?=
 #: BIN=FOLDER       of the executables (default: build/bin, or those installed with this file)
-BIN ?= $(if $(wildcard $(toolkit)/../../bin/postproc),$(toolkit)/../../bin,build/bin)
+BIN ?= $(if $(wildcard $(toolkit)/../../bin/postproc),$(toolkit)/../../bin,$(source)build/bin)
 
 #: ELEMENT=TYPE     of figures: tet4-anp (default: averaged nodal pressure halves the error at the same mesh,
 #:                  docs/numerics.md), tet4 (the paper's), tet4-patch
@@ -89,12 +88,12 @@ ifneq ($(and $(SEED),$(SEEDS)),)
   $(error SEED=$(SEED) SEEDS=$(SEEDS): allowed is one of both; SEEDS adds packings to the one of $(description))
 endif
 
-# ------------------------------------------------------------------------------------------------ which packing
+# -------------------------------------------------------------------------------- which packing
 # A study with a powder of its own has its own packing; all others share that of the figures.
 STUDY ?=
 study_name := $(patsubst %.toml,%,$(notdir $(patsubst %/figure.toml,%.toml,$(STUDY))))
-powder_of_study = $(BIN)/postproc powder '$(STUDY)' --programmes $(studies)/branches
-of_powder := $(if $(STUDY),$(shell $(powder_of_study) | sed -n '1s/^# element_size = //p'))
+powder = $(BIN)/postproc powder '$(STUDY)' --programmes $(studies)/branches
+of_powder := $(if $(STUDY),$(shell $(powder) | sed -n '1s/^# element_size = //p'))
 ifneq ($(and $(filter study,$(MAKECMDGOALS)),$(if $(wildcard $(STUDY)),,missing)),)
   $(error STUDY=$(STUDY): expected the file of a study, e.g. make -f $(makefile) study STUDY=my.toml)
 endif
@@ -108,8 +107,7 @@ ifneq ($(of_powder),)
 else
   out := out/$(MESH)$(SEED:%=-seed%)
   packings := out/packings/$(packing)$(SEED:%=-seed%)
-  examples := $(patsubst $(toolkit)/../%/mcc_ph102.toml,%,$(wildcard $(toolkit)/../pack-gen/examples/mcc_ph102.toml))
-  examples := $(or $(examples),$(studies)/packings)
+  examples := $(if $(wildcard $(source)pack-gen/examples),$(source)pack-gen/examples,$(studies)/packings)
   description := $(examples)/$(if $(filter smoke,$(packing)),mcc_ph102_smoke,mcc_ph102).toml
   size := $(size_$(MESH))
 endif
@@ -120,7 +118,7 @@ ifneq ($(and $(SEEDS),$(filter $(own_seed),$(SEEDS))),)
   $(error SEEDS=$(SEEDS): $(own_seed) is the seed of $(description) itself, which always takes part)
 endif
 
-# ------------------------------------------------------------------------------------------------ stamps
+# -------------------------------------------------------------------------------- stamps
 # $(call stamp,FILE,TEXT): FILE holds TEXT; it is old only if its content differs. Compared while this file is read, so
 # that `make -n` tells the truth and writes nothing.
 define stamp
@@ -134,11 +132,11 @@ content_of = $(firstword $(shell cat $(1) 2>/dev/null | sha256sum))
 $(BIN)/pack-gen $(BIN)/mpfem $(BIN)/postproc:
 	@echo 'Makefile.studies: $@ is not built; ./bootstrap build builds it' >&2; exit 1
 
-# ------------------------------------------------------------------------------------------------ packings
+# -------------------------------------------------------------------------------- packings
 ifneq ($(of_powder),)
-content_of_description := $(firstword $(shell $(powder_of_study) | sha256sum))
+content_of_description := $(firstword $(shell $(powder) | sha256sum))
 $(description): $(packings)/spheres.settings | $(BIN)/postproc
-	$(powder_of_study) -o $@
+	$(powder) -o $@
 $(packings)/spheres.h5: $(description)
 else
 content_of_description := $(call content_of,$(description))
@@ -154,7 +152,7 @@ $(packings)/mesh-%.h5: $(packings)/spheres.h5 | $(BIN)/pack-gen
 	$(RUN) $(BIN)/pack-gen mesh $< --size $* $(threads) -o $(@D)/new-mesh-$*.h5
 	mv $(@D)/new-mesh-$*.h5 $@
 
-# ------------------------------------------------------------------------------------------------ what is declared
+# -------------------------------------------------------------------------------- what is declared
 # Of all figures together, since they share runs; of a user's study alone.
 declared_sources := $(or $(STUDY),$(wildcard $(studies)/fig*/figure.toml))
 declared := $(out)/$(if $(STUDY),$(study_name)/study,figures).mk
@@ -163,30 +161,26 @@ goals := $(or $(MAKECMDGOALS),help)
 ifneq ($(filter-out help clean clean-figures,$(goals)),)
 # postproc is no prerequisite: make -B -n, by which times.sh lists runs, would carry out its rule.
 $(declared): FORCE
-	@[ -x $(BIN)/postproc ] || { \
-	  echo 'Makefile.studies: $(BIN)/postproc is not built; ./bootstrap build builds it' >&2; exit 1; }
+	@[ -x $(BIN)/postproc ] || { echo '$(makefile): $(BIN)/postproc is not built; ./bootstrap builds it' >&2; exit 1; }
 	@mkdir -p $(@D)
 	@$(BIN)/postproc depends $(declared_sources) $(of_mesh) --packing $(mesh) --description $(description) \
 	  --set element.type=$(ELEMENT) --set contact.surface=$(SURFACE) -o $@
 include $(declared)
 endif
 
-# $(call say_why,LOG): for a run that failed, the end of what it said; 5 is the exit code of an interrupted one.
-say_why = { code=$$?; tail -n 3 $(1) >&2; \
-  [ $$code != 5 ] || echo 'The same make command goes on where this run stopped.' >&2; exit $$code; }
-
 # A run works in work/ and is moved out when it is complete; a rerun goes on from its own checkpoints, unless an input
 # is newer than all that the run has made.
-made_by_run = $(addprefix $(@D)/work/,run.checkpoint.h5 run.checkpoint.previous.h5 run.h5) $@
-begin_anew_if_old = for input in $(filter-out FORCE,$^); do \
-  for own in $(made_by_run); do [ ! $$own -nt $$input ] || continue 2; done; rm -f $(@D)/work/run.*h5*; done
-need_checkpoint = [ -e $(1) ] || { rm -f $@; echo '$(1) is missing; the same make command makes it again' >&2; exit 1; }
+own_files = $(@D)/work/run.checkpoint.h5 $(@D)/work/run.checkpoint.previous.h5 $(@D)/work/run.h5 $@
+same_command_again = echo 'The same make command goes on where this run stopped.' >&2
 $(declared_runs): | $(BIN)/mpfem
 	@mkdir -p $(@D)/work
-	@$(if $(filter --from,$(options)),$(call need_checkpoint,$(word 2,$(options))))
-	$(begin_anew_if_old)
+	@$(if $(filter --from,$(options)),[ -e $(word 2,$(options)) ] || \
+	  { rm -f $@; echo '$(word 2,$(options)) is missing; the same make command makes it again' >&2; exit 1; })
+	for input in $(filter-out FORCE,$^); do \
+	  for own in $(own_files); do [ ! $$own -nt $$input ] || continue 2; done; rm -f $(@D)/work/run.*h5*; \
+	done
 	$(RUN) $(BIN)/mpfem run $(programme) -o $(@D)/work/run.h5 $(options) --resume $(threads) > $(@D)/work/log.txt 2>&1 || \
-	  $(call say_why,$(@D)/work/log.txt)
+	  { code=$$?; tail -n 3 $(@D)/work/log.txt >&2; [ $$code != 5 ] || $(same_command_again); exit $$code; }
 	mv $(@D)/work/run.h5 $@
 
 $(declared_packings): | $(BIN)/pack-gen
@@ -198,14 +192,12 @@ $(declared_runs:.h5=.settings) $(declared_packings:.h5=.settings) $(metric_setti
 	printf '%s\n' '$(settings)' > $@.partial
 	mv $@.partial $@
 
-# What cannot be measured leaves "value": null, so that the other runs of a figure still make it; the reason stands
-# beside.
-leave_null = { code=$$?; cat $*.refused >&2; [ $$code = 2 ] || exit $$code; \
-  printf '{"value": null, "notes": ["see %s"]}\n' $*.refused > $*.new.json; }
+# What cannot be measured leaves "value": null, so that the other runs of a figure still make it; why stands beside.
 $(metric_files): %.json: | $(BIN)/postproc
 	@mkdir -p $(@D)
 	$(BIN)/$(measure) --quiet -o $*.new.json 2> $*.refused || \
-	  $(leave_null)
+	  { code=$$?; cat $*.refused >&2; [ $$code = 2 ] || exit $$code; \
+	    printf '{"value": null, "notes": ["see %s"]}\n' $*.refused > $*.new.json; }
 	@[ -s $*.refused ] || rm -f $*.refused
 	mv $*.new.json $@
 
@@ -222,9 +214,9 @@ $(table_files): | $(BIN)/postproc
 $(fit_files): | $(BIN)/postproc
 	$(BIN)/postproc fits $(figure) $(of_mesh) -o $@
 
-how_many_packings = $(if $(filter $@,$(spread_plots)),$(if $(SEEDS),--packings $(words own $(SEEDS))))
 $(plot_files): | $(BIN)/postproc
-	$(BIN)/postproc plot $(figure) $(basename $(@F)) $(of_mesh) $(how_many_packings) -o $@
+	$(BIN)/postproc plot $(figure) $(basename $(@F)) $(of_mesh) \
+	  $(if $(and $(SEEDS),$(filter $@,$(spread_plots))),--packings $(words own $(SEEDS))) -o $@
 
 $(picture_files): | $(BIN)/postproc
 	@mkdir -p $(@D)
@@ -240,7 +232,7 @@ $(verdict_files): | $(BIN)/postproc
 	@mkdir -p $(@D)
 	$(BIN)/postproc verdict $(figure) $(of_mesh) -o $@
 
-# ---------------------------------------------------------------------------------------------- SEEDS: several packings
+# -------------------------------------------------------------------------------- SEEDS: several packings
 $(eval $(call stamp,$(out)/packings.settings,packings $(SEEDS)))
 $(spread_plots): $(out)/packings.settings
 $(spread_files): $(out)/%.spread.csv: $(out)/%.csv $(out)/packings.settings $(foreach s,$(SEEDS),$(out)-seed$(s)/%.csv)
@@ -248,10 +240,9 @@ $(spread_files): $(out)/%.spread.csv: $(out)/%.csv $(out)/packings.settings $(fo
 
 # Only of what is requested, since the runs of a packing take long; one make for all tables of a seed, since two would
 # make the same runs. Its tables are newer only if it made them anew.
-requested_figures := $(filter $(declared_figures),$(goals))
-requested_figures := $(if $(filter all report smoke study,$(goals)),$(declared_figures),$(requested_figures))
-wanted_figures := $(if $(SEEDS),$(requested_figures))
-wanted_spreads = $(filter $(foreach f,$(wanted_figures),$(out)/$(f)/%),$(spread_files))
+all_wanted := $(filter all report smoke study,$(goals))
+wanted_figures := $(if $(SEEDS),$(if $(all_wanted),$(declared_figures),$(filter $(declared_figures),$(goals))))
+wanted_spreads := $(filter $(wanted_figures:%=$(out)/%/%),$(spread_files))
 seed_tables = $(patsubst $(out)/%.spread.csv,$(out)-seed$(1)/%.csv,$(wanted_spreads))
 seeds_wanted := $(if $(wanted_figures),$(SEEDS))
 .PHONY: $(seeds_wanted:%=seed-%)
@@ -263,7 +254,7 @@ $(call seed_tables,$(1)): seed-$(1)
 endef
 $(foreach s,$(seeds_wanted),$(eval $(call seed_rules,$(s))))
 
-# ------------------------------------------------------------------------------------------------ a user's study
+# -------------------------------------------------------------------------------- a user's study
 #: study STUDY=FILE a study of your own (docs/own-study.md), and a page of it
 study: $(out)/$(study_name)/index.html
 	@echo 'study: $<'

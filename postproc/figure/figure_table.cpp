@@ -153,7 +153,8 @@ std::vector<double> divisors_of(const Figure& figure, const TableSpec& spec, con
   return divisors;
 }
 
-/// In the column's own format, else with the table's digits; 17 stand for the shortest text that reads back to the number.
+/// In the column's own format, else with the table's digits; 17 stand for the shortest text that reads back to the
+/// number.
 Value curve_cell(double number, const TableSpec& spec, const ColumnSpec& column) {
   if (!column.format.empty())
     return Value::of_text(

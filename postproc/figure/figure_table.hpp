@@ -32,8 +32,8 @@ TextTable make_table(const Figure& figure, const TableSpec& spec, const ResultsF
 /// Columns of curves beyond those of the history: name, unit and meaning, for the help.
 std::string curve_help();
 
-/// Mean and standard deviation (of the sample, N - 1) over packings of the columns `spec.spread`, by the rows' names; the
-/// first table is that of this packing and says which rows there are.
+/// Mean and standard deviation (of the sample, N - 1) over packings of the columns `spec.spread`, by the rows' names;
+/// the first table is that of this packing and says which rows there are.
 TextTable spread_of(const TableSpec& spec, const std::vector<std::string>& files);
 
 } // namespace mpfem

@@ -118,8 +118,8 @@ std::set<std::string> values_used(const Figure& figure, const RunTemplate& run) 
   return names;
 }
 
-/// Where a run begins: its packing, or its parent with the checkpoint, both added to the graph. A branch has the grains,
-/// the bonds and the element of the run that its chain began with.
+/// Where a run begins: its packing, or its parent with the checkpoint, both added to the graph. A branch has the
+/// grains, the bonds and the element of the run that its chain began with.
 void add_origin(RunGraph& graph, const Figure& figure, const RunTemplate& run, const Case& row, RunInstance& instance) {
   std::string from = filled_at(run.place, run.from, row.values);
   const auto before = run.chain.empty() ? std::nullopt : before_in_chain(run, row);

@@ -40,8 +40,8 @@ using RunGraph = std::map<std::string, RunInstance>;
 /// Whether a run or packing is meant for this case.
 bool belongs_to(const RunTemplate& run, const Case& row);
 
-/// The folder of a case's run, below the results' folder: as the file says, else "FIGURE/runs/RUN-VALUE-VALUE…" with the
-/// values of the case that the run depends on.
+/// The folder of a case's run, below the results' folder: as the file says, else "FIGURE/runs/RUN-VALUE-VALUE…" with
+/// the values of the case that the run depends on.
 std::string folder_of(const Figure& figure, const RunTemplate& run, const Case& row);
 
 /// Adds a case's run and all that it begins at. Throws InputError: chains that are none, a folder that other settings

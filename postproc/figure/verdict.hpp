@@ -33,8 +33,8 @@ std::map<std::string, Quantity> quantities_of(const StatementSpec& statement, Fi
 std::optional<bool> holds(const ConditionSpec& condition, const StatementSpec& statement,
                           const std::map<std::string, Quantity>& quantities, FigureData& data);
 
-/// {statement, paper, ours, agrees, note}; `agrees` is null where the statement cannot be judged: a condition of judged_if
-/// does not hold, a quantity is not known, or nothing but disagreement could be shown and was not.
+/// {statement, paper, ours, agrees, note}; `agrees` is null where the statement cannot be judged: a condition of
+/// judged_if does not hold, a quantity is not known, or nothing but disagreement could be shown and was not.
 nlohmann::ordered_json judge(const StatementSpec& statement, FigureData& data);
 
 /// The list of all statements for a mesh, one object a line.

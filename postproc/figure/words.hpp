@@ -26,8 +26,8 @@ enum class Unknown { refused, kept };
 
 /// "{name}" and "{name:FORMAT}" replaced. FORMAT is that of fmt for numbers (".2f", "+.1e"); with a "%" behind it the
 /// number is printed in per cent (".2g%": 0.0123 becomes "1.2 %"). Braces without a name are kept ("x^{max}" with
-/// Unknown::kept; "{{" and "}}" stand for braces always). Throws InputError: unknown name (with the nearest), format that
-/// is none, format of a text.
+/// Unknown::kept; "{{" and "}}" stand for braces always). Throws InputError: unknown name (with the nearest), format
+/// that is none, format of a text.
 std::string filled(std::string_view pattern, const Words& words, Unknown unknown = Unknown::refused);
 
 } // namespace mpfem

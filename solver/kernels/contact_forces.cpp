@@ -95,8 +95,8 @@ private:
     if constexpr (bonding)
       pushed *= evaluate_closed_bond(pair, contact_.bond[at(point)], node, x, facet, closest, distance);
     ContactForce& record = contact_.force[at(pair.first_point + pair.active++)];
-    record = make_record(penalty_force(pushed, offset), closest.weight1, closest.weight2, std::abs(pushed), node,
-                         geometry);
+    record =
+        make_record(penalty_force(pushed, offset), closest.weight1, closest.weight2, std::abs(pushed), node, geometry);
     add_to_node(model_, record);
     sums.energy += penalty_energy(k, distance);
     sums.penetration = std::max(sums.penetration, distance / model_.element_size[pair.grain]);

@@ -23,7 +23,7 @@ BondSums bond_sums(const Model& model, const Contact& contact, std::int32_t pair
   if (contact.bond.empty()) return sums;
   const ContactCandidates& candidates = contact.candidates;
   const double penalty = 2 * pass_stiffness(model.penalty_stiffness[at(candidates.pair_first[at(pair)])],
-                                              model.penalty_stiffness[at(candidates.pair_second[at(pair)])]);
+                                            model.penalty_stiffness[at(candidates.pair_second[at(pair)])]);
   for (std::int32_t p = candidates.pair_point_offset[at(pair)]; p < candidates.pair_point_offset[at(pair) + 1]; ++p) {
     const PointBond& bond = contact.bond[at(p)];
     if (!bond.exists() && bond.spent == 0) continue;

@@ -16,10 +16,10 @@ struct BondResolution {
   double steep_fracture_energy = 0;    ///< N/mm; below it softening is steeper than the element beneath can unload
 };
 
-/// With E* = E/(2(1 - nu^2)) of two like grains, strength t and bond stiffness K: the zone of the exponential law to half the
-/// strength is 0.34 . 2 E* G^c/t^2 (that of the energy law is taken alike); the area under the branch before damage is
-/// t^2/(2K); the exponential law's steepest slope t^2/(G^c - t^2/2K) meets the stiffness E/h of the element at
-/// G^c = t^2 h/E + t^2/(2K).
+/// With E* = E/(2(1 - nu^2)) of two like grains, strength t and bond stiffness K: the zone of the exponential law to
+/// half the strength is 0.34 . 2 E* G^c/t^2 (that of the energy law is taken alike); the area under the branch before
+/// damage is t^2/(2K); the exponential law's steepest slope t^2/(G^c - t^2/2K) meets the stiffness E/h of the element
+/// at G^c = t^2 h/E + t^2/(2K).
 BondResolution bond_resolution(const Model& model, const Scenario& scenario);
 
 /// Throws InputError where the bonds' stiffness leaves no softening branch; gives warnings, one a line, where the

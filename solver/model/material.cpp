@@ -49,8 +49,7 @@ BondLaw law_of_bonds(const BondParameters& parameters, const ContactParameters& 
           .fracture_energy = parameters.fracture_energy,
           .softening = parameters.softening,
           .normal_only = parameters.normal_only,
-          .penalty_ratio =
-              parameters.stiffness_factor ? *parameters.stiffness_factor / contact.stiffness_factor : 1.0};
+          .penalty_ratio = parameters.stiffness_factor ? *parameters.stiffness_factor / contact.stiffness_factor : 1.0};
 }
 
 } // namespace mpfem

@@ -5,9 +5,9 @@ namespace mpfem {
 std::vector<double> flatten(std::span<const BondLaw> laws) {
   std::vector<double> numbers;
   for (const BondLaw& law : laws)
-    numbers.insert(numbers.end(), {law.tensile_strength, law.shear_strength, law.fracture_energy,
-                                   law.softening == SofteningLaw::energy ? 1.0 : 0.0, law.stiffness,
-                                   law.penalty_ratio});
+    numbers.insert(numbers.end(),
+                   {law.tensile_strength, law.shear_strength, law.fracture_energy,
+                    law.softening == SofteningLaw::energy ? 1.0 : 0.0, law.stiffness, law.penalty_ratio});
   return numbers;
 }
 

@@ -105,7 +105,8 @@ BondedPointLaw read_bonded_point_law(const TomlDocument& document) {
                                               bond.fracture_energy, smallest));
   return {
       {stiffness, bond.tensile_strength, bond.shear_strength, bond.fracture_energy, bond.softening, bond.normal_only},
-      penalty, bond.rebond_on_contact};
+      penalty,
+      bond.rebond_on_contact};
 }
 
 std::vector<WayPoint> read_bond_programme(CsvReader reader, int increments) {

@@ -75,8 +75,8 @@ struct BondParameters {
   SofteningLaw softening = SofteningLaw::exponential;
   std::optional<double> stiffness{};        ///< K, MPa/mm; none, and no factor: the contact's penalty
   std::optional<double> stiffness_factor{}; ///< K h/E
-  bool rebond_on_contact = false; ///< a broken bond's point bonds anew when it has opened and closes again
-  bool normal_only = false;       ///< no resistance against sliding (for comparison with theories of adhesion)
+  bool rebond_on_contact = false;           ///< a broken bond's point bonds anew when it has opened and closes again
+  bool normal_only = false; ///< no resistance against sliding (for comparison with theories of adhesion)
   bool operator==(const BondParameters&) const = default;
 };
 

@@ -37,7 +37,7 @@ NR == 1 || /^#/ || !($9 in wanted) { next }
     options = options speed(0, 300)
   } else if ($8 != 1) options = options " numerics.mass_scaling=" $8
   # Maugis' lambda = 2; pressing until the contact radius is 1.25 of that at the pull-off, then away
-  # (studies/fig04/case.awk).
+  # (studies/fig04/figure.toml).
   if (scene == "pull-off")
     options = options speed(1, 300) \
               " bond.fracture_energy=0.1 bond.tensile_strength=438.48 bond.shear_strength=438.48" \

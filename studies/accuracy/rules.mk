@@ -46,7 +46,7 @@ for input in $^; do [ $(@D)/new-$(1).checkpoint.h5 -nt $$input ] || \
 $(RUN) sh studies/accuracy/run.sh $(@D)/$(1).seconds $(BIN)/mpfem run $(2) -o $(@D)/new-$(1).h5 \
   --set packing=$(firstword $(filter $(accuracy)/meshes/%,$^)) \
   $(3) --threads $(or $(THREADS),1) --quiet --resume > $(@D)/$(1).log 2>&1 || \
-  $(call say_why,$(@D)/$(1).log)
+  { code=$$?; tail -n 3 $(@D)/$(1).log >&2; [ $$code != 5 ] || $(same_command_again); exit $$code; }
 endef
 
 # $(call accuracy_rules,CASE,SCENE,MESH,SCENARIO,OPTIONS,RECOVERY): a run leaves new-CASE.compaction.checkpoint.h5 to

@@ -46,7 +46,7 @@ areas() {
             }')
           "$mpfem" bond "$law" "$work/programme.csv" -o "$work/result.csv" --quiet \
             --set bond.softening=$softening --set bond.fracture_energy=$energy
-          awk -F, -v case="$softening,$energy,$mode,$increments,$peaks" '
+          awk -F, -v which="$softening,$energy,$mode,$increments,$peaks" '
             NR == 1 { for (i = 1; i <= NF; ++i) column[$i] = i; next }
             {
               traction = sqrt($column["normal_traction_MPa"] ^ 2 + $column["shear1_traction_MPa"] ^ 2)
@@ -57,7 +57,7 @@ areas() {
               difference = work > trapezoid ? work - trapezoid : trapezoid - work
               if (difference > largest) largest = difference
             }
-            END { printf "%s,%.12g,%.12g,%.12g,%.4g,%s\n", case, peak, work, trapezoid, largest, state }
+            END { printf "%s,%.12g,%.12g,%.12g,%.4g,%s\n", which, peak, work, trapezoid, largest, state }
           ' "$work/result.csv"
         done
       done
@@ -75,9 +75,9 @@ envelopes() {
     for energy in 0.001 0.01 0.1 0.5; do
       "$mpfem" bond "$law" "$work/programme.csv" -o "$work/result.csv" --quiet \
         --set bond.softening=$softening --set bond.fracture_energy=$energy
-      awk -F, -v case="$softening,$energy" '
+      awk -F, -v which="$softening,$energy" '
         NR == 1 { for (i = 1; i <= NF; ++i) column[$i] = i; next }
-        $column["opening_mm"] > 0 { print case "," $column["opening_mm"] "," $column["normal_traction_MPa"] }
+        $column["opening_mm"] > 0 { print which "," $column["opening_mm"] "," $column["normal_traction_MPa"] }
       ' "$work/result.csv"
     done
   done

@@ -9,6 +9,6 @@ columns=$columns',kinetic_over_internal_at_end,penetration_over_h,not_finite,mes
 echo "$columns"
 for case in "$@"; do
   awk -f studies/common/verdict.awk -f $here/row.awk \
-    -v "case=$case" -v "code=$(cat "$folder/$case.code")" -v "log_file=$folder/$case.log" \
+    -v "name=$case" -v "code=$(cat "$folder/$case.code")" -v "log_file=$folder/$case.log" \
     $here/cases.csv "$folder/$case.csv"
 done

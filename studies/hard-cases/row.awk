@@ -1,4 +1,4 @@
-# awk -f ../common/verdict.awk -f row.awk -v case=NAME -v code=EXIT_CODE -v log_file=FILE cases.csv history.csv: one
+# awk -f ../common/verdict.awk -f row.awk -v name=NAME -v code=EXIT_CODE -v log_file=FILE cases.csv history.csv: one
 # line of summary.csv. The residual is set against the largest term of the balance so far; rows before a millionth of
 # the run's energy is in it say only how numbers are rounded, and are left out (so are those before any solid is
 # touched).
@@ -8,7 +8,7 @@ BEGIN {
           " contact_energy viscous_dissipation damping_dissipation"
 }
 FNR == 1 { ++file; if (file == 2) read_header(); next }
-file == 1 { if ($1 == case) { what = $2; expected = $5 }; next }
+file == 1 { if ($1 == name) { what = $2; expected = $5 }; next }
 /nan|inf/ { ++not_finite }
 {
   for (i in term) delete term[i]
@@ -34,6 +34,6 @@ END {
     }
   gsub(/,/, ";", message)
   gsub(/"/, "", message)
-  printf "%s,%s,%s,%d,%d,%.4f,%.5g,%.2e,%.2e,%.4f,%d,%s\n", case, what, expected, code, step, density, stress, \
+  printf "%s,%s,%s,%d,%d,%.4f,%.5g,%.2e,%.2e,%.4f,%d,%s\n", name, what, expected, code, step, density, stress, \
          worst, ratio, penetration, not_finite, message
 }

@@ -1,5 +1,5 @@
-// Where a figure's tables come from beside its own runs: packings, scripts, other files, other meshes; and which parents are
-// made again.
+// Where a figure's tables come from beside its own runs: packings, scripts, other files, other meshes; and which
+// parents are made again.
 
 #include <filesystem>
 #include <fstream>

@@ -38,10 +38,10 @@ HistoryRow after_steps(Simulation& simulation, int count) {
 
 } // namespace
 
-// At a time level within the penetration force = stiffness * depth, and central differences conserve the energy. The step
-// in which two surfaces meet is none of these: its force is that of the whole depth at its end, and half of that too much or
-// too little acts over the part of the step before the touch. What that leaves is of the order of the energy that the
-// penalty takes up in one step, (speed * step)^2 * stiffness, and falls with the square of the step.
+// While two surfaces touch, the penalty is a spring, and central differences conserve the energy. In the step in which
+// they first meet this does not hold: the spring acts for a part of the step only. What that leaves is of the order of
+// the energy that the penalty takes up in one step, stiffness * (speed * step)^2, and falls with the square of the
+// step.
 TEST_CASE("the first touch leaves a residual that falls with the square of the step, and then it stays") {
   ThreadTeam team(1);
   const auto residual_after_touch = [&](double time_step_factor) {

@@ -50,14 +50,15 @@ TEST_CASE("the force of a pair that opens uniformly is that of the law") {
   CHECK(-record.last[1].wall_stress[5] * 0.36 == Approx(expected).epsilon(0.01));
 }
 
-TEST_CASE("a bond with a stiffness of its own keeps the ledger, its fracture energy and, softer or stiffer, its strength") {
+TEST_CASE(
+    "a bond with a stiffness of its own keeps the ledger, its fracture energy and, softer or stiffer, its strength") {
   for (const SofteningLaw softening : {SofteningLaw::exponential, SofteningLaw::energy})
     for (const double factor : {1.0, 100.0}) { // the penalty has 10
       BondParameters bond = table_1(0.05);
       bond.softening = softening;
       bond.stiffness_factor = factor;
-      const Scenario scenario =
-          bonded_scenario(bond, {grip("press", -6e-4, 500), grip("slide", 0, 1000, {5e-4, 0, 0}), grip("pull", 0.05, 2000)});
+      const Scenario scenario = bonded_scenario(
+          bond, {grip("press", -6e-4, 500), grip("slide", 0, 1000, {5e-4, 0, 0}), grip("pull", 0.05, 2000)});
       const Record record = run_stages(two_cubes(4), scenario);
       CAPTURE(factor, record.worst_residual, record.largest_tension);
       const double area = 0.5 * record.last[0].bonded_area;

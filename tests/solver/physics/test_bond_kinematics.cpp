@@ -59,8 +59,8 @@ TEST_CASE("an undamaged bond gives back all work, on a closed way through openin
       work += work_to(point, corner, 1000);
     CHECK(point.bond.state.initiation == 0);
     point.node = {0.3, 0.2, 0.02};
-    // Forces are linear in the positions, but for the one step of 1000 each way in which the gap closes, where they have a
-    // kink if the stiffnesses differ: (1/1000)^2 of the energy, times their ratio.
+    // Forces are linear in the positions, but for the one step of 1000 each way in which the gap closes, where they
+    // have a kink if the stiffnesses differ: (1/1000)^2 of the energy, times their ratio.
     const double error_of_steps = penalty_ratio == 1 ? 1e-9 : 1e-5;
     CHECK(std::abs(work) < error_of_steps * point.evaluate().energy);
   }

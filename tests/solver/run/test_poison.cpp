@@ -92,10 +92,8 @@ std::size_t inner_row(const Model& model) {
 const std::vector<Poison> poisons = {
     {"velocity of a surface node",
      [](Model& m) { m.velocity[first_row(m) + 1] = std::numeric_limits<double>::quiet_NaN(); }},
-    {"velocity of an inner node",
-     [](Model& m) { m.velocity[inner_row(m)] = std::numeric_limits<double>::infinity(); }},
-    {"force on an inner node",
-     [](Model& m) { m.force[inner_row(m) + 2] = std::numeric_limits<double>::quiet_NaN(); }},
+    {"velocity of an inner node", [](Model& m) { m.velocity[inner_row(m)] = std::numeric_limits<double>::infinity(); }},
+    {"force on an inner node", [](Model& m) { m.force[inner_row(m) + 2] = std::numeric_limits<double>::quiet_NaN(); }},
     {"an inner node thrown through its grain", [](Model& m) { m.position[inner_row(m) + 2] += 0.15; }}};
 
 } // namespace
