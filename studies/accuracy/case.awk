@@ -1,9 +1,10 @@
-# awk -f case.awk -v sets='default large' cases.csv: the cases as words for make, CASE|SCENE|MESH|SCENARIO|OPTIONS|RECOVERY,
-# blanks in options as ';'. MESH is KIND-FINENESS as mesh.sh reads it, OPTIONS are KEY=VALUE words of the scenario, RECOVERY those
-# of recovery.toml, which packings go on with ('-': no such run).
+# awk -f case.awk -v sets='default large' cases.csv: the cases as words for make,
+# CASE|SCENE|MESH|SCENARIO|OPTIONS|RECOVERY, blanks in options as ';'. MESH is KIND-FINENESS as mesh.sh reads it,
+# OPTIONS are KEY=VALUE words of the scenario, RECOVERY those of recovery.toml, which packings go on with ('-': no such
+# run).
 #
-# Masses of hemispheres follow the step that they are made for, 4e-7 s/mm times the element size (studies/fig04): mass_factor
-# times the mass is a step longer by the root of it.
+# Masses of hemispheres follow the step that they are made for, 4e-7 s/mm times the element size (studies/fig04):
+# mass_factor times the mass is a step longer by the root of it.
 
 BEGIN {
   FS = ","
@@ -35,9 +36,11 @@ NR == 1 || /^#/ || !($9 in wanted) { next }
     options = options sprintf(" numerics.mass_scaling_step=%.4g", 4e-7 * contact_radius[scene] / $5 * sqrt($8))
     options = options speed(0, 300)
   } else if ($8 != 1) options = options " numerics.mass_scaling=" $8
-  # Maugis' lambda = 2; pressing until the contact radius is 1.25 of that at the pull-off, then away (studies/fig04/figure.toml).
+  # Maugis' lambda = 2; pressing until the contact radius is 1.25 of that at the pull-off, then away
+  # (studies/fig04/figure.toml).
   if (scene == "pull-off")
-    options = options speed(1, 300) " bond.fracture_energy=0.1 bond.tensile_strength=438.48 bond.shear_strength=438.48" \
+    options = options speed(1, 300) \
+              " bond.fracture_energy=0.1 bond.tensile_strength=438.48 bond.shear_strength=438.48" \
               " stages.0.displacement=-0.00146798 stages.1.displacement=0.00240583"
   if (scene == "hertz") options = options speed(0, 2000)
   if (scene == "flattened") options = options speed(0, 4000)

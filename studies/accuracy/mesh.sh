@@ -1,10 +1,10 @@
 #!/bin/sh
 # mesh.sh PACK_GEN KIND FINENESS OUTPUT.h5: the mesh of a case.
-#   free             four spheres of R = 0.1 mm side by side, FINENESS elements in the radius, each mesh turned at random, so that
-#                    their mean depends less on how a mesh happens to meet the planes
+#   free             four spheres of R = 0.1 mm side by side, FINENESS elements in the radius, each mesh turned at
+#                    random, so that their mean depends less on how a mesh happens to meet the planes
 #   confined         one such sphere in a close box
-#   pair, pull-off   hemispheres of R = 0.1 mm, FINENESS elements in the contact radius; the elements far from it follow, 0.12 R at
-#                    7 and 6 elements (fig05 and fig04 leave them so at all)
+#   pair, pull-off   hemispheres of R = 0.1 mm, FINENESS elements in the contact radius; the elements far from it
+#                    follow, 0.12 R at 7 and 6 elements (fig05 and fig04 leave them so at all)
 #   small, full      the packings of 25 and 329 grains, nominal element size of FINENESS mm
 set -eu
 pack_gen=$1
@@ -15,7 +15,8 @@ spheres=${output%.h5}.spheres
 over() { awk -v a="$1" -v b="$2" 'BEGIN { printf "%.6g", a / b }'; }
 smaller() { awk -v a="$1" -v b="$2" 'BEGIN { print a < b ? a : b }'; }
 
-hemispheres() { # contact radius in mm, over the reach of the fine elements, elements in it where those far away are 0.12 R
+# contact radius in mm, over the reach of the fine elements, elements in it where those far away are 0.12 R
+hemispheres() {
   size=$(over "$1" "$fineness")
   far=$(awk -v n="$3" -v f="$fineness" 'BEGIN { printf "%.6g", 0.012 * n / f }')
   "$pack_gen" hemispheres --radius 0.1 --size "$far" --contact-size "$size" --contact-radius "$(over "$1" "$2")" \
@@ -36,7 +37,8 @@ spheres() { # how many in a row and a column, width of the place of each in mm
 case $kind in
   free) spheres 2 0.26 ;;
   confined) spheres 1 0.21 ;;
-  # Contact radius at an approach of 0.08 R by the similarity law, and at the pull-off of Johnson, Kendall and Roberts with 0.1 N/mm.
+  # Contact radius at an approach of 0.08 R by the similarity law, and at the pull-off of Johnson, Kendall and Roberts
+  # with 0.1 N/mm.
   pair) hemispheres 0.0278586 0.909 7 ;;
   pull-off) hemispheres 0.00685143 0.714 6 ;;
   small) "$pack_gen" mesh out/packings/smoke/spheres.h5 --size "$fineness" --threads 1 --quiet -o "$output" ;;

@@ -1,11 +1,12 @@
-# awk -f ../common/verdict.awk -f points.awk cost.csv references.csv runs.csv values.csv: error and cost of every case, a row for each measure of
-# its scene: force (hertz, flattened, pair), axial-stress (confined), pull-off, mean-stress, recovery, modulus (small, full).
+# awk -f ../common/verdict.awk -f points.awk cost.csv references.csv runs.csv values.csv: error and cost of every case,
+# a row for each measure of its scene: force (hertz, flattened, pair), axial-stress (confined), pull-off, mean-stress,
+# recovery, modulus (small, full).
 #
-# error: mean of |value/reference - 1| over the quantities of the measure; bias: the same with signs; uncertainty: that of the
-# references, likewise. work: steps x tets x ns of the element per tet-step (cost.csv), in seconds of one core; in mixed precision
-# (lever "precision") times the row "mixed" of cost.csv.
-# on_front: no cheaper case of the scene and measure has a smaller error, where errors below the reference's uncertainty are
-# equal to it.
+# error: mean of |value/reference - 1| over the quantities of the measure; bias: the same with signs; uncertainty: that
+# of the references, likewise. work: steps x tets x ns of the element per tet-step (cost.csv), in seconds of one core;
+# in mixed precision (lever "precision") times the row "mixed" of cost.csv.
+# on_front: no cheaper case of the scene and measure has a smaller error, where errors below the reference's uncertainty
+# are equal to it.
 
 BEGIN { FS = ","; OFS = "," }
 FNR == 1 { ++file; split("", column); read_header(); next }
@@ -55,7 +56,8 @@ END {
     seen[key] = error[key] > doubt[key] ? error[key] : doubt[key]
     group[key] = of_scene[name] SUBSEP part[2]
   }
-  print "case,scene,lever,element,fineness,penalty_factor,speed_factor,mass_factor,measure,tets,steps,work [s],processor_time [s],error,bias,uncertainty,on_front"
+  print "case,scene,lever,element,fineness,penalty_factor,speed_factor,mass_factor,measure,tets,steps,work [s]," \
+        "processor_time [s],error,bias,uncertainty,on_front"
   for (i = 1; i <= n; ++i) {
     key = order[i]
     split(key, part, SUBSEP)
@@ -63,7 +65,8 @@ END {
     for (j = 1; j <= n; ++j)
       if (j != i && group[order[j]] == group[key] && work[order[j]] <= work[key] && seen[order[j]] <= seen[key] && \
           (work[order[j]] < work[key] || seen[order[j]] < seen[key])) front = 0
-    print settings[part[1]], part[2], tets[part[1]], (part[2] == "recovery" || part[2] == "modulus" ? steps_all[part[1]] : steps[part[1]]), \
+    print settings[part[1]], part[2], tets[part[1]], \
+          (part[2] == "recovery" || part[2] == "modulus" ? steps_all[part[1]] : steps[part[1]]), \
           sprintf("%.4g,%s,%.5f,%.5f,%.5f,%d", work[key], spent[key], error[key], bias[key], doubt[key], front)
   }
 }

@@ -1,20 +1,25 @@
-# awk -f ../common/verdict.awk -f references.awk runs.csv values.csv fig05/finite-elements.csv fig04/cohesive.csv: what the values of each scene
-# should be, and how surely: scene,quantity,reference,uncertainty,source,extrapolated.
+# awk -f ../common/verdict.awk -f references.awk runs.csv values.csv fig05/finite-elements.csv fig04/cohesive.csv: what
+# the values of each scene should be, and how surely: scene,quantity,reference,uncertainty,source,extrapolated.
 #
-# Spheres and hemispheres in elastic contact, and the plastic pair, have references of others: Hertz with the finite-sphere
-# factor (tests/reference/README.md), axisymmetric finite elements, boundary elements. All else is extrapolated from the runs that
-# differ in mesh and element alone: tet4 and tet4-anp (tet4-patch has no part in the answer that it is measured by) tend to one answer q as their size x = tets^(-1/3), of hemispheres the element
-# size at the contact, vanishes,
+# Spheres and hemispheres in elastic contact, and the plastic pair, have references of others: Hertz with the
+# finite-sphere factor (tests/reference/README.md), axisymmetric finite elements, boundary elements. All else is
+# extrapolated from the runs that differ in mesh and element alone: tet4 and tet4-anp (tet4-patch has no part in the
+# answer that it is measured by) tend to one answer q as their size x = tets^(-1/3), of hemispheres the element size at
+# the contact, vanishes,
 #   value(element, x) = q + c(element) x^order(element),
-# fitted by least squares to the finest four meshes of each element with all pairs of orders from 1 to 2. The reference is the middle
-# of the q of all pairs that fit nearly as well as the best (at most 1.5 times its scatter, or 0.5 %, taken as the noise of single
-# meshes), its uncertainty half of their range and the scatter. References of others are taken as good to 1 %, an assumption; what
-# the runs themselves tend to stands beside them.
+# fitted by least squares to the finest four meshes of each element with all pairs of orders from 1 to 2. The reference
+# is the middle of the q of all pairs that fit nearly as well as the best (at most 1.5 times its scatter, or 0.5 %,
+# taken as the noise of single meshes), its uncertainty half of their range and the scatter. References of others are
+# taken as good to 1 %, an assumption; what the runs themselves tend to stands beside them.
 
 BEGIN { FS = "," }
 FNR == 1 { ++file; split("", column); read_header(); next }
 /^#/ { next }
-file == 1 && $need("lever") == "mesh" && ($need("element") == "tet4" || $need("element") == "tet4-anp") { scene[$1] = $need("scene"); element[$1] = $need("element"); size[$1] = $2 ~ /^p/ ? 1 / $need("fineness") : $need("tets")^(-1 / 3) }
+file == 1 && $need("lever") == "mesh" && ($need("element") == "tet4" || $need("element") == "tet4-anp") {
+  scene[$1] = $need("scene")
+  element[$1] = $need("element")
+  size[$1] = $2 ~ /^p/ ? 1 / $need("fineness") : $need("tets")^(-1 / 3)
+}
 file == 2 && $1 in scene {
   key = scene[$1] SUBSEP $2
   if (!(key in points)) order_of[++quantities] = key
@@ -26,7 +31,7 @@ file == 2 && $1 in scene {
 file == 3 && $need("approach") != "" { finite[$need("approach") + 0] = $need("table_1") }
 file == 4 && $need("energy") == 0.1 && $need("lambda") == 2 { cohesive = $need("pull_off_over_jkr") }
 
-# Fit of q, c(tet4), c(tet4-anp) with given orders; returns q, sets `scatter` (root mean square). 
+# Fit of q, c(tet4), c(tet4-anp) with given orders; returns q, sets `scatter` (root mean square).
 function fit(key, plain, averaged,   i, j, k, a, b, s, row, sum, count) {
   split("", a)
   split("", b)

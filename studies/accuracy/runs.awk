@@ -1,12 +1,14 @@
-# awk -f runs.awk -v work=FOLDER -v cases='CASE ...' cases.csv [kept.csv]: a row for every case that is run or kept: its settings, tets, steps,
-# processor seconds, and how quasi-static it was. 'all' stands for the run with what goes on from it (unloading and reloading).
+# awk -f runs.awk -v work=FOLDER -v cases='CASE ...' cases.csv [kept.csv]: a row for every case that is run or kept: its
+# settings, tets, steps, processor seconds, and how quasi-static it was. 'all' stands for the run with what goes on from
+# it (unloading and reloading).
 
 BEGIN {
   FS = ","
   OFS = ","
   many = split(cases, list, " ")
   for (i = 1; i <= many; ++i) asked[list[i]] = 1
-  print "case,scene,lever,element,fineness,penalty_factor,speed_factor,mass_factor,tets,steps,steps_all,processor_time [s],processor_time_all [s],kinetic_over_internal,penetration_over_h"
+  print "case,scene,lever,element,fineness,penalty_factor,speed_factor,mass_factor,tets,steps,steps_all," \
+        "processor_time [s],processor_time_all [s],kinetic_over_internal,penetration_over_h"
 }
 
 /^#/ || FNR == 1 { if (FNR == 1) ++file; next }

@@ -1,6 +1,8 @@
-# awk -f ../common/verdict.awk -f tables.awk -v table=NAME points.csv [values.csv references.csv]: tables of the page, in Markdown.
+# awk -f ../common/verdict.awk -f tables.awk -v table=NAME points.csv [values.csv references.csv]: tables of the page,
+# in Markdown.
 #
-#   choice      cheapest settings for 10, 3 and 1 % of error, scene by scene: each element at default settings, and of all cases
+#   choice      cheapest settings for 10, 3 and 1 % of error, scene by scene: each element at default settings, and of
+#               all cases
 #   meshes      error of all elements over meshes, scene by scene
 #   levers      what each lever does to error and work, against the default of the same mesh
 #   surface     contact by facets and by the smooth surface, over meshes
@@ -38,7 +40,14 @@ file == 1 {
   next
 }
 file == 2 { value[$1, $2] = $3; next }
-file == 3 { quantity[++quantities] = $1 SUBSEP $2; reference[$1, $2] = $3; unsure[$1, $2] = $4; source[$1, $2] = $5; tends[$1, $2] = $6; tends_unsure[$1, $2] = $7 }
+file == 3 {
+  quantity[++quantities] = $1 SUBSEP $2
+  reference[$1, $2] = $3
+  unsure[$1, $2] = $4
+  source[$1, $2] = $5
+  tends[$1, $2] = $6
+  tends_unsure[$1, $2] = $7
+}
 
 function title(scene, measure) {
   if (scene == "hertz") return "elastic sphere on planes: force"
@@ -46,7 +55,8 @@ function title(scene, measure) {
   if (scene == "confined") return "sphere in a die: axial stress"
   if (scene == "pair") return "two plastic hemispheres: force"
   if (scene == "pull-off") return "bonded elastic hemispheres: force and pull-off"
-  return (scene == "small" ? "25 grains: " : "329 grains: ") (measure == "mean-stress" ? "mean stress" : measure == "recovery" ? "elastic recovery" : "E_p")
+  return (scene == "small" ? "25 grains: " : "329 grains: ") \
+         (measure == "mean-stress" ? "mean stress" : measure == "recovery" ? "elastic recovery" : "E_p")
 }
 function unit(scene) {
   if (scene == "small" || scene == "full") return "h = %s mm"
@@ -56,11 +66,14 @@ function unit(scene) {
 function percent(x) { return sprintf(absolute(x) < 0.0995 ? "%.1f %%" : "%.0f %%", 100 * x) }
 function signed(x) { return (x < 0 ? "−" : "+") percent(absolute(x)) }
 function ratio(x) { return sprintf(x < 9.95 ? "%.1f" : "%.0f", x) }
-function seconds(x) { return x < 9.95 ? sprintf("%.2g s", x) : x < 600 ? sprintf("%.0f s", x) : sprintf("%.0f min", x / 60) }
+function seconds(x) {
+  return x < 9.95 ? sprintf("%.2g s", x) : x < 600 ? sprintf("%.0f s", x) : sprintf("%.0f min", x / 60)
+}
 function thousands(n) { return n < 1000 ? n "" : thousands(int(n / 1000)) sprintf(",%03d", n % 1000) }
 # What of penalty, speed and mass is not the default's.
 function moved(group, i) {
-  return (penalty[group, i] != 10 ? ", K = " penalty[group, i] " E/h" : "") (speed[group, i] != 1 ? ", " speed[group, i] " × speed" : "") \
+  return (penalty[group, i] != 10 ? ", K = " penalty[group, i] " E/h" : "") \
+         (speed[group, i] != 1 ? ", " speed[group, i] " × speed" : "") \
          (mass[group, i] != 1 ? ", " mass[group, i] " × mass" : "")
 }
 function settings(group, i,   text, part) {
@@ -73,8 +86,8 @@ function settings(group, i,   text, part) {
   return text " (" thousands(tets[group, i]) " tets, " seconds(work[group, i]) ")"
 }
 
-# Cheapest case of a group with an error of at most `most`: of one element at default settings, finer ones included (an error that
-# is small by chance and grows again does not count), or of all cases (element "").
+# Cheapest case of a group with an error of at most `most`: of one element at default settings, finer ones included (an
+# error that is small by chance and grows again does not count), or of all cases (element "").
 function cheapest(group, which, most,   i, j, found, good) {
   found = 0
   for (i = 1; i <= cases[group]; ++i) {
@@ -82,7 +95,8 @@ function cheapest(group, which, most,   i, j, found, good) {
     good = 1
     if (which != "")
       for (j = 1; j <= cases[group]; ++j)
-        if (element[group, j] == which && lever[group, j] == "mesh" && tets[group, j] > tets[group, i] && error[group, j] > most) good = 0
+        if (element[group, j] == which && lever[group, j] == "mesh" && tets[group, j] > tets[group, i] && \
+            error[group, j] > most) good = 0
     if (good && (!found || work[group, i] < work[group, found])) found = i
   }
   return found
@@ -96,23 +110,30 @@ function heads(first, from, each, last,   e, line) {
   gsub(/[^|]+/, "---", line)
   print line
 }
-function choice(   g, t, i, cell, mark, marks, e) {
+# A mesh with its tets and work, as a cell of the table.
+function mesh_and_work(group, i,   part) {
+  split(group, part, SUBSEP)
+  return sprintf(unit(part[1]), fineness[group, i]) ", " thousands(tets[group, i]) " tets, " seconds(work[group, i])
+}
+function choice(   g, t, i, cell, mark, marks, e, first) {
   heads("| scene and measure | error", 1, ", default", " | cheapest of all cases")
   marks = split("0.10 0.03 0.01", mark, " ")
   for (g = 1; g <= groups; ++g) {
     split(group_of[g], part, SUBSEP)
     for (t = 1; t <= marks; ++t) {
       cell = ""
+      first = t == 1 ? title(part[1], part[2]) : ""
       if (mark[t] < doubt[group_of[g]]) {
-        printf "| %s | %d %% | the reference is sure to %s only | | | |\n", t == 1 ? title(part[1], part[2]) : "", 100 * mark[t] + 0.5, percent(doubt[group_of[g]])
+        printf "| %s | %d %% | the reference is sure to %s only | | | |\n", first, 100 * mark[t] + 0.5, \
+               percent(doubt[group_of[g]])
         break
       }
       for (e = 1; e <= elements; ++e) {
         i = cheapest(group_of[g], type[e], mark[t])
-        cell = cell " | " (i ? sprintf(unit(part[1]), fineness[group_of[g], i]) ", " thousands(tets[group_of[g], i]) " tets, " seconds(work[group_of[g], i]) : "finer than run")
+        cell = cell " | " (i ? mesh_and_work(group_of[g], i) : "finer than run")
       }
       i = cheapest(group_of[g], "", mark[t])
-      printf "| %s | %d %%%s | %s |\n", t == 1 ? title(part[1], part[2]) : "", 100 * mark[t] + 0.5, cell, i ? settings(group_of[g], i) : "none"
+      printf "| %s | %d %%%s | %s |\n", first, 100 * mark[t] + 0.5, cell, i ? settings(group_of[g], i) : "none"
     }
   }
 }
@@ -135,7 +156,8 @@ function meshes(   g, i, j, e, n, part, rows, seen, at) {
       at[n, element[group_of[g], i]] = i
     }
     for (j = 1; j <= rows; ++j) {
-      printf "| %s | %s | %s", j == 1 ? title(part[1], part[2]) : "", sprintf(unit(part[1]), mesh[j]), thousands(count[j])
+      printf "| %s | %s | %s", j == 1 ? title(part[1], part[2]) : "", sprintf(unit(part[1]), mesh[j]), \
+             thousands(count[j])
       for (e = 1; e <= elements; ++e) {
         i = at[mesh[j], type[e]]
         printf " | %s | %s", i ? signed(bias[group_of[g], i]) : "", i ? seconds(work[group_of[g], i]) : ""
@@ -147,13 +169,25 @@ function meshes(   g, i, j, e, n, part, rows, seen, at) {
 
 function default_of(group, i,   j) {
   for (j = 1; j <= cases[group]; ++j)
-    if (lever[group, j] == "mesh" && element[group, j] == element[group, i] && fineness[group, j] == fineness[group, i]) return j
+    if (lever[group, j] == "mesh" && element[group, j] == element[group, i] && \
+        fineness[group, j] == fineness[group, i]) return j
   return 0
 }
+# LEVER:VALUE of a case: the column of its cell.
+function lever_and_value(group, i,   at) {
+  at = ""
+  if (lever[group, i] == "penalty") at = penalty[group, i]
+  if (lever[group, i] == "speed") at = speed[group, i]
+  if (lever[group, i] == "mass") at = mass[group, i]
+  if (lever[group, i] == "precision") at = "mixed"
+  return lever[group, i] ":" at
+}
 function levers(   g, i, d, part, key, k, many, what) {
-  print "| scene and measure | mesh, element | default | K = 1 | 3 | 30 | 100 E/h | ½ × speed | 2 × | 4 × | speed chosen | 4 × mass | 16 × | mixed precision |"
+  print "| scene and measure | mesh, element | default | K = 1 | 3 | 30 | 100 E/h | ½ × speed | 2 × | 4 ×" \
+        " | speed chosen | 4 × mass | 16 × | mixed precision |"
   print "|---|---|---|---|---|---|---|---|---|---|---|---|---|---|"
-  many = split("penalty:1 penalty:3 penalty:30 penalty:100 speed:0.5 speed:2 speed:4 pace: mass:4 mass:16 precision:mixed", what, " ")
+  many = split("penalty:1 penalty:3 penalty:30 penalty:100 speed:0.5 speed:2 speed:4 pace: mass:4 mass:16 " \
+               "precision:mixed", what, " ")
   for (g = 1; g <= groups; ++g) {
     split(group_of[g], part, SUBSEP)
     split("", cell)
@@ -164,18 +198,20 @@ function levers(   g, i, d, part, key, k, many, what) {
       d = default_of(group_of[g], i)
       if (!d) continue
       if (!(d in seen)) { seen[d] = 1; at[++rows] = d }
-      key = lever[group_of[g], i] ":" (lever[group_of[g], i] == "penalty" ? penalty[group_of[g], i] : lever[group_of[g], i] == "speed" ? speed[group_of[g], i] : lever[group_of[g], i] == "mass" ? mass[group_of[g], i] : lever[group_of[g], i] == "precision" ? "mixed" : "")
+      key = lever_and_value(group_of[g], i)
       cell[d, key] = signed(bias[group_of[g], i]) sprintf(" (%.2g)", work[group_of[g], i] / work[group_of[g], d])
     }
     for (k = 1; k <= rows; ++k) {
       d = at[k]
-      printf "| %s | %s, `%s` | %s", k == 1 ? title(part[1], part[2]) : "", sprintf(unit(part[1]), fineness[group_of[g], d]), element[group_of[g], d], signed(bias[group_of[g], d])
+      printf "| %s | %s, `%s` | %s", k == 1 ? title(part[1], part[2]) : "", \
+             sprintf(unit(part[1]), fineness[group_of[g], d]), element[group_of[g], d], signed(bias[group_of[g], d])
       for (i = 1; i <= many; ++i) printf " | %s", cell[d, what[i]]
       print " |"
     }
   }
 }
 
+function with_sign(group, i) { return percent(error[group, i]) " (" signed(bias[group, i]) ")" }
 function surface(   g, i, d, part, rows) {
   print "| scene and measure | mesh, element | facets: error, with sign | smooth surface |"
   print "|---|---|---|---|"
@@ -185,14 +221,16 @@ function surface(   g, i, d, part, rows) {
     for (i = 1; i <= cases[group_of[g]]; ++i) {
       if (lever[group_of[g], i] != "surface") continue
       d = moved(group_of[g], i) == "" ? default_of(group_of[g], i) : 0
-      printf "| %s | %s, `%s`%s | %s | %s |\n", rows++ ? "" : title(part[1], part[2]), sprintf(unit(part[1]), fineness[group_of[g], i]), element[group_of[g], i], moved(group_of[g], i), d ? percent(error[group_of[g], d]) " (" signed(bias[group_of[g], d]) ")" : "", percent(error[group_of[g], i]) " (" signed(bias[group_of[g], i]) ")"
+      printf "| %s | %s, `%s`%s | %s | %s |\n", rows++ ? "" : title(part[1], part[2]), \
+             sprintf(unit(part[1]), fineness[group_of[g], i]), element[group_of[g], i], moved(group_of[g], i), \
+             d ? with_sign(group_of[g], d) : "", with_sign(group_of[g], i)
     }
   }
 }
 
-# Work and tets at which an element, at default settings, has a given error: log-log between its meshes, and a little beyond
-# the finest. Sets equal_tets, equal_work, and equal_mark: '<' where its coarsest mesh is better already, '~' beyond its finest, '>'
-# where that would be more than 1.5 times as fine.
+# Work and tets at which an element, at default settings, has a given error: log-log between its meshes, and a little
+# beyond the finest. Sets equal_tets, equal_work, and equal_mark: '<' where its coarsest mesh is better already, '~'
+# beyond its finest, '>' where that would be more than 1.5 times as fine.
 function equal_at(group, which, wish,   i, n, at, t, low, high) {
   n = 0
   for (i = 1; i <= cases[group]; ++i) # from coarse to fine, as cases.csv has them
@@ -220,7 +258,8 @@ function equal(   g, i, e, part, first, cell, any, less) {
     split(group_of[g], part, SUBSEP)
     first = 1
     for (i = 1; i <= cases[group_of[g]]; ++i) {
-      if (lever[group_of[g], i] != "mesh" || element[group_of[g], i] != "tet4" || error[group_of[g], i] < doubt[group_of[g]]) continue
+      if (lever[group_of[g], i] != "mesh" || element[group_of[g], i] != "tet4" || \
+          error[group_of[g], i] < doubt[group_of[g]]) continue
       cell = ""
       any = 0
       for (e = 2; e <= elements; ++e) {
@@ -231,11 +270,13 @@ function equal(   g, i, e, part, first, cell, any, less) {
         }
         any = 1
         less = equal_mark == "<"
-        cell = cell sprintf(" | %s%s | %s%s | %s%s", less ? "fewer than " : equal_mark == "~" ? "about " : "", thousands(int(equal_tets + 0.5)), \
-                            less ? "less than " : "", seconds(equal_work), less ? "> " : "", ratio(work[group_of[g], i] / equal_work))
+        cell = cell sprintf(" | %s%s | %s%s | %s%s", less ? "fewer than " : equal_mark == "~" ? "about " : "", \
+                            thousands(int(equal_tets + 0.5)), less ? "less than " : "", seconds(equal_work), \
+                            less ? "> " : "", ratio(work[group_of[g], i] / equal_work))
       }
       if (!any) continue
-      printf "| %s | %s | %s | %s | %s%s |\n", first ? title(part[1], part[2]) : "", sprintf(unit(part[1]), fineness[group_of[g], i]), thousands(tets[group_of[g], i]), \
+      printf "| %s | %s | %s | %s | %s%s |\n", first ? title(part[1], part[2]) : "", \
+             sprintf(unit(part[1]), fineness[group_of[g], i]), thousands(tets[group_of[g], i]), \
              seconds(work[group_of[g], i]), percent(error[group_of[g], i]), cell
       first = 0
     }
@@ -262,11 +303,14 @@ function values(scenes, factors,   many, s, i, q, k, c, part, list, f, format) {
       c = names[i]
       if (scene_of[c] != list[s] || lever_of[c] != "mesh") continue
       printf "| %s | %s | `%s`", sprintf(unit(list[s]), fineness_of[c]), thousands(tets_of[c]), element_of[c]
-      for (q = 1; q <= k; ++q) printf " | %s", (c, shown[q]) in value ? shown_value(list[s], shown[q], value[c, shown[q]]) : ""
+      for (q = 1; q <= k; ++q)
+        printf " | %s", (c, shown[q]) in value ? shown_value(list[s], shown[q], value[c, shown[q]]) : ""
       print " |"
     }
     printf "| reference | | "
-    for (q = 1; q <= k; ++q) printf "| %s ± %s ", shown_value(list[s], shown[q], reference[list[s], shown[q]]), shown_value(list[s], shown[q], unsure[list[s], shown[q]])
+    for (q = 1; q <= k; ++q)
+      printf "| %s ± %s ", shown_value(list[s], shown[q], reference[list[s], shown[q]]), \
+             shown_value(list[s], shown[q], unsure[list[s], shown[q]])
     print "|"
     print ""
   }
@@ -286,7 +330,12 @@ function shown_value(scene, q, x) {
 
 END {
   if (failed) exit 1
-  for (g = 1; g <= groups; ++g) for (i = 1; i <= cases[group_of[g]]; ++i) if (!(name[group_of[g], i] in met)) { met[name[group_of[g], i]] = 1; names[++many_names] = name[group_of[g], i] }
+  for (g = 1; g <= groups; ++g)
+    for (i = 1; i <= cases[group_of[g]]; ++i)
+      if (!(name[group_of[g], i] in met)) {
+        met[name[group_of[g], i]] = 1
+        names[++many_names] = name[group_of[g], i]
+      }
   if (table == "choice") choice()
   if (table == "meshes") meshes()
   if (table == "levers") levers()

@@ -1,12 +1,13 @@
-# awk -f ../common/verdict.awk -f values.awk -v scene=SCENE curve.csv [recovery.curve.csv]: what a case came to, quantity,value.
+# awk -f ../common/verdict.awk -f values.awk -v scene=SCENE curve.csv [recovery.curve.csv]: what a case came to,
+# quantity,value.
 #
 #   hertz       force on a sphere over E R^2 at an approach of 0.02 R and 0.04 R to either plane, mean of four spheres
 #   flattened   the same at 0.042, 0.088 and 0.135 R
 #   confined    axial stress in MPa at relative densities of 0.70, 0.80 and 0.92
 #   pair        force over E R^2 at an approach of the flat faces of 0.02, 0.04, 0.06 and 0.08 R
 #   pull-off    the same at 0.01 R, and the largest tension
-#   small, full mean stress in MPa at relative densities of 0.70, 0.80 and 0.92; elastic recovery and Young's modulus of the
-#               compact in MPa, the slope of axial stress over axial strain from 0.004 to 0.010
+#   small, full mean stress in MPa at relative densities of 0.70, 0.80 and 0.92; elastic recovery and Young's modulus of
+#               the compact in MPa, the slope of axial stress over axial strain from 0.004 to 0.010
 #
 # E = 5000 MPa, R = 0.1 mm in all.
 
@@ -48,14 +49,22 @@ scene == "pull-off" && stage == 0 { passing("force", (0.2 + gap - height) / 0.1,
 # Beyond the end of the theory's branch, at -0.0065 R, two free bodies ring.
 scene == "pull-off" && stage == 1 && (0.2 + gap - height) / 0.1 > -0.0065 && -force > tension { tension = -force }
 
-(scene == "small" || scene == "full") && file == 1 { passing("mean-stress", density, $need("mean_stress"), "0.7 0.8 0.92") }
+(scene == "small" || scene == "full") && file == 1 {
+  passing("mean-stress", density, $need("mean_stress"), "0.7 0.8 0.92")
+}
 (scene == "small" || scene == "full") && file == 2 {
   if (density > densest) densest = density
   if (stage == 1) unloaded = density
   if (stage == 2) rested = height
   if (stage == 3) {
     strain = log(rested / height)
-    if (strain >= 0.004 && strain <= 0.010) { ++n; sx += strain; sy += axial; sxx += strain * strain; sxy += strain * axial }
+    if (strain >= 0.004 && strain <= 0.010) {
+      ++n
+      sx += strain
+      sy += axial
+      sxx += strain * strain
+      sxy += strain * axial
+    }
   }
 }
 

@@ -1,4 +1,5 @@
-# awk -f ../common/verdict.awk -f strength.awk -v label=LAW,G,K history.csv: peak tension of the last stage, where, and what the bonds had spent.
+# awk -f ../common/verdict.awk -f strength.awk -v label=LAW,G,K history.csv: peak tension of the last stage, where, and
+# what the bonds had spent.
 BEGIN { FS = "," }
 NR == 1 { read_header(); next }
 $column["stage"] == 3 {
@@ -9,4 +10,6 @@ $column["stage"] == 3 {
   residual = $column["energy_residual"] / $column["external_work"]
   dissipated = $column["damage_dissipation"]
 }
-END { printf "%s,%.4f,%.5f,%.4f,%.4f,%.4e,%.4f,%.2e\n", label, peak, at, mean_damage, damage, dissipated, last, residual }
+END {
+  printf "%s,%.4f,%.5f,%.4f,%.4f,%.4e,%.4f,%.2e\n", label, peak, at, mean_damage, damage, dissipated, last, residual
+}

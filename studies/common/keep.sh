@@ -1,8 +1,8 @@
 #!/bin/sh
-# keep.sh MESH BIN FIGURE...: copies the small results of figures from out/MESH to studies/results/MESH, with what their runs took
-# (out/MESH/times.csv, plan.csv) and from what they came (provenance.txt: program, packing, settings of every run). The verdicts of all
-# figures kept for that mesh go to verdicts.md there, those of all meshes side by side to docs/verdicts.md. Pictures and tables above
-# 20 kB, which make writes again from the runs, are not kept.
+# keep.sh MESH BIN FIGURE...: copies the small results of figures from out/MESH to studies/results/MESH, with what their
+# runs took (out/MESH/times.csv, plan.csv) and from what they came (provenance.txt: program, packing, settings of every
+# run). The verdicts of all figures kept for that mesh go to verdicts.md there, those of all meshes side by side to
+# docs/verdicts.md. Pictures and tables above 20 kB, which make writes again from the runs, are not kept.
 set -eu
 mesh=$1
 mpfem=$2/mpfem
@@ -10,16 +10,21 @@ postproc=$2/postproc
 shift 2
 kept=studies/results/$mesh
 for figure in "$@"; do
-  [ -e "out/$mesh/$figure/verdict.json" ] || { echo "keep.sh: out/$mesh/$figure has no verdict.json: left out" >&2 && continue; }
+  [ -e "out/$mesh/$figure/verdict.json" ] || {
+    echo "keep.sh: out/$mesh/$figure has no verdict.json: left out" >&2 && continue
+  }
   mkdir -p "$kept/$figure"
   rm -f "$kept/$figure"/*.png "$kept/$figure"/*.json "$kept/$figure"/*.csv # of other settings
-  find "out/$mesh/$figure" -maxdepth 1 -type f \( -name '*.json' -o -name '*.csv' -size -20k \) -exec cp {} "$kept/$figure/" \;
+  find "out/$mesh/$figure" -maxdepth 1 -type f \( -name '*.json' -o -name '*.csv' -size -20k \) \
+    -exec cp {} "$kept/$figure/" \;
 done
 {
   echo "# Verdicts, MESH=$mesh"
   echo
-  echo 'Statements of Ku, Zhao, Mollon and Zhao beside what the studies of this folder found, computed from their data. How each is'
-  echo 'judged, and what differs why, is in the notes of the verdict.json files and the README of each study. A study that is no'
+  echo 'Statements of Ku, Zhao, Mollon and Zhao beside what the studies of this folder found, computed from their' \
+    'data. How each is'
+  echo 'judged, and what differs why, is in the notes of the verdict.json files and the README of each study.' \
+    'A study that is no'
   echo 'figure states what it expects itself.'
   "$postproc" verdicts "$mesh=$kept"
   # Times of the figures at hand take the place of those kept before; of the plan, what is not this machine's.
@@ -46,13 +51,15 @@ mv "$kept/verdicts.md.partial" "$kept/verdicts.md"
 } >"$kept/provenance.txt.partial"
 mv "$kept/provenance.txt.partial" "$kept/provenance.txt"
 {
-  cat <<'END'
+  cat <<END
 # Verdicts
 
-Every statement of Ku, Zhao, Mollon and Zhao that a figure of theirs makes, beside what was found here with each mesh: `coarse` is
-the paper's packing of 329 grains at its coarsest mesh (0.03 mm), `medium` the same at 0.015 mm, `smoke` 25 grains. How each is
+Every statement of Ku, Zhao, Mollon and Zhao that a figure of theirs makes, beside what was found here with each mesh: \
+\`coarse\` is
+the paper's packing of 329 grains at its coarsest mesh (0.03 mm), \`medium\` the same at 0.015 mm, \
+\`smoke\` 25 grains. How each is
 judged is in the notes of studies/results/MESH/figNN/verdict.json, why it differs in the README of each study.
-`make -f Makefile.studies keep MESH=NAME` writes this page.
+\`make -f Makefile.studies keep MESH=NAME\` writes this page.
 
 END
   "$postproc" verdicts coarse=studies/results/coarse medium=studies/results/medium smoke=studies/results/smoke

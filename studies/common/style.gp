@@ -1,4 +1,5 @@
-# The look of all plots.   call 'studies/common/style.gp' png|svg   (load would hide the format: it has no arguments of its own)
+# The look of all plots.   call 'studies/common/style.gp' png|svg   (load would hide the format: it has no arguments of
+# its own)
 if (ARG1 eq 'svg') {
   set terminal svg size 800,600 dynamic enhanced font 'DejaVu Sans,16' background 'white'
 } else {

@@ -1,6 +1,7 @@
 #!/bin/sh
-# times.sh MESH POSTPROC FIGURE...: a table of what the runs of each figure took, from their own records. A run that several
-# figures use counts for the first of them. Which runs a figure needs is what make would do for it if nothing were there.
+# times.sh MESH POSTPROC FIGURE...: a table of what the runs of each figure took, from their own records. A run that
+# several figures use counts for the first of them. Which runs a figure needs is what make would do for it if nothing
+# were there.
 set -eu
 mesh=$1
 postproc=$2

@@ -1,5 +1,6 @@
 #!/bin/sh
-# measure.sh BIN PACKING FOLDER: every measurement of the study into a file of its own in FOLDER (studies/common/measure.sh).
+# measure.sh BIN PACKING FOLDER: every measurement of the study into a file of its own in FOLDER
+# (studies/common/measure.sh).
 set -eu
 bin=$1
 packing=$2
@@ -24,7 +25,8 @@ measure unequal-3-3.csv unequal tet4-anp 3 3 1 4
 measure unequal-9-3.csv unequal tet4-anp 9 3 1 2
 # Pressure from node to node.
 for size in 5 7; do
-  measure pressure-tet4-anp-smooth-$size-10.csv pressure tet4-anp $size 10 "$folder/profile-tet4-anp-smooth-$size-10.csv" smooth
+  measure pressure-tet4-anp-smooth-$size-10.csv pressure tet4-anp $size 10 \
+    "$folder/profile-tet4-anp-smooth-$size-10.csv" smooth
 done
 for element in tet4-anp tet4; do
   measure pressure-$element-7-10.csv pressure $element 7 10 "$folder/profile-$element-7-10.csv"

@@ -1,8 +1,9 @@
-# awk -f rotations.awk rotations-*.csv: error of the contact force over orientations, a row for each mesh, approach and contact.
-# The approach of each contact is that which it came to; errors are against the reference there.
+# awk -f rotations.awk rotations-*.csv: error of the contact force over orientations, a row for each mesh, approach and
+# contact. The approach of each contact is that which it came to; errors are against the reference there.
 BEGIN {
   FS = OFS = ","
-  print "element,scaling,size_ratio,nominal_approach,contact,contacts,mean_error,standard_deviation,smallest,largest,largest_kinetic_over_elastic"
+  print "element,scaling,size_ratio,nominal_approach,contact,contacts,mean_error,standard_deviation,smallest,largest," \
+        "largest_kinetic_over_elastic"
 }
 FNR == 1 { next }
 {

@@ -1,11 +1,13 @@
 #: contact-surface  contact over orientations and unequal meshes (some twenty minutes; builds its program)
-# contact-surface: what orientation, unequal meshes and facets do to contact forces and pressures. Included by Makefile.studies,
-# whose habits hold here. Its programs are not built by default; the rules below ask for them where BIN is a build's.
+# contact-surface: what orientation, unequal meshes and facets do to contact forces and pressures. Included by
+# Makefile.studies, whose habits hold here. Its programs are not built by default; the rules below ask for them where
+# BIN is a build's.
 
 contact_surface := out/contact-surface
-contact_surface_tables := $(addprefix $(contact_surface)/,rotations.csv unequal.csv pressure.csv packing.csv geometry.csv)
+contact_surface_tables := rotations.csv unequal.csv pressure.csv packing.csv geometry.csv
+contact_surface_pictures := rotations.png rotations.svg profile.png profile.svg
 .PHONY: contact-surface
-contact-surface: $(contact_surface_tables) $(addprefix $(contact_surface)/,rotations.png rotations.svg profile.png profile.svg)
+contact-surface: $(addprefix $(contact_surface)/,$(contact_surface_tables) $(contact_surface_pictures))
 
 $(contact_surface)/work:
 	mkdir -p $@
@@ -15,12 +17,14 @@ $(BIN)/contact-surface $(BIN)/nodal-pressure:
 
 $(eval $(call stamp,$(contact_surface)/work/settings,$(call content_of,studies/contact-surface/measure.sh)))
 
-$(contact_surface)/work/done: studies/contact-surface/measure.sh $(contact_surface)/work/settings | $(small_mesh) $(contact_surface)/work $(BIN)/contact-surface
+$(contact_surface)/work/done: studies/contact-surface/measure.sh $(contact_surface)/work/settings \
+  | $(small_mesh) $(contact_surface)/work $(BIN)/contact-surface
 	for file in $(@D)/*.csv; do [ $$file -nt $(@D)/settings ] || rm -f $$file; done
 	$(RUN) sh $< $(BIN) $(small_mesh) $(@D)
 	touch $@
 
-$(contact_surface)/rotations.csv $(contact_surface)/unequal.csv: $(contact_surface)/%.csv: studies/contact-surface/%.awk $(contact_surface)/work/done
+$(contact_surface)/rotations.csv $(contact_surface)/unequal.csv: $(contact_surface)/%.csv: \
+  studies/contact-surface/%.awk $(contact_surface)/work/done
 	awk -f $< $(@D)/work/$*-*.csv > $@.partial
 	mv $@.partial $@
 
@@ -32,10 +36,12 @@ $(contact_surface)/geometry.csv: $(contact_surface)/work/done
 	cp $(@D)/work/geometry.csv $@.partial
 	mv $@.partial $@
 
-$(contact_surface)/rotations.png $(contact_surface)/rotations.svg: $(contact_surface)/rotations.%: studies/contact-surface/plot.gp studies/common/style.gp $(contact_surface)/rotations.csv
+$(contact_surface)/rotations.png $(contact_surface)/rotations.svg: $(contact_surface)/rotations.%: \
+  studies/contact-surface/plot.gp studies/common/style.gp $(contact_surface)/rotations.csv
 	$(gnuplot) -c $< $* $(contact_surface)/rotations.csv $@.partial
 	mv $@.partial $@
 
-$(contact_surface)/profile.png $(contact_surface)/profile.svg: $(contact_surface)/profile.%: studies/contact-surface/plot-profile.gp studies/common/style.gp $(contact_surface)/work/done
+$(contact_surface)/profile.png $(contact_surface)/profile.svg: $(contact_surface)/profile.%: \
+  studies/contact-surface/plot-profile.gp studies/common/style.gp $(contact_surface)/work/done
 	$(gnuplot) -c $< $* $(contact_surface)/work $@.partial
 	mv $@.partial $@

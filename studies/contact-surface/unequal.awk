@@ -1,8 +1,9 @@
-# awk -f unequal.awk unequal-*.csv: pairs of unequal meshes. Error of the pair's force over all seeds, largest difference when
-# the grains are listed the other way round, largest resultant of all contact forces.
+# awk -f unequal.awk unequal-*.csv: pairs of unequal meshes. Error of the pair's force over all seeds, largest
+# difference when the grains are listed the other way round, largest resultant of all contact forces.
 BEGIN {
   FS = OFS = ","
-  print "element,lower,upper,nominal_approach,contacts,mean_error,standard_deviation,largest_change_by_order,largest_net_force,largest_net_moment"
+  print "element,lower,upper,nominal_approach,contacts,mean_error,standard_deviation,largest_change_by_order," \
+        "largest_net_force,largest_net_moment"
 }
 FNR == 1 || $9 != "pair" { next }
 {
@@ -27,6 +28,7 @@ END {
     k = order[i]
     mean = sum[k] / count[k]
     deviation = count[k] > 1 ? sqrt((square[k] - count[k] * mean * mean) / (count[k] - 1)) : 0
-    printf "%s,%d,%.4f,%.4f,%s,%.0e,%.0e\n", k, count[k], mean, deviation, exchanged[k] ? sprintf("%.0e", largest[k]) : "-", force[k], moment[k]
+    printf "%s,%d,%.4f,%.4f,%s,%.0e,%.0e\n", k, count[k], mean, deviation, \
+           exchanged[k] ? sprintf("%.0e", largest[k]) : "-", force[k], moment[k]
   }
 }

@@ -1,22 +1,26 @@
 #!/bin/sh
-# walks.sh areas|envelopes MPFEM LAW WORK: walks of one contact point, as a table on standard output. WORK: folder for the
-# programme and the result of one walk.
-# walks.sh checks AREAS.csv WALK.csv...: what the statements need of the walks row by row, as a table of one row. WALK.csv:
-# loading, unloading, reloading and compression.
-# areas: straight walks to failure in three modes, with both softening laws, four fracture energies and four step sizes; the
-# work of each. envelopes: traction against opening to failure for four fracture energies and both laws, at openings in equal
-# ratios.
+# walks.sh areas|envelopes MPFEM LAW WORK: walks of one contact point, as a table on standard output. WORK: folder for
+# the programme and the result of one walk.
+# walks.sh checks AREAS.csv WALK.csv...: what the statements need of the walks row by row, as a table of one row.
+# WALK.csv: loading, unloading, reloading and compression.
+# areas: straight walks to failure in three modes, with both softening laws, four fracture energies and four step sizes;
+# the work of each. envelopes: traction against opening to failure for four fracture energies and both laws, at openings
+# in equal ratios.
 set -eu
 part=$1
 shift
 
 areas() {
   constant() { # the value of a key of LAW
-    awk -F= -v key="$1" '{ name = $1; gsub(/[ \t]/, "", name); sub(/#.*/, "", $2) } name == key { print $2 + 0; exit }' "$law"
+    awk -F= -v key="$1" '
+      { name = $1; gsub(/[ \t]/, "", name); sub(/#.*/, "", $2) }
+      name == key { print $2 + 0; exit }' "$law"
   }
   stiffness=$(constant stiffness) tensile=$(constant tensile_strength) shear=$(constant shear_strength)
 
-  echo 'softening,fracture_energy_N_per_mm,mode,increments,strength_MPa,expected_peak_MPa,peak_MPa,work_N_per_mm,trapezoidal_work_N_per_mm,largest_difference_N_per_mm,state'
+  columns=softening,fracture_energy_N_per_mm,mode,increments,strength_MPa,expected_peak_MPa,peak_MPa
+  columns=$columns,work_N_per_mm,trapezoidal_work_N_per_mm,largest_difference_N_per_mm,state
+  echo "$columns"
   for softening in exponential energy; do
     for energy in 0.001 0.01 0.1 0.5; do
       for mode in normal shear mixed; do
@@ -31,11 +35,13 @@ areas() {
               first = strength / k
               b = g - strength * first / 2
               exponent = 16.5 # a bond counts as broken from 16 on
-              last = softening == "exponential" ? first + exponent * b / strength : sqrt(first ^ 2 + 2 * exponent * b / k)
+              if (softening == "exponential") last = first + exponent * b / strength
+              else last = sqrt(first ^ 2 + 2 * exponent * b / k)
               print "opening,shear1,shear2,increments" > programme
               printf "%.17g,%.17g,0,%d\n", opening * first, sliding * first, n / 10 > programme
               printf "%.17g,%.17g,0,%d\n", opening * last, sliding * last, n - n / 10 > programme
-              peak = softening == "energy" && b / k > first ^ 2 ? sqrt(k * b) * exp((strength * first / b - 1) / 2) : strength
+              peak = strength
+              if (softening == "energy" && b / k > first ^ 2) peak = sqrt(k * b) * exp((strength * first / b - 1) / 2)
               printf "%.17g,%.17g\n", strength, peak
             }')
           "$mpfem" bond "$law" "$work/programme.csv" -o "$work/result.csv" --quiet \
@@ -45,11 +51,14 @@ areas() {
             {
               traction = sqrt($column["normal_traction_MPa"] ^ 2 + $column["shear1_traction_MPa"] ^ 2)
               if (traction > peak) peak = traction
-              work = $column["work_N_per_mm"]; trapezoid = $column["trapezoidal_work_N_per_mm"]; state = $column["state"]
+              work = $column["work_N_per_mm"]
+              trapezoid = $column["trapezoidal_work_N_per_mm"]
+              state = $column["state"]
               difference = work > trapezoid ? work - trapezoid : trapezoid - work
               if (difference > largest) largest = difference
             }
-            END { printf "%s,%.12g,%.12g,%.12g,%.4g,%s\n", which, peak, work, trapezoid, largest, state }' "$work/result.csv"
+            END { printf "%s,%.12g,%.12g,%.12g,%.4g,%s\n", which, peak, work, trapezoid, largest, state }
+          ' "$work/result.csv"
         done
       done
     done
@@ -68,7 +77,8 @@ envelopes() {
         --set bond.softening=$softening --set bond.fracture_energy=$energy
       awk -F, -v which="$softening,$energy" '
         NR == 1 { for (i = 1; i <= NF; ++i) column[$i] = i; next }
-        $column["opening_mm"] > 0 { print which "," $column["opening_mm"] "," $column["normal_traction_MPa"] }' "$work/result.csv"
+        $column["opening_mm"] > 0 { print which "," $column["opening_mm"] "," $column["normal_traction_MPa"] }
+      ' "$work/result.csv"
     done
   done
 }
@@ -146,19 +156,24 @@ checks() {
       next_is_first = 0
     }
 
-    function give(name, value) { heading = heading (heading == "" ? "" : ",") name; row = row (row == "" ? "" : ",") value + 0 }
+    function give(name, value) {
+      heading = heading (heading == "" ? "" : ",") name
+      row = row (row == "" ? "" : ",") value + 0
+    }
 
     END {
       if (failed) exit 1
       # The numbers of the paper are written here, not taken from the law that was driven.
       deviation["normal"] = larger(deviation["normal"], absolute(reached["normal"] / 25 - 1))
       deviation["shear"] = larger(deviation["shear"], absolute(reached["shear"] / 18 - 1))
-      deviation["mixed"] = larger(deviation["mixed"], absolute(reached["mixed"] * sqrt(0.5 / 25 ^ 2 + 0.5 / 18 ^ 2) - 1))
+      mixed = reached["mixed"] * sqrt(0.5 / 25 ^ 2 + 0.5 / 18 ^ 2)
+      deviation["mixed"] = larger(deviation["mixed"], absolute(mixed - 1))
       for (i = split("normal shear mixed", mode, " "); i > 0; --i) {
         give(mode[i] "_peak", reached[mode[i]])
         give(mode[i] "_deviation", deviation[mode[i]])
       }
-      for (i = split("20 200 2000 20000", increments, " "); i > 0; --i) give("trapezoid_" increments[i], trapezoid[increments[i]])
+      for (i = split("20 200 2000 20000", increments, " "); i > 0; --i)
+        give("trapezoid_" increments[i], trapezoid[increments[i]])
       give("along", along[20000])
       give("account", account)
       give("walks", walks)

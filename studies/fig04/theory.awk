@@ -1,9 +1,11 @@
 # awk -f theory.awk -v part=curve history.csv            force over approach, as driven
 # awk -f theory.awk -v part=reference -v energy=N/mm curve.csv
-#                                                        Hertz, then Johnson, Kendall and Roberts, for its largest approach
+#                                                        Hertz, then Johnson, Kendall and Roberts, for its largest
+#                                                        approach
 # awk -f theory.awk -v part=row -v label=A,B,… reference.csv curve.csv
 #                                                        how far the curve is from the reference, with its heading
-# Two equal hemispheres of radius 0.1 mm, E = 5000 MPa, nu = 0.3, tips 1e-6 mm apart; mm and N. Parts of fig04 and fig05.
+# Two equal hemispheres of radius 0.1 mm, E = 5000 MPa, nu = 0.3, tips 1e-6 mm apart; mm and N. Parts of fig04 and
+# fig05.
 BEGIN {
   FS = ","
   pi = atan2(0, -1)
@@ -27,29 +29,32 @@ part == "curve" && FNR == 1 {
   next
 }
 part == "curve" {
-  force = 0.5 * ($column["wall_stress_4"] + $column["wall_stress_5"]) * $column["box_lengths_0"] * $column["box_lengths_1"]
-  printf "%s,%.6e,%.6e\n", ($column["stage"] == 0 ? "loading" : "unloading"), (2 * radius + gap - $column["box_lengths_2"]) / radius, force / unit
+  stress = 0.5 * ($column["wall_stress_4"] + $column["wall_stress_5"])
+  force = stress * $column["box_lengths_0"] * $column["box_lengths_1"]
+  printf "%s,%.6e,%.6e\n", ($column["stage"] == 0 ? "loading" : "unloading"), \
+         (2 * radius + gap - $column["box_lengths_2"]) / radius, force / unit
 }
 
 # ---------------------------------------------------------------------------------------- reference
 part == "reference" && $1 == "loading" { approach = sprintf("%.6g", $2 * radius) }
-# Loading and unloading with adhesion that acts only after contact, for a work of adhesion `energy` after loading until the
-# flat faces have approached by `approach`.
+# Loading and unloading with adhesion that acts only after contact, for a work of adhesion `energy` after loading until
+# the flat faces have approached by `approach`.
 #
 # Loading is Hertz: a^2 = Rbar h, F = 4 E* a^3/(3 Rbar), with Rbar = R/2 and 1/E* = 2 (1 - nu^2)/E. Unloading keeps the
-# contact radius until the energy release rate at its edge reaches the work of adhesion; from there on it is the branch of
-# Johnson, Kendall and Roberts (Proc. R. Soc. A 324, 1971): F = 4 E* a^3/(3 Rbar) - sqrt(8 pi w E* a^3),
+# contact radius until the energy release rate at its edge reaches the work of adhesion; from there on it is the branch
+# of Johnson, Kendall and Roberts (Proc. R. Soc. A 324, 1971): F = 4 E* a^3/(3 Rbar) - sqrt(8 pi w E* a^3),
 # h = a^2/Rbar - sqrt(2 pi w a/E*).
 #
 # These forms are for half-spaces. A hemisphere driven at its equator lacks the compliance of what lies behind it: its
-# approach is smaller by C F/(E R). C follows from converged axisymmetric finite-element solutions of a hemisphere, whose
-# forces are 1.019, 1.030, 1.045, 1.068, 1.087, 1.105 times Hertz at h/R = 0.005, 0.01, 0.02, 0.04, 0.06, 0.08
+# approach is smaller by C F/(E R). C follows from converged axisymmetric finite-element solutions of a hemisphere,
+# whose forces are 1.019, 1.030, 1.045, 1.068, 1.087, 1.105 times Hertz at h/R = 0.005, 0.01, 0.02, 0.04, 0.06, 0.08
 # (tests/reference/README.md, hertz-finite-sphere).
 function compliance(force,   i) {
   if (force <= knot_force[1]) return knot_c[1]
   for (i = 2; i <= knots; ++i)
     if (force <= knot_force[i] || i == knots)
-      return knot_c[i - 1] + (knot_c[i] - knot_c[i - 1]) * (force - knot_force[i - 1]) / (knot_force[i] - knot_force[i - 1])
+      return knot_c[i - 1] + \
+             (knot_c[i] - knot_c[i - 1]) * (force - knot_force[i - 1]) / (knot_force[i] - knot_force[i - 1])
 }
 
 function hertz(h) { return 4 * reduced * sqrt(mean_radius * h)^3 / (3 * mean_radius) / unit }
@@ -77,7 +82,8 @@ function reference(   i, h, a, drop, largest, largest_h, last) {
   largest = sqrt(mean_radius * largest_h)
   drop = sqrt(8 * pi * energy * reduced * largest^3)
   for (i = 0; i <= 50; ++i)
-    line("constant_radius", largest_h - drop * i / 50 / (2 * reduced * largest), hertz(largest_h) - drop * i / 50 / unit, largest)
+    line("constant_radius", largest_h - drop * i / 50 / (2 * reduced * largest), \
+         hertz(largest_h) - drop * i / 50 / unit, largest)
   last = (pi * energy * mean_radius^2 / (8 * reduced))^(1 / 3) # where the branch ends when the approach is driven
   for (i = 0; i <= points && last < largest; ++i) {
     a = largest + (last - largest) * i / points
@@ -87,8 +93,9 @@ function reference(   i, h, a, drop, largest, largest_h, last) {
 }
 
 # ---------------------------------------------------------------------------------------- row
-# Loading: mean and largest difference from a fifth of the largest approach on, in parts of the reference. Unloading: root
-# mean square down to the reference's pull-off, in parts of the range of forces. Pull-off force in parts of the reference's.
+# Loading: mean and largest difference from a fifth of the largest approach on, in parts of the reference. Unloading:
+# root mean square down to the reference's pull-off, in parts of the range of forces. Pull-off force in parts of the
+# reference's.
 part == "row" && FNR == 1 { ++file; next }
 
 part == "row" && file == 1 {
@@ -100,12 +107,14 @@ part == "row" && file == 1 {
 # Reference force at an approach; the arrays run in either direction.
 function on_loading(h,   i) {
   for (i = 2; i <= n; ++i)
-    if (h <= load_h[i]) return load_f[i - 1] + (load_f[i] - load_f[i - 1]) * (h - load_h[i - 1]) / (load_h[i] - load_h[i - 1])
+    if (h <= load_h[i])
+      return load_f[i - 1] + (load_f[i] - load_f[i - 1]) * (h - load_h[i - 1]) / (load_h[i] - load_h[i - 1])
   return load_f[n] + (load_f[n] - load_f[n - 1]) * (h - load_h[n]) / (load_h[n] - load_h[n - 1])
 }
 function on_unloading(h,   i) {
   for (i = 2; i <= m; ++i)
-    if (h >= away_h[i]) return away_f[i - 1] + (away_f[i] - away_f[i - 1]) * (h - away_h[i - 1]) / (away_h[i] - away_h[i - 1])
+    if (h >= away_h[i])
+      return away_f[i - 1] + (away_f[i] - away_f[i - 1]) * (h - away_h[i - 1]) / (away_h[i] - away_h[i - 1])
   return away_f[m]
 }
 
@@ -139,8 +148,10 @@ END {
   # Largest tension that the bonded area can bear, sigma_0 pi a_max^2 with a_max = 1.25 a_p, over 1.5 pi w Rbar:
   # in Maugis' units (lambda/2) pi 1.25^2 (3/2)^(2/3)/1.5.
   split(label, c, ",")
-  print "case,series,energy [N/mm],lambda,fineness,penalty_factor,speed_factor,loading_mean_error,loading_largest_error,unloading_error,pull_off_over_jkr,strength_cap_over_jkr,element"
-  printf "%s,%s,%s,%s,%s,%s,%s,%.5f,%.5f,%.5f,%.5f,%.5f,%s\n", c[1], c[2], c[3], c[4], c[5], c[6], c[7], sum / used, most, \
+  print "case,series,energy [N/mm],lambda,fineness,penalty_factor,speed_factor,loading_mean_error," \
+        "loading_largest_error,unloading_error,pull_off_over_jkr,strength_cap_over_jkr,element"
+  printf "%s,%s,%s,%s,%s,%s,%s,%.5f,%.5f,%.5f,%.5f,%.5f,%s\n", \
+         c[1], c[2], c[3], c[4], c[5], c[6], c[7], sum / used, most, \
          (counted ? sqrt(squares / counted) : 0), (lowest < 0 ? pull_off / lowest : 0), \
          c[4] / 2 * 3.14159265 * 1.25^2 * 1.5^(2 / 3) / 1.5, c[8]
 }

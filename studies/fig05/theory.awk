@@ -1,8 +1,9 @@
 # awk -f theory.awk -v part=similarity -v approach=mm
 #                                                        the similarity law, and its bonded unloading
-# awk -f theory.awk -v part=row -v hardening=power|total_strain -v label=A,B,… finite-elements.csv similarity.csv curve.csv
-#                                                        how far the curve is from both, with its heading
-# awk -f theory.awk -v part=gather NAME.curve.csv …      all curves with their cases, without the ringing after the pull-off
+# awk -f theory.awk -v part=row -v hardening=power|total_strain -v label=A,B,…
+#     finite-elements.csv similarity.csv curve.csv       how far the curve is from both, with its heading
+# awk -f theory.awk -v part=gather NAME.curve.csv …      all curves with their cases, without the ringing after the
+#                                                        pull-off
 # The curves themselves: ../fig04/theory.awk. mm and N.
 BEGIN {
   FS = ","
@@ -41,16 +42,19 @@ function give(   i) {
 END { if (part == "gather") give() }
 
 # ---------------------------------------------------------------------------------------- similarity
-# Similarity law of two equal elasto-plastic spheres that bond where they touch, as the paper's Fig. 5 uses it, in mm and N.
-# Columns: branch, approach over radius, force over E R^2, contact radius over radius.
+# Similarity law of two equal elasto-plastic spheres that bond where they touch, as the paper's Fig. 5 uses it, in mm
+# and N. Columns: branch, approach over radius, force over E R^2, contact radius over radius.
 #
 # Loading (Storakers, Biwa and Larsson 1997; Mesarovic and Johnson 2000; Gonzalez 2019), flow curve sigma = kappa eps^p:
-#   a^2 = 2 c^2 Rbar gamma, P = n_P a^(2 + p), n_P = pi k Rbar^-p (2 kappa^(-1/p))^-p, k = 3 6^-p, c^2 = 1.43 exp(-0.97 p).
-# Unloading with toughness K = sqrt(2 G^c E*), x = a/a_P, p_0 = P_P/(pi a_P^2): the contact radius stays at a_P with slope
-# 2 E* a_P until the force has fallen by 2 sqrt(pi) K a_P^1.5, then
+#   a^2 = 2 c^2 Rbar gamma, P = n_P a^(2 + p), n_P = pi k Rbar^-p (2 kappa^(-1/p))^-p, k = 3 6^-p,
+#   c^2 = 1.43 exp(-0.97 p).
+# Unloading with toughness K = sqrt(2 G^c E*), x = a/a_P, p_0 = P_P/(pi a_P^2): the contact radius stays at a_P with
+# slope 2 E* a_P until the force has fallen by 2 sqrt(pi) K a_P^1.5, then
 #   P = (2 P_P/pi)(asin x - x sqrt(1 - x^2)) - 2 sqrt(pi) K a^1.5,
 #   gamma = gamma_P - (2 p_0/E*) sqrt(a_P^2 - a^2) - sqrt(pi a) K/E*.
-function line(branch, h, force, a) { printf "%s,%.6e,%.6e,%.6e\n", branch, h / radius, force / (youngs_modulus * radius^2), a / radius }
+function line(branch, h, force, a) {
+  printf "%s,%.6e,%.6e,%.6e\n", branch, h / radius, force / (youngs_modulus * radius^2), a / radius
+}
 function asin(x) { return atan2(x, sqrt(1 - x * x)) }
 function contact_radius(h) { return sqrt(2 * c2 * mean_radius * h) }
 function similarity(   i, h, a, x, force, last_h, stiffness, toughness, largest, top, pressure, drop) {
@@ -69,7 +73,8 @@ function similarity(   i, h, a, x, force, last_h, stiffness, toughness, largest,
   top = force
   pressure = top / (pi * largest^2)
   drop = 2 * sqrt(pi) * toughness * largest^1.5
-  for (i = 0; i <= 50; ++i) line("constant_radius", approach - drop * i / 50 / (2 * reduced * largest), top - drop * i / 50, largest)
+  for (i = 0; i <= 50; ++i)
+    line("constant_radius", approach - drop * i / 50 / (2 * reduced * largest), top - drop * i / 50, largest)
   for (i = 0; i <= points; ++i) {
     x = 1 - 0.7 * i / points
     a = x * largest
@@ -81,9 +86,9 @@ function similarity(   i, h, a, x, force, last_h, stiffness, toughness, largest,
 }
 
 # ---------------------------------------------------------------------------------------- row
-# How far a computed curve is from the converged finite-element rows (loading, from a quarter of the largest approach on) and
-# from the similarity law: loading, unloading down to the law's pull-off (root mean square, in parts of the law's range of
-# forces), pull-off.
+# How far a computed curve is from the converged finite-element rows (loading, from a quarter of the largest approach
+# on) and from the similarity law: loading, unloading down to the law's pull-off (root mean square, in parts of the
+# law's range of forces), pull-off.
 part == "row" && FNR == 1 { ++file; next }
 part == "row" && file == 1 { ++n; h[n] = $1; f[n] = hardening == "power" ? $2 : $3; next }
 part == "row" && file == 2 {
@@ -94,8 +99,14 @@ part == "row" && file == 2 {
   next
 }
 part == "row" && $1 == "loading" { ++rows; row_h[rows] = $2; row_f[rows] = $3; if ($2 > largest) largest = $2 }
-part == "row" && $1 == "unloading" { if (!(unloading++) || $2 < end_h) end_h = $2; if ($3 < pull_off) { pull_off = $3; at = $2 }
-  if ($2 >= lowest_h && -$2 >= away_h[1]) { d = ($3 - between(-$2, away_h, away_f, away)) / (top - lowest); squares += d * d; ++counted }
+part == "row" && $1 == "unloading" {
+  if (!(unloading++) || $2 < end_h) end_h = $2
+  if ($3 < pull_off) { pull_off = $3; at = $2 }
+  if ($2 >= lowest_h && -$2 >= away_h[1]) {
+    d = ($3 - between(-$2, away_h, away_f, away)) / (top - lowest)
+    squares += d * d
+    ++counted
+  }
 }
 function between(x, xs, ys, count,   i) {
   for (i = 2; i <= count; ++i)
@@ -111,9 +122,15 @@ END {
       if (d < 0) d = -d
       if (d > most) most = d
       ++used
-      if (h[i] >= 0.0199) { e = between(h[i], row_h, row_f, rows) / between(h[i], law_h, law_f, m) - 1; if (e < 0) e = -e; if (e > law) law = e }
+      if (h[i] >= 0.0199) {
+        e = between(h[i], row_h, row_f, rows) / between(h[i], law_h, law_f, m) - 1
+        if (e < 0) e = -e
+        if (e > law) law = e
+      }
     }
-  print "case,hardening,approach [R],strength [MPa],fineness,speed_factor,penalty_factor,mean_error,largest_error,largest_error_similarity,pull_off_over_similarity,element,unloading_error_similarity"
-  printf "%s,%s,%s,%s,%s,%s,%s,%.5f,%.5f,%.5f,%.5f,%s,%.5f\n", c[1], c[2], c[3], c[4], c[5], c[6], c[7], sum / used, most, law, \
+  print "case,hardening,approach [R],strength [MPa],fineness,speed_factor,penalty_factor,mean_error,largest_error," \
+        "largest_error_similarity,pull_off_over_similarity,element,unloading_error_similarity"
+  printf "%s,%s,%s,%s,%s,%s,%s,%.5f,%.5f,%.5f,%.5f,%s,%.5f\n", \
+         c[1], c[2], c[3], c[4], c[5], c[6], c[7], sum / used, most, law, \
          pull_off / lowest, c[8], counted ? sqrt(squares / counted) : 0
 }

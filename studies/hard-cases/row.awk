@@ -1,13 +1,18 @@
-# awk -f ../common/verdict.awk -f row.awk -v name=NAME -v code=EXIT_CODE -v log_file=FILE cases.csv history.csv: one line of summary.csv.
-# The residual is set against the largest term of the balance so far; rows before a millionth of the run's energy is in it
-# say only how numbers are rounded, and are left out (so are those before any solid is touched).
-BEGIN { FS = "," }
+# awk -f ../common/verdict.awk -f row.awk -v name=NAME -v code=EXIT_CODE -v log_file=FILE cases.csv history.csv: one
+# line of summary.csv. The residual is set against the largest term of the balance so far; rows before a millionth of
+# the run's energy is in it say only how numbers are rounded, and are left out (so are those before any solid is
+# touched).
+BEGIN {
+  FS = ","
+  terms = "external_work kinetic_energy elastic_energy plastic_dissipation damage_dissipation bond_energy" \
+          " contact_energy viscous_dissipation damping_dissipation"
+}
 FNR == 1 { ++file; if (file == 2) read_header(); next }
 file == 1 { if ($1 == name) { what = $2; expected = $5 }; next }
 /nan|inf/ { ++not_finite }
 {
   for (i in term) delete term[i]
-  n = split("external_work kinetic_energy elastic_energy plastic_dissipation damage_dissipation bond_energy contact_energy viscous_dissipation damping_dissipation", term, " ")
+  n = split(terms, term, " ")
   for (i = 1; i <= n; ++i) if (absolute($need(term[i])) > largest) largest = absolute($column[term[i]])
   size[++rows] = largest
   residual[rows] = absolute($need("energy_residual"))
@@ -29,5 +34,6 @@ END {
     }
   gsub(/,/, ";", message)
   gsub(/"/, "", message)
-  printf "%s,%s,%s,%d,%d,%.4f,%.5g,%.2e,%.2e,%.4f,%d,%s\n", name, what, expected, code, step, density, stress, worst, ratio, penetration, not_finite, message
+  printf "%s,%s,%s,%d,%d,%.4f,%.5g,%.2e,%.2e,%.4f,%d,%s\n", name, what, expected, code, step, density, stress, \
+         worst, ratio, penetration, not_finite, message
 }

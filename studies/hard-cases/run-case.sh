@@ -1,6 +1,7 @@
 #!/bin/sh
-# run-case.sh CASE PACKING FOLDER BIN: runs one line of cases.csv in FOLDER; leaves CASE.h5, CASE.log (what mpfem said), CASE.code (its
-# exit code) and, last, CASE.csv (its history). A failed simulation (3) is a result; any other failure is this script's own.
+# run-case.sh CASE PACKING FOLDER BIN: runs one line of cases.csv in FOLDER; leaves CASE.h5, CASE.log (what mpfem said),
+# CASE.code (its exit code) and, last, CASE.csv (its history). A failed simulation (3) is a result; any other failure is
+# this script's own.
 set -euf
 case=$1
 packing=$2

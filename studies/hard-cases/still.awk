@@ -1,17 +1,26 @@
-# awk -f ../common/verdict.awk -f still.awk history.csv: what a million steps changed in a compact at rest; energies as parts of the
-# elastic energy at the beginning.
+# awk -f ../common/verdict.awk -f still.awk history.csv: what a million steps changed in a compact at rest; energies as
+# parts of the elastic energy at the beginning.
 BEGIN { FS = "," }
 NR == 1 { read_header(); next }
 {
   if (!n++) {
-    elastic = $need("elastic_energy"); bonds = $need("bond_energy"); plastic = $need("plastic_dissipation")
-    damage = $need("damage_dissipation"); stress = $need("mean_stress"); first = $need("step"); residual = $need("energy_residual")
+    elastic = $need("elastic_energy")
+    bonds = $need("bond_energy")
+    plastic = $need("plastic_dissipation")
+    damage = $need("damage_dissipation")
+    stress = $need("mean_stress")
+    first = $need("step")
+    residual = $need("energy_residual")
     begin_kinetic = $need("kinetic_energy")
   }
   if ($column["kinetic_energy"] > kinetic && n > 1) kinetic = $column["kinetic_energy"]
   last = $column["step"]
-  end_elastic = $column["elastic_energy"]; end_bonds = $column["bond_energy"]; end_plastic = $column["plastic_dissipation"]
-  end_damage = $column["damage_dissipation"]; end_stress = $column["mean_stress"]; end_residual = $column["energy_residual"]
+  end_elastic = $column["elastic_energy"]
+  end_bonds = $column["bond_energy"]
+  end_plastic = $column["plastic_dissipation"]
+  end_damage = $column["damage_dissipation"]
+  end_stress = $column["mean_stress"]
+  end_residual = $column["energy_residual"]
   end_kinetic = $column["kinetic_energy"]
 }
 END {

@@ -1,5 +1,6 @@
 #!/bin/sh
-# measure.sh BIN PACKING FOLDER: every measurement of the study into a file of its own in FOLDER (studies/common/measure.sh).
+# measure.sh BIN PACKING FOLDER: every measurement of the study into a file of its own in FOLDER
+# (studies/common/measure.sh).
 set -eu
 bin=$1
 packing=$2

@@ -10,7 +10,8 @@ $(nodal_pressure)/work:
 
 $(eval $(call stamp,$(nodal_pressure)/work/settings,$(call content_of,studies/nodal-pressure/measure.sh)))
 
-$(nodal_pressure)/work/done: studies/nodal-pressure/measure.sh $(nodal_pressure)/work/settings | $(small_mesh) $(nodal_pressure)/work $(BIN)/nodal-pressure
+$(nodal_pressure)/work/done: studies/nodal-pressure/measure.sh $(nodal_pressure)/work/settings \
+  | $(small_mesh) $(nodal_pressure)/work $(BIN)/nodal-pressure
 	for file in $(@D)/*.csv; do [ $$file -nt $(@D)/settings ] || rm -f $$file; done
 	$(RUN) sh $< $(BIN) $(small_mesh) $(@D)
 	touch $@
@@ -23,6 +24,7 @@ $(nodal_pressure)/flattening.csv $(nodal_pressure)/cycles.csv: $(nodal_pressure)
 	awk 'FNR > 1 || NR == 1' $(@D)/work/$*-*.csv > $@.partial
 	mv $@.partial $@
 
-$(nodal_pressure)/cycles.png $(nodal_pressure)/cycles.svg: $(nodal_pressure)/cycles.%: studies/nodal-pressure/plot.gp studies/common/style.gp $(nodal_pressure)/cycles.csv
+$(nodal_pressure)/cycles.png $(nodal_pressure)/cycles.svg: $(nodal_pressure)/cycles.%: \
+  studies/nodal-pressure/plot.gp studies/common/style.gp $(nodal_pressure)/cycles.csv
 	$(gnuplot) -c $< $* $(nodal_pressure)/cycles.csv $@.partial
 	mv $@.partial $@

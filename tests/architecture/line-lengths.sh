@@ -8,7 +8,7 @@ set -euo pipefail
 cd "${1:-$(dirname "${BASH_SOURCE[0]}")/../..}"
 
 # Folders and files where longer lines are still there and shall go.
-open='studies'
+open=''
 
 find . -path './build*' -prune -o -path ./out -prune -o -path ./.git -prune -o -type f \
   \( -name '*.[ch]pp' -o -name '*.sh' -o -name '*.awk' -o -name '*.gp' -o -name '*.mk' -o -name '*.cmake' \
