@@ -50,8 +50,8 @@ TEST_CASE("the force of a pair that opens uniformly is that of the law") {
   CHECK(-record.last[1].wall_stress[5] * 0.36 == Approx(expected).epsilon(0.01));
 }
 
-TEST_CASE(
-    "a bond with a stiffness of its own keeps the ledger, its fracture energy and, softer or stiffer, its strength") {
+TEST_CASE("a bond with a stiffness of its own keeps the ledger and takes its fracture energy, and its strength does "
+          "not change") {
   for (const SofteningLaw softening : {SofteningLaw::exponential, SofteningLaw::energy})
     for (const double factor : {1.0, 100.0}) { // the penalty has 10
       BondParameters bond = table_1(0.05);
@@ -63,9 +63,11 @@ TEST_CASE(
       CAPTURE(factor, record.worst_residual, record.largest_tension);
       const double area = 0.5 * record.last[0].bonded_area;
       CHECK(record.last[0].bonds == cube_bonds);
-      CHECK(record.last[2].bonds == 0);
-      CHECK(record.last[2].damage_dissipation == Approx(0.05 * area).epsilon(1e-9));
       CHECK(record.worst_residual < 0.01);
+      // By the law `energy` the stiff bond bears 0.6 sqrt(K G^c) = 420 MPa: the cubes stretch, and it holds.
+      const bool breaks = softening == SofteningLaw::exponential || factor < 10;
+      CHECK((record.last[2].bonds == 0) == breaks);
+      if (breaks) CHECK(record.last[2].damage_dissipation == Approx(0.05 * area).epsilon(1e-9));
       if (softening == SofteningLaw::exponential) CHECK(record.largest_tension < 1.02 * 25 * area);
     }
 }

@@ -38,7 +38,7 @@ Scenario scenario_with(const std::string& stage) {
   return read_scenario(TomlDocument::from_text(material_text + R"([[stages]]
 name = "pressed"
 type = "isotropic_compaction"
-relative_density = 0.62
+relative_density = 0.7
 wall_speed = 40000
 damping_rate = 1e6
 damping_fade_stress = 5
