@@ -22,7 +22,7 @@ struct RigidGap {
   Normal normal;
 };
 
-/// The point at which a surface node touches; coordinates (mm) are found when they are asked for.
+/// The point at which a surface node touches; coordinates (mm) are found when they are read.
 struct NodePoint {
   const Model& model;
   std::size_t node;
