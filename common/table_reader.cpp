@@ -13,7 +13,7 @@
 #include "common/nearest_word.hpp"
 #include "common/one_line.hpp"
 #include "common/text_input.hpp"
-#include "common/toml_depth.hpp"
+#include "common/toml_scan.hpp"
 
 namespace mpfem {
 
@@ -86,6 +86,9 @@ toml::table parse_toml(std::string_view text, const std::string& name) {
     throw_input_error(
         fmt::format("{}:{}", shown_path(name), *line),
         fmt::format("tables and arrays nest deeper than {} levels, which is the most that is read", deepest_toml));
+  if (const auto line = line_beyond_ascii(text))
+    throw_input_error(fmt::format("{}:{}", shown_path(name), *line),
+                      "not valid TOML: a letter beyond ASCII outside quotes and comments");
   try {
     return toml::parse(text, name);
   } catch (const toml::parse_error& error) {
@@ -103,12 +106,15 @@ toml::table parse_assigned_value(std::string_view value, const std::string& sour
   if (line_nested_too_deep(value))
     throw_input_error(
         source, fmt::format("the value nests deeper than {} levels, which is the most that is read", deepest_toml));
-  try {
-    return toml::parse(fmt::format("value = {}", value), source);
-  } catch (const toml::parse_error& error) {
+  const auto refuse_where_quoted = [&](std::string_view reason) {
     if (std::string_view("\"'[{").find(value.front()) != std::string_view::npos)
-      throw_input_error(source,
-                        fmt::format("not a valid TOML value: {}", shortened(error.description(), longest_finding)));
+      throw_input_error(source, fmt::format("not a valid TOML value: {}", shortened(reason, longest_finding)));
+  };
+  try {
+    if (!line_beyond_ascii(value)) return toml::parse(fmt::format("value = {}", value), source);
+    refuse_where_quoted("a letter beyond ASCII outside quotes");
+  } catch (const toml::parse_error& error) {
+    refuse_where_quoted(error.description());
   }
   std::string literal = "value = \"";
   for (const char c : value) {

@@ -9,8 +9,8 @@
 #include "common/one_line.hpp"
 #include "common/table_reader.hpp"
 #include "common/text_input.hpp"
-#include "common/toml_depth.hpp"
 #include "common/toml_difference.hpp"
+#include "common/toml_scan.hpp"
 #include "folder.hpp"
 #include "one_line_error.hpp"
 
@@ -80,6 +80,20 @@ TEST_CASE("Brackets, headings and dotted keys that nest too deep are found by th
   CHECK(line_nested_too_deep(std::string("a = ") + repeated("{b.c.d = ", 25)) == 1);
   CHECK(line_nested_too_deep(std::string("[a") + repeated(".a", 40) + "]\nb" + repeated(".b", 40) + " = 1") == 2);
   CHECK(line_nested_too_deep(std::string("a = ['''x'''', ") + repeated("[", 65)) == 1);
+}
+
+TEST_CASE("Letters beyond ASCII are refused outside strings and comments, where TOML has none") {
+  CHECK_FALSE(line_beyond_ascii("\xef\xbb\xbf"
+                                "a = 'ä' # ö\nb = \"\"\"\nü\"\"\"\n"));
+  CHECK(line_beyond_ascii("a = 'ä'\nβ = 1\n") == 2);
+  // U+03A2 lies in a range that toml++ 3.3 looks up without an entry for it.
+  CHECK(input_error([] { TomlDocument::from_text("a = 1\nM1\xce\xa2 8", "greek.toml"); }) ==
+        "greek.toml:2: not valid TOML: a letter beyond ASCII outside quotes and comments");
+  TomlDocument document = TomlDocument::from_text("", "flat.toml");
+  document.set("packing=größe-\xce\xa2.h5");
+  CHECK(TableReader(document).string("packing") == "größe-\xce\xa2.h5");
+  CHECK_THAT(input_error([&] { document.set("a=[1, \xce\xa2]"); }),
+             Catch::Contains("not a valid TOML value: a letter beyond ASCII outside quotes"));
 }
 
 TEST_CASE("Tables that nest too deep are refused before they are followed") {

@@ -2,7 +2,7 @@
 # tests/fuzz/run.sh SECONDS [NAME…]: runs each fuzzer of build-fuzz/ (or those named) for so many seconds. They begin at
 # the repository's own examples and at what was found before. Fails where one finds a crash, a leak, an input that takes
 # more than 5 s or more than 1 GiB, and keeps that input in build-fuzz/found/NAME/: mend the reader, then add the input
-# to tests/inputs/found/NAME/, where a test reads it from then on.
+# to tests/inputs/found/NAME/, where a test reads it from then on. SEED in the environment repeats a sequence of inputs.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/../.."
 
@@ -16,8 +16,8 @@ names=("$@")
 ((${#names[@]} > 0)) || names=(scenario assignments bond powder spheres points)
 
 build='build-fuzz'
-cmake --preset fuzz >/dev/null
-ninja -C $build >/dev/null
+cmake --preset fuzz -DCMAKE_CXX_COMPILER_LAUNCHER=ccache >/dev/null
+ninja --quiet -C $build
 
 # Begins a corpus: what the repository holds already.
 seed() {
@@ -44,21 +44,24 @@ dictionary() {
 }
 dictionary >$build/words.dict
 
-failed=()
-for name in "${names[@]}"; do
-  corpus=$build/corpus/$name found=$build/found/$name
+# Runs one fuzzer, and says what it found where it found anything.
+fuzz() {
+  local name=$1 failed=0
+  local corpus=$build/corpus/$name found=$build/found/$name log=$build/$name.log
   mkdir -p "$corpus" "$found"
   seed "$name" "$corpus"
-  log=$build/$name.log
-  if ! $build/bin/fuzz-"$name" "$corpus" -max_total_time="$seconds" -timeout=5 -rss_limit_mb=1024 -max_len=8192 \
-    -dict=$build/words.dict -artifact_prefix="$found/" -print_final_stats=1 >"$log" 2>&1; then
-    failed+=("$name")
-    tail -n 40 "$log"
-  fi
+  "$build/bin/fuzz-$name" "$corpus" -max_total_time="$seconds" -timeout=5 -rss_limit_mb=1024 -max_len=8192 \
+    -dict=$build/words.dict -artifact_prefix="$found/" -print_final_stats=1 "-seed=${SEED:-0}" >"$log" 2>&1 || failed=1
   printf '%-12s %s inputs tried, %s kept\n' "$name" \
     "$(sed -n 's/^stat::number_of_executed_units: *//p' "$log")" "$(find "$corpus" -type f | wc -l)"
-done
-((${#failed[@]} == 0)) || {
-  echo "FAILED: ${failed[*]}; the inputs are in $build/found/"
-  exit 1
+  ((failed == 0)) || {
+    tail -n 40 "$log"
+    echo "FAILED: $name; the input is in $found/"
+    return 1
+  }
 }
+
+# As many at a time as there are cores.
+export -f fuzz seed
+export seconds build
+printf '%s\n' "${names[@]}" | xargs -P "$(nproc)" -I{} bash -euo pipefail -c 'fuzz {}'

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # tests/reliability/instrumented-run.sh BIN THREADS [PREFIX]: packs, meshes and compacts eight bonded grains with an
-# instrumented build (a sanitizer's, or under valgrind by PREFIX), interrupts nothing, and resumes from the checkpoint
-# of the compaction into an unloading. Exit code 0: the instruments found nothing.
+# instrumented build (a sanitizer's, or under valgrind by PREFIX), begins a branch at the checkpoint of the compaction,
+# and reads the run with postproc where BIN has it. Exit code 0: the instruments found nothing.
 set -euo pipefail
 bin=$(realpath "$1")
 threads=$2
@@ -59,4 +59,15 @@ TOML
 run=("${prefix[@]}" "$bin/mpfem" run scenario.toml --threads "$threads" --quiet)
 "${run[@]}" -o run.h5
 "${run[@]}" -o branch.h5 --from run.compaction.checkpoint.h5 --set stages.0.relative_density=0.62
+if [[ -x $bin/postproc ]]; then
+  postproc=("${prefix[@]}" "$bin/postproc")
+  for file in packing.h5 run.h5 run.compaction.checkpoint.h5; do "${postproc[@]}" validate "$file" >log.txt; done
+  for verb in summary 'contact --history' elastic-recovery quasi-static damage 'section-stress --threshold 25' \
+    'energy --packing packing.h5'; do
+    read -ra words <<<"$verb"
+    "${postproc[@]}" "${words[@]}" run.h5 -o result.json --quiet >log.txt
+  done
+  "${postproc[@]}" section run.h5 --axis z --field damage -o section.png --quiet >log.txt
+  "${postproc[@]}" vtk run.h5 -o vtk --quiet >log.txt
+fi
 echo "no findings: $(basename "$bin") with $threads threads ${3:-}"

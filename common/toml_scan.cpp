@@ -1,4 +1,4 @@
-#include "common/toml_depth.hpp"
+#include "common/toml_scan.hpp"
 
 #include <algorithm>
 #include <vector>
@@ -7,15 +7,25 @@ namespace mpfem {
 
 namespace {
 
-/// Walks over a TOML text. It need not refuse what is no TOML: the parser does.
-class DepthScan {
+/// Walks over a TOML text, past strings and comments. It need not refuse what is no TOML: the parser does.
+class TomlScan {
 public:
-  DepthScan(std::string_view text, std::size_t deepest) : text_(text), deepest_(deepest) {}
+  explicit TomlScan(std::string_view text) : text_(text) {
+    if (text_.starts_with("\xef\xbb\xbf")) at_ = 3; // byte order mark
+  }
 
-  std::optional<std::size_t> first_line_too_deep() {
+  std::optional<std::size_t> first_line_deeper_than(std::size_t deepest) {
     while (at_ < text_.size()) {
       step();
-      if (header_ + enclosing_ + dots_ > deepest_) return line_;
+      if (header_ + enclosing_ + dots_ > deepest) return line_;
+    }
+    return std::nullopt;
+  }
+
+  std::optional<std::size_t> first_line_beyond_ascii() {
+    while (at_ < text_.size()) {
+      if (static_cast<unsigned char>(text_[at_]) > 127) return line_;
+      step();
     }
     return std::nullopt;
   }
@@ -106,7 +116,7 @@ private:
   }
 
   std::string_view text_;
-  std::size_t deepest_, at_ = 0, line_ = 1;
+  std::size_t at_ = 0, line_ = 1;
   std::size_t header_ = 0, enclosing_ = 0, dots_ = 0; ///< levels of the last heading, open brackets, the key at hand
   std::vector<std::size_t> open_;
   bool blank_so_far_ = true, in_heading_ = false;
@@ -115,7 +125,11 @@ private:
 } // namespace
 
 std::optional<std::size_t> line_nested_too_deep(std::string_view toml, std::size_t deepest) {
-  return DepthScan(toml, deepest).first_line_too_deep();
+  return TomlScan(toml).first_line_deeper_than(deepest);
+}
+
+std::optional<std::size_t> line_beyond_ascii(std::string_view toml) {
+  return TomlScan(toml).first_line_beyond_ascii();
 }
 
 } // namespace mpfem
