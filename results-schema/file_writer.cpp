@@ -42,6 +42,54 @@ std::vector<ByteRange> places_of_values(hid_t set) {
   return places;
 }
 
+using Extents = std::array<hsize_t, 2>;
+
+/// Throws std::logic_error: the program calls the writer otherwise than the schema has it.
+[[noreturn]] void misused(const std::string& path, const std::string& what) {
+  throw std::logic_error(fmt::format("{}: {}", path, what));
+}
+
+/// The extents of so many values in so many rows; 1 beyond the dataset's rank. Throws std::logic_error where the values
+/// do not fill them.
+Extents extents_for(const DatasetDescription& dataset, const std::string& path, std::size_t count, std::size_t rows) {
+  Extents extent{rows, 1};
+  if (dataset.rank == 2)
+    extent[1] = dataset.extent[1].name.empty() ? dataset.extent[1].fixed : count / std::max<std::size_t>(rows, 1);
+  if (extent[0] * extent[1] != count) misused(path, fmt::format("{} values do not fill {}", count, dataset.shape));
+  return extent;
+}
+
+/// How a dataset is stored: large ones of snapshots in compressed chunks of whole rows.
+Handle creation_list(const DatasetDescription& dataset, const Extents& extent, std::size_t bytes) {
+  Handle creation(H5Pcreate(H5P_DATASET_CREATE), H5Pclose);
+  if (!dataset.of_snapshot() || bytes < compressed_from) return creation;
+  const Extents chunk{std::min<hsize_t>(extent[0], std::max<hsize_t>(1, chunk_values / extent[1])), extent[1]};
+  H5Pset_chunk(creation, dataset.rank, chunk.data());
+  H5Pset_shuffle(creation);
+  H5Pset_deflate(creation, 1);
+  return creation;
+}
+
+/// With the groups above it.
+Handle create_dataset(hid_t file, const DatasetDescription& dataset, const std::string& path, const Extents& extent,
+                      std::size_t bytes) {
+  const Handle link(H5Pcreate(H5P_LINK_CREATE), H5Pclose);
+  H5Pset_create_intermediate_group(link, 1);
+  const Handle creation = creation_list(dataset, extent, bytes);
+  const Handle space(dataset.rank == 0 ? H5Screate(H5S_SCALAR) : H5Screate_simple(dataset.rank, extent.data(), nullptr),
+                     H5Sclose);
+  return {H5Dcreate2(file, path.c_str(), file_type(dataset.type), space, link, creation, H5P_DEFAULT), H5Dclose};
+}
+
+/// Negative on failure.
+herr_t write_elements(hid_t set, ElementType type, const void* values, std::size_t count) {
+  const Handle memory = memory_type(type);
+  if (type != ElementType::string) return H5Dwrite(set, memory, H5S_ALL, H5S_ALL, H5P_DEFAULT, values);
+  std::vector<const char*> pointers;
+  for (std::size_t i = 0; i < count; ++i) pointers.push_back(static_cast<const std::string*>(values)[i].c_str());
+  return H5Dwrite(set, memory, H5S_ALL, H5S_ALL, H5P_DEFAULT, pointers.data());
+}
+
 } // namespace
 
 struct FileWriter::State {
@@ -58,7 +106,45 @@ struct FileWriter::State {
     throw StorageError(
         fmt::format("{}: {} could not be written (disk full, or the folder is not writable)", path, what));
   }
+
+  void check_call(const DatasetDescription& dataset, const std::string& dataset_path, std::string_view snapshot) const;
+  void check_named_extents(const DatasetDescription& dataset, const std::string& dataset_path, const Extents& extent,
+                           std::string_view snapshot);
 };
+
+/// Throws std::logic_error where this dataset cannot be written now.
+void FileWriter::State::check_call(const DatasetDescription& dataset, const std::string& dataset_path,
+                                   std::string_view snapshot) const {
+  if (!file) misused(dataset_path, "written after commit()");
+  const auto datasets = kinds[static_cast<std::size_t>(kind)].datasets;
+  if (std::none_of(datasets.begin(), datasets.end(), [&](const auto& known) { return known.path == dataset.path; }))
+    misused(dataset_path, "not a dataset of this kind of file");
+  if (path_exists(file, dataset_path)) misused(dataset_path, "written twice");
+  if (dataset.of_snapshot() == snapshot.empty()) misused(dataset_path, "a snapshot's name is missing or too much");
+}
+
+/// Extents of one name are the same all over the file (of a snapshot: all over the snapshot). Throws std::logic_error.
+void FileWriter::State::check_named_extents(const DatasetDescription& dataset, const std::string& dataset_path,
+                                            const Extents& extent, std::string_view snapshot) {
+  for (int i = 0; i < dataset.rank; ++i) {
+    const auto index = static_cast<std::size_t>(i);
+    const Extent& wanted = dataset.extent[index];
+    std::size_t found = extent[index];
+    if (wanted.name.empty()) {
+      if (found != wanted.fixed) misused(dataset_path, fmt::format("not of the shape {}", dataset.shape));
+      continue;
+    }
+    std::string name(wanted.name);
+    if (constexpr std::string_view more = "_plus_1"; name.ends_with(more)) {
+      if (found == 0) misused(dataset_path, fmt::format("empty, {} has at least one row", dataset.shape));
+      name.resize(name.size() - more.size());
+      --found;
+    }
+    if (name.front() == '*') name = std::string(snapshot) + name;
+    if (const auto [known, fresh] = extents.emplace(name, found); !fresh && known->second != found)
+      misused(dataset_path, fmt::format("{} is {} here and {} elsewhere", name, found, known->second));
+  }
+}
 
 FileWriter::FileWriter(const std::string& path, FileKind kind, std::string_view creator)
     : state_(std::make_unique<State>()) {
@@ -90,53 +176,11 @@ FileWriter::~FileWriter() {
 void FileWriter::write_values(const DatasetDescription& dataset, const void* values, std::size_t count,
                               std::size_t rows, std::string_view snapshot) {
   const std::string path = path_of(dataset, snapshot);
-  if (!state_->file) throw std::logic_error(path + ": written after commit()");
-  const auto datasets = kinds[static_cast<std::size_t>(state_->kind)].datasets;
-  if (std::none_of(datasets.begin(), datasets.end(), [&](const auto& known) { return known.path == dataset.path; }))
-    throw std::logic_error(path + ": not a dataset of this kind of file");
-  if (path_exists(state_->file, path)) throw std::logic_error(path + ": written twice");
-  if (dataset.of_snapshot() == snapshot.empty())
-    throw std::logic_error(path + ": a snapshot's name is missing or too much");
-
-  std::array<hsize_t, 2> extent{rows, 1};
-  if (dataset.rank == 2)
-    extent[1] = dataset.extent[1].name.empty() ? dataset.extent[1].fixed : count / std::max<std::size_t>(rows, 1);
-  if (extent[0] * extent[1] != count)
-    throw std::logic_error(fmt::format("{}: {} values do not fill {}", path, count, dataset.shape));
-  for (int i = 0; i < dataset.rank; ++i) {
-    const auto index = static_cast<std::size_t>(i);
-    const Extent& wanted = dataset.extent[index];
-    std::size_t found = extent[index];
-    if (wanted.name.empty()) {
-      if (found != wanted.fixed) throw std::logic_error(fmt::format("{}: not of the shape {}", path, dataset.shape));
-      continue;
-    }
-    std::string name(wanted.name);
-    if (constexpr std::string_view more = "_plus_1"; name.ends_with(more)) {
-      if (found == 0) throw std::logic_error(fmt::format("{}: empty, {} has at least one row", path, dataset.shape));
-      name.resize(name.size() - more.size());
-      --found;
-    }
-    if (name.front() == '*') name = std::string(snapshot) + name;
-    if (const auto [known, fresh] = state_->extents.emplace(name, found); !fresh && known->second != found)
-      throw std::logic_error(fmt::format("{}: {} is {} here and {} elsewhere", path, name, found, known->second));
-  }
-
-  const Handle link(H5Pcreate(H5P_LINK_CREATE), H5Pclose);
-  H5Pset_create_intermediate_group(link, 1);
-  const Handle creation(H5Pcreate(H5P_DATASET_CREATE), H5Pclose);
-  const Handle type = memory_type(dataset.type);
-  if (dataset.of_snapshot() && count * H5Tget_size(type) >= compressed_from) {
-    const std::array<hsize_t, 2> chunk{std::min<hsize_t>(extent[0], std::max<hsize_t>(1, chunk_values / extent[1])),
-                                       extent[1]};
-    H5Pset_chunk(creation, dataset.rank, chunk.data());
-    H5Pset_shuffle(creation);
-    H5Pset_deflate(creation, 1);
-  }
-  const Handle space(dataset.rank == 0 ? H5Screate(H5S_SCALAR) : H5Screate_simple(dataset.rank, extent.data(), nullptr),
-                     H5Sclose);
-  const Handle set(H5Dcreate2(state_->file, path.c_str(), file_type(dataset.type), space, link, creation, H5P_DEFAULT),
-                   H5Dclose);
+  state_->check_call(dataset, path, snapshot);
+  const Extents extent = extents_for(dataset, path, count, rows);
+  state_->check_named_extents(dataset, path, extent, snapshot);
+  const std::size_t bytes = count * H5Tget_size(memory_type(dataset.type));
+  const Handle set = create_dataset(state_->file, dataset, path, extent, bytes);
   if (!set) state_->storage_failed(path);
   const std::string checksum =
       checksum_of_dataset(dataset, path, dataset.unit, {extent.begin(), extent.begin() + dataset.rank}, values);
@@ -145,18 +189,8 @@ void FileWriter::write_values(const DatasetDescription& dataset, const void* val
       write_text_attribute(set, attribute::checksum, checksum) < 0)
     state_->storage_failed(path);
   state_->checksums.emplace(path, checksum);
-  if (count * H5Tget_size(type) >= left_out_from && dataset.type != ElementType::string) state_->large.push_back(path);
-  if (count == 0) return;
-
-  herr_t status = 0;
-  if (dataset.type == ElementType::string) {
-    std::vector<const char*> pointers;
-    for (std::size_t i = 0; i < count; ++i) pointers.push_back(static_cast<const std::string*>(values)[i].c_str());
-    status = H5Dwrite(set, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, pointers.data());
-  } else {
-    status = H5Dwrite(set, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, values);
-  }
-  if (status < 0) state_->storage_failed(path);
+  if (bytes >= left_out_from && dataset.type != ElementType::string) state_->large.push_back(path);
+  if (count > 0 && write_elements(set, dataset.type, values, count) < 0) state_->storage_failed(path);
 }
 
 void FileWriter::copy_snapshot(const FileReader& from, std::string_view source, std::string_view target) {

@@ -33,6 +33,8 @@ public:
   BoxSums add_forces(Model& model, const Bounds& bounds, int grain) const;
   /// N, the push of all walls on the contact point of a surface node.
   double wall_force_on_node(const Model& model, std::size_t node, int grain) const;
+  /// N, the push of each wall on a grain.
+  std::array<double, 6> wall_forces_on_grain(const Model& model, int grain) const;
   /// Adds K A/m (1/s^2) of the walls that each node touches to `rate` [nodes].
   void add_stiffness_rate(const Model& model, const Bounds& bounds, int grain, std::span<double> rate) const;
   /// Takes in what the faces bear at this time level: `contact` (N), the push of each wall, and `grip` (N), that of

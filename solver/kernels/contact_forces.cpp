@@ -75,8 +75,10 @@ private:
       // The mode in which damage begins depends on the gap. A damaged bond needs no gap, so that of an open point is
       // not evaluated.
       PointBond& bond = contact_.bond[at(point)];
-      if (bond.state.initiation > 0 && pair.travel < contact_.point_open_until[at(point)])
-        return pull(pair, bond, node, x, contact_.margin);
+      if (bond.state.initiation > 0 && pair.travel < contact_.point_open_until[at(point)]) {
+        pull(pair, bond, node, x, contact_.margin);
+        return;
+      }
     }
     // 1. The closest facet.
     const std::int32_t facet = update_closest_facet(pair, point, x);
@@ -156,22 +158,22 @@ private:
       bond.opening = bond.separation = 0;
       return 1.0;
     }
-    if (!bond.intact()) return 1.0;
-    pull(pair, bond, node, x, -distance);
-    const double penalty = 2 * pair.stiffness * model_.local_stiffness(at(node));
-    return penalty_left_by_bond(bond_law(contact_, bond, penalty), bond, penalty);
+    return bond.intact() ? pull(pair, bond, node, x, -distance) : 1.0;
   }
 
-  /// Takes a bond to the present position of its node and records its force. `gap` in mm, negative inside.
-  void pull(PairOfGrains& pair, PointBond& bond, std::int32_t node, const Vector3<double>& x, double gap) {
+  /// Takes a bond to the present position of its node and records its force. `gap` in mm, negative inside. Gives the
+  /// part of the penalty that the bond leaves to a closed point.
+  double pull(PairOfGrains& pair, PointBond& bond, std::int32_t node, const Vector3<double>& x, double gap) {
     const Facet facet = facet_geometry(model_, bond.facet);
-    const BondLaw law = bond_law(contact_, bond, 2 * pair.stiffness * model_.local_stiffness(at(node)));
+    const double penalty = 2 * pair.stiffness * model_.local_stiffness(at(node)); // of both passes
+    const BondLaw law = bond_law(contact_, bond, penalty);
     const double k = 0.5 * law.stiffness * model_.reference_area[at(node)]; // of this pass
     const BondPull pull =
         law.normal_only ? pull_of_normal_bond(law, bond, x, facet.x) : pull_of_bond(law, bond, x, facet.x, gap);
     ContactForce& record = contact_.bond_force[at(pair.first_point + pair.pulling++)];
     record = make_record(k * pull.pull, pull.weight1, pull.weight2, bond.remaining * k, node, facet);
     add_to_node(model_, record);
+    return penalty_left_by_bond(law, bond, penalty);
   }
 
   static ContactForce make_record(const Vector3<double>& force, double weight1, double weight2, double stiffness,

@@ -9,6 +9,27 @@
 
 namespace mpfem {
 
+namespace {
+
+/// K (MPa/mm) of the two passes of a pair together.
+double penalty_of_pair(const Model& model, const ContactCandidates& candidates, std::int32_t pair) {
+  return 2 * pass_stiffness(model.penalty_stiffness[at(candidates.pair_first[at(pair)])],
+                            model.penalty_stiffness[at(candidates.pair_second[at(pair)])]);
+}
+
+/// Of the bond at a point.
+BondLaw law_at_point(const Model& model, const Contact& contact, double penalty_of_pair, std::int32_t point) {
+  const std::size_t node = at(contact.candidates.point_node[at(point)]);
+  return bond_law(contact, contact.bond[at(point)], penalty_of_pair * model.local_stiffness(node));
+}
+
+/// mm^2: each of the two passes carries half of the traction, so half of the energy.
+double share_of_point(const Model& model, const Contact& contact, std::int32_t point) {
+  return 0.5 * model.reference_area[at(contact.candidates.point_node[at(point)])];
+}
+
+} // namespace
+
 double contact_area(const Model& model, const Contact& contact, int grain) {
   double area = 0;
   const ContactCandidates& candidates = contact.candidates;
@@ -22,15 +43,13 @@ BondSums bond_sums(const Model& model, const Contact& contact, std::int32_t pair
   BondSums sums;
   if (contact.bond.empty()) return sums;
   const ContactCandidates& candidates = contact.candidates;
-  const double penalty = 2 * pass_stiffness(model.penalty_stiffness[at(candidates.pair_first[at(pair)])],
-                                            model.penalty_stiffness[at(candidates.pair_second[at(pair)])]);
+  const double penalty = penalty_of_pair(model, candidates, pair);
   for (std::int32_t p = candidates.pair_point_offset[at(pair)]; p < candidates.pair_point_offset[at(pair) + 1]; ++p) {
     const PointBond& bond = contact.bond[at(p)];
     if (!bond.exists() && bond.spent == 0) continue;
     const double area = model.reference_area[at(candidates.point_node[at(p)])];
-    const BondLaw law = bond_law(contact, bond, penalty * model.local_stiffness(at(candidates.point_node[at(p)])));
-    // Each of the two passes carries half of the traction, so half of the energy.
-    const double share = 0.5 * area;
+    const BondLaw law = law_at_point(model, contact, penalty, p);
+    const double share = share_of_point(model, contact, p);
     sums.formed_area += area;
     sums.damaged_area += bond.exists() ? (1.0 - bond.remaining) * area : area;
     sums.dissipated += share * bond.spent;
@@ -42,6 +61,14 @@ BondSums bond_sums(const Model& model, const Contact& contact, std::int32_t pair
     ++sums.bonds;
   }
   return sums;
+}
+
+double bond_dissipation(const Model& model, const Contact& contact, std::int32_t pair, std::int32_t point) {
+  const PointBond& bond = contact.bond[at(point)];
+  const double share = share_of_point(model, contact, point);
+  if (!bond.exists()) return share * bond.spent;
+  const double penalty = penalty_of_pair(model, contact.candidates, pair);
+  return share * (bond.spent + damage_dissipation(law_at_point(model, contact, penalty, point), bond.state));
 }
 
 std::vector<PairContact> pair_contacts(const Model& model, const Contact& contact) {

@@ -32,6 +32,9 @@ struct BondSums {
 };
 BondSums bond_sums(const Model& model, const Contact& contact, std::int32_t pair);
 
+/// mJ that damage has dissipated at one point of a pair's contact so far; `point` as in contact.bond.
+double bond_dissipation(const Model& model, const Contact& contact, std::int32_t pair, std::int32_t point);
+
 /// Contact of one pair of grains at this moment.
 struct PairContact {
   std::int32_t first, second;

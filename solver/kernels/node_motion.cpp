@@ -61,6 +61,22 @@ ForceMoments force_moments(const Model& model, const std::array<double, 3>& cent
   return sums;
 }
 
+MassMoments mass_moments(const Model& model, const std::array<double, 3>& centre, int grain) {
+  const auto g = static_cast<std::size_t>(grain);
+  MassMoments sums;
+  for (auto n = static_cast<std::size_t>(model.node_offset[g]); n < static_cast<std::size_t>(model.node_offset[g + 1]);
+       ++n) {
+    const double mass = 1.0 / model.inverse_mass[n];
+    sums.mass += mass;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const double distance = model.position[4 * n + axis] - centre[axis];
+      sums.first[axis] += mass * distance;
+      sums.second[axis] += mass * distance * distance;
+    }
+  }
+  return sums;
+}
+
 double kinetic_energy(const Model& model, int grain, double step_mean) {
   const auto g = static_cast<std::size_t>(grain);
   double energy = 0;

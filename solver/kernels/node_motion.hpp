@@ -30,4 +30,13 @@ struct ForceMoments {
 /// With `centre` in mm, after contact and walls were added.
 ForceMoments force_moments(const Model& model, const std::array<double, 3>& centre, int grain);
 
+/// What the places of a grain's nodes add up to, with their masses.
+struct MassMoments {
+  double mass = 0;                ///< tonne
+  std::array<double, 3> first{};  ///< tonne mm: mass times distance from `centre`
+  std::array<double, 3> second{}; ///< tonne mm^2: mass times its square
+};
+/// With `centre` in mm, near the grains: distances from far away would cost digits.
+MassMoments mass_moments(const Model& model, const std::array<double, 3>& centre, int grain);
+
 } // namespace mpfem

@@ -80,13 +80,23 @@ void write_bonds_of_pairs(schema::FileWriter& file, const std::string& name, con
   write_rows(file, name, run::snapshots_pair_damage_dissipation, dissipation, pairs.size());
 }
 
+/// Writes what the walls bear of each grain.
+void write_wall_forces(schema::FileWriter& file, const std::string& name, const Model& model, const Box& box) {
+  std::vector<double> force;
+  for (int grain = 0; grain < model.grains; ++grain) {
+    const std::array<double, 6> of_grain = box.wall_forces_on_grain(model, grain);
+    force.insert(force.end(), of_grain.begin(), of_grain.end());
+  }
+  write_rows(file, name, run::snapshots_wall_force, force, static_cast<std::size_t>(model.grains));
+}
+
 /// Writes every bond of a snapshot, and the mean damage at nodes.
 void write_bonds(schema::FileWriter& file, const std::string& name, const Model& model, const Contact& contact) {
   const auto nodes = static_cast<std::size_t>(model.nodes());
   std::vector<double> sum(nodes, 0.0), count(nodes, 0.0);
   std::vector<std::int32_t> node, grain, law;
   std::vector<float> damage, separation;
-  std::vector<double> area;
+  std::vector<double> area, dissipation;
   const ContactCandidates& candidates = contact.candidates;
   for (std::size_t p = 0; p < candidates.pair_first.size(); ++p)
     for (std::int32_t i = candidates.pair_point_offset[p]; i < candidates.pair_point_offset[p + 1]; ++i) {
@@ -102,6 +112,7 @@ void write_bonds(schema::FileWriter& file, const std::string& name, const Model&
       damage.push_back(static_cast<float>(d));
       area.push_back(model.reference_area[n]);
       law.push_back(bond.law);
+      dissipation.push_back(bond_dissipation(model, contact, static_cast<std::int32_t>(p), i));
       const double sliding = std::sqrt(std::max(bond.separation * bond.separation - bond.opening * bond.opening, 0.0));
       separation.insert(separation.end(), {static_cast<float>(bond.opening), static_cast<float>(sliding)});
     }
@@ -113,6 +124,7 @@ void write_bonds(schema::FileWriter& file, const std::string& name, const Model&
   write_rows(file, name, run::snapshots_bond_grain, grain, node.size());
   write_rows(file, name, run::snapshots_bond_damage, damage, node.size());
   write_rows(file, name, run::snapshots_bond_area, area, node.size());
+  write_rows(file, name, run::snapshots_bond_dissipation, dissipation, node.size());
   write_rows(file, name, run::snapshots_bond_separation, separation, node.size());
   if (contact.bond_laws.size() > 1) {
     write_rows(file, name, run::snapshots_bond_law, law, node.size());
@@ -205,6 +217,7 @@ void write_snapshot_file(const std::string& path, const SnapshotState& state) {
   file.write(run::snapshots_pair_grains, std::span<const std::int32_t>(grains), area.size(), name);
   file.write(run::snapshots_pair_force, std::span<const double>(force), area.size(), name);
   file.write(run::snapshots_pair_area, std::span<const double>(area), area.size(), name);
+  write_wall_forces(file, name, model, state.box);
   if (state.contact.bonding()) {
     write_bonds_of_pairs(file, name, pairs);
     write_bonds(file, name, model, state.contact);

@@ -13,19 +13,43 @@ struct GrainObservation {
   double kinetic = 0, elastic = 0;           ///< mJ
   double volume = 0;                         ///< mm^3, current
   double surface_area = 0, contact_area = 0; ///< mm^2
+  MassMoments mass;                          ///< about the cell's centre
 };
 
-std::vector<GrainObservation> observe_grains(const Model& model, const Contact& contact, double step_mean,
-                                             ThreadTeam& team) {
+std::array<double, 3> centre_of(const Cell& cell) {
+  return {cell.centre(0), cell.centre(1), cell.centre(2)};
+}
+
+std::vector<GrainObservation> observe_grains(const Model& model, const Contact& contact, const Cell& cell,
+                                             double step_mean, ThreadTeam& team) {
   std::vector<GrainObservation> grains(static_cast<std::size_t>(model.grains));
   team.for_each(model.grains, [&](int grain, int) {
     grains[static_cast<std::size_t>(grain)] = {.kinetic = kinetic_energy(model, grain, step_mean),
                                                .elastic = elastic_energy(model, grain),
                                                .volume = current_volume(model, grain),
                                                .surface_area = surface_area(model, grain),
-                                               .contact_area = contact_area(model, contact, grain)};
+                                               .contact_area = contact_area(model, contact, grain),
+                                               .mass = mass_moments(model, centre_of(cell), grain)};
   });
   return grains;
+}
+
+/// Standard deviation (mm) of all mass along each axis.
+std::array<double, 3> mass_spread(std::span<const GrainObservation> grains) {
+  MassMoments all;
+  for (const GrainObservation& grain : grains) {
+    all.mass += grain.mass.mass;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      all.first[axis] += grain.mass.first[axis];
+      all.second[axis] += grain.mass.second[axis];
+    }
+  }
+  std::array<double, 3> spread{};
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const double mean = all.first[axis] / all.mass;
+    spread[axis] = std::sqrt(std::max(0.0, all.second[axis] / all.mass - mean * mean));
+  }
+  return spread;
 }
 
 double coordination_number(const Model& model, const Contact& contact) {
@@ -81,7 +105,7 @@ HistoryRow observe_row(const Simulation& simulation, std::span<const GrainSums> 
   const double next_step = simulation.stage_run().next_step(simulation.step_estimate().stable_step(), state.last_step);
   // At the very first time level the velocity is that of the level itself.
   const double step_mean = state.last_step > 0 ? 0.5 * (state.last_step + next_step) : 0.0;
-  const auto grains = observe_grains(model, simulation.contact(), step_mean, team);
+  const auto grains = observe_grains(model, simulation.contact(), simulation.box().cell(), step_mean, team);
 
   HistoryRow row{};
   row.time = state.time;
@@ -98,6 +122,7 @@ HistoryRow observe_row(const Simulation& simulation, std::span<const GrainSums> 
     row.contact_energy += sums[g].contact.energy + sums[g].box.energy;
     row.max_penetration = std::max({row.max_penetration, sums[g].contact.penetration, sums[g].box.penetration()});
   }
+  row.mass_spread = mass_spread(grains);
   observe_box(row, simulation.box(), state);
   const double cell_volume = simulation.box().cell().volume();
   row.relative_density = model.total_reference_volume() / cell_volume;
@@ -120,7 +145,7 @@ LoadingRateObservation observe_loading_rate(const Simulation& simulation, Thread
   const Model& model = simulation.model();
   const Cell& cell = simulation.box().cell();
   const RunState& state = simulation.state();
-  const std::array<double, 3> centre{cell.centre(0), cell.centre(1), cell.centre(2)};
+  const std::array<double, 3> centre = centre_of(cell);
   std::vector<double> kinetic(static_cast<std::size_t>(model.grains)), elastic(kinetic.size());
   std::vector<ForceMoments> moments(kinetic.size());
   team.for_each(model.grains, [&](int grain, int) {

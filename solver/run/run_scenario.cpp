@@ -15,6 +15,7 @@
 #include "common/output_file.hpp"
 #include "common/progress.hpp"
 #include "common/run_quality.hpp"
+#include "common/stage_energy.hpp"
 #include "solver/model/bond_resolution.hpp"
 #include "solver/output/history.hpp"
 #include "solver/output/run_file.hpp"
@@ -49,6 +50,15 @@ double stiffness_of(const Model& model) {
   for (int grain = 0; grain < model.grains; ++grain)
     stiffness += model.material_of(grain).moduli.youngs() * model.reference_volume[static_cast<std::size_t>(grain)];
   return stiffness;
+}
+
+/// Internal energy (mJ) of the stage that each row belongs to.
+std::vector<double> internal_energy(const std::vector<HistoryRow>& history) {
+  std::vector<StageEnergyRow> rows;
+  for (const HistoryRow& row : history)
+    rows.push_back({row.stage, row.elastic_energy + row.bond_energy + row.contact_energy,
+                    row.plastic_dissipation + row.damage_dissipation});
+  return stage_internal_energy(rows);
 }
 
 /// Reads the packing and makes the model. Both may take a while, so that a request to stop is looked for in between.
@@ -488,7 +498,7 @@ private:
     if (reported_lines_++ % 20 == 0)
       fmt::print(stderr, "{:>8} {:>10} {:>10} {:>8} {:>7} {:>9} {:>9} {:>8} {:>9} {:>7} {:>8}\n", "step", "t/us",
                  "dt/ns", "limit", "D_r", "p/MPa", "q/MPa", "KE/IE", "residual", "pen/h", "ns/tet");
-    const double internal = row.elastic_energy + row.plastic_dissipation;
+    const double internal = internal_energy(record_.history).back();
     fmt::print(stderr,
                "{:>8.0f} {:>10.4f} {:>10.4f} {:>8} {:>7.4f} {:>9.4g} {:>9.3g} {:>8} {:>9.2e} {:>7.4f} {:>8.1f}\n",
                row.step, row.time * 1e6, row.time_step * 1e9,
@@ -501,11 +511,11 @@ private:
 
   /// What makes the results doubtful, last of all, where it is seen.
   void print_quality() const {
+    const std::vector<double> internal = internal_energy(record_.history);
     std::vector<QualityRow> rows;
     for (const HistoryRow& row : record_.history)
-      rows.push_back({row.external_work, row.energy_residual, row.kinetic_energy,
-                      row.elastic_energy + row.plastic_dissipation, row.mean_stress, row.max_penetration,
-                      row.relative_density_current, row.time_step});
+      rows.push_back({row.external_work, row.energy_residual, row.kinetic_energy, internal[rows.size()],
+                      row.mean_stress, row.max_penetration, row.relative_density_current, row.time_step});
     for (const std::string& warning : quality_warnings(rows)) fmt::print(stderr, "mpfem: warning: {}\n", warning);
   }
 

@@ -54,7 +54,10 @@ inline std::string read_text(const std::string& path) {
   return text.str();
 }
 
+/// Makes the folder of the file where there is none.
 inline void write_text(const std::string& path, const std::string& text) {
+  if (const auto folder = std::filesystem::path(path).parent_path(); !folder.empty())
+    std::filesystem::create_directories(folder);
   std::ofstream(path, std::ios::binary) << text;
 }
 

@@ -41,77 +41,107 @@ struct ColumnResult {
   double kinetic_over_elastic = 0, residual_over_work = 0, wall_imbalance = 0;
 };
 
-/// Presses `spheres` (1 or 2) spheres of radius 0.1 mm until every contact has approached by about `approach` mm as
-/// seen from a sphere's centre. `size_ratio`: R/h.
-inline ColumnResult press_column(int spheres, double size_ratio, double approach, double stiffness_factor) {
-  constexpr double radius = 0.1, youngs_modulus = 5000, poissons_ratio = 0.3;
-  const double start = 1.04 * radius; // a coarse mesh's nodes lie up to 3.5 % outside the sphere
+inline constexpr double column_radius = 0.1, column_width = 0.4; ///< mm
+
+/// `spheres` spheres about the axis of a box, that do not touch; its height is `height` (mm).
+inline MeshedPacking column_packing(int spheres, double size_ratio, double height) {
   std::vector<GrainMesh> grains;
   for (int i = 0; i < spheres; ++i) {
-    grains.push_back(sphere_mesh(size_ratio, radius, static_cast<std::uint64_t>(i) + 1));
+    grains.push_back(sphere_mesh(size_ratio, column_radius, static_cast<std::uint64_t>(i) + 1));
     rotate(grains.back(), {0.6, 0, 0.8}, 1.0 + 0.7 * i); // no node just at the contact, no two meshes alike
-    move(grains.back(), {0.2, 0.2, start * (1 + 2 * i)});
+    move(grains.back(), {0.2, 0.2, height / spheres * (0.5 + i)});
   }
-  const double height = 2 * start * spheres;
+  return pack(grains, {column_width, column_width, height});
+}
+
+/// The box is compacted isotropically; it is wide, so that only the walls along z touch: 2 m/s a wall and sphere.
+inline Scenario column_scenario(const MeshedPacking& packing, int spheres, double height, double shrink,
+                                double stiffness_factor) {
   Scenario scenario = holding_scenario(1);
   scenario.walls = true;
   scenario.contact.stiffness_factor = stiffness_factor;
-  // The box is compacted isotropically; it is wide, so that only the walls along z touch: 2 m/s a wall and sphere.
-  const double shrink = (radius - approach) / start;
+  IsotropicCompaction compaction{0, 2000.0 * spheres * 0.4 / height * 2, 0.3};
   Stage stage;
   stage.name = "press";
-  stage.type = IsotropicCompaction{0, 2000.0 * spheres * 0.4 / height * 2, 0.3};
+  stage.type = compaction;
   stage.damping = {4e6, 1e9};
-  const MeshedPacking packing = pack(grains, {0.4, 0.4, height});
-  ThreadTeam team(2);
   scenario.stages = {stage};
-  std::get<IsotropicCompaction>(scenario.stages[0].type).relative_density =
-      build_model(packing, scenario, "test").total_reference_volume() / (0.4 * 0.4 * height * std::pow(shrink, 3));
-  Simulation simulation(build_model(packing, scenario, "test"), scenario, team);
-  Model& model = simulation.model_to_disturb();
-  const auto nodes_of = [&model](int g) {
-    return std::pair{static_cast<std::size_t>(model.node_offset[static_cast<std::size_t>(g)]),
-                     static_cast<std::size_t>(model.node_offset[static_cast<std::size_t>(g) + 1])};
-  };
-  const auto mean = [&](const AlignedVector<double>& rows, int g, std::size_t axis) {
-    double sum = 0;
-    for (auto [n, end] = nodes_of(g); n < end; ++n) sum += rows[4 * n + axis] / model.inverse_mass[n];
-    return sum / model.mass[static_cast<std::size_t>(g)];
-  };
-  while (!simulation.stage_complete()) {
-    simulation.evaluate_forces();
-    simulation.advance();
-    // A column of smooth spheres would buckle: hold the centres on its axis.
-    for (int g = 0; g < spheres; ++g)
-      for (std::size_t axis = 0; axis < 2; ++axis) {
-        const double drift = mean(model.velocity, g, axis);
-        for (auto [n, end] = nodes_of(g); n < end; ++n) model.velocity[4 * n + axis] -= drift;
-      }
-  }
-  simulation.evaluate_forces();
+  compaction.relative_density = build_model(packing, scenario, "test").total_reference_volume() /
+                                (column_width * column_width * height * std::pow(shrink, 3));
+  scenario.stages[0].type = compaction;
+  return scenario;
+}
+
+/// First node of a grain, and the end.
+inline std::pair<std::size_t, std::size_t> nodes_of(const Model& model, int grain) {
+  const auto g = static_cast<std::size_t>(grain);
+  return {static_cast<std::size_t>(model.node_offset[g]), static_cast<std::size_t>(model.node_offset[g + 1])};
+}
+
+/// Of a component of the nodes' rows, weighted with their masses.
+inline double mean_of_grain(const Model& model, const AlignedVector<double>& rows, int grain, std::size_t axis) {
+  double sum = 0;
+  for (auto [n, end] = nodes_of(model, grain); n < end; ++n) sum += rows[4 * n + axis] / model.inverse_mass[n];
+  return sum / model.mass[static_cast<std::size_t>(grain)];
+}
+
+/// A column of smooth spheres would buckle: holds the centres on its axis.
+inline void hold_on_axis(Model& model) {
+  for (int g = 0; g < model.grains; ++g)
+    for (std::size_t axis = 0; axis < 2; ++axis) {
+      const double drift = mean_of_grain(model, model.velocity, g, axis);
+      for (auto [n, end] = nodes_of(model, g); n < end; ++n) model.velocity[4 * n + axis] -= drift;
+    }
+}
+
+/// N, of a sphere of finite size whose centre has approached the contact by `approach` mm.
+inline double finite_sphere_force(double approach) {
+  constexpr double youngs_modulus = 5000, poissons_ratio = 0.3;
+  return finite_sphere_factor(2 * approach / column_radius) * 4.0 / 3.0 * youngs_modulus /
+         (1 - poissons_ratio * poissons_ratio) * std::sqrt(column_radius) * std::pow(approach, 1.5);
+}
+
+inline ColumnResult result_of_column(const Simulation& simulation, double size_ratio) {
+  const Model& model = simulation.model();
   const HistoryRow row = simulation.observe();
-  const auto reference = [&](double d) {
-    return finite_sphere_factor(2 * d / radius) * 4.0 / 3.0 * youngs_modulus / (1 - poissons_ratio * poissons_ratio) *
-           std::sqrt(radius) * std::pow(d, 1.5);
-  };
+  const auto height_of = [&](int grain) { return mean_of_grain(model, model.position, grain, 2); };
   ColumnResult result;
-  result.tets = model.tets() / spheres;
+  result.tets = model.tets() / model.grains;
   result.kinetic_over_elastic = row.kinetic_energy / row.elastic_energy;
   result.residual_over_work = row.energy_residual / row.external_work;
   const double area = row.box_lengths[0] * row.box_lengths[1];
   const double low_force = row.wall_stress[4] * area, high_force = row.wall_stress[5] * area;
   result.wall_imbalance = (high_force - low_force) / (high_force + low_force);
   const Cell& cell = simulation.box().cell();
-  const double low_approach = radius - (mean(model.position, 0, 2) - cell.low[2]);
-  const double high_approach = radius - (cell.high[2] - mean(model.position, spheres - 1, 2));
-  result.wall_error = (low_force + high_force) / (reference(low_approach) + reference(high_approach)) - 1;
-  result.contact_radius_over_size = std::sqrt(radius * low_approach) * size_ratio / radius;
-  if (spheres == 2) {
-    const double half = radius - 0.5 * (mean(model.position, 1, 2) - mean(model.position, 0, 2));
+  const double low_approach = column_radius - (height_of(0) - cell.low[2]);
+  const double high_approach = column_radius - (cell.high[2] - height_of(model.grains - 1));
+  result.wall_error =
+      (low_force + high_force) / (finite_sphere_force(low_approach) + finite_sphere_force(high_approach)) - 1;
+  result.contact_radius_over_size = std::sqrt(column_radius * low_approach) * size_ratio / column_radius;
+  if (model.grains == 2) {
+    const double half = column_radius - 0.5 * (height_of(1) - height_of(0));
     const auto pairs = pair_contacts(model, simulation.contact());
-    result.sphere_error = -pairs.at(0).force[2] / reference(half) - 1;
+    result.sphere_error = -pairs.at(0).force[2] / finite_sphere_force(half) - 1;
   }
   return result;
+}
+
+/// Presses `spheres` (1 or 2) spheres of radius 0.1 mm until every contact has approached by about `approach` mm as
+/// seen from a sphere's centre. `size_ratio`: R/h.
+inline ColumnResult press_column(int spheres, double size_ratio, double approach, double stiffness_factor) {
+  const double start = 1.04 * column_radius; // a coarse mesh's nodes lie up to 3.5 % outside the sphere
+  const double height = 2 * start * spheres, shrink = (column_radius - approach) / start;
+  const MeshedPacking packing = column_packing(spheres, size_ratio, height);
+  const Scenario scenario = column_scenario(packing, spheres, height, shrink, stiffness_factor);
+  ThreadTeam team(2);
+  Simulation simulation(build_model(packing, scenario, "test"), scenario, team);
+  while (!simulation.stage_complete()) {
+    simulation.evaluate_forces();
+    simulation.advance();
+    hold_on_axis(simulation.model_to_disturb());
+  }
+  simulation.evaluate_forces();
+  return result_of_column(simulation, size_ratio);
 }
 
 } // namespace mpfem::test

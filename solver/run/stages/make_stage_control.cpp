@@ -12,53 +12,36 @@ namespace mpfem {
 
 namespace {
 
+template <class Control>
+struct RunBy {
+  using type = Control;
+};
+
 /// Which control runs which type of stage.
 template <class Type>
 struct ControlOf;
 template <>
-struct ControlOf<IsotropicCompaction> {
-  using type = IsotropicCompactionControl;
-};
+struct ControlOf<IsotropicCompaction> : RunBy<IsotropicCompactionControl> {};
 template <>
-struct ControlOf<IsotropicLoading> {
-  using type = IsotropicLoadingControl;
-};
+struct ControlOf<IsotropicLoading> : RunBy<IsotropicLoadingControl> {};
 template <>
-struct ControlOf<IsotropicUnloading> {
-  using type = IsotropicUnloadingControl;
-};
+struct ControlOf<IsotropicUnloading> : RunBy<IsotropicUnloadingControl> {};
 template <>
-struct ControlOf<StressCycles> {
-  using type = StressCyclesControl;
-};
+struct ControlOf<StressCycles> : RunBy<StressCyclesControl> {};
 template <>
-struct ControlOf<UnconfinedCompression> {
-  using type = UnconfinedCompressionControl;
-};
+struct ControlOf<UnconfinedCompression> : RunBy<UnconfinedCompressionControl> {};
 template <>
-struct ControlOf<DieCompression> {
-  using type = DieCompressionControl;
-};
+struct ControlOf<DieCompression> : RunBy<DieCompressionControl> {};
 template <>
-struct ControlOf<TriaxialCompression> {
-  using type = TriaxialCompressionControl;
-};
+struct ControlOf<TriaxialCompression> : RunBy<TriaxialCompressionControl> {};
 template <>
-struct ControlOf<StressProbe> {
-  using type = StressProbeControl;
-};
+struct ControlOf<StressProbe> : RunBy<StressProbeControl> {};
 template <>
-struct ControlOf<HeldStress> {
-  using type = HeldStressControl;
-};
+struct ControlOf<HeldStress> : RunBy<HeldStressControl> {};
 template <>
-struct ControlOf<Rest> {
-  using type = RestControl;
-};
+struct ControlOf<Rest> : RunBy<RestControl> {};
 template <>
-struct ControlOf<GripMotion> {
-  using type = GripMotionControl;
-};
+struct ControlOf<GripMotion> : RunBy<GripMotionControl> {};
 
 } // namespace
 
