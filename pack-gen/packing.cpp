@@ -37,52 +37,18 @@ public:
   template <class Report>
   bool minimise(double allowed, int steps, Report report) {
     for (Point& v : velocity_) v = {};
-    // FIRE with the parameters of the reference; the step's upper bound keeps a pair from jumping over each other.
-    double dt = 0.1, mixing = 0.1;
-    int downhill = 0;
+    Fire fire;
     double energy_before = energy_;
     for (int step = 0; step < steps; ++step) {
       if (largest_overlap_ <= allowed) return true;
       if (step % 100 == 0) {
         report(largest_overlap_);
-        if (step > 0 && energy_ > 0.9995 * energy_before && downhill > 20) {
-          // Jammed when what is left of the forces no longer moves anything.
-          if (residual_ < 1e-3 * pressure_) return false;
-        }
+        // Jammed when what is left of the forces no longer moves anything.
+        if (step > 0 && energy_ > 0.9995 * energy_before && fire.downhill > 20 && residual_ < 1e-3 * pressure_)
+          return false;
         energy_before = energy_;
       }
-      double power = 0, speed2 = 0, force2 = 0;
-      for (std::size_t i = 0; i < position_.size(); ++i)
-        for (std::size_t k = 0; k < 3; ++k) {
-          power += force_[i][k] * velocity_[i][k];
-          speed2 += velocity_[i][k] * velocity_[i][k];
-          force2 += force_[i][k] * force_[i][k];
-        }
-      if (power > 0) {
-        if (++downhill > 5) {
-          dt = std::min(dt * 1.1, 0.7);
-          mixing *= 0.99;
-        }
-      } else if (step > 0) {
-        downhill = 0;
-        dt *= 0.5;
-        mixing = 0.1;
-      }
-      const double along = power > 0 && force2 > 0 ? mixing * std::sqrt(speed2 / force2) : 0;
-      const double keep = power > 0 ? 1 - mixing : 0;
-      double fastest2 = 0;
-      for (std::size_t i = 0; i < position_.size(); ++i) {
-        double v2 = 0;
-        for (std::size_t k = 0; k < 3; ++k) {
-          velocity_[i][k] = keep * velocity_[i][k] + along * force_[i][k] + dt * force_[i][k];
-          v2 += velocity_[i][k] * velocity_[i][k];
-        }
-        fastest2 = std::max(fastest2, v2);
-      }
-      const double move = std::min(dt, 0.2 / std::sqrt(fastest2 + 1e-300));
-      for (std::size_t i = 0; i < position_.size(); ++i)
-        for (std::size_t k = 0; k < 3; ++k) position_[i][k] += move * velocity_[i][k];
-      travel_ += move * std::sqrt(fastest2);
+      move(fire.next(products(), step == 0));
       if (2 * travel_ > skin) rebuild();
       evaluate();
     }
@@ -100,6 +66,65 @@ public:
 
 private:
   static constexpr double skin = 0.5;
+
+  /// Sums over all components of velocities and forces.
+  struct Products {
+    double power = 0, speed2 = 0, force2 = 0;
+  };
+
+  /// What a step does to the velocities: kept, turned along the forces, driven by them.
+  struct Step {
+    double keep, along, dt;
+  };
+
+  /// FIRE with the parameters of the reference; the step's upper bound keeps a pair from jumping over each other.
+  struct Fire {
+    double dt = 0.1, mixing = 0.1;
+    int downhill = 0; ///< steps since the energy last rose
+
+    Step next(const Products& now, bool first) {
+      if (now.power > 0) {
+        if (++downhill > 5) {
+          dt = std::min(dt * 1.1, 0.7);
+          mixing *= 0.99;
+        }
+      } else if (!first) {
+        downhill = 0;
+        dt *= 0.5;
+        mixing = 0.1;
+      }
+      const double along = now.power > 0 && now.force2 > 0 ? mixing * std::sqrt(now.speed2 / now.force2) : 0;
+      return {now.power > 0 ? 1 - mixing : 0, along, dt};
+    }
+  };
+
+  Products products() const {
+    Products sum;
+    for (std::size_t i = 0; i < position_.size(); ++i)
+      for (std::size_t k = 0; k < 3; ++k) {
+        sum.power += force_[i][k] * velocity_[i][k];
+        sum.speed2 += velocity_[i][k] * velocity_[i][k];
+        sum.force2 += force_[i][k] * force_[i][k];
+      }
+    return sum;
+  }
+
+  /// Changes velocities and then positions; the fastest sphere moves no further than 0.2.
+  void move(const Step& step) {
+    double fastest2 = 0;
+    for (std::size_t i = 0; i < position_.size(); ++i) {
+      double v2 = 0;
+      for (std::size_t k = 0; k < 3; ++k) {
+        velocity_[i][k] = step.keep * velocity_[i][k] + step.along * force_[i][k] + step.dt * force_[i][k];
+        v2 += velocity_[i][k] * velocity_[i][k];
+      }
+      fastest2 = std::max(fastest2, v2);
+    }
+    const double time = std::min(step.dt, 0.2 / std::sqrt(fastest2 + 1e-300));
+    for (std::size_t i = 0; i < position_.size(); ++i)
+      for (std::size_t k = 0; k < 3; ++k) position_[i][k] += time * velocity_[i][k];
+    travel_ += time * std::sqrt(fastest2);
+  }
 
   void rebuild() {
     const CellGrid grid(position_, box_, 2 * largest_ + skin);

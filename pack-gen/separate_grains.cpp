@@ -51,6 +51,7 @@ public:
   }
 
   Eigen::Matrix3Xd& nodes(std::size_t grain) { return node_[grain]; }
+  const Eigen::Matrix3Xd& nodes(std::size_t grain) const { return node_[grain]; }
   const std::vector<int>& near(std::size_t grain) const { return near_[grain]; }
 
   /// Proven gap of a grain with these nodes; of no interest once it is `enough` or less.
@@ -85,6 +86,51 @@ private:
   std::vector<std::vector<int>> near_; ///< grains that some orientation could touch
 };
 
+// Both bounds are far above what packings need whose gap leaves any room; they end a search that is hopeless.
+constexpr int most_rounds = 60, orientations = 40;
+
+/// Of the grains that may touch since a neighbour or they themselves were turned; the others have no gap here.
+std::vector<Clearance> clearances_of(const Separation& grains, const std::vector<char>& suspect, int threads) {
+  std::vector<Clearance> found(suspect.size());
+  for_each_parallel(suspect.size(), threads, [&](std::size_t i) {
+    if (suspect[i]) found[i] = grains.clearance(i, grains.nodes(i), 0);
+  });
+  return found;
+}
+
+bool touches(const Clearance& clearance) {
+  return clearance.gap <= 0;
+}
+
+[[noreturn]] void refuse(const std::vector<Clearance>& found, std::size_t first, double nominal_size) {
+  const Clearance& worst = found[first];
+  throw InputError(fmt::format(
+      "size {:g} mm: the meshes of {} grains still touch after {} rounds of turning, grain {} and {} first: the "
+      "gap "
+      "between the spheres is too small for so coarse a mesh; allowed: a finer size or a larger smallest_gap",
+      nominal_size, std::count_if(found.begin(), found.end(), touches), most_rounds, first,
+      worst.other < 0 ? "a wall" : fmt::format("grain {}", worst.other)));
+}
+
+/// Turns a grain to the best of some orientations, the first without touch being good; true where it is another than
+/// before. `attempt` counts those that were tried.
+bool turn_apart(Separation& grains, std::size_t grain, int& attempt, const PlaceGrain& place) {
+  Eigen::Matrix3Xd best = grains.nodes(grain);
+  double best_gap = grains.clearance(grain, best, -std::numeric_limits<double>::infinity()).gap;
+  Eigen::Matrix3Xd trial = best;
+  bool turned = false;
+  for (int t = 0; t < orientations && best_gap <= 0; ++t) {
+    place(grain, ++attempt, trial.data());
+    const double gap = grains.clearance(grain, trial, best_gap).gap;
+    if (gap <= best_gap) continue;
+    best_gap = gap;
+    best = trial;
+    turned = true;
+  }
+  grains.nodes(grain) = best;
+  return turned;
+}
+
 } // namespace
 
 std::size_t separate_grains(const SpherePacking& packing, PackingMesh& mesh, double nominal_size, int threads,
@@ -93,42 +139,15 @@ std::size_t separate_grains(const SpherePacking& packing, PackingMesh& mesh, dou
   Separation grains(packing, mesh, threads);
   std::vector<int> attempt(n, 0);
   std::vector<char> turned(n, 0), suspect(n, 1);
-  // Both bounds are far above what packings need whose gap leaves any room; they end a search that is hopeless.
-  constexpr int most_rounds = 60, orientations = 40;
   for (int round = 0;; ++round) {
-    std::vector<char> touches(n, 0);
-    std::vector<Clearance> found(n);
-    for_each_parallel(n, threads, [&](std::size_t i) {
-      if (!suspect[i]) return;
-      found[i] = grains.clearance(i, grains.nodes(i), 0);
-      touches[i] = found[i].gap <= 0;
-    });
-    const auto first = static_cast<std::size_t>(std::find(touches.begin(), touches.end(), 1) - touches.begin());
+    const std::vector<Clearance> found = clearances_of(grains, suspect, threads);
+    const auto first = static_cast<std::size_t>(std::find_if(found.begin(), found.end(), touches) - found.begin());
     if (first == n) break;
-    if (round == most_rounds) {
-      const Clearance& worst = found[first];
-      throw InputError(fmt::format(
-          "size {:g} mm: the meshes of {} grains still touch after {} rounds of turning, grain {} and {} first: the "
-          "gap "
-          "between the spheres is too small for so coarse a mesh; allowed: a finer size or a larger smallest_gap",
-          nominal_size, std::count(touches.begin(), touches.end(), 1), most_rounds, first,
-          worst.other < 0 ? "a wall" : fmt::format("grain {}", worst.other)));
-    }
+    if (round == most_rounds) refuse(found, first, nominal_size);
     std::fill(suspect.begin(), suspect.end(), 0);
     for (std::size_t i = first; i < n; ++i) {
-      if (!touches[i]) continue;
-      Eigen::Matrix3Xd best = grains.nodes(i);
-      double best_gap = grains.clearance(i, best, -std::numeric_limits<double>::infinity()).gap;
-      Eigen::Matrix3Xd trial = best;
-      for (int t = 0; t < orientations && best_gap <= 0; ++t) {
-        place(i, ++attempt[i], trial.data());
-        const double gap = grains.clearance(i, trial, best_gap).gap;
-        if (gap <= best_gap) continue;
-        best_gap = gap;
-        best = trial;
-        turned[i] = 1;
-      }
-      grains.nodes(i) = best;
+      if (!touches(found[i])) continue;
+      if (turn_apart(grains, i, attempt[i], place)) turned[i] = 1;
       suspect[i] = 1;
       for (const int other : grains.near(i)) suspect[static_cast<std::size_t>(other)] = 1;
     }

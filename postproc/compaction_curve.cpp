@@ -7,6 +7,7 @@
 
 #include "common/errors.hpp"
 #include "common/one_line.hpp"
+#include "postproc/inertia.hpp"
 
 namespace mpfem {
 
@@ -79,23 +80,30 @@ Measurement measure_compaction_quality(const schema::FileReader& file, double fr
   const HistoryTable history(file);
   const auto& density = history["relative_density"];
   std::size_t first = history.rows();
-  double kinetic = 0, residual = 0, penetration = 0;
+  double residual = 0, penetration = 0, current_density = 0;
+  std::vector<std::size_t> rows;
   for (std::size_t row = 0; row < history.rows(); ++row) {
     if (density[row] < from_density) continue;
     first = std::min(first, row);
-    const double internal = internal_energy(history, row), work = history["external_work"][row];
-    if (internal > 0) kinetic = std::max(kinetic, history["kinetic_energy"][row] / internal);
+    const double work = history["external_work"][row];
+    rows.push_back(row);
     if (work != 0) residual = std::max(residual, std::abs(history["energy_residual"][row] / work));
     penetration = std::max(penetration, history["max_penetration"][row]);
+    current_density = std::max(current_density, history["relative_density_current"][row]);
   }
   if (first == history.rows())
     throw InputError(fmt::format("{}: no row from a relative density of {} on", one_line(file.path()), from_density));
   Measurement m = of_rows("compaction-quality", history, first);
-  m.value = kinetic;
+  const Inertia inertia = inertia_of_rows(history, rows, grain_inertia(file, history));
+  m.value = inertia.kinetic_over_internal;
   m.uncertainty_meaning = "none: a largest value over rows";
   m.method = fmt::format("largest values over the rows from a relative density of {:g} on", from_density);
-  m.details = {
-      {"kinetic_over_internal", kinetic}, {"residual_over_work", residual}, {"largest_penetration", penetration}};
+  m.details = {{"kinetic_over_internal", inertia.kinetic_over_internal},
+               {"residual_over_work", residual},
+               {"largest_penetration", penetration},
+               {"inertial_number", number_or_null(inertia.inertial_number)},
+               {"largest_inertial_number", number_or_null(inertia.largest_inertial_number)},
+               {"largest_current_density", current_density}};
   return m;
 }
 

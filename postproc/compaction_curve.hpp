@@ -21,8 +21,9 @@ Measurement measure_stress_at_densities(const schema::FileReader& file, const st
 /// CSV "name,relative_density [1],mean_stress [MPa]", an empty cell for a density that was not passed.
 std::string stress_at_densities_csv(const schema::FileReader& file, const std::vector<double>& wanted);
 
-/// Over the rows from a relative density on: largest kinetic over internal energy, largest residual of the energy
-/// balance over external work, largest penetration over the element size. Throws InputError where no row is as dense.
+/// Over the rows from a relative density on: largest kinetic over internal energy, residual of the energy balance over
+/// external work, penetration over the element size, inertial number (null where it is not known) and present volume of
+/// the grains over the box's. Throws InputError where no row is as dense.
 Measurement measure_compaction_quality(const schema::FileReader& file, double from_density);
 
 } // namespace mpfem

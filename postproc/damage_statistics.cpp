@@ -2,15 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
-#include <utility>
 
 #include <fmt/format.h>
 
-#include "common/errors.hpp"
-#include "common/one_line.hpp"
-#include "postproc/snapshot.hpp"
-#include "postproc/stages.hpp"
+#include "postproc/bond_energy.hpp"
+#include "postproc/bond_table.hpp"
+#include "postproc/snapshot_window.hpp"
 
 namespace mpfem {
 
@@ -28,24 +25,14 @@ std::vector<double> pair_sums(std::span<const BondSample> bonds, std::size_t pai
   return sums;
 }
 
+std::vector<BondSample> samples_of(std::span<const BondRow> bonds) {
+  std::vector<BondSample> samples;
+  for (const BondRow& bond : bonds) samples.push_back({bond.pair, bond.area, bond.damage});
+  return samples;
+}
+
 bool is_broken(const BondSample& bond) {
   return bond.damage >= 1;
-}
-
-/// The grain of a node, by the first nodes of all grains and the end.
-std::int32_t grain_of_node(const std::vector<std::int32_t>& offset, std::int32_t node) {
-  return static_cast<std::int32_t>(std::upper_bound(offset.begin(), offset.end(), node) - offset.begin()) - 1;
-}
-
-/// The stage of the history's row nearest in time, for the window.
-void set_stage(SnapshotWindow& window, const schema::FileReader& file, double time) {
-  const HistoryTable history(file);
-  const auto& times = history["time"];
-  std::size_t nearest = 0;
-  for (std::size_t row = 0; row < history.rows(); ++row)
-    if (std::abs(times[row] - time) < std::abs(times[nearest] - time)) nearest = row;
-  window.stage = static_cast<int>(history["stage"][nearest]);
-  window.stage_type = stage_by_number(stages_of(history, scenario_facts(file)), window.stage, file.path()).type;
 }
 
 } // namespace
@@ -117,33 +104,12 @@ DamageStatistics damage_statistics(std::span<const BondSample> bonds) {
 }
 
 std::vector<BondSample> read_bonds(const schema::FileReader& file, int snapshot) {
-  namespace run = schema::run;
-  const std::string name = snapshot_name(file, snapshot), path = one_line(file.path());
-  if (!file.has(run::snapshots_bond_node, name))
-    throw InputError(fmt::format("{}: snapshot {} has no bonds; allowed: a run with bonds", path, name));
-  const auto node = file.read(run::snapshots_bond_node, name), grain = file.read(run::snapshots_bond_grain, name);
-  const auto damage = file.read(run::snapshots_bond_damage, name);
-  const auto area = file.read(run::snapshots_bond_area, name);
-  const auto offset = file.read(run::mesh_grain_node_offset);
-  std::map<std::pair<std::int32_t, std::int32_t>, std::size_t> number_of_pair;
-  std::vector<BondSample> bonds;
-  for (std::size_t b = 0; b < node.size(); ++b) {
-    if (!(area.at(b) > 0)) continue; // stands for nothing
-    const auto pair = std::minmax({grain_of_node(offset, node[b]), grain.at(b)});
-    const std::size_t number = number_of_pair.try_emplace(pair, number_of_pair.size()).first->second;
-    bonds.push_back({number, area[b], static_cast<double>(damage.at(b))});
-  }
-  if (bonds.empty())
-    throw InputError(fmt::format("{}: no bond was formed by snapshot {}; allowed: a later --snapshot", path, name));
-  return bonds;
+  return samples_of(read_bond_table(file, snapshot));
 }
 
 Measurement measure_damage(const schema::FileReader& file, int snapshot) {
-  namespace run = schema::run;
-  const std::vector<BondSample> bonds = read_bonds(file, snapshot);
-  const DamageStatistics s = damage_statistics(bonds);
-  const std::string name = snapshot_name(file, snapshot);
-  const auto names = file.snapshots();
+  const std::vector<BondRow> bonds = read_bond_table(file, snapshot);
+  const DamageStatistics s = damage_statistics(samples_of(bonds));
   Measurement m;
   m.metric = "damage";
   m.value = s.mean.value;
@@ -152,11 +118,7 @@ Measurement measure_damage(const schema::FileReader& file, int snapshot) {
       "half of the 95 % interval of the ratio of sums over pairs of grains, taken as independent of each "
       "other; not that of the mesh";
   m.method = "mean damage of the bonds ever formed, both sides of every contact, weighted with their areas";
-  m.snapshot.emplace();
-  m.snapshot->number = static_cast<int>(std::find(names.begin(), names.end(), name) - names.begin());
-  m.snapshot->relative_density = file.read_scalar(run::snapshots_relative_density, name);
-  m.snapshot->mean_stress = file.read_scalar(run::snapshots_mean_stress, name);
-  set_stage(*m.snapshot, file, file.read_scalar(run::snapshots_time, name));
+  m.snapshot = snapshot_window(file, snapshot);
 
   const auto add = [&](const std::string& key, Ratio ratio) {
     m.details[key] = ratio.value;
@@ -171,6 +133,10 @@ Measurement measure_damage(const schema::FileReader& file, int snapshot) {
   m.details["pairs"] = s.pairs;
   m.details["bonds"] = s.bonds;
   m.details["bond_area_mm2"] = s.area;
+  const auto energy = bond_energy(bonds);
+  m.details["energy_spent_share"] = number_or_null(energy ? std::optional(energy->share()) : std::nullopt);
+  m.details["damage_dissipation_mJ"] = number_or_null(energy ? std::optional(energy->dissipation) : std::nullopt);
+  m.details["energy_to_break_mJ"] = number_or_null(energy ? std::optional(energy->energy_to_break) : std::nullopt);
   m.brief =
       fmt::format("{:.3g} % of the area broken, {:.3g} % undamaged, median {:.4g}; {} bonds of {} pairs of grains",
                   100 * s.broken_share.value, 100 * s.undamaged_share.value, s.percentile[2].value, s.bonds, s.pairs);

@@ -12,7 +12,7 @@
 
 namespace mpfem {
 
-/// A bond that exists, or once did: on either side of a contact, of a surface node of one grain to the other grain.
+/// What the statistics take of a bond (bond_table.hpp).
 struct BondSample {
   std::size_t pair = 0; ///< of grains, numbered from 0 as they come
   double area = 0;      ///< mm^2, what the bond stands for
@@ -52,7 +52,8 @@ std::vector<Column> damage_distribution(std::span<const BondSample> bonds);
 /// bonds.
 std::vector<BondSample> read_bonds(const schema::FileReader& file, int snapshot);
 
-/// damage_statistics of a snapshot; the value is the mean.
+/// damage_statistics of a snapshot; the value is the mean. Beside it damage by energy (bond_energy.hpp), null where the
+/// file does not tell it.
 Measurement measure_damage(const schema::FileReader& file, int snapshot);
 
 } // namespace mpfem

@@ -9,6 +9,7 @@
 #include "common/errors.hpp"
 #include "common/one_line.hpp"
 #include "postproc/uncertainty.hpp"
+#include "postproc/windows.hpp"
 
 namespace mpfem {
 
@@ -70,14 +71,7 @@ Measurement measure_elastic_recovery(const schema::FileReader& file, std::option
   m.uncertainty = r.uncertainty;
   m.uncertainty_meaning = "what the rest of the stress would add, linear or as in Hertz's theory, the 95 % interval "
                           "of that line at zero stress, and what the last row is off it";
-  m.window.stage = unloading.number;
-  m.window.stage_type = unloading.type;
-  m.window.first_row = begin + r.densest_row;
-  m.window.last_row = unloading.last;
-  m.window.strain_name = "volumetric_strain";
-  m.window.strain = range_of(history["volumetric_strain"], m.window.first_row, m.window.last_row);
-  m.window.stress_name = "mean_stress";
-  m.window.stress = range_of(history["mean_stress"], m.window.first_row, m.window.last_row);
+  m.window = isotropic_window(history, unloading, {begin + r.densest_row, unloading.last});
   m.method =
       fmt::format("(D_max - D_min) / D_max (Eq. 9): D_max at the densest row, D_min at the unloading's last row; "
                   "line through the last {} rows for zero stress; volumetric strain since the run began",

@@ -8,6 +8,7 @@
 #include "common/errors.hpp"
 #include "common/nearest_word.hpp"
 #include "common/one_line.hpp"
+#include "common/stage_energy.hpp"
 
 namespace mpfem {
 
@@ -40,7 +41,7 @@ std::vector<double> read_numbers(const schema::FileReader& file, const schema::D
 HistoryTable::HistoryTable(const schema::FileReader& file) : path_(one_line(file.path())) {
   constexpr std::string_view group = "/history/";
   for (const schema::DatasetDescription& line : schema::run::all) {
-    if (!line.path.starts_with(group)) continue;
+    if (!line.path.starts_with(group) || (!line.required && !file.has(line))) continue;
     const std::string name(line.path.substr(group.size()));
     const std::vector<double> values = read_numbers(file, line);
     const std::size_t width = line.rank == 1 ? 1 : line.extent[1].fixed;
@@ -51,6 +52,10 @@ HistoryTable::HistoryTable(const schema::FileReader& file) : path_(one_line(file
     }
   }
   if (rows() == 0) throw InputError(fmt::format("{}: the history has no rows", path_));
+}
+
+bool HistoryTable::has(std::string_view name) const {
+  return std::any_of(columns_.begin(), columns_.end(), [&](const Column& c) { return c.name == name; });
 }
 
 const Column& HistoryTable::column(std::string_view name) const {
@@ -80,8 +85,13 @@ std::vector<const Column*> HistoryTable::select(const std::vector<std::string>& 
   return selected;
 }
 
-double internal_energy(const HistoryTable& history, std::size_t row) {
-  return history["elastic_energy"][row] + history["plastic_dissipation"][row];
+std::vector<double> internal_energy(const HistoryTable& history) {
+  std::vector<StageEnergyRow> rows;
+  for (std::size_t row = 0; row < history.rows(); ++row)
+    rows.push_back({history["stage"][row],
+                    history["elastic_energy"][row] + history["bond_energy"][row] + history["contact_energy"][row],
+                    history["plastic_dissipation"][row] + history["damage_dissipation"][row]});
+  return stage_internal_energy(rows);
 }
 
 } // namespace mpfem

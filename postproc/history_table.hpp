@@ -25,6 +25,7 @@ public:
   std::size_t rows() const { return columns_.front().values.size(); }
   /// Throws InputError, naming the nearest column, where there is none of this name.
   const Column& column(std::string_view name) const;
+  bool has(std::string_view name) const; ///< columns that files of earlier versions lack
   const std::vector<double>& operator[](std::string_view name) const { return column(name).values; }
   /// Columns by name, where "wall_stress" stands for all of its components. Throws InputError.
   std::vector<const Column*> select(const std::vector<std::string>& names) const;
@@ -34,7 +35,7 @@ private:
   std::vector<Column> columns_;
 };
 
-/// Internal energy: what has gone into the grains, elastic and plastic (mJ).
-double internal_energy(const HistoryTable& history, std::size_t row);
+/// Internal energy (mJ) of the stage that each row belongs to: common/stage_energy.hpp.
+std::vector<double> internal_energy(const HistoryTable& history);
 
 } // namespace mpfem

@@ -8,6 +8,7 @@
 #include "common/errors.hpp"
 #include "common/one_line.hpp"
 #include "postproc/uncertainty.hpp"
+#include "postproc/windows.hpp"
 
 namespace mpfem {
 
@@ -63,6 +64,42 @@ double area_with_stride(std::span<const double> p, std::span<const double> strai
   return area;
 }
 
+/// Dissipated from the first row of a cycle to its last (mJ), and what its turning points' places make of that.
+double dissipated_in(std::span<const double> dissipation, CycleRows c) {
+  return dissipation[c.end] - dissipation[c.begin];
+}
+double turning_uncertainty(std::span<const double> dissipation, CycleRows c) {
+  return turning_point_uncertainty(dissipation, c.begin) + turning_point_uncertainty(dissipation, c.end);
+}
+
+/// Curves row by row, as hysteresis() takes them.
+struct Curves {
+  std::span<const double> mean_stress, volumetric_strain, relative_density, plastic_dissipation, damage_dissipation,
+      energy_residual;
+};
+
+/// `low`, `high`: the stresses that all cycles reach, MPa.
+CycleResult cycle_result(const Curves& curve, CycleRows c, double low, double high) {
+  const auto& p = curve.mean_stress;
+  const Crossing at_high = crossing(p, c.begin, c.top, high), at_low = crossing(p, c.top, c.end, low);
+  CycleResult r;
+  r.rows = c;
+  r.lowest_stress = std::min(p[c.begin], p[c.end]);
+  r.highest_stress = p[c.top];
+  r.area = loop_area(p, curve.volumetric_strain, c);
+  r.area_uncertainty = std::abs(area_with_stride(p, curve.volumetric_strain, c, 2) - r.area);
+  r.density_at_high = at_high.of(curve.relative_density);
+  r.density_at_low = at_low.of(curve.relative_density);
+  r.density_at_high_uncertainty = interpolation_uncertainty(p, curve.relative_density, at_high, high, {c.begin, c.top});
+  r.density_at_low_uncertainty = interpolation_uncertainty(p, curve.relative_density, at_low, low, {c.top, c.end});
+  r.plastic = dissipated_in(curve.plastic_dissipation, c);
+  r.damage = dissipated_in(curve.damage_dissipation, c);
+  r.plastic_uncertainty =
+      std::hypot(turning_uncertainty(curve.plastic_dissipation, c), dissipated_in(curve.energy_residual, c));
+  r.damage_uncertainty = turning_uncertainty(curve.damage_dissipation, c); // of bonds: see energy_uncertainty
+  return r;
+}
+
 const CycleResult& first_whole(const Hysteresis& h) {
   return h.cycles[h.cycles.front().rows.whole ? 0 : 1];
 }
@@ -106,31 +143,9 @@ Hysteresis hysteresis(std::span<const double> mean_stress, std::span<const doubl
     h.low_stress = std::max(h.low_stress, mean_stress[c.end]);
     h.high_stress = std::min(h.high_stress, mean_stress[c.top]);
   }
-  for (const CycleRows& c : cycles) {
-    CycleResult r;
-    r.rows = c;
-    r.lowest_stress = std::min(mean_stress[c.begin], mean_stress[c.end]);
-    r.highest_stress = mean_stress[c.top];
-    r.area = loop_area(mean_stress, volumetric_strain, c);
-    r.area_uncertainty = std::abs(area_with_stride(mean_stress, volumetric_strain, c, 2) - r.area);
-    const Crossing high = crossing(mean_stress, c.begin, c.top, h.high_stress);
-    const Crossing low = crossing(mean_stress, c.top, c.end, h.low_stress);
-    r.density_at_high = high.of(relative_density);
-    r.density_at_low = low.of(relative_density);
-    r.density_at_high_uncertainty =
-        interpolation_uncertainty(mean_stress, relative_density, high, h.high_stress, {c.begin, c.top});
-    r.density_at_low_uncertainty =
-        interpolation_uncertainty(mean_stress, relative_density, low, h.low_stress, {c.top, c.end});
-    r.plastic = plastic_dissipation[c.end] - plastic_dissipation[c.begin];
-    r.damage = damage_dissipation[c.end] - damage_dissipation[c.begin];
-    const auto of_difference = [&](std::span<const double> dissipation) {
-      return turning_point_uncertainty(dissipation, c.begin) + turning_point_uncertainty(dissipation, c.end);
-    };
-    r.plastic_uncertainty =
-        std::hypot(of_difference(plastic_dissipation), energy_residual[c.end] - energy_residual[c.begin]);
-    r.damage_uncertainty = of_difference(damage_dissipation); // of bonds: see energy_uncertainty
-    h.cycles.push_back(r);
-  }
+  const Curves curves{mean_stress,         volumetric_strain,  relative_density,
+                      plastic_dissipation, damage_dissipation, energy_residual};
+  for (const CycleRows& c : cycles) h.cycles.push_back(cycle_result(curves, c, h.low_stress, h.high_stress));
   const auto steps = static_cast<double>(whole_cycles(h)) - 1;
   if (steps > 0) {
     const CycleResult &first = first_whole(h), &last = h.cycles.back();
@@ -190,63 +205,76 @@ std::vector<Column> cycle_table(const Hysteresis& h, std::size_t first_row) {
   return columns;
 }
 
+namespace {
+
+/// The stage asked for, else the last stress_cycles, else the whole run as stage -1.
+StageRows choose_cycles(const HistoryTable& history, const schema::FileReader& file, std::optional<int> number) {
+  const auto stages = stages_of(history, scenario_facts(file));
+  const StageRows& stage = choose_stage(stages, number, {"stress_cycles"}, file.path());
+  if (!number && stage.type != "stress_cycles") return {-1, "", 0, history.rows() - 1};
+  return stage;
+}
+
+nlohmann::ordered_json details_of(const Hysteresis& h, const std::vector<Column>& cycles) {
+  nlohmann::ordered_json json = {
+      {"cycles", whole_cycles(h)},
+      {"drift_of_relative_density_at_low_stress_per_cycle", h.drift_at_low},
+      {"drift_of_relative_density_at_low_stress_per_cycle_uncertainty", h.drift_at_low_uncertainty},
+      {"drift_of_relative_density_at_high_stress_per_cycle", h.drift_at_high},
+      {"drift_of_relative_density_at_high_stress_per_cycle_uncertainty", h.drift_at_high_uncertainty},
+      {"drift_uncertainty", std::max(h.drift_at_low_uncertainty, h.drift_at_high_uncertainty)},
+      {"low_stress_MPa", h.low_stress},
+      {"high_stress_MPa", h.high_stress}};
+  for (const Column& column : cycles)
+    json["per_cycle"][column.unit == "1" ? column.name : fmt::format("{} [{}]", column.name, column.unit)] =
+        column.values;
+  return json;
+}
+
+/// `highest_stress`: of the window, MPa.
+std::vector<std::string> notes_on(const Hysteresis& h, std::array<double, 2> deviatoric, double highest_stress,
+                                  double first_stress) {
+  std::vector<std::string> notes;
+  if (std::max(-deviatoric[0], deviatoric[1]) > 0.1 * highest_stress)
+    notes.push_back(fmt::format("the cycles are not isotropic: q is between {:.3g} and {:.3g} MPa in them",
+                                deviatoric[0], deviatoric[1]));
+  if (!h.cycles.front().rows.whole)
+    notes.push_back(fmt::format("the first loading begins at {:.3g} MPa, between the cycles' stresses: it is no cycle "
+                                "and stands as number 0",
+                                first_stress));
+  if (whole_cycles(h) == 1) notes.emplace_back("one whole cycle: no drift from cycle to cycle");
+  return notes;
+}
+
+} // namespace
+
 HysteresisMeasurement measure_hysteresis(const schema::FileReader& file, std::optional<int> number) {
   const HistoryTable history(file);
-  const auto stages = stages_of(history, scenario_facts(file));
-  StageRows stage = choose_stage(stages, number, {"stress_cycles"}, file.path());
-  if (!number && stage.type != "stress_cycles") stage = {-1, "", 0, history.rows() - 1};
-  const auto part = [&](const char* name) {
-    return std::span<const double>(history[name]).subspan(stage.first, stage.last + 1 - stage.first);
-  };
+  const StageRows stage = choose_cycles(history, file, number);
+  const auto part = [&](const char* name) { return stage.rows().of(history[name]); };
   const Hysteresis h =
       hysteresis(part("mean_stress"), part("volumetric_strain"), part("relative_density"), part("plastic_dissipation"),
                  part("damage_dissipation"), part("energy_residual"), file.path());
   const CycleResult& last = h.cycles.back();
-  Measurement m;
+  HysteresisMeasurement result;
+  result.cycles = cycle_table(h, stage.first);
+  Measurement& m = result.measurement;
   m.metric = "hysteresis";
   m.value = last.area;
   m.unit = "MPa";
   m.uncertainty = last.area_uncertainty;
   m.uncertainty_meaning = "change of the area when every second row is left out";
-  m.window.stage = stage.number;
-  m.window.stage_type = stage.type;
-  m.window.first_row = stage.first + first_whole(h).rows.begin;
-  m.window.last_row = stage.first + last.rows.end;
-  m.window.strain_name = "volumetric_strain";
-  m.window.strain = range_of(history["volumetric_strain"], m.window.first_row, m.window.last_row);
-  m.window.stress_name = "mean_stress";
-  m.window.stress = range_of(history["mean_stress"], m.window.first_row, m.window.last_row);
+  m.window = isotropic_window(history, stage, {stage.first + first_whole(h).rows.begin, stage.first + last.rows.end});
   m.method =
       "area of the last cycle's loop, integral of (p - p_low) over the volumetric strain (mJ/mm^3 = MPa); cycles "
       "from lowest over highest to lowest mean stress";
-  m.details = {{"cycles", whole_cycles(h)},
-               {"drift_of_relative_density_at_low_stress_per_cycle", h.drift_at_low},
-               {"drift_of_relative_density_at_low_stress_per_cycle_uncertainty", h.drift_at_low_uncertainty},
-               {"drift_of_relative_density_at_high_stress_per_cycle", h.drift_at_high},
-               {"drift_of_relative_density_at_high_stress_per_cycle_uncertainty", h.drift_at_high_uncertainty},
-               {"drift_uncertainty", std::max(h.drift_at_low_uncertainty, h.drift_at_high_uncertainty)},
-               {"low_stress_MPa", h.low_stress},
-               {"high_stress_MPa", h.high_stress}};
-  HysteresisMeasurement result;
-  result.cycles = cycle_table(h, stage.first);
-  for (const Column& column : result.cycles)
-    m.details["per_cycle"][column.unit == "1" ? column.name : fmt::format("{} [{}]", column.name, column.unit)] =
-        column.values;
+  m.details = details_of(h, result.cycles);
   m.brief = fmt::format(
       "loop area of the last of {} cycles, drift of D_r per cycle {:+.2e} at {:.3g} MPa and {:+.2e} at {:.3g} "
       "MPa, last cycle {:.3g} mJ plastic and {:.3g} mJ damage",
       whole_cycles(h), h.drift_at_low, h.low_stress, h.drift_at_high, h.high_stress, last.plastic, last.damage);
-  const auto deviatoric = range_of(history["deviatoric_stress"], m.window.first_row, m.window.last_row);
-  if (std::max(-deviatoric[0], deviatoric[1]) > 0.1 * m.window.stress[1])
-    m.notes.push_back(fmt::format("the cycles are not isotropic: q is between {:.3g} and {:.3g} MPa in them",
-                                  deviatoric[0], deviatoric[1]));
-  if (const CycleResult& first = h.cycles.front(); !first.rows.whole)
-    m.notes.push_back(
-        fmt::format("the first loading begins at {:.3g} MPa, between the cycles' stresses: it is no cycle "
-                    "and stands as number 0",
-                    history["mean_stress"][stage.first + first.rows.begin]));
-  if (whole_cycles(h) == 1) m.notes.emplace_back("one whole cycle: no drift from cycle to cycle");
-  result.measurement = std::move(m);
+  m.notes = notes_on(h, range_of(history["deviatoric_stress"], m.window.first_row, m.window.last_row),
+                     m.window.stress[1], part("mean_stress")[h.cycles.front().rows.begin]);
   return result;
 }
 

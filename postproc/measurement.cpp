@@ -41,6 +41,10 @@ std::string window_text(const Measurement& m) {
 
 } // namespace
 
+nlohmann::ordered_json number_or_null(const std::optional<double>& number) {
+  return number ? nlohmann::ordered_json(*number) : nlohmann::ordered_json();
+}
+
 nlohmann::ordered_json to_json(const Measurement& m) {
   nlohmann::ordered_json json = {{"metric", m.metric},
                                  {"value", m.value},

@@ -48,6 +48,9 @@ struct Measurement {
 /// Adds a note where the run stopped on its way: its history looks like any other.
 void note_unfinished(Measurement& measurement, const schema::FileReader& run);
 
+/// The number, or null where it is not known.
+nlohmann::ordered_json number_or_null(const std::optional<double>& number);
+
 nlohmann::ordered_json to_json(const Measurement& measurement);
 
 /// One line: "modulus: 1234 ± 56 MPa; BRIEF (stage 2, rows 401 … 433)", or "(stage 2, snapshot 3)".

@@ -51,6 +51,7 @@ Halves halves_of(const StageCurve& c, Rows rows) {
 struct Choice {
   Rows rows;
   std::string limit; ///< what ends the window
+  std::string note;  ///< what a reader must know of it; empty: nothing
 };
 
 Choice window_by_hand(const StageCurve& c, std::array<double, 2> range) {
@@ -64,14 +65,22 @@ Choice window_by_hand(const StageCurve& c, std::array<double, 2> range) {
     throw InputError(fmt::format("{}: --strain-range: found {:g},{:g} with fewer than 3 rows of stage {}, whose axial "
                                  "strain ends at {:g}",
                                  c.path, range[0], range[1], c.stage, c.axial_strain.back()));
-  return {{begin, end}, "the strain range given"};
+  return {{begin, end}, "the strain range given", ""};
 }
 
-Choice window_by_rule(const StageCurve& c, const ModulusRule& rule, std::string& note) {
+/// The rise of the smoothed stress from its lowest value to its peak, in which a window is sought.
+struct Rise {
+  Rows rows;
+  std::vector<double> smooth; ///< MPa, of all rows
+  double over(Rows part) const { return smooth[part.end] - smooth[part.begin]; }
+};
+
+/// Throws InputError where the stage is no axial loading.
+Rise find_rise(const StageCurve& c) {
   if (c.rows() < shortest_window)
     throw InputError(
         fmt::format("{}: stage {} has {} rows, needed for a modulus: {}", c.path, c.stage, c.rows(), shortest_window));
-  const std::vector<double> smooth = smoothed(c.axial_stress);
+  std::vector<double> smooth = smoothed(c.axial_stress);
   const auto peak = static_cast<std::size_t>(std::max_element(smooth.begin(), smooth.end()) - smooth.begin());
   const auto begin = static_cast<std::size_t>(
       std::min_element(smooth.begin(), smooth.begin() + static_cast<std::ptrdiff_t>(peak) + 1) - smooth.begin());
@@ -80,51 +89,71 @@ Choice window_by_rule(const StageCurve& c, const ModulusRule& rule, std::string&
         fmt::format("{}: stage {} is no axial loading: {} rows from its lowest axial stress to the highest, "
                     "needed: {} with rising axial strain",
                     c.path, c.stage, peak - begin + 1, shortest_window));
+  return {{begin, peak}, std::move(smooth)};
+}
 
-  const std::string limit = fmt::format("{:g} % of the rise in stress", 100 * rule.stress_fraction);
-  const double highest = smooth[begin] + rule.stress_fraction * (smooth[peak] - smooth[begin]);
-  std::size_t end = begin;
-  while (end < peak && smooth[end + 1] <= highest) ++end;
-  end = std::max(end, begin + shortest_window - 1);
-  const auto longest_from = [&](std::size_t first) -> std::optional<Choice> {
-    std::string ended_by = limit;
-    for (std::size_t last = end; last + 1 >= first + shortest_window; --last) {
-      const double damage = c.damage_dissipation[last] - c.damage_dissipation[first];
-      if (damage > rule.damage_share * (c.axial_work[last] - c.axial_work[first])) {
-        ended_by = fmt::format("damage above {:g} % of the axial work", 100 * rule.damage_share);
-        continue;
-      }
-      if (!strain_rises(c, {first, last})) continue;
-      const Halves slopes = halves_of(c, {first, last});
-      if (slopes.change() <= rule.slope_change * slopes.whole) return Choice{{first, last}, ended_by};
-      ended_by = fmt::format("a change of slope above {:g} %", 100 * rule.slope_change);
+/// The rows that the rule's share of the rise allows a window.
+Rows allowed_rows(const Rise& rise, const ModulusRule& rule) {
+  const double highest = rise.smooth[rise.rows.begin] + rule.stress_fraction * rise.over(rise.rows);
+  std::size_t end = rise.rows.begin;
+  while (end < rise.rows.end && rise.smooth[end + 1] <= highest) ++end;
+  return {rise.rows.begin, std::max(end, rise.rows.begin + shortest_window - 1)};
+}
+
+/// The longest window from the first of the rows allowed in which damage and the change of slope are as the rule has
+/// them.
+std::optional<Choice> longest_window_in(const StageCurve& c, const ModulusRule& rule, Rows allowed) {
+  std::string ended_by = fmt::format("{:g} % of the rise in stress", 100 * rule.stress_fraction);
+  const std::size_t first = allowed.begin;
+  for (std::size_t last = allowed.end; last + 1 >= first + shortest_window; --last) {
+    const double damage = c.damage_dissipation[last] - c.damage_dissipation[first];
+    if (damage > rule.damage_share * (c.axial_work[last] - c.axial_work[first])) {
+      ended_by = fmt::format("damage above {:g} % of the axial work", 100 * rule.damage_share);
+      continue;
     }
-    return {};
-  };
-  // A toe, where the slope still grows over the first fifth of the rise, is no elastic response of the whole sample
-  // yet: the window begins at the first row from which it spans as much.
-  const double fifth = 0.2 * (smooth[peak] - smooth[begin]);
-  std::size_t toe_end = begin + shortest_window - 1;
-  while (toe_end < end && smooth[toe_end] < smooth[begin] + fifth) ++toe_end;
-  if (strain_rises(c, {begin, toe_end})) {
-    const Halves slopes = halves_of(c, {begin, toe_end});
-    if (slopes.second - slopes.first > rule.slope_change * slopes.whole + 2 * slopes.deviation)
-      for (std::size_t first = begin + 1; first + shortest_window <= end + 1; ++first)
-        if (const auto choice = longest_from(first);
-            choice && smooth[choice->rows.end] - smooth[choice->rows.begin] >= fifth) {
-          note = fmt::format("the slope grows at first: {} rows of this toe are left out", first - begin);
-          return *choice;
-        }
+    if (!strain_rises(c, {first, last})) continue;
+    const Halves slopes = halves_of(c, {first, last});
+    if (slopes.change() <= rule.slope_change * slopes.whole) return Choice{{first, last}, ended_by, ""};
+    ended_by = fmt::format("a change of slope above {:g} %", 100 * rule.slope_change);
   }
-  if (const auto choice = longest_from(begin)) return *choice;
+  return {};
+}
+
+/// A toe, where the slope still grows over the first fifth of the rise, is no elastic response of the whole sample yet:
+/// the window begins at the first row from which it spans as much. Nothing without a toe.
+std::optional<Choice> window_after_toe(const StageCurve& c, const ModulusRule& rule, const Rise& rise, Rows allowed) {
+  const double fifth = 0.2 * rise.over(rise.rows);
+  Rows toe{allowed.begin, allowed.begin + shortest_window - 1};
+  while (toe.end < allowed.end && rise.smooth[toe.end] < rise.smooth[toe.begin] + fifth) ++toe.end;
+  if (!strain_rises(c, toe)) return {};
+  const Halves slopes = halves_of(c, toe);
+  if (!(slopes.second - slopes.first > rule.slope_change * slopes.whole + 2 * slopes.deviation)) return {};
+  for (std::size_t first = allowed.begin + 1; first + shortest_window <= allowed.end + 1; ++first)
+    if (auto choice = longest_window_in(c, rule, {first, allowed.end}); choice && rise.over(choice->rows) >= fifth) {
+      choice->note = fmt::format("the slope grows at first: {} rows of this toe are left out", first - allowed.begin);
+      return choice;
+    }
+  return {};
+}
+
+/// Where no window meets the rule.
+Choice shortest_window_at(const StageCurve& c, const ModulusRule& rule, std::size_t begin) {
   const Rows shortest{begin, begin + shortest_window - 1};
-  note = fmt::format("no window meets the rule for slope ({:g} %) and damage ({:g} %): the first {} rows",
-                     100 * rule.slope_change, 100 * rule.damage_share, shortest_window);
   if (!strain_rises(c, shortest))
     throw InputError(fmt::format("{}: stage {}: the axial strain does not rise over the {} rows after its lowest axial "
                                  "stress",
                                  c.path, c.stage, shortest_window));
-  return {shortest, "nothing: no window meets the rule"};
+  return {shortest, "nothing: no window meets the rule",
+          fmt::format("no window meets the rule for slope ({:g} %) and damage ({:g} %): the first {} rows",
+                      100 * rule.slope_change, 100 * rule.damage_share, shortest_window)};
+}
+
+Choice window_by_rule(const StageCurve& c, const ModulusRule& rule) {
+  const Rise rise = find_rise(c);
+  const Rows allowed = allowed_rows(rise, rule);
+  if (const auto choice = window_after_toe(c, rule, rise, allowed)) return *choice;
+  if (const auto choice = longest_window_in(c, rule, allowed)) return *choice;
+  return shortest_window_at(c, rule, allowed.begin);
 }
 
 /// Every so many rows that Theil and Sen's pairs stay few.
@@ -138,8 +167,7 @@ std::vector<double> thinned(std::span<const double> values) {
 } // namespace
 
 Measurement modulus(const StageCurve& c, const ModulusRule& rule) {
-  std::string note;
-  const Choice choice = rule.strain_range ? window_by_hand(c, *rule.strain_range) : window_by_rule(c, rule, note);
+  const Choice choice = rule.strain_range ? window_by_hand(c, *rule.strain_range) : window_by_rule(c, rule);
   const Rows rows = choice.rows;
   const Line line = theil_sen_line(thinned(rows.of(c.axial_strain)), thinned(rows.of(c.axial_stress)));
   if (!(line.slope > 0))
@@ -167,13 +195,13 @@ Measurement modulus(const StageCurve& c, const ModulusRule& rule) {
                {"scatter_of_stress_MPa", line.scatter},
                {"damage_over_axial_work", nullptr},
                {"unconfined", c.unconfined},
-               {"window_meets_rule", !note.starts_with("no window")},
+               {"window_meets_rule", !choice.note.starts_with("no window")},
                {"relative_density_at_start", c.relative_density.front()}};
   if (const double work = c.axial_work[rows.end] - c.axial_work[rows.begin]; work > 0)
     m.details["damage_over_axial_work"] = (c.damage_dissipation[rows.end] - c.damage_dissipation[rows.begin]) / work;
   m.brief = fmt::format("axial strain {:.4g} … {:.4g}, window ends with {}", m.window.strain[0], m.window.strain[1],
                         choice.limit);
-  if (!note.empty()) m.notes.push_back(note);
+  if (!choice.note.empty()) m.notes.push_back(choice.note);
   if (!c.unconfined)
     m.notes.emplace_back(
         "the lateral walls carry load: the slope is no Young's modulus unless their stress is constant");

@@ -5,11 +5,9 @@
 
 namespace mpfem {
 
-Measurement quasi_static(const HistoryTable& history, const StageRows& stage) {
-  const auto& number = history["stage"];
-  std::vector<std::size_t> rows; // those of the stage itself, without the state in which it begins
-  for (std::size_t row = stage.first; row <= stage.last; ++row)
-    if (static_cast<int>(number[row]) == stage.number) rows.push_back(row);
+Measurement quasi_static(const HistoryTable& history, const StageRows& stage,
+                         const std::optional<GrainInertia>& grains) {
+  std::vector<std::size_t> rows = own_rows(history, stage);
   if (rows.empty()) rows.push_back(stage.last);
   const auto& upper = history["wall_stress_5"];
   const auto& lower = history["wall_stress_4"];
@@ -24,19 +22,21 @@ Measurement quasi_static(const HistoryTable& history, const StageRows& stage) {
     largest_work = std::max(largest_work, std::abs(work[rows[i]] - work.front()));
   }
   const bool rises = 10 * (peak + 1) > rows.size(); // else the stress is largest at the beginning: an unloading
-  double of_internal = 0, of_elastic = 0, difference = 0, stress = 0;
+  double of_elastic = 0, difference = 0, stress = 0;
+  std::vector<std::size_t> loaded;
   for (std::size_t i = 0; i < rows.size(); ++i) {
     const std::size_t row = rows[i];
     if (axial(row) < axial(rows[peak]) / 5 || (rises && i > peak)) continue;
     const double kinetic = history["kinetic_energy"][row], elastic = history["elastic_energy"][row];
-    if (internal_energy(history, row) > 0) of_internal = std::max(of_internal, kinetic / internal_energy(history, row));
+    loaded.push_back(row);
     if (elastic > 0) of_elastic = std::max(of_elastic, kinetic / elastic);
     difference += std::abs(upper[row] - lower[row]);
     stress += axial(row);
   }
+  const Inertia inertia = inertia_of_rows(history, loaded, grains);
   Measurement m;
   m.metric = "quasi-static";
-  m.value = of_internal;
+  m.value = inertia.kinetic_over_internal;
   m.uncertainty_meaning = "none: a largest value over rows";
   m.window.stage = stage.number;
   m.window.stage_type = stage.type;
@@ -44,18 +44,21 @@ Measurement quasi_static(const HistoryTable& history, const StageRows& stage) {
   m.window.last_row = rows.back();
   m.window.strain = range_of(history["axial_strain"], rows.front(), rows.back());
   m.window.stress = {axial(rows.front()), axial(rows[peak])};
-  m.method = "largest kinetic over internal energy in rows above a fifth of the largest axial stress";
-  m.details = {{"kinetic_over_internal", of_internal},
+  m.method = "largest kinetic over the stage's internal energy in rows above a fifth of the largest axial stress";
+  m.details = {{"kinetic_over_internal", inertia.kinetic_over_internal},
                {"kinetic_over_elastic", of_elastic},
                {"imbalance", stress > 0 ? difference / stress : 0},
-               {"residual_over_work", largest_work > 0 ? largest_residual / largest_work : 0}};
+               {"residual_over_work", largest_work > 0 ? largest_residual / largest_work : 0},
+               {"inertial_number", number_or_null(inertia.inertial_number)},
+               {"largest_inertial_number", number_or_null(inertia.largest_inertial_number)}};
   return m;
 }
 
 Measurement measure_quasi_static(const schema::FileReader& file, std::optional<int> number) {
   const HistoryTable history(file);
   const auto stages = stages_of(history, scenario_facts(file));
-  return quasi_static(history, number ? stage_by_number(stages, *number, file.path()) : stages.back());
+  return quasi_static(history, number ? stage_by_number(stages, *number, file.path()) : stages.back(),
+                      grain_inertia(file, history));
 }
 
 } // namespace mpfem

@@ -93,6 +93,65 @@ BandRaster paint_bands(const Lines& lines, const TetRaster& fine, const std::vec
   return raster;
 }
 
+/// The colours of fine pixels, `fineness` along a side of a pixel: bands over outlines over the mesh over the tets.
+class FinePicture {
+public:
+  FinePicture(const TetRaster& fine, const BandRaster& bands, const std::vector<Colour>& tet_colour,
+              const std::vector<std::int32_t>& tet_grain, const Lines& lines)
+      : fine_(fine), bands_(bands), tet_colour_(tet_colour), tet_grain_(tet_grain), lines_(lines) {}
+
+  const Colour& colour_at(int x, int y) const {
+    static constexpr Colour mesh_line{90, 90, 90}, empty{255, 255, 255};
+    const std::size_t at = index(x, y);
+    if (!bands_.painted.empty() && bands_.painted[at]) return bands_.colour[at];
+    const std::int32_t tet = fine_.tet[at];
+    if (tet < 0) return empty;
+    if (on_outline(x, y)) return lines_.outline;
+    if (lines_.mesh && (tet_at(x + 1, y) != tet || tet_at(x, y + 1) != tet)) return mesh_line;
+    return tet_colour_[static_cast<std::size_t>(tet)];
+  }
+
+private:
+  std::size_t index(int x, int y) const {
+    return static_cast<std::size_t>(y) * static_cast<std::size_t>(fine_.width) + static_cast<std::size_t>(x);
+  }
+  std::int32_t tet_at(int x, int y) const {
+    return x < 0 || y < 0 || x >= fine_.width || y >= fine_.height ? -1 : fine_.tet[index(x, y)];
+  }
+  std::int32_t grain_at(int x, int y) const {
+    const std::int32_t tet = tet_at(x, y);
+    return tet < 0 ? -1 : tet_grain_[static_cast<std::size_t>(tet)];
+  }
+  /// Where another grain, or none, lies within the line's half width.
+  bool on_outline(int x, int y) const {
+    static const int reach = std::max(1, static_cast<int>(std::lround(line_pixels * fineness)));
+    const std::int32_t grain = grain_at(x, y);
+    for (const auto& [dx, dy] :
+         {std::pair{reach, 0}, {-reach, 0}, {0, reach}, {0, -reach}, {1, 0}, {-1, 0}, {0, 1}, {0, -1}})
+      if (grain_at(x + dx, y + dy) != grain) return true;
+    return false;
+  }
+
+  const TetRaster& fine_;
+  const BandRaster& bands_;
+  const std::vector<Colour>& tet_colour_;
+  const std::vector<std::int32_t>& tet_grain_;
+  const Lines& lines_;
+};
+
+/// The mean of the fine pixels of a pixel.
+Colour mean_colour(const FinePicture& fine, int row, int column) {
+  std::array<int, 3> sum{};
+  for (int j = 0; j < fineness; ++j)
+    for (int i = 0; i < fineness; ++i) {
+      const Colour& colour = fine.colour_at(column * fineness + i, row * fineness + j);
+      for (std::size_t c = 0; c < 3; ++c) sum[c] += colour[c];
+    }
+  Colour mean{};
+  for (std::size_t c = 0; c < 3; ++c) mean[c] = static_cast<std::uint8_t>(sum[c] / (fineness * fineness));
+  return mean;
+}
+
 } // namespace
 
 Raster draw_section(const std::vector<SectionPolygon>& polygons, const std::vector<Colour>& tet_colour,
@@ -102,48 +161,11 @@ Raster draw_section(const std::vector<SectionPolygon>& polygons, const std::vect
   Raster raster;
   raster.width = std::max(1, static_cast<int>(std::lround(extent[0] / size)));
   raster.height = std::max(1, static_cast<int>(std::lround(extent[1] / size)));
-  const TetRaster fine = rasterise(polygons, view, fineness * raster.width, fineness * raster.height);
-  const BandRaster bands = paint_bands(lines, fine, tet_grain, view);
-  const auto tet_at = [&](int x, int y) {
-    if (x < 0 || y < 0 || x >= fine.width || y >= fine.height) return std::int32_t{-1};
-    return fine.tet[static_cast<std::size_t>(y) * static_cast<std::size_t>(fine.width) + static_cast<std::size_t>(x)];
-  };
-  const auto grain_at = [&](int x, int y) {
-    const std::int32_t tet = tet_at(x, y);
-    return tet < 0 ? std::int32_t{-1} : tet_grain[static_cast<std::size_t>(tet)];
-  };
-  // A fine pixel is on a line where another grain, or none, lies within the line's half width.
-  const int reach = std::max(1, static_cast<int>(std::lround(line_pixels * fineness)));
-  constexpr Colour mesh_line{90, 90, 90}, empty{255, 255, 255};
-  raster.pixel.resize(static_cast<std::size_t>(raster.width) * static_cast<std::size_t>(raster.height));
+  const TetRaster tets = rasterise(polygons, view, fineness * raster.width, fineness * raster.height);
+  const BandRaster bands = paint_bands(lines, tets, tet_grain, view);
+  const FinePicture fine(tets, bands, tet_colour, tet_grain, lines);
   for (int row = 0; row < raster.height; ++row)
-    for (int column = 0; column < raster.width; ++column) {
-      std::array<int, 3> sum{};
-      for (int j = 0; j < fineness; ++j)
-        for (int i = 0; i < fineness; ++i) {
-          const int x = column * fineness + i, y = row * fineness + j;
-          const std::int32_t grain = grain_at(x, y);
-          const std::int32_t tet = tet_at(x, y);
-          bool edge = false;
-          if (grain >= 0)
-            for (const auto& [dx, dy] :
-                 {std::pair{reach, 0}, {-reach, 0}, {0, reach}, {0, -reach}, {1, 0}, {-1, 0}, {0, 1}, {0, -1}})
-              edge = edge || grain_at(x + dx, y + dy) != grain;
-          const bool between_tets = lines.mesh && (tet_at(x + 1, y) != tet || tet_at(x, y + 1) != tet);
-          const std::size_t at =
-              static_cast<std::size_t>(y) * static_cast<std::size_t>(fine.width) + static_cast<std::size_t>(x);
-          const bool banded = !bands.painted.empty() && bands.painted[at];
-          const Colour& colour = banded                       ? bands.colour[at]
-                                 : edge                       ? lines.outline
-                                 : grain >= 0 && between_tets ? mesh_line
-                                 : grain >= 0                 ? tet_colour[static_cast<std::size_t>(tet)]
-                                                              : empty;
-          for (std::size_t c = 0; c < 3; ++c) sum[c] += colour[c];
-        }
-      Colour& pixel = raster.pixel[static_cast<std::size_t>(row) * static_cast<std::size_t>(raster.width) +
-                                   static_cast<std::size_t>(column)];
-      for (std::size_t c = 0; c < 3; ++c) pixel[c] = static_cast<std::uint8_t>(sum[c] / (fineness * fineness));
-    }
+    for (int column = 0; column < raster.width; ++column) raster.pixel.push_back(mean_colour(fine, row, column));
   return raster;
 }
 

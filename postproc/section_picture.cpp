@@ -41,63 +41,113 @@ bool overlaps(const SectionPolygon& polygon, const View& view) {
   return true;
 }
 
-} // namespace
+/// The polygons of a section that the view shows.
+struct VisibleSection {
+  View view;
+  std::vector<SectionPolygon> polygons;
+};
 
-void write_section_picture(const std::string& path, const Snapshot& snapshot, const PictureRequest& request) {
-  const bool of_damage = request.field == "damage";
-  const Field& field = of_damage ? snapshot.node_field(request.field) : snapshot.tet_field(request.field);
+/// Throws InputError where there are none.
+VisibleSection visible_section(const Snapshot& snapshot, const PictureRequest& request) {
   std::vector<SectionPolygon> polygons = cut(snapshot, request.plane);
   const auto axis = static_cast<std::size_t>(request.plane.axis), u = (axis + 1) % 3, v = (axis + 2) % 3;
+  const auto &low = snapshot.box_low, &high = snapshot.box_high;
   if (polygons.empty())
     throw InputError(fmt::format("the plane at {:g} mm cuts no grain; the box spans {:g} … {:g} mm along this axis",
-                                 request.plane.position, snapshot.box_low[axis], snapshot.box_high[axis]));
-  const View view = request.view.value_or(
-      View{{snapshot.box_low[u], snapshot.box_low[v]}, {snapshot.box_high[u], snapshot.box_high[v]}});
+                                 request.plane.position, low[axis], high[axis]));
+  const View view = request.view.value_or(View{{low[u], low[v]}, {high[u], high[v]}});
   std::erase_if(polygons, [&](const SectionPolygon& polygon) { return !overlaps(polygon, view); });
   if (polygons.empty())
     throw InputError(fmt::format(
         "no grain is cut in the view {:g} … {:g}, {:g} … {:g} mm; the box spans {:g} … {:g}, {:g} … {:g} mm",
-        view.low[0], view.high[0], view.low[1], view.high[1], snapshot.box_low[u], snapshot.box_high[u],
-        snapshot.box_low[v], snapshot.box_high[v]));
-  const bool of_grains = field.name == "grain";
+        view.low[0], view.high[0], view.low[1], view.high[1], low[u], high[u], low[v], high[v]));
+  return {view, std::move(polygons)};
+}
+
+/// What a colour stands for, of one field of a snapshot.
+struct Shown {
+  const Field& field;
+  bool damage; ///< along the grains' boundaries
+  bool grains; ///< their numbers, which have no scale
+};
+
+Shown shown_field(const Snapshot& snapshot, const std::string& name) {
+  const bool damage = name == "damage";
+  const Field& field = damage ? snapshot.node_field(name) : snapshot.tet_field(name);
+  return {field, damage, field.name == "grain"};
+}
+
+/// Values at the ends of the colour scale.
+struct Scale {
+  std::pair<double, double> range;
+  double fraction(double value) const { return (value - range.first) / (range.second - range.first); }
+};
+
+Scale scale_of(const Shown& shown, const std::vector<SectionPolygon>& polygons, const PictureRequest& request) {
   std::pair<double, double> range{0, 1};
+  const std::vector<float>& values = shown.field.values;
   if (request.range)
     range = *request.range;
-  else if (!of_grains && !of_damage)
-    range = {std::min(0.0, percentile(polygons, field.values, 0.005)), percentile(polygons, field.values, 0.995)};
+  else if (!shown.grains && !shown.damage)
+    range = {std::min(0.0, percentile(polygons, values, 0.005)), percentile(polygons, values, 0.995)};
   if (!(range.second > range.first)) range.second = range.first + 1;
+  return {range};
+}
 
-  const auto fraction = [&range](double value) { return (value - range.first) / (range.second - range.first); };
-  constexpr Colour light_grey{232, 232, 232}, grey{140, 140, 140};
+std::vector<Colour> tet_colours(const Snapshot& snapshot, const Shown& shown, const Scale& scale) {
+  constexpr Colour light_grey{232, 232, 232};
   std::vector<Colour> colour(snapshot.tets(), light_grey);
+  if (shown.damage) return colour;
+  for (std::size_t t = 0; t < snapshot.tets(); ++t)
+    colour[t] = shown.grains ? grain_colour(snapshot.tet_grain[t])
+                             : scale_colour(scale.fraction(static_cast<double>(shown.field.values[t])));
+  return colour;
+}
+
+/// The tets' edges where they are asked for, and of damage a band along each boundary that has been bonded.
+Lines lines_over(const Snapshot& snapshot, const Shown& shown, const Scale& scale, const PictureRequest& request) {
   Lines lines;
   lines.mesh = request.mesh_lines;
-  if (of_damage) {
-    lines.outline = grey;
-    lines.band_pixels = std::max(1.0, 5 * request.pixels / 900.0);
-    for (const BoundarySegment& s : cut_boundaries(snapshot, request.plane))
-      if (s.damage_from >= 0)
-        lines.bands.push_back({s.from, s.to, fraction(s.damage_from), fraction(s.damage_to), s.grain});
-  } else {
-    for (std::size_t t = 0; t < snapshot.tets(); ++t)
-      colour[t] = of_grains ? grain_colour(snapshot.tet_grain[t])
-                            : scale_colour(fraction(static_cast<double>(field.values[t])));
-  }
-  const Raster raster = draw_section(polygons, colour, snapshot.tet_grain, view, request.pixels, lines);
+  if (!shown.damage) return lines;
+  lines.outline = {140, 140, 140};
+  lines.band_pixels = std::max(1.0, 5 * request.pixels / 900.0);
+  for (const BoundarySegment& s : cut_boundaries(snapshot, request.plane))
+    if (s.damage_from >= 0)
+      lines.bands.push_back({s.from, s.to, scale.fraction(s.damage_from), scale.fraction(s.damage_to), s.grain});
+  return lines;
+}
+
+std::string label_of(const Shown& shown) {
+  const std::string& name = shown.field.name;
+  const char* label = shown.damage          ? "Damage of bonds (0 intact, 1 broken)"
+                      : name == "von_mises" ? "von Mises stress"
+                      : name == "pressure"  ? "Pressure"
+                                            : "Equivalent plastic strain";
+  return shown.field.unit == "1" ? label : fmt::format("{} ({})", label, shown.field.unit);
+}
+
+/// The picture's frame, with a colour bar where there is a scale.
+Frame2d frame_of(const Snapshot& snapshot, const Shown& shown, const Scale& scale, const View& view,
+                 const PictureRequest& request) {
   constexpr const char* axis_name[] = {"x", "y", "z"};
-  Frame2d frame{view, request.title, fmt::format("{} (mm)", axis_name[u]), fmt::format("{} (mm)", axis_name[v]),
-                {},   request.pixels};
+  const auto axis = static_cast<std::size_t>(request.plane.axis);
+  const auto label = [&](std::size_t k) { return fmt::format("{} (mm)", axis_name[(axis + k) % 3]); };
+  Frame2d frame{view, request.title, label(1), label(2), {}, request.pixels};
   if (frame.title.empty() && snapshot.relative_density > 0)
     frame.title = fmt::format("Relative density {:.3f}", snapshot.relative_density);
-  if (!of_grains) {
-    std::string label = of_damage                   ? "Damage of bonds (0 intact, 1 broken)"
-                        : field.name == "von_mises" ? "von Mises stress"
-                        : field.name == "pressure"  ? "Pressure"
-                                                    : "Equivalent plastic strain";
-    if (field.unit != "1") label += fmt::format(" ({})", field.unit);
-    frame.bar = ColourBar{range, label};
-  }
-  write_raster_picture(path, raster, frame);
+  if (!shown.grains) frame.bar = ColourBar{scale.range, label_of(shown)};
+  return frame;
+}
+
+} // namespace
+
+void write_section_picture(const std::string& path, const Snapshot& snapshot, const PictureRequest& request) {
+  const Shown shown = shown_field(snapshot, request.field);
+  const VisibleSection section = visible_section(snapshot, request);
+  const Scale scale = scale_of(shown, section.polygons, request);
+  const Raster raster = draw_section(section.polygons, tet_colours(snapshot, shown, scale), snapshot.tet_grain,
+                                     section.view, request.pixels, lines_over(snapshot, shown, scale, request));
+  write_raster_picture(path, raster, frame_of(snapshot, shown, scale, section.view, request));
 }
 
 std::string section_csv(const Snapshot& snapshot, const std::vector<SectionPolygon>& polygons,

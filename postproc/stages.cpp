@@ -12,12 +12,28 @@
 
 namespace mpfem {
 
+namespace {
+
+std::optional<double> density_of_all(const toml::table& scenario) {
+  const auto density = scenario.at_path("material.density").value<double>();
+  if (!density || scenario.at_path("numerics.mass_scaling_step")) return {};
+  if (const toml::array* others = scenario["grain_material"].as_array())
+    for (const toml::node& other : *others)
+      if (const toml::table* table = other.as_table(); !table || (*table)["density"].value<double>() != density)
+        return {};
+  return *density * scenario.at_path("numerics.mass_scaling").value_or(1.0);
+}
+
+} // namespace
+
 ScenarioFacts scenario_facts(const schema::FileReader& file) {
   ScenarioFacts facts;
   try {
     const TomlDocument document =
         TomlDocument::from_text(file.read_scalar(schema::run::provenance_scenario), file.path());
     facts.youngs_modulus = document.root().at_path("material.youngs_modulus").value<double>();
+    facts.fracture_energy = document.root().at_path("bond.fracture_energy").value<double>();
+    facts.density = density_of_all(document.root());
     if (const toml::array* stages = document.root()["stages"].as_array())
       for (const toml::node& stage : *stages) {
         const toml::table* table = stage.as_table();
@@ -46,6 +62,14 @@ std::vector<StageRows> stages_of(const HistoryTable& history, const ScenarioFact
     stages.back().last = row;
   }
   return stages;
+}
+
+std::vector<std::size_t> own_rows(const HistoryTable& history, const StageRows& stage) {
+  const auto& number = history["stage"];
+  std::vector<std::size_t> rows;
+  for (std::size_t row = stage.first; row <= stage.last; ++row)
+    if (static_cast<int>(number[row]) == stage.number) rows.push_back(row);
+  return rows;
 }
 
 const StageRows& stage_by_number(const std::vector<StageRows>& stages, int number, std::string_view path) {

@@ -31,7 +31,11 @@ struct StageRows {
 /// What a metric needs of the scenario that a run file carries; nothing of it must be there.
 struct ScenarioFacts {
   std::vector<std::string> stage_types;
-  std::optional<double> youngs_modulus; ///< of the grains, MPa
+  std::optional<double> youngs_modulus;  ///< of the grains, MPa
+  std::optional<double> fracture_energy; ///< N/mm, G^c of [bond]
+  /// tonne/mm^3, by which all grains move: with numerics.mass_scaling. None where grains differ in it, or where masses
+  /// are scaled to a step, node by node.
+  std::optional<double> density;
 };
 
 /// Never fails: of a text that cannot be read nothing is known.
@@ -39,6 +43,9 @@ ScenarioFacts scenario_facts(const schema::FileReader& file);
 
 /// In the order of the history.
 std::vector<StageRows> stages_of(const HistoryTable& history, const ScenarioFacts& facts);
+
+/// Rows of the stage itself, without the state in which it begins where that is the last row of the stage before.
+std::vector<std::size_t> own_rows(const HistoryTable& history, const StageRows& stage);
 
 /// Stage `number` as in the scenario; negative from the end (-1 the last). Throws InputError listing what there is.
 const StageRows& stage_by_number(const std::vector<StageRows>& stages, int number, std::string_view path);

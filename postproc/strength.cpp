@@ -6,8 +6,12 @@
 #include <fmt/format.h>
 
 #include "common/errors.hpp"
+#include "postproc/damage_onset.hpp"
+#include "postproc/ringing.hpp"
 #include "postproc/smoothing.hpp"
 #include "postproc/statistics.hpp"
+#include "postproc/true_stress.hpp"
+#include "postproc/windows.hpp"
 
 namespace mpfem {
 
@@ -19,46 +23,41 @@ StrengthTest test_of(const StageCurve& c) {
   return c.unconfined ? StrengthTest::unconfined : StrengthTest::triaxial;
 }
 
+/// A test and the stress that its strength is read from: the axial stress, or q.
+struct Test {
+  const StageCurve& curve;
+  bool unconfined;
+  const char* stress_name;        ///< for messages
+  const std::vector<double>& raw; ///< MPa, a value a row
+  std::vector<double> smooth;     ///< MPa
+};
+
+Test test_on(const StageCurve& c, bool unconfined) {
+  const std::size_t needed = 2 * smoothing_half_rows(c.rows()) + 1;
+  if (c.rows() < needed)
+    throw InputError(
+        fmt::format("{}: stage {} has {} rows, needed for a strength: {}", c.path, c.stage, c.rows(), needed));
+  const std::vector<double>& raw = unconfined ? c.axial_stress : c.deviatoric_stress;
+  return {c, unconfined, unconfined ? "axial stress" : "q", raw, smoothed(raw)};
+}
+
 std::size_t largest_row(const std::vector<double>& values) {
   return static_cast<std::size_t>(std::max_element(values.begin(), values.end()) - values.begin());
 }
 
-/// Rows to either side of parabolas twice as wide as the smoothing's: they show ringing whose period the narrow ones
-/// follow.
-std::size_t wide_half_rows(std::size_t rows) {
-  const std::size_t half = smoothing_half_rows(rows);
-  return rows > 4 * half ? 2 * half : half;
-}
-
-/// The rows by which the ringing at `row` is judged.
-RowRange ringing_rows(std::size_t row, std::size_t rows) {
-  const std::size_t wide = wide_half_rows(rows);
-  return {row > wide ? row - wide : 0, std::min(row + wide, rows - 1)};
-}
-
-/// Twice the scatter of a column's rows about wide parabolas, near `row`: 95 % of what ringing adds to a row.
-double ringing(const std::vector<double>& column, std::size_t row) {
-  const RowRange rows = ringing_rows(row, column.size());
-  const std::vector<double> calm = local_parabolas(column, wide_half_rows(column.size()));
-  double squares = 0;
-  for (std::size_t i = rows.first; i <= rows.last; ++i) squares += (column[i] - calm[i]) * (column[i] - calm[i]);
-  // A parabola takes three of the rows' degrees of freedom.
-  return 2 * std::sqrt(squares / std::max(1.0, static_cast<double>(rows.count()) - 3));
-}
-
-/// Where the strain is reached, between rows 0 and `last`; at the ends where it lies beyond.
-Crossing at_strain(const std::vector<double>& strain, double target, std::size_t last) {
-  std::size_t row = 0;
-  while (row < last && strain[row + 1] <= target) ++row;
-  if (row == last || target <= strain[row]) return {row, 0};
-  return {row, (target - strain[row]) / (strain[row + 1] - strain[row])};
-}
-
-/// Half of the change of a column between the strains `strain` ± `reach`.
-double half_change(const std::vector<double>& column, const std::vector<double>& strain, double at, double reach) {
-  const std::size_t last = column.size() - 1;
-  return 0.5 *
-         std::abs(at_strain(strain, at + reach, last).of(column) - at_strain(strain, at - reach, last).of(column));
+/// Row of the largest smoothed stress. Throws InputError where the stage is no axial compression.
+std::size_t peak_row(const Test& test) {
+  const StageCurve& c = test.curve;
+  const std::size_t peak = largest_row(test.smooth);
+  if (!(test.smooth[peak] > 0) || peak == 0)
+    throw InputError(fmt::format("{}: stage {}: {} never rises above its value at the stage's beginning", c.path,
+                                 c.stage, test.stress_name));
+  if (!(c.axial_strain[peak] > 0))
+    throw InputError(
+        fmt::format("{}: stage {}: its largest {} stands at an axial strain of {:.3g}; allowed: a stage of "
+                    "axial compression",
+                    c.path, c.stage, test.stress_name, c.axial_strain[peak]));
+  return peak;
 }
 
 /// How far from the peak the smoothed curve may have its true peak: the farther end of the strains about it where the
@@ -73,55 +72,72 @@ double strain_uncertainty_of_peak(const std::vector<double>& strain, const std::
   return std::max(strain[peak] - strain[low], strain[high] - strain[peak]);
 }
 
-/// A tangent of the damage dissipation against axial strain, over `span` of strain about `row`.
-struct Tangent {
+/// The largest smoothed stress and the fall after it.
+struct Peak {
   std::size_t row = 0;
-  double span = 0, slope = 0; ///< 1, mJ
-  double onset = 0;           ///< the strain where it meets the level at the stage's beginning
+  double stress = 0, ringing = 0;            ///< MPa
+  double strain = 0, strain_uncertainty = 0; ///< 1
+  double fall = 0, fall_uncertainty = 0;     ///< shares of the stress
 };
 
-/// The steepest one up to the peak, over twice `reach` of strain, whatever rows fall there: while walls start, rows lie
-/// so close that the slope between neighbours is noise over nothing.
-std::optional<Tangent> steepest_tangent(const StageCurve& c, const std::vector<double>& damage, std::size_t peak,
-                                        double reach) {
-  Tangent steepest;
-  for (std::size_t row = 0; row <= peak; ++row) {
-    std::size_t low = row, high = row;
-    while (low > 0 && c.axial_strain[row] - c.axial_strain[low] < reach) --low;
-    while (high < peak && c.axial_strain[high] - c.axial_strain[row] < reach) ++high;
-    const double strain = c.axial_strain[high] - c.axial_strain[low];
-    if (strain < 2 * reach) continue; // at either end
-    if (const double slope = (damage[high] - damage[low]) / strain; slope > steepest.slope)
-      steepest = {row, strain, slope, 0};
-  }
-  if (!(steepest.slope > 0)) return {};
-  const double grown = damage[steepest.row] - c.damage_dissipation.front();
-  steepest.onset = std::max(0.0, c.axial_strain[steepest.row] - grown / steepest.slope);
-  return steepest;
+Peak peak_at(std::size_t row, const Test& test) {
+  const auto lowest_after = static_cast<std::size_t>(
+      std::min_element(test.smooth.begin() + static_cast<std::ptrdiff_t>(row), test.smooth.end()) -
+      test.smooth.begin());
+  Peak peak;
+  peak.row = row;
+  peak.stress = test.smooth[row];
+  peak.ringing = ringing(test.raw, row);
+  peak.strain = test.curve.axial_strain[row];
+  peak.strain_uncertainty = strain_uncertainty_of_peak(test.curve.axial_strain, test.smooth, row, peak.ringing);
+  peak.fall = (peak.stress - test.smooth[lowest_after]) / peak.stress;
+  peak.fall_uncertainty = std::hypot(peak.ringing, ringing(test.raw, lowest_after)) / peak.stress;
+  return peak;
 }
 
-/// `smooth` and `raw`: the axial stress or q.
-std::optional<DamageOnset> damage_onset(const StageCurve& c, const std::vector<double>& smooth,
-                                        const std::vector<double>& raw, std::size_t peak) {
-  const std::vector<double> damage = smoothed(c.damage_dissipation);
-  const double reach = (c.axial_strain[peak] - c.axial_strain.front()) / 40;
-  const auto tangent = steepest_tangent(c, damage, peak, reach), wider = steepest_tangent(c, damage, peak, 2 * reach);
-  if (!tangent) return {};
-  const Crossing at = at_strain(c.axial_strain, tangent->onset, tangent->row);
-  DamageOnset onset;
-  onset.strain = tangent->onset;
-  onset.stress = at.of(smooth);
-  // Of onset = strain - (damage - level) / slope: smoothed rows make the tangent, a row as it is the level.
-  const double left = noise_left_by_parabolas(smoothing_half_rows(c.rows()));
-  const double lever = (c.axial_strain[tangent->row] - tangent->onset) / tangent->span;
-  const double noise =
-      ringing(c.damage_dissipation, tangent->row) / tangent->slope * std::sqrt(1 + left + 2 * left * lever * lever);
-  // The steepest of many noisy slopes is too steep, that over more rows less so: a bias, which noise does not make up
-  // for.
-  onset.strain_uncertainty = noise + (wider ? std::abs(wider->onset - tangent->onset) : 0.0);
-  onset.stress_uncertainty =
-      std::hypot(half_change(smooth, c.axial_strain, onset.strain, onset.strain_uncertainty), ringing(raw, at.row));
-  return onset;
+/// A strength by one criterion: what is read, and where.
+struct Reading {
+  std::string criterion;
+  double stress = 0, stress_uncertainty = 0; ///< MPa
+  double strain = 0, strain_uncertainty = 0; ///< 1
+  Crossing at;
+  std::string method;
+  std::vector<std::string> notes;
+};
+
+Reading at_damage_onset(const Test& test, std::size_t peak, const std::optional<DamageOnset>& onset) {
+  if (!onset)
+    throw InputError(fmt::format("{}: stage {}: damage dissipation does not grow before the peak, so it has no onset; "
+                                 "allowed: --criterion peak",
+                                 test.curve.path, test.curve.stage));
+  return {"damage-onset",
+          onset->stress,
+          onset->stress_uncertainty,
+          onset->strain,
+          onset->strain_uncertainty,
+          at_strain(test.curve.axial_strain, onset->strain, peak),
+          fmt::format("{} where the steepest tangent of the damage dissipation meets its level at the stage's "
+                      "beginning",
+                      test.stress_name),
+          {}};
+}
+
+/// `falls`: the curve falls after the peak as far as a failure makes it.
+Reading at_peak(const Test& test, const Peak& peak, bool falls, const StrengthRule& rule) {
+  Reading reading{falls ? "peak" : "largest",
+                  peak.stress,
+                  peak.ringing,
+                  peak.strain,
+                  peak.strain_uncertainty,
+                  {peak.row, 0},
+                  fmt::format("largest smoothed {}", test.stress_name),
+                  {}};
+  if (!falls)
+    reading.notes.push_back(
+        fmt::format("no peak: the axial stress falls by {:.2g} % after its largest value, less than the "
+                    "{:g} % of a failure",
+                    100 * peak.fall, 100 * rule.drop));
+  return reading;
 }
 
 /// Row before the axial strain `strain` is first passed, and how far towards the next.
@@ -132,126 +148,101 @@ std::optional<Crossing> reach(const std::vector<double>& strain, double target) 
   return {};
 }
 
+/// q at the strain of the rule, for a test without a peak by then.
+Reading at_given_strain(const Test& test, const StrengthRule& rule) {
+  const StageCurve& c = test.curve;
+  // A test that was to end at this strain ends there but for rounding.
+  constexpr double rounding = 1e-6;
+  const double last_strain = c.axial_strain.back();
+  const bool ends_there = std::abs(last_strain - rule.at_strain) <= rounding * rule.at_strain;
+  const auto crossing = reach(c.axial_strain, ends_there ? std::min(last_strain, rule.at_strain) : rule.at_strain);
+  if (!crossing)
+    throw InputError(fmt::format("{}: stage {}: q has no peak (a fall of {:g} %) and the axial strain ends at {:.4g}; "
+                                 "allowed: a run to {:g}, or --at-strain",
+                                 c.path, c.stage, 100 * rule.drop, c.axial_strain.back(), rule.at_strain));
+  return {"at-strain",
+          crossing->of(test.smooth),
+          ringing(test.raw, crossing->row),
+          rule.at_strain,
+          0, // given
+          *crossing,
+          fmt::format("smoothed q at an axial strain of {:g}, without a peak by then", rule.at_strain),
+          {}};
+}
+
+Reading reading_by(const StrengthRule& rule, const Test& test, const Peak& peak,
+                   const std::optional<DamageOnset>& onset) {
+  if (rule.criterion == StrengthCriterion::damage_onset) return at_damage_onset(test, peak.row, onset);
+  const bool falls = peak.fall >= rule.drop;
+  if (test.unconfined || (falls && peak.strain <= rule.at_strain)) return at_peak(test, peak, falls, rule);
+  return at_given_strain(test, rule);
+}
+
+/// Mean and lateral stress where the strength is read, whose strain may be off by `strain_reach`: 0 at a peak, which is
+/// flat, so that its strain hardly matters.
+nlohmann::ordered_json stresses_at(const Reading& reading, const StageCurve& c, double strain_reach) {
+  const auto uncertainty = [&](const std::vector<double>& column) {
+    return std::hypot(ringing(column, reading.at.row),
+                      half_change(column, c.axial_strain, reading.strain, strain_reach));
+  };
+  return {{"mean_stress_at_strength_MPa", reading.at.of(c.mean_stress)},
+          {"mean_stress_at_strength_uncertainty_MPa", uncertainty(c.mean_stress)},
+          {"lateral_stress_at_strength_MPa", reading.at.of(c.lateral_stress)},
+          {"lateral_stress_at_strength_uncertainty_MPa", uncertainty(c.lateral_stress)}};
+}
+
+nlohmann::ordered_json peak_json(const Peak& peak) {
+  return {{"peak_MPa", peak.stress},
+          {"peak_uncertainty_MPa", peak.ringing},
+          {"axial_strain_at_peak", peak.strain},
+          {"axial_strain_at_peak_uncertainty", peak.strain_uncertainty},
+          {"fall_after_peak", peak.fall},
+          {"fall_after_peak_uncertainty", peak.fall_uncertainty}};
+}
+
+nlohmann::ordered_json onset_json(const std::optional<DamageOnset>& onset) {
+  nlohmann::ordered_json json = {{"damage_onset_stress_MPa", nullptr},
+                                 {"damage_onset_stress_uncertainty_MPa", nullptr},
+                                 {"damage_onset_strain", nullptr},
+                                 {"damage_onset_strain_uncertainty", nullptr}};
+  if (!onset) return json;
+  json["damage_onset_stress_MPa"] = onset->stress;
+  json["damage_onset_stress_uncertainty_MPa"] = onset->stress_uncertainty;
+  json["damage_onset_strain"] = onset->strain;
+  json["damage_onset_strain_uncertainty"] = onset->strain_uncertainty;
+  return json;
+}
+
 } // namespace
 
 Measurement strength(const StageCurve& c, const StrengthRule& rule) {
-  const StrengthTest test = rule.test.value_or(test_of(c));
-  const bool unconfined = test == StrengthTest::unconfined;
-  const std::vector<double>& raw = unconfined ? c.axial_stress : c.deviatoric_stress;
-  const char* name = unconfined ? "axial stress" : "q";
-  const std::size_t half = smoothing_half_rows(c.rows());
-  if (c.rows() < 2 * half + 1)
-    throw InputError(
-        fmt::format("{}: stage {} has {} rows, needed for a strength: {}", c.path, c.stage, c.rows(), 2 * half + 1));
-  const std::vector<double> smooth = smoothed(raw);
-  const std::size_t peak = largest_row(smooth);
-  if (!(smooth[peak] > 0) || peak == 0)
-    throw InputError(
-        fmt::format("{}: stage {}: {} never rises above its value at the stage's beginning", c.path, c.stage, name));
-  if (!(c.axial_strain[peak] > 0))
-    throw InputError(
-        fmt::format("{}: stage {}: its largest {} stands at an axial strain of {:.3g}; allowed: a stage of "
-                    "axial compression",
-                    c.path, c.stage, name, c.axial_strain[peak]));
-  const auto lowest_after = static_cast<std::size_t>(
-      std::min_element(smooth.begin() + static_cast<std::ptrdiff_t>(peak), smooth.end()) - smooth.begin());
-  const double fall = (smooth[peak] - smooth[lowest_after]) / smooth[peak];
-  const bool falls = fall >= rule.drop;
-  const std::optional<DamageOnset> onset = damage_onset(c, smooth, raw, peak);
+  const Test test = test_on(c, rule.test.value_or(test_of(c)) == StrengthTest::unconfined);
+  const Peak peak = peak_at(peak_row(test), test);
+  const std::optional<DamageOnset> onset = damage_onset(c, test.smooth, test.raw, peak.row);
+  const Reading reading = reading_by(rule, test, peak, onset);
+  const bool at_onset = rule.criterion == StrengthCriterion::damage_onset;
+  const char* test_name = test.unconfined ? "unconfined" : "triaxial";
 
   Measurement m;
   m.metric = "strength";
+  m.value = reading.stress;
   m.unit = "MPa";
-  const double peak_ringing = ringing(raw, peak);
-  const double peak_strain_uncertainty = strain_uncertainty_of_peak(c.axial_strain, smooth, peak, peak_ringing);
-  Crossing at{peak, 0};
-  std::string criterion;
-  double strain = c.axial_strain[peak], strain_uncertainty = peak_strain_uncertainty;
-  if (rule.criterion == StrengthCriterion::damage_onset) {
-    if (!onset)
-      throw InputError(
-          fmt::format("{}: stage {}: damage dissipation does not grow before the peak, so it has no onset; "
-                      "allowed: --criterion peak",
-                      c.path, c.stage));
-    criterion = "damage-onset";
-    m.value = onset->stress;
-    strain = onset->strain;
-    strain_uncertainty = onset->strain_uncertainty;
-    at = at_strain(c.axial_strain, strain, peak);
-    m.method = fmt::format(
-        "{} where the steepest tangent of the damage dissipation meets its level at the stage's beginning", name);
-  } else if (unconfined || (falls && strain <= rule.at_strain)) {
-    criterion = falls ? "peak" : "largest";
-    m.value = smooth[peak];
-    m.method = fmt::format("largest smoothed {}", name);
-    if (!falls)
-      m.notes.push_back(
-          fmt::format("no peak: the axial stress falls by {:.2g} % after its largest value, less than the "
-                      "{:g} % of a failure",
-                      100 * fall, 100 * rule.drop));
-  } else {
-    // A test that was to end at this strain ends there but for rounding.
-    constexpr double rounding = 1e-6;
-    const double last_strain = c.axial_strain.back();
-    const bool ends_there = std::abs(last_strain - rule.at_strain) <= rounding * rule.at_strain;
-    const auto crossing = reach(c.axial_strain, ends_there ? std::min(last_strain, rule.at_strain) : rule.at_strain);
-    if (!crossing)
-      throw InputError(
-          fmt::format("{}: stage {}: q has no peak (a fall of {:g} %) and the axial strain ends at {:.4g}; "
-                      "allowed: a run to {:g}, or --at-strain",
-                      c.path, c.stage, 100 * rule.drop, c.axial_strain.back(), rule.at_strain));
-    criterion = "at-strain";
-    m.value = crossing->of(smooth);
-    strain = rule.at_strain;
-    strain_uncertainty = 0; // given
-    at = *crossing;
-    m.method = fmt::format("smoothed q at an axial strain of {:g}, without a peak by then", rule.at_strain);
-  }
-  m.method += fmt::format("; parabolas over {} rows", 2 * half + 1);
-
-  const bool at_onset = rule.criterion == StrengthCriterion::damage_onset;
-  const auto uncertainty = [&](const std::vector<double>& column) { // a peak is flat: its strain hardly matters
-    const double reach = at_onset ? strain_uncertainty : 0.0;
-    return std::hypot(ringing(column, at.row), half_change(column, c.axial_strain, strain, reach));
-  };
-  m.uncertainty = at_onset ? onset->stress_uncertainty : ringing(raw, at.row);
+  m.uncertainty = reading.stress_uncertainty;
   m.uncertainty_meaning = "twice the scatter of the window's rows about parabolas over twice as many rows";
   if (at_onset) m.uncertainty_meaning += ", and what the tangent's noise and length move the onset by, as hypotenuse";
-  const RowRange rows = ringing_rows(at.row, c.rows());
-  m.window.stage = c.stage;
-  m.window.stage_type = c.type;
-  m.window.first_row = c.first_row + rows.first;
-  m.window.last_row = c.first_row + rows.last;
-  m.window.strain = range_of(c.axial_strain, rows.first, rows.last);
-  m.window.stress_name = unconfined ? "axial_stress" : "deviatoric_stress";
-  m.window.stress = range_of(raw, rows.first, rows.last);
-  m.details = {{"test", unconfined ? "unconfined" : "triaxial"},
-               {"criterion", criterion},
-               {"axial_strain_at_strength", strain},
-               {"axial_strain_at_strength_uncertainty", strain_uncertainty},
-               {"mean_stress_at_strength_MPa", at.of(c.mean_stress)},
-               {"mean_stress_at_strength_uncertainty_MPa", uncertainty(c.mean_stress)},
-               {"lateral_stress_at_strength_MPa", at.of(c.lateral_stress)},
-               {"lateral_stress_at_strength_uncertainty_MPa", uncertainty(c.lateral_stress)},
-               {"peak_MPa", smooth[peak]},
-               {"peak_uncertainty_MPa", peak_ringing},
-               {"axial_strain_at_peak", c.axial_strain[peak]},
-               {"axial_strain_at_peak_uncertainty", peak_strain_uncertainty},
-               {"fall_after_peak", fall},
-               {"fall_after_peak_uncertainty", std::hypot(peak_ringing, ringing(raw, lowest_after)) / smooth[peak]},
-               {"damage_onset_stress_MPa", nullptr},
-               {"damage_onset_stress_uncertainty_MPa", nullptr},
-               {"damage_onset_strain", nullptr},
-               {"damage_onset_strain_uncertainty", nullptr},
-               {"relative_density_at_start", c.relative_density.front()}};
-  m.brief =
-      fmt::format("{}, {} at an axial strain of {:.4f}", unconfined ? "unconfined" : "triaxial", criterion, strain);
-  if (onset) {
-    m.details["damage_onset_stress_MPa"] = onset->stress;
-    m.details["damage_onset_stress_uncertainty_MPa"] = onset->stress_uncertainty;
-    m.details["damage_onset_strain"] = onset->strain;
-    m.details["damage_onset_strain_uncertainty"] = onset->strain_uncertainty;
-  }
+  m.method = fmt::format("{}; parabolas over {} rows", reading.method, 2 * smoothing_half_rows(c.rows()) + 1);
+  m.window = axial_window(c, ringing_rows(reading.at.row, c.rows()),
+                          test.unconfined ? "axial_stress" : "deviatoric_stress", test.raw);
+  m.details = {{"test", test_name},
+               {"criterion", reading.criterion},
+               {"axial_strain_at_strength", reading.strain},
+               {"axial_strain_at_strength_uncertainty", reading.strain_uncertainty}};
+  m.details.update(stresses_at(reading, c, at_onset ? reading.strain_uncertainty : 0.0));
+  m.details.update(peak_json(peak));
+  m.details.update(onset_json(onset));
+  m.details["relative_density_at_start"] = c.relative_density.front();
+  m.brief = fmt::format("{}, {} at an axial strain of {:.4f}", test_name, reading.criterion, reading.strain);
+  m.notes = reading.notes;
   return m;
 }
 
@@ -260,7 +251,9 @@ Measurement measure_strength(const schema::FileReader& file, std::optional<int> 
   const auto stages = stages_of(history, scenario_facts(file));
   const StageRows& stage =
       choose_stage(stages, number, {"unconfined_compression", "triaxial_compression"}, file.path());
-  return strength(stage_curve(history, stage, file.path()), rule);
+  Measurement m = strength(stage_curve(history, stage, file.path()), rule);
+  add_true_stress(m, history, stage);
+  return m;
 }
 
 } // namespace mpfem

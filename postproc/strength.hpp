@@ -21,16 +21,6 @@ struct StrengthRule {
   double at_strain = 0.15; ///< axial strain at which q is read where there is no peak by then
 };
 
-/// Where damage begins to grow: the steepest tangent of the damage dissipation against axial strain, up to the peak of
-/// the stress, carried back to the level at the stage's beginning.
-struct DamageOnset {
-  double strain = 0, stress = 0; ///< 1, MPa
-  /// Of the strain: what the noise of damage makes of the tangent and of the level, in first order (95 %), and the
-  /// change of the onset with a tangent over twice the strain, added. Of the stress: half of its change within that and
-  /// its ringing.
-  double strain_uncertainty = 0, stress_uncertainty = 0;
-};
-
 /// From curves smoothed as smoothing.hpp says. Unconfined: the paper takes the axial stress at failure, which coincides
 /// with the onset of damage (Section 4.2, Fig. 15). Triaxial: q at its peak, or where it has none at an axial strain of
 /// 15 % (Section 4.3). Uncertainty of every stress: twice the scatter of the rows about parabolas of twice the width,

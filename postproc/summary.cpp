@@ -7,14 +7,16 @@
 
 #include "common/run_quality.hpp"
 #include "postproc/energy.hpp"
+#include "postproc/inertia.hpp"
+#include "postproc/measurement.hpp"
 
 namespace mpfem {
 
-Summary summarise(const schema::FileReader& file) {
-  namespace run = schema::run;
-  const HistoryTable history(file);
-  const std::size_t rows = history.rows(), last = rows - 1;
-  Summary s;
+namespace {
+
+namespace run = schema::run;
+
+void add_provenance(Summary& s, const schema::FileReader& file) {
   s.status = file.read_scalar(run::provenance_status);
   s.version = file.read_scalar(run::provenance_version);
   s.host = file.read_scalar(run::provenance_host);
@@ -22,60 +24,118 @@ Summary summarise(const schema::FileReader& file) {
   s.wall_time = file.read_scalar(run::provenance_wall_time);
   s.tets = static_cast<std::int64_t>(file.rows(run::mesh_tet));
   s.grains = static_cast<std::int64_t>(file.rows(run::mesh_grain_tet_offset)) - 1;
-  s.steps = static_cast<std::int64_t>(history["step"][last]);
-  // A branch counts on from the steps of the run that it began at.
-  if (const double steps = history["step"][last] - history["step"].front(); steps > 0 && s.tets > 0)
-    s.nanoseconds_per_tet_step = 1e9 * s.wall_time / (steps * static_cast<double>(s.tets));
-  s.relative_density = history["relative_density"][last];
-  s.mean_stress = history["mean_stress"][last];
-  s.deviatoric_stress = history["deviatoric_stress"][last];
-  for (const Column& term : energy_ledger(history))
-    if (term.unit == "mJ") s.energies.emplace_back(term.name, term.values[last]);
-  s.coordination_number = history["coordination_number"][last];
-  if (const double area = history["surface_area"][last]; area > 0)
-    s.contact_area_ratio = history["contact_area"][last] / area;
+  s.profile_name = file.read(run::provenance_profile_name);
+  s.profile_share = file.read(run::provenance_profile_seconds);
+  for (double& share : s.profile_share) share = s.wall_time > 0 ? share / s.wall_time : 0;
+}
 
+/// Nothing where the run never had any.
+std::optional<Summary::Bonds> bonds_at_end(const HistoryTable& history) {
   const auto ever = [&](std::string_view name) {
     return std::any_of(history[name].begin(), history[name].end(), [](double value) { return value > 0; });
   };
-  if (ever("bonds") || ever("damage_dissipation")) // where all bonds broke between two rows, they were never counted
-    s.bonds = {static_cast<std::int64_t>(history["bonds"][last]), history["bonded_area"][last],
-               history["mean_damage"][last]};
+  // Where all bonds broke between two rows, they were never counted.
+  if (!ever("bonds") && !ever("damage_dissipation")) return {};
+  return Summary::Bonds{static_cast<std::int64_t>(history["bonds"].back()), history["bonded_area"].back(),
+                        history["mean_damage"].back()};
+}
 
-  double work = 0, residual = 0, largest_kinetic = 0, largest_internal = 0;
+void add_state_at_end(Summary& s, const HistoryTable& history) {
+  s.steps = static_cast<std::int64_t>(history["step"].back());
+  // A branch counts on from the steps of the run that it began at.
+  if (const double steps = history["step"].back() - history["step"].front(); steps > 0 && s.tets > 0)
+    s.nanoseconds_per_tet_step = 1e9 * s.wall_time / (steps * static_cast<double>(s.tets));
+  s.relative_density = history["relative_density"].back();
+  s.mean_stress = history["mean_stress"].back();
+  s.deviatoric_stress = history["deviatoric_stress"].back();
+  for (const Column& term : energy_ledger(history))
+    if (term.unit == "mJ") s.energies.emplace_back(term.name, term.values.back());
+  s.coordination_number = history["coordination_number"].back();
+  if (const double area = history["surface_area"].back(); area > 0)
+    s.contact_area_ratio = history["contact_area"].back() / area;
+  s.bonds = bonds_at_end(history);
+}
+
+/// Rows whose mean stress is above a tenth of its largest.
+std::vector<bool> loaded_rows(const HistoryTable& history) {
   const auto& stress = history["mean_stress"];
   const double loaded = 0.1 * *std::max_element(stress.begin(), stress.end());
+  std::vector<bool> rows;
+  for (const double p : stress) rows.push_back(loaded > 0 && p >= loaded);
+  return rows;
+}
+
+void add_kinetic_share(Summary& s, const HistoryTable& history, const std::vector<bool>& loaded) {
+  const std::vector<double> internal_of_row = internal_energy(history);
   s.loaded_from_density = s.relative_density;
-  bool calm = true;
-  for (std::size_t row = rows; row-- > 0;) {
-    work = std::max(work, std::abs(history["external_work"][row]));
-    residual = std::max(residual, std::abs(history["energy_residual"][row]));
-    s.largest_penetration = std::max(s.largest_penetration, history["max_penetration"][row]);
-    if (const double step = history["time_step"][row]; step > 0) {
-      s.smallest_time_step = s.smallest_time_step > 0 ? std::min(s.smallest_time_step, step) : step;
-      s.largest_time_step = std::max(s.largest_time_step, step);
-    }
-    const double internal = internal_energy(history, row), kinetic = history["kinetic_energy"][row];
+  double largest_kinetic = 0, largest_internal = 0;
+  bool calm = true; // from this row to the end
+  for (std::size_t row = history.rows(); row-- > 0;) {
+    const double internal = internal_of_row[row], kinetic = history["kinetic_energy"][row];
     largest_kinetic = std::max(largest_kinetic, kinetic);
     largest_internal = std::max(largest_internal, internal);
-    if (internal > 0 && loaded > 0 && stress[row] >= loaded) {
+    if (internal > 0 && loaded[row]) {
       s.kinetic_over_internal = std::max(s.kinetic_over_internal, kinetic / internal);
       s.loaded_from_density = std::min(s.loaded_from_density, history["relative_density"][row]);
     }
     calm = calm && kinetic <= 0.01 * internal;
     if (calm) s.kinetic_small_from_density = history["relative_density"][row];
   }
-  std::vector<QualityRow> quality;
-  for (std::size_t row = 0; row < rows; ++row)
-    quality.push_back({history["external_work"][row], history["energy_residual"][row], history["kinetic_energy"][row],
-                       internal_energy(history, row), stress[row], history["max_penetration"][row],
-                       history["relative_density_current"][row], history["time_step"][row]});
-  s.warnings = quality_warnings(quality);
-  s.largest_residual = work > 0 ? residual / work : 0;
   s.kinetic_over_largest_internal = largest_internal > 0 ? largest_kinetic / largest_internal : 0;
-  s.profile_name = file.read(run::provenance_profile_name);
-  s.profile_share = file.read(run::provenance_profile_seconds);
-  for (double& share : s.profile_share) share = s.wall_time > 0 ? share / s.wall_time : 0;
+}
+
+void add_inertial_number(Summary& s, const HistoryTable& history, const std::vector<bool>& loaded,
+                         const std::optional<GrainInertia>& grains) {
+  std::vector<std::size_t> rows;
+  for (std::size_t row = 0; row < loaded.size(); ++row)
+    if (loaded[row]) rows.push_back(row);
+  const Inertia inertia = inertia_of_rows(history, rows, grains);
+  s.inertial_number = inertia.inertial_number;
+  s.largest_inertial_number = inertia.largest_inertial_number;
+}
+
+double largest_magnitude(const std::vector<double>& values) {
+  double largest = 0;
+  for (const double value : values) largest = std::max(largest, std::abs(value));
+  return largest;
+}
+
+void add_extremes(Summary& s, const HistoryTable& history) {
+  const double work = largest_magnitude(history["external_work"]);
+  s.largest_residual = work > 0 ? largest_magnitude(history["energy_residual"]) / work : 0;
+  for (const double penetration : history["max_penetration"])
+    s.largest_penetration = std::max(s.largest_penetration, penetration);
+  for (const double density : history["relative_density_current"])
+    s.largest_current_density = std::max(s.largest_current_density, density);
+  for (const double step : history["time_step"]) {
+    if (!(step > 0)) continue;
+    s.smallest_time_step = s.smallest_time_step > 0 ? std::min(s.smallest_time_step, step) : step;
+    s.largest_time_step = std::max(s.largest_time_step, step);
+  }
+}
+
+std::vector<QualityRow> quality_rows(const HistoryTable& history) {
+  const std::vector<double> internal_of_row = internal_energy(history);
+  std::vector<QualityRow> rows;
+  for (std::size_t row = 0; row < history.rows(); ++row)
+    rows.push_back({history["external_work"][row], history["energy_residual"][row], history["kinetic_energy"][row],
+                    internal_of_row[row], history["mean_stress"][row], history["max_penetration"][row],
+                    history["relative_density_current"][row], history["time_step"][row]});
+  return rows;
+}
+
+} // namespace
+
+Summary summarise(const schema::FileReader& file) {
+  const HistoryTable history(file);
+  Summary s;
+  add_provenance(s, file);
+  add_state_at_end(s, history);
+  const std::vector<bool> loaded = loaded_rows(history);
+  add_kinetic_share(s, history, loaded);
+  add_inertial_number(s, history, loaded, grain_inertia(file, history));
+  add_extremes(s, history);
+  s.warnings = quality_warnings(quality_rows(history));
   return s;
 }
 
@@ -97,7 +157,10 @@ nlohmann::ordered_json to_json(const Summary& s) {
                                  {"relative_density_of_first_load", s.loaded_from_density},
                                  {"largest_kinetic_over_largest_internal", s.kinetic_over_largest_internal},
                                  {"relative_density_from_which_kinetic_below_1_percent", nullptr},
+                                 {"inertial_number_under_load", number_or_null(s.inertial_number)},
+                                 {"largest_inertial_number_under_load", number_or_null(s.largest_inertial_number)},
                                  {"largest_penetration_over_h", s.largest_penetration},
+                                 {"largest_current_relative_density", s.largest_current_density},
                                  {"smallest_time_step_s", s.smallest_time_step},
                                  {"largest_time_step_s", s.largest_time_step},
                                  {"coordination_number", s.coordination_number},
@@ -141,7 +204,11 @@ std::string to_text(const Summary& s) {
   line("  at most 1 %", s.kinetic_small_from_density
                             ? fmt::format("from D_r = {:.3f} to the end", *s.kinetic_small_from_density)
                             : std::string("not at the end"));
+  line("inertial number under load", s.inertial_number ? fmt::format("{:.2e} in the median, {:.2e} at its largest",
+                                                                     *s.inertial_number, *s.largest_inertial_number)
+                                                       : std::string("not known"));
   line("penetration over h, largest", fmt::format("{:.4f}", s.largest_penetration));
+  line("present density, largest", fmt::format("{:.4f}", s.largest_current_density));
   line("time step", fmt::format("{:.4g} … {:.4g} s", s.smallest_time_step, s.largest_time_step));
   line("coordination number", fmt::format("{:.2f}", s.coordination_number));
   line("contact area over surface", fmt::format("{:.3f}", s.contact_area_ratio));

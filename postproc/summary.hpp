@@ -25,8 +25,10 @@ struct Summary {
   double kinetic_over_internal = 0;         ///< largest, while the mean stress is above a tenth of its largest
   double loaded_from_density = 0;           ///< smallest relative density of the rows that this largest is taken over
   double kinetic_over_largest_internal = 0; ///< largest kinetic energy of all rows over largest internal energy
+  std::optional<double> inertial_number, largest_inertial_number; ///< over the same rows; none where not known
   std::optional<double> kinetic_small_from_density; ///< relative density from which the ratio stays <= 1 % to the end
   double largest_penetration = 0;                   ///< over h
+  double largest_current_density = 0;               ///< present volume of the grains over the box's
   double smallest_time_step = 0, largest_time_step = 0;   ///< s
   double coordination_number = 0, contact_area_ratio = 0; ///< at the end
   struct Bonds {
@@ -38,7 +40,7 @@ struct Summary {
   std::vector<double> profile_share; ///< of the wall-clock time
 };
 
-/// Kinetic over internal energy: internal is elastic plus plastic (internal_energy of history_table.hpp); before
+/// Kinetic over internal energy: internal is that of the row's stage (internal_energy of history_table.hpp); before
 /// jamming that is next to nothing, and the ratio row by row says nothing; hence the restriction to rows under load,
 /// and the second measure over the whole run. Throws InputError.
 Summary summarise(const schema::FileReader& file);

@@ -8,6 +8,7 @@
 #include "common/errors.hpp"
 #include "postproc/smoothing.hpp"
 #include "postproc/statistics.hpp"
+#include "postproc/windows.hpp"
 
 namespace mpfem {
 
@@ -24,9 +25,15 @@ double ringing(const std::vector<double>& values) {
   return 1.96 * std::sqrt(squares / static_cast<double>(values.size()));
 }
 
-} // namespace
+/// The first point at which a stage yields.
+struct YieldPoint {
+  Crossing at;
+  double threshold = 0;           ///< mJ, dissipated at yield
+  double dissipated_at_start = 0; ///< mJ
+};
 
-Measurement yield_point(const StageCurve& c, double ratio) {
+/// Throws InputError where nothing was dissipated before the stage, or it does not yield.
+YieldPoint find_yield(const StageCurve& c, double ratio) {
   std::vector<double> dissipated(c.rows());
   for (std::size_t row = 0; row < c.rows(); ++row)
     dissipated[row] = c.plastic_dissipation[row] + c.damage_dissipation[row];
@@ -42,46 +49,54 @@ Measurement yield_point(const StageCurve& c, double ratio) {
                                  "beginning, needed: {:g}",
                                  c.path, c.stage,
                                  *std::max_element(dissipated.begin(), dissipated.end()) / dissipated.front(), ratio));
-  const Crossing at{next - 1, (threshold - dissipated[next - 1]) / (dissipated[next] - dissipated[next - 1])};
+  return {{next - 1, (threshold - dissipated[next - 1]) / (dissipated[next] - dissipated[next - 1])},
+          threshold,
+          dissipated.front()};
+}
 
-  const auto uncertainty = [&](const std::vector<double>& values) {
-    return std::hypot(at.half_spacing(values), ringing(values));
-  };
+double stress_uncertainty(const std::vector<double>& stress, const Crossing& at) {
+  return std::hypot(at.half_spacing(stress), ringing(stress));
+}
 
+nlohmann::ordered_json details_of(const YieldPoint& yield, const StageCurve& c) {
+  const Crossing& at = yield.at;
+  return {{"deviatoric_stress_MPa", at.of(c.deviatoric_stress)},
+          {"deviatoric_stress_uncertainty_MPa", stress_uncertainty(c.deviatoric_stress, at)},
+          {"mean_stress_MPa", at.of(c.mean_stress)},
+          {"mean_stress_uncertainty_MPa", stress_uncertainty(c.mean_stress, at)},
+          {"axial_strain_at_yield", at.of(c.axial_strain)},
+          {"axial_strain_at_yield_uncertainty", at.half_spacing(c.axial_strain)},
+          {"volumetric_strain_at_yield", at.of(c.volumetric_strain)},
+          {"volumetric_strain_at_yield_uncertainty", at.half_spacing(c.volumetric_strain)},
+          {"mean_stress_at_start_MPa", c.mean_stress.front()},
+          {"deviatoric_stress_at_start_MPa", c.deviatoric_stress.front()},
+          {"distance_from_start_MPa", std::hypot(at.of(c.mean_stress) - c.mean_stress.front(),
+                                                 at.of(c.deviatoric_stress) - c.deviatoric_stress.front())},
+          {"dissipation_at_start_mJ", yield.dissipated_at_start},
+          {"damage_share_of_dissipation_since_start", (at.of(c.damage_dissipation) - c.damage_dissipation.front()) /
+                                                          (yield.threshold - yield.dissipated_at_start)}};
+}
+
+} // namespace
+
+Measurement yield_point(const StageCurve& c, double ratio) {
+  const YieldPoint yield = find_yield(c, ratio);
+  const std::size_t row = yield.at.row;
   Measurement m;
   m.metric = "yield";
-  m.value = at.of(c.deviatoric_stress);
+  m.value = yield.at.of(c.deviatoric_stress);
   m.unit = "MPa";
-  m.uncertainty = uncertainty(c.deviatoric_stress);
+  m.uncertainty = stress_uncertainty(c.deviatoric_stress, yield.at);
   m.uncertainty_meaning =
       "half of the change between the rows on both sides, and 95 % of the stage's ringing, as hypotenuse";
-  m.window.stage = c.stage;
-  m.window.stage_type = c.type;
-  m.window.first_row = c.first_row + at.row;
-  m.window.last_row = c.first_row + next;
-  m.window.strain = range_of(c.axial_strain, at.row, next);
-  m.window.stress_name = "deviatoric_stress";
-  m.window.stress = range_of(c.deviatoric_stress, at.row, next);
+  m.window = axial_window(c, {row, row + 1}, "deviatoric_stress", c.deviatoric_stress);
   m.method = fmt::format("first point where plastic and damage dissipation reach {:g} times their sum at the stage's "
                          "beginning, linear between rows",
                          ratio);
-  m.details = {{"deviatoric_stress_MPa", m.value},
-               {"deviatoric_stress_uncertainty_MPa", m.uncertainty},
-               {"mean_stress_MPa", at.of(c.mean_stress)},
-               {"mean_stress_uncertainty_MPa", uncertainty(c.mean_stress)},
-               {"axial_strain_at_yield", at.of(c.axial_strain)},
-               {"axial_strain_at_yield_uncertainty", at.half_spacing(c.axial_strain)},
-               {"volumetric_strain_at_yield", at.of(c.volumetric_strain)},
-               {"volumetric_strain_at_yield_uncertainty", at.half_spacing(c.volumetric_strain)},
-               {"mean_stress_at_start_MPa", c.mean_stress.front()},
-               {"deviatoric_stress_at_start_MPa", c.deviatoric_stress.front()},
-               {"distance_from_start_MPa", std::hypot(at.of(c.mean_stress) - c.mean_stress.front(),
-                                                      at.of(c.deviatoric_stress) - c.deviatoric_stress.front())},
-               {"dissipation_at_start_mJ", dissipated.front()},
-               {"damage_share_of_dissipation_since_start",
-                (at.of(c.damage_dissipation) - c.damage_dissipation.front()) / (threshold - dissipated.front())}};
-  m.brief = fmt::format("q at p = {:.5g} ± {:.2g} MPa", at.of(c.mean_stress), uncertainty(c.mean_stress));
-  if (next == 1) m.notes.emplace_back("yields before the stage's first row: record more rows");
+  m.details = details_of(yield, c);
+  m.brief = fmt::format("q at p = {:.5g} ± {:.2g} MPa", yield.at.of(c.mean_stress),
+                        stress_uncertainty(c.mean_stress, yield.at));
+  if (row == 0) m.notes.emplace_back("yields before the stage's first row: record more rows");
   return m;
 }
 

@@ -145,6 +145,11 @@ private:
 
   std::string file_of_run(const RunInstance& run) const { return file_of(run, request_.results, request_.packing); }
 
+  /// The packing that a run's chain began at, with its mesh; `runs` holds it.
+  std::string packing_of(const RunInstance& run, const RunGraph& runs) const {
+    return run.packing.empty() ? request_.packing : file_of_run(runs.at(run.packing));
+  }
+
   /// The command of a metric: of postproc, or of another program that it names.
   std::string command_of(const std::string& metric) const {
     std::string command = metric;
@@ -158,7 +163,7 @@ private:
     const std::string folder = request_.results.of(run.folder), file = fmt::format("{}/{}.json", folder, metric);
     const std::size_t end = command.find(' ', command.find(' ') + 1); // behind the program and its verb
     Words words = row.values;
-    words["packing"] = {request_.packing, {}};
+    words["packing"] = {packing_of(run, runs_), {}};
     words["description"] = {request_.description, {}};
     words["folder"] = {folder, {}};
     const std::string full = fmt::format("{} {}{}", command.substr(0, end), file_of_run(run),
@@ -244,8 +249,7 @@ private:
 
   void add_run_rules(const std::string& folder, const RunInstance& run) {
     const std::string file = file_of_run(run), settings_file = file.substr(0, file.size() - 2) + "settings";
-    const std::string packing =
-        run.packing.empty() ? request_.packing : request_.results.of(run.packing) + "/packing.h5";
+    const std::string packing = packing_of(run, graph_);
     Settings settings = {{"packing", packing}};
     if (run.common_settings)
       settings.insert(settings.end(), request_.common_settings.begin(), request_.common_settings.end());

@@ -142,20 +142,20 @@ struct PlotSpec {
   Place place;
 };
 
-/// A picture or a table that another command of postproc makes from each run: "{run}" in the command is its file.
-struct PictureSpec {
-  std::string name, run, command;
+/// A file that a command makes.
+struct CommandSpec {
+  std::string name, run, command; ///< "{run}" in the command is the run's file
   std::vector<std::string> series;
   std::vector<Filter> where;
   Place place;
 };
 
+/// A picture or a table that another command of postproc makes from each run.
+struct PictureSpec : CommandSpec {};
+
 /// A file that a command makes which is no verb of postproc, once for each text that `name` becomes.
-struct ScriptSpec {
-  std::string name, run, command;
-  std::vector<std::string> series, needs; ///< needs: files of the figure that others make
-  std::vector<Filter> where;
-  Place place;
+struct ScriptSpec : CommandSpec {
+  std::vector<std::string> needs; ///< files of the figure that others make
 };
 
 struct QuantitySpec {

@@ -96,6 +96,10 @@ const std::vector<CurveColumn>& curve_columns() {
   static const std::vector<CurveColumn> columns = {
       {"axial_stress", "mean of both z walls, MPa",
        [](const HistoryRow& r) { return (r("wall_stress_4") + r("wall_stress_5")) / 2; }},
+      {"lateral_stress", "mean of the four lateral walls, MPa",
+       [](const HistoryRow& r) {
+         return (r("wall_stress_0") + r("wall_stress_1") + r("wall_stress_2") + r("wall_stress_3")) / 4;
+       }},
       {"upper_plate_force", "force of the upper z wall, N",
        [](const HistoryRow& r) { return r("wall_stress_5") * r("box_lengths_0") * r("box_lengths_1"); }},
       {"displacement", "approach of the z walls since the stage began, mm",

@@ -10,6 +10,7 @@
 #include "common/nearest_word.hpp"
 #include "common/one_line.hpp"
 #include "postproc/figure/figure.hpp"
+#include "postproc/figure/figure_texts.hpp"
 #include "postproc/fit.hpp"
 
 namespace mpfem {
@@ -17,25 +18,6 @@ namespace mpfem {
 namespace {
 
 namespace filesystem = std::filesystem;
-
-Value value_of(const toml::node& node, const Place& place) {
-  if (const auto* text = node.as_string()) return {text->get(), {}};
-  if (const auto number = node.is_number() ? node.value<double>() : std::nullopt) return Value::of(*number);
-  place.fail("expected a number or a text");
-}
-
-/// One value or a list of them.
-std::vector<Value> values_of(TableReader& reader, const std::string& key) {
-  const Place place(reader, key);
-  const toml::node* node = reader.value(key);
-  std::vector<Value> values;
-  if (const toml::array* list = node->as_array())
-    for (const toml::node& element : *list) values.push_back(value_of(element, place));
-  else
-    values.push_back(value_of(*node, place));
-  if (values.empty()) place.fail("found an empty list, expected a value or more");
-  return values;
-}
 
 /// What `mpfem run --set` takes: numbers and words as they are, lists in brackets.
 std::string setting_text(const toml::node& node, const Place& place) {
@@ -53,115 +35,6 @@ Settings read_settings(TableReader reader) {
   for (const std::string& key : reader.keys())
     settings.emplace_back(key, setting_text(*reader.value(key), Place(reader, key)));
   return settings;
-}
-
-/// Names become files and targets of make.
-std::string checked_name(TableReader& reader, const std::string& key, std::string name) {
-  if (name.empty() ||
-      name.find_first_not_of("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789._-") != std::string::npos)
-    reader.fail(key, fmt::format("found '{}', allowed: letters, digits, '.', '_' and '-'", name));
-  return name;
-}
-
-/// Entries of `for_each` that are lists.
-using Lists = std::map<std::string, std::vector<Value>>;
-
-/// The texts of one table of the file, in which the words of `for_each` are replaced.
-class Texts {
-public:
-  Texts(TableReader& reader, const Words& words) : reader_(reader), words_(words) {}
-  Texts(TableReader& reader, const Words& words, const Lists& lists) : reader_(reader), words_(words), lists_(&lists) {}
-
-  std::string required(const std::string& key) { return filled_in(key, reader_.string(key)); }
-  std::string optional(const std::string& key, std::string_view fallback = "") {
-    return filled_in(key, reader_.string_or(key, fallback));
-  }
-  std::string name(const std::string& key) { return checked_name(reader_, key, required(key)); }
-  std::vector<std::string> list(const std::string& key) {
-    std::vector<std::string> texts = reader_.strings_or(key, {});
-    for (std::string& text : texts) text = filled_in(key, text);
-    return texts;
-  }
-  std::vector<Filter> filters(const std::string& key) {
-    std::vector<Filter> result;
-    auto table = reader_.optional_table(key);
-    if (!table) return result;
-    for (const std::string& name : table->keys()) {
-      Filter filter{name, {}, {}, {}};
-      if (table->value(name)->is_table()) {
-        TableReader limits = table->table(name);
-        Texts texts(limits, words_);
-        filter.at_least = texts.number("at_least");
-        filter.at_most = texts.number("at_most");
-        limits.finish();
-      } else {
-        filter.equal = values_of(*table, name);
-        for (Value& value : filter.equal)
-          if (!value.number) value = Value::of_text(filled_in(key, value.text));
-      }
-      result.push_back(std::move(filter));
-    }
-    return result;
-  }
-  /// A number, or a text in which a word of `for_each` stands for one; nothing where it is absent.
-  std::optional<double> number(const std::string& key) {
-    if (!reader_.has(key) || !reader_.value(key)->is_string()) return reader_.optional_number(key);
-    const auto number = Value::of_text(required(key)).number;
-    if (!number) reader_.fail(key, "expected a number");
-    return number;
-  }
-  /// A whole number, or a text in which a word of `for_each` stands for one.
-  int integer(const std::string& key, int fallback, Range range) {
-    if (!reader_.has(key) || !reader_.value(key)->is_string())
-      return static_cast<int>(reader_.integer_or(key, fallback, range));
-    const auto number = Value::of_text(required(key)).number;
-    if (!number || *number != static_cast<int>(*number) || !range.contains(*number))
-      reader_.fail(key, fmt::format("expected a whole number {}", range.text()));
-    return static_cast<int>(*number);
-  }
-  /// The value of a key, a list or one; "{name}" alone stands for a list of `for_each`.
-  std::vector<Value> values(const std::string& key) {
-    std::vector<Value> result = values_of(reader_, key);
-    if (lists_ != nullptr && result.size() == 1 && !result.front().number)
-      for (const auto& [name, list] : *lists_)
-        if (result.front().text == fmt::format("{{{}}}", name)) return list;
-    for (Value& value : result)
-      if (!value.number) value = Value::of_text(filled_in(key, value.text));
-    return result;
-  }
-  TableReader& reader() { return reader_; }
-  const Words& words() const { return words_; }
-
-private:
-  std::string filled_in(const std::string& key, const std::string& text) {
-    return filled_at(Place(reader_, key), text, words_, Unknown::kept);
-  }
-  TableReader& reader_;
-  const Words& words_;
-  const Lists* lists_ = nullptr;
-};
-
-/// Calls `read` for a table of the file, once for each entry of its `for_each`, and checks that all keys were known.
-template <class Read>
-void for_each(TableReader table, const Read& read) {
-  std::vector<std::pair<Words, Lists>> variants;
-  for (TableReader& variant : table.tables("for_each")) {
-    auto& [words, lists] = variants.emplace_back();
-    for (const std::string& key : variant.keys()) {
-      std::vector<Value> values = values_of(variant, key);
-      if (values.size() == 1)
-        words[key] = values.front();
-      else
-        lists[key] = std::move(values);
-    }
-  }
-  if (variants.empty()) variants.emplace_back();
-  for (const auto& [words, lists] : variants) {
-    TableReader again = table;
-    Texts texts(again, words, lists);
-    read(texts);
-    again.finish();
-  }
 }
 
 struct Heading {
@@ -371,6 +244,181 @@ ConditionSpec read_condition(TableReader reader, const Words& words) {
   return c;
 }
 
+/// Lists of columns by name, from [columns].
+using ColumnLists = std::map<std::string, std::vector<std::string>>;
+
+/// Names of lists become what the lists hold.
+std::vector<std::string> with_lists(const std::vector<std::string>& columns, const ColumnLists& lists) {
+  std::vector<std::string> texts;
+  for (const std::string& text : columns)
+    if (const auto list = lists.find(text); list != lists.end())
+      texts.insert(texts.end(), list->second.begin(), list->second.end());
+    else
+      texts.push_back(text);
+  return texts;
+}
+
+TableSpec read_table(Texts& t, const ColumnLists& lists) {
+  TableSpec spec;
+  spec.place = Place(t.reader(), "columns");
+  spec.name = t.name("name");
+  spec.row = t.optional("row");
+  spec.series = t.list("series");
+  spec.where = t.filters("where");
+  spec.curves = t.list("curves");
+  spec.list = t.optional("list");
+  spec.keep = t.filters("keep");
+  if (t.reader().has("stage")) spec.stage = static_cast<int>(t.reader().integer("stage"));
+  spec.digits = static_cast<int>(t.reader().integer_or("digits", 6, Range::between(1, 17)));
+  spec.distinct = t.reader().boolean_or("distinct", false);
+  spec.spread = t.list("spread");
+  const bool rows_of_files = !spec.curves.empty() || !spec.list.empty();
+  for (const std::string& text : with_lists(t.list("columns"), lists))
+    spec.columns.push_back(read_column(text, rows_of_files, spec.place));
+  if (spec.columns.empty()) spec.place.fail("expected a column or more");
+  return spec;
+}
+
+/// A CSV file: of the figure's results, where a script makes it, else beside the figure's file.
+TableSpec read_table_of_file(Texts& t, const filesystem::path& folder) {
+  TableSpec spec;
+  spec.place = Place(t.reader(), "columns");
+  spec.name = t.name("name");
+  spec.file = t.required("file");
+  spec.beside = filesystem::exists(folder / spec.file);
+  if (spec.beside) spec.file = (folder / spec.file).lexically_normal().string();
+  for (const std::string& text : t.list("columns")) {
+    const Heading heading = heading_of(text);
+    ColumnSpec column;
+    column.title = text;
+    column.name = heading.name;
+    column.unit = heading.unit;
+    spec.columns.push_back(column);
+  }
+  return spec;
+}
+
+FitSpec read_fit(Texts& t) {
+  FitSpec spec;
+  spec.place = Place(t.reader(), "name");
+  spec.name = t.name("name");
+  spec.table = t.required("table");
+  spec.x = t.required("x");
+  spec.y = t.required("y");
+  spec.z = t.optional("z");
+  spec.model = t.required("model");
+  if (std::find(fit_models().begin(), fit_models().end(), spec.model) == fit_models().end())
+    t.reader().fail("model", fmt::format("found '{}', allowed: {}", spec.model, fmt::join(fit_models(), ", ")));
+  spec.relative_density = t.reader().boolean_or("relative_density", false);
+  spec.where = t.filters("where");
+  return spec;
+}
+
+InsetSpec read_inset(TableReader inset, const Words& words) {
+  InsetSpec spec;
+  spec.x = read_axis(inset.table("x"), words);
+  spec.y = read_axis(inset.table("y"), words);
+  const auto place = inset.numbers("place", Range::between(0, 1));
+  if (place.size() != 4) inset.fail("place", "expected four numbers: left, bottom, width, height");
+  std::copy(place.begin(), place.end(), spec.place.begin());
+  Texts inside(inset, words);
+  spec.where = inside.filters("where");
+  inset.finish();
+  return spec;
+}
+
+/// A `for_each` of a series is inside one of its plot: the words of both are replaced.
+std::vector<SeriesSpec> read_all_series(Texts& plot) {
+  std::vector<SeriesSpec> list;
+  for (TableReader& series : plot.reader().tables("series"))
+    for_each(series, [&](Texts& s) {
+      Words words = plot.words();
+      words.insert(s.words().begin(), s.words().end());
+      Texts both(s.reader(), words);
+      list.push_back(read_series(both));
+    });
+  return list;
+}
+
+PlotSpec read_plot(Texts& t) {
+  TableReader& r = t.reader();
+  PlotSpec plot;
+  plot.place = Place(r, "name");
+  plot.name = t.name("name");
+  plot.title = t.optional("title");
+  plot.key = t.optional("key", "left top");
+  plot.key_title = t.optional("key_title");
+  plot.x = read_axis(r.table("x"), t.words());
+  plot.y = read_axis(r.table("y"), t.words());
+  if (auto z = r.optional_table("z")) {
+    plot.z = read_axis(*z, t.words());
+    plot.surface = true;
+  }
+  plot.series = read_all_series(t);
+  for (TableReader& line : r.tables("lines")) {
+    Texts words(line, t.words());
+    plot.lines.push_back({words.number("y"), words.number("x"), words.number("slope"), words.optional("title")});
+    line.finish();
+  }
+  if (auto inset = r.optional_table("inset")) plot.inset = read_inset(*inset, t.words());
+  return plot;
+}
+
+/// A picture needs a run, a script may have one: `read_run` says which.
+CommandSpec read_command(Texts& t, std::string (*read_run)(Texts&)) {
+  CommandSpec spec;
+  spec.place = Place(t.reader(), "command");
+  spec.name = t.required("name");
+  spec.run = read_run(t);
+  spec.command = t.required("command");
+  spec.series = t.list("series");
+  spec.where = t.filters("where");
+  return spec;
+}
+
+PictureSpec read_picture(Texts& t) {
+  return {read_command(t, [](Texts& texts) { return texts.required("run"); })};
+}
+
+/// Of no run where none is named.
+ScriptSpec read_script(Texts& t) {
+  ScriptSpec spec{read_command(t, [](Texts& texts) { return texts.optional("run"); }), {}};
+  spec.needs = t.list("needs");
+  return spec;
+}
+
+StatementSpec read_statement(Texts& t) {
+  TableReader& r = t.reader();
+  StatementSpec s;
+  s.place = Place(r, "ours");
+  s.text = t.required("text");
+  s.paper = t.required("paper");
+  s.source = t.optional("source");
+  s.ours = t.required("ours");
+  s.note = t.optional("note");
+  if (auto unjudged = r.optional_table("unjudged")) {
+    Texts texts(*unjudged, t.words());
+    s.ours_unjudged = texts.required("ours");
+    s.note_unjudged = texts.optional("note", s.note);
+    unjudged->finish();
+  }
+  s.only_refutes = r.boolean_or("only_refutes", false);
+  s.only_if_judged = r.boolean_or("only_if_judged", false);
+  s.meshes = t.list("meshes");
+  TableReader quantities = r.table("quantities");
+  for (const std::string& key : quantities.keys())
+    s.quantities.push_back(read_quantity(quantities.table(key), key, t.words()));
+  for (TableReader& condition : r.tables("require")) s.require.push_back(read_condition(condition, t.words()));
+  for (TableReader& condition : r.tables("judged_if")) s.judged_if.push_back(read_condition(condition, t.words()));
+  return s;
+}
+
+/// Reads every table of this name, once for each entry of its `for_each`.
+template <class Spec>
+void append_each(TableReader& root, const std::string& key, Spec (*read)(Texts&), std::vector<Spec>& specs) {
+  for (TableReader& table : root.tables(key)) for_each(table, [&](Texts& t) { specs.push_back(read(t)); });
+}
+
 /// Reads one file into the figure; its `include`d files first.
 class FigureReader {
 public:
@@ -392,8 +440,7 @@ public:
     read_runs(root, folder);
     read_tables(root, folder);
     read_plots(root);
-    for (TableReader& table : root.tables("statements"))
-      for_each(table, [&](Texts& t) { read_statement(t, main ? figure_.statements : included_statements_); });
+    append_each(root, "statements", read_statement, main ? figure_.statements : included_statements_);
     root.finish();
     if (main) // what many figures state alike stands behind what this one states
       figure_.statements.insert(figure_.statements.end(), included_statements_.begin(), included_statements_.end());
@@ -500,169 +547,24 @@ private:
     return path.string();
   }
 
-  /// A CSV file: of the figure's results, where a script makes it, else beside the figure's file.
-  void read_table_of_file(Texts& t, TableSpec& spec, const filesystem::path& folder) {
-    spec.file = t.required("file");
-    spec.beside = filesystem::exists(folder / spec.file);
-    if (spec.beside) spec.file = (folder / spec.file).lexically_normal().string();
-    for (const std::string& text : t.list("columns")) {
-      const Heading heading = heading_of(text);
-      ColumnSpec column;
-      column.title = text;
-      column.name = heading.name;
-      column.unit = heading.unit;
-      spec.columns.push_back(column);
-    }
-    figure_.tables.push_back(std::move(spec));
-  }
-
   void read_tables(TableReader& root, const filesystem::path& folder) {
     for (TableReader& table : root.tables("tables"))
       for_each(table, [&](Texts& t) {
-        TableSpec spec;
-        spec.place = Place(t.reader(), "columns");
-        spec.name = t.name("name");
-        if (t.reader().has("file")) {
-          read_table_of_file(t, spec, folder);
-          return;
-        }
-        spec.row = t.optional("row");
-        spec.series = t.list("series");
-        spec.where = t.filters("where");
-        spec.curves = t.list("curves");
-        spec.list = t.optional("list");
-        spec.keep = t.filters("keep");
-        const bool rows_of_files = !spec.curves.empty() || !spec.list.empty();
-        if (t.reader().has("stage")) spec.stage = static_cast<int>(t.reader().integer("stage"));
-        spec.digits = static_cast<int>(t.reader().integer_or("digits", 6, Range::between(1, 17)));
-        spec.distinct = t.reader().boolean_or("distinct", false);
-        spec.spread = t.list("spread");
-        for (const std::string& text : t.list("columns")) {
-          const auto group = columns_.find(text);
-          if (group == columns_.end())
-            spec.columns.push_back(read_column(text, rows_of_files, spec.place));
-          else
-            for (const std::string& one : group->second)
-              spec.columns.push_back(read_column(one, rows_of_files, spec.place));
-        }
-        if (spec.columns.empty()) spec.place.fail("expected a column or more");
-        figure_.tables.push_back(std::move(spec));
+        figure_.tables.push_back(t.reader().has("file") ? read_table_of_file(t, folder) : read_table(t, columns_));
       });
-    for (TableReader& table : root.tables("fits"))
-      for_each(table, [&](Texts& t) {
-        FitSpec spec;
-        spec.place = Place(t.reader(), "name");
-        spec.name = t.name("name");
-        spec.table = t.required("table");
-        spec.x = t.required("x");
-        spec.y = t.required("y");
-        spec.z = t.optional("z");
-        spec.model = t.required("model");
-        if (std::find(fit_models().begin(), fit_models().end(), spec.model) == fit_models().end())
-          t.reader().fail("model", fmt::format("found '{}', allowed: {}", spec.model, fmt::join(fit_models(), ", ")));
-        spec.relative_density = t.reader().boolean_or("relative_density", false);
-        spec.where = t.filters("where");
-        figure_.fits.push_back(std::move(spec));
-      });
+    append_each(root, "fits", read_fit, figure_.fits);
   }
 
   void read_plots(TableReader& root) {
-    for (TableReader& table : root.tables("plots"))
-      for_each(table, [&](Texts& t) {
-        TableReader& r = t.reader();
-        PlotSpec plot;
-        plot.place = Place(r, "name");
-        plot.name = t.name("name");
-        plot.title = t.optional("title");
-        plot.key = t.optional("key", "left top");
-        plot.key_title = t.optional("key_title");
-        plot.x = read_axis(r.table("x"), t.words());
-        plot.y = read_axis(r.table("y"), t.words());
-        if (auto z = r.optional_table("z")) {
-          plot.z = read_axis(*z, t.words());
-          plot.surface = true;
-        }
-        for (TableReader& series : r.tables("series"))
-          for_each(series, [&](Texts& s) {
-            Words words = t.words();
-            words.insert(s.words().begin(), s.words().end());
-            Texts both(s.reader(), words);
-            plot.series.push_back(read_series(both));
-          });
-        for (TableReader& line : r.tables("lines")) {
-          Texts words(line, t.words());
-          plot.lines.push_back({words.number("y"), words.number("x"), words.number("slope"), words.optional("title")});
-          line.finish();
-        }
-        if (auto inset = r.optional_table("inset")) {
-          InsetSpec spec;
-          spec.x = read_axis(inset->table("x"), t.words());
-          spec.y = read_axis(inset->table("y"), t.words());
-          const auto place = inset->numbers("place", Range::between(0, 1));
-          if (place.size() != 4) inset->fail("place", "expected four numbers: left, bottom, width, height");
-          std::copy(place.begin(), place.end(), spec.place.begin());
-          Texts inside(*inset, t.words());
-          spec.where = inside.filters("where");
-          inset->finish();
-          plot.inset = spec;
-        }
-        figure_.plots.push_back(std::move(plot));
-      });
-    for (TableReader& table : root.tables("pictures"))
-      for_each(table, [&](Texts& t) {
-        PictureSpec spec;
-        spec.place = Place(t.reader(), "command");
-        spec.name = t.required("name");
-        spec.run = t.required("run");
-        spec.command = t.required("command");
-        spec.series = t.list("series");
-        spec.where = t.filters("where");
-        figure_.pictures.push_back(std::move(spec));
-      });
-    for (TableReader& table : root.tables("scripts"))
-      for_each(table, [&](Texts& t) {
-        ScriptSpec spec;
-        spec.place = Place(t.reader(), "command");
-        spec.name = t.required("name");
-        spec.run = t.optional("run");
-        spec.command = t.required("command");
-        spec.series = t.list("series");
-        spec.needs = t.list("needs");
-        spec.where = t.filters("where");
-        figure_.scripts.push_back(std::move(spec));
-      });
-  }
-
-  static void read_statement(Texts& t, std::vector<StatementSpec>& statements) {
-    TableReader& r = t.reader();
-    StatementSpec s;
-    s.place = Place(r, "ours");
-    s.text = t.required("text");
-    s.paper = t.required("paper");
-    s.source = t.optional("source");
-    s.ours = t.required("ours");
-    s.note = t.optional("note");
-    if (auto unjudged = r.optional_table("unjudged")) {
-      Texts texts(*unjudged, t.words());
-      s.ours_unjudged = texts.required("ours");
-      s.note_unjudged = texts.optional("note", s.note);
-      unjudged->finish();
-    }
-    s.only_refutes = r.boolean_or("only_refutes", false);
-    s.only_if_judged = r.boolean_or("only_if_judged", false);
-    s.meshes = t.list("meshes");
-    TableReader quantities = r.table("quantities");
-    for (const std::string& key : quantities.keys())
-      s.quantities.push_back(read_quantity(quantities.table(key), key, t.words()));
-    for (TableReader& condition : r.tables("require")) s.require.push_back(read_condition(condition, t.words()));
-    for (TableReader& condition : r.tables("judged_if")) s.judged_if.push_back(read_condition(condition, t.words()));
-    statements.push_back(std::move(s));
+    append_each(root, "plots", read_plot, figure_.plots);
+    append_each(root, "pictures", read_picture, figure_.pictures);
+    append_each(root, "scripts", read_script, figure_.scripts);
   }
 
   Figure& figure_;
   std::string programmes_;
   std::vector<StatementSpec> included_statements_;
-  std::map<std::string, std::vector<std::string>> columns_;
+  ColumnLists columns_;
 };
 
 template <class Item>

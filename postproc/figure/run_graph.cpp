@@ -118,8 +118,16 @@ std::set<std::string> values_used(const Figure& figure, const RunTemplate& run) 
   return names;
 }
 
-/// Where a run begins: its packing, or its parent with the checkpoint, both added to the graph. A branch has the
-/// grains, the bonds and the element of the run that its chain began with.
+/// What a branch takes over of the settings of the run that its chain began with: grains, bonds, element. Stages and
+/// output are each run's own.
+Settings inherited(const Settings& settings) {
+  Settings result;
+  for (const auto& setting : settings)
+    if (!setting.first.starts_with("stages.") && !setting.first.starts_with("output.")) result.push_back(setting);
+  return result;
+}
+
+/// Where a run begins: its packing, or its parent with the checkpoint, both added to the graph.
 void add_origin(RunGraph& graph, const Figure& figure, const RunTemplate& run, const Case& row, RunInstance& instance) {
   std::string from = filled_at(run.place, run.from, row.values);
   const auto before = run.chain.empty() ? std::nullopt : before_in_chain(run, row);
@@ -137,7 +145,7 @@ void add_origin(RunGraph& graph, const Figure& figure, const RunTemplate& run, c
   instance.common_settings = parent.common_settings;
   const RunInstance* root = &parent;
   while (!root->parent.empty()) root = &graph.at(root->parent);
-  instance.settings = root->settings;
+  instance.settings = inherited(root->settings);
   const std::string at = end == std::string::npos ? "" : from.substr(end + 1);
   if (end != std::string::npos && from[end] == '@') {
     const double density = density_of(at, run.place);

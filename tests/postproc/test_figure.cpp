@@ -1,8 +1,5 @@
 // Figures declared in TOML: reading, runs, tables, statements, plots, and what make is told.
 
-#include <filesystem>
-#include <fstream>
-
 #include <catch2/catch.hpp>
 #include <fmt/format.h>
 
@@ -13,13 +10,9 @@
 
 using namespace mpfem;
 using Catch::Matchers::Contains;
+using test::write_text;
 
 namespace {
-
-void write_text(const std::string& path, const std::string& text) {
-  std::filesystem::create_directories(std::filesystem::path(path).parent_path());
-  std::ofstream(path) << text;
-}
 
 /// A folder with the programmes "press" and "crush", and files of figures.
 class Toolkit {
@@ -48,7 +41,7 @@ density = [0.7, 0.85]
 name = "pressed"
 folder = "{sample}"
 programme = "press"
-settings = { "bond.fracture_energy" = 0.5 }
+settings = { "bond.fracture_energy" = 0.5, "stages.0.wall_speed" = 1000 }
 [[runs]]
 name = "crushed"
 programme = "crush"
@@ -73,6 +66,13 @@ nlohmann::ordered_json judged(const std::string& rows, const std::string& statem
   write_text(toolkit.path("out/fits.json"), fits);
   FigureData data(figure, toolkit.path("out"));
   return judge(figure.statements.front(), data);
+}
+
+/// What all cases of a figure need of one of its runs, as the mesh "smoke" has them.
+RunGraph graph_of(const Figure& figure, const RunTemplate& run) {
+  RunGraph graph;
+  for (const Case& row : cases_of(figure, {}, {}, "smoke", {})) add_run(graph, figure, run, row);
+  return graph;
 }
 
 const std::string rising = "a,1,2,0\nb,2,3,0\nc,3,5,1\n";
@@ -110,16 +110,14 @@ TEST_CASE("a mistake in a figure's file is told with file, line and the nearest 
 TEST_CASE("every combination of a case's values is a row, and runs that do not depend on a value are shared") {
   const Toolkit toolkit;
   const Figure figure = toolkit.figure(tablets);
-  const auto cases = cases_of(figure, {}, {}, "smoke", {});
-  REQUIRE(cases.size() == 4);
-  RunGraph graph;
-  for (const Case& row : cases) add_run(graph, figure, figure.runs[1], row);
+  REQUIRE(cases_of(figure, {}, {}, "smoke", {}).size() == 4);
+  const RunGraph graph = graph_of(figure, figure.runs[1]);
   REQUIRE(graph.size() == 6); // two pressed, four crushed
   CHECK(graph.at("a").densities == std::set<double>{0.7, 0.85});
   const RunInstance& crushed = graph.at("study/runs/crushed-b-0.85");
   CHECK(crushed.parent == "b");
   CHECK(crushed.checkpoint == "D0.850");
-  // The sample's own settings first, then those of the test.
+  // The sample's own settings first, but for its stages, then those of the test.
   CHECK(crushed.settings == Settings{{"bond.fracture_energy", "0.5"}, {"stages.1.wall_speed", "500"}});
 }
 
@@ -162,8 +160,7 @@ programme = "press"
 [runs.settings_unless_zero.energy]
 "bond.fracture_energy" = "{energy}"
 )");
-  RunGraph graph;
-  for (const Case& row : cases_of(figure, {}, {}, "smoke", {})) add_run(graph, figure, figure.runs[0], row);
+  const RunGraph graph = graph_of(figure, figure.runs[0]);
   CHECK(graph.at("loose").settings.empty());
   CHECK(graph.at("bonded").settings == Settings{{"bond.fracture_energy", "0.5"}});
 }
@@ -182,8 +179,7 @@ name = "pressed"
 programme = "press"
 settings = { "material.hardening.yield_stress" = "{yield}" }
 )");
-  RunGraph graph;
-  for (const Case& row : cases_of(figure, {}, {}, "smoke", {})) add_run(graph, figure, figure.runs[0], row);
+  const RunGraph graph = graph_of(figure, figure.runs[0]);
   REQUIRE(graph.size() == 2); // `seen` makes no run of its own
   CHECK(graph.contains("study/runs/pressed-soft"));
   CHECK(graph.contains("study/runs/pressed-hard"));
@@ -192,7 +188,7 @@ settings = { "material.hardening.yield_stress" = "{yield}" }
 TEST_CASE("one folder for two different runs is refused, in one figure and in two") {
   const Toolkit toolkit;
   std::string text = tablets;
-  text.replace(text.find("0.5 }"), 5, "\"{density}\" }");
+  text.replace(text.find("0.5,"), 4, "\"{density}\",");
   const Figure figure = toolkit.figure(text);
   RunGraph graph;
   CHECK_THROWS_WITH(
@@ -201,7 +197,7 @@ TEST_CASE("one folder for two different runs is refused, in one figure and in tw
       }(),
       Contains("stands for two runs with different settings"));
   std::string other = tablets;
-  other.replace(other.find("0.5 }"), 5, "0.6 }");
+  other.replace(other.find("0.5,"), 4, "0.6,");
   CHECK_THROWS_WITH(make_rules({toolkit.figure(tablets), toolkit.figure(other, "other.toml")},
                                {toolkit.results(), "packing.h5", {}, {}}),
                     Contains("the run 'a' has other settings in another figure"));

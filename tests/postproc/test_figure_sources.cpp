@@ -2,7 +2,6 @@
 // parents are made again.
 
 #include <filesystem>
-#include <fstream>
 
 #include <catch2/catch.hpp>
 #include <fmt/format.h>
@@ -14,13 +13,9 @@
 
 using namespace mpfem;
 using Catch::Matchers::Contains;
+using test::write_text;
 
 namespace {
-
-void write_text(const std::string& path, const std::string& text) {
-  std::filesystem::create_directories(std::filesystem::path(path).parent_path());
-  std::ofstream(path) << text;
-}
 
 /// A folder of figures "study.toml", with the programme "press" beside.
 class Studies {
@@ -96,7 +91,7 @@ TEST_CASE("a run whose checkpoint is lost is made again, with those before it, o
   CHECK_THAT(studies.rules(figure), Contains(second + "/run.h5: FORCE"));
 }
 
-TEST_CASE("a packing of a case's own is made by its command, a run begins at it, and metrics measure it") {
+TEST_CASE("a packing of a case's own is made by its command or size, a run begins at it, and metrics measure it") {
   const Studies studies;
   const Figure figure = studies.figure(R"([[cases]]
 size = [0.001, 0.002]
@@ -110,11 +105,16 @@ size = "{size}"
 name = "pressed"
 programme = "press"
 packing = "pair"
+[[runs]]
+name = "fine"
+programme = "press"
+packing = "mesh"
 [metrics]
+contact = "contact --packing {packing}"
 quality = "pack-gen quality --description {description} --sizes {folder}/sizes.csv"
 [[tables]]
 name = "t"
-columns = ["tets = mesh/quality.tets", "p = pressed/strength.value:.2f"]
+columns = ["tets = mesh/quality.tets", "p = pressed/strength.value:.2f", "z = fine/contact.value"]
 )");
   const std::string rules = studies.rules(figure), out = studies.path("out");
   const std::string pair = out + "/study/packings/pair-0.001/packing";
@@ -126,9 +126,12 @@ columns = ["tets = mesh/quality.tets", "p = pressed/strength.value:.2f"]
   CHECK_THAT(rules,
              Contains(fmt::format("pack-gen quality {} --description powder.toml --sizes {}/packing-0.002/sizes.csv",
                                   mesh, out)));
+  CHECK_THAT(rules, Contains(fmt::format("{}/study/runs/fine-0.002/run.h5: {}", out, mesh)));
+  CHECK_THAT(rules, Contains(fmt::format("contact {}/study/runs/fine-0.002/run.h5 --packing {}", out, mesh)));
   for (const char* size : {"0.001", "0.002"}) {
     write_text(fmt::format("{}/packing-{}/quality.json", out, size), R"({"tets": 7})");
     write_text(fmt::format("{}/study/runs/pressed-{}/strength.json", out, size), R"({"value": 1.239})");
+    write_text(fmt::format("{}/study/runs/fine-{}/contact.json", out, size), R"({"value": 3})");
   }
   const TextTable table = make_table(figure, figure.tables[0], studies.results());
   REQUIRE(table.rows.size() == 2);

@@ -35,7 +35,7 @@ TEST_CASE("a loading is as quasi-static as its worst row above a fifth of the la
   contents.numbers["/history/kinetic_energy"] = {0, 1, 0.04, 0.02, 5};
   contents.numbers["/history/external_work"] = {0, 1, 2, 4, 4};
   const HistoryTable history = history_of(folder, contents);
-  const Measurement m = quasi_static(history, last_stage(history));
+  const Measurement m = quasi_static(history, last_stage(history), {});
   CHECK(m.details["kinetic_over_internal"].get<double>() == Approx(0.02).epsilon(1e-12));
   CHECK(m.details["kinetic_over_elastic"].get<double>() == Approx(0.04).epsilon(1e-12));
   CHECK(m.details["residual_over_work"].get<double>() == Approx(0.05).epsilon(1e-12));
@@ -49,7 +49,7 @@ TEST_CASE("a triaxial test says what q is at the end and at its largest, and how
       run_of({{.axial_strain = 0, .axial_stress = 8, .lateral_stress = 8, .plastic = 1},
               {.axial_strain = 0.05, .lateral_strain = 0.01, .axial_stress = 48, .lateral_stress = 8, .plastic = 2},
               {.axial_strain = 0.15, .lateral_strain = -0.1, .axial_stress = 38, .lateral_stress = 8, .plastic = 4}}));
-  const Measurement m = triaxial_test(history, last_stage(history), 8);
+  const Measurement m = triaxial_test(history, last_stage(history), 8, {});
   CHECK(m.value == Approx(30).epsilon(1e-12));
   CHECK(m.details["largest_deviatoric_stress_MPa"].get<double>() == Approx(40).epsilon(1e-12));
   CHECK(m.details["fall_from_largest_deviatoric_stress"].get<double>() == Approx(0.25).epsilon(1e-12));
@@ -127,11 +127,13 @@ TEST_CASE("a compaction's quality is that of its worst row from a density on") {
   contents.numbers["/history/kinetic_energy"] = {1, 0.02, 0.02};
   contents.numbers["/history/external_work"] = {1, 4, 8};
   contents.numbers["/history/max_penetration"] = {0.5, 0.01, 0.03};
+  contents.numbers["/history/relative_density_current"] = {1.2, 0.9, 0.7};
   history_of(folder, contents);
   const schema::FileReader file(folder / "run.h5");
   const Measurement m = measure_compaction_quality(file, 0.7);
   CHECK(m.details["kinetic_over_internal"].get<double>() == Approx(0.01).epsilon(1e-12));
   CHECK(m.details["residual_over_work"].get<double>() == Approx(0.1).epsilon(1e-12));
   CHECK(m.details["largest_penetration"].get<double>() == Approx(0.03).epsilon(1e-12));
+  CHECK(m.details["largest_current_density"].get<double>() == 0.9);
   CHECK_THROWS_WITH(measure_compaction_quality(file, 0.9), Catch::Contains("no row from a relative density of 0.9"));
 }

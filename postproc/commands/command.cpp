@@ -1,0 +1,85 @@
+#include "postproc/commands/command.hpp"
+
+#include <fmt/format.h>
+
+#include "common/errors.hpp"
+#include "postproc/text_file.hpp"
+
+namespace mpfem {
+
+Command::Command(CLI::App& app, const std::string& name, const std::string& help)
+    : options_(app.add_subcommand(name, help)) {}
+
+void Command::run_if_given() const {
+  if (!options_->parsed()) return;
+  for (const std::string* input : inputs_)
+    for (const OutputFile& output : outputs_) refuse_overwriting(*output.path, *input);
+  check_outputs();
+  execute();
+}
+
+CLI::Option* Command::add_input(const std::string& name, std::string& path, const std::string& help) {
+  inputs_.push_back(&path);
+  return options_->add_option(name, path, help);
+}
+
+CLI::Option* Command::add_output(const std::string& name, std::string& path, const std::string& help, OutputKind kind) {
+  outputs_.push_back({name.substr(name.find("--")), &path, kind});
+  return options_->add_option(name, path, help);
+}
+
+void Command::check_outputs() const {
+  for (const OutputFile& output : outputs_)
+    if (!output.path->empty()) check_output_path(output.option, *output.path, output.kind);
+}
+
+ResultCommand::ResultCommand(CLI::App& app, const std::string& name, const std::string& help,
+                             const std::string& output_help, OutputKind kind)
+    : Command(app, name, help), output_option_(add_output("-o,--output", output_, output_help, kind)) {
+  options().add_flag("--quiet", quiet_, "Nothing but the result");
+}
+
+void ResultCommand::deliver(const std::string& text) const {
+  if (output_.empty())
+    fmt::print("{}", text);
+  else
+    write_file(output_, text);
+}
+
+RunCommand::RunCommand(CLI::App& app, const std::string& name, const std::string& help, const std::string& output_help)
+    : ResultCommand(app, name, help, output_help) {
+  add_input("run", run_, "Run file (HDF5)")->required();
+}
+
+StateCommand::StateCommand(CLI::App& app, const std::string& name, const std::string& help,
+                           const std::string& output_help, OutputKind kind)
+    : ResultCommand(app, name, help, output_help, kind) {
+  add_input("run", run_, "Run file (HDF5)");
+  add_input("--packing", packing_, "A meshed packing in place of a run (HDF5)");
+}
+
+Snapshot StateCommand::read_state(int snapshot) const {
+  if (packing_.empty() == run_.empty())
+    throw InputError(
+        fmt::format("found {} of RUN.h5 and --packing, allowed: one of them", run_.empty() ? "neither" : "both"));
+  return packing_.empty() ? read_snapshot({run_, schema::FileKind::run}, snapshot) : read_packing_snapshot(packing_);
+}
+
+void print_notes(const std::vector<std::string>& notes) {
+  for (const std::string& note : notes) fmt::print(stderr, "postproc: note: {}\n", note);
+}
+
+void add_snapshot(CLI::App& command, int& snapshot) {
+  add_number(command, "--snapshot", snapshot, whole_numbers, "", "Number of the snapshot; -1 is the last")
+      ->capture_default_str();
+}
+
+void add_axis(CLI::App& command, std::string& axis, const std::string& help) {
+  command.add_option("--axis", axis, help)->check(CLI::IsMember({"x", "y", "z"}))->capture_default_str();
+}
+
+int axis_number(const std::string& axis) {
+  return axis == "x" ? 0 : axis == "y" ? 1 : 2;
+}
+
+} // namespace mpfem

@@ -1,0 +1,114 @@
+#pragma once
+// What the subcommands of postproc share: their options, the files that they read and write, and where results go.
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "common/command_line.hpp"
+#include "common/output_file.hpp"
+#include "postproc/snapshot.hpp"
+#include "results-schema/file.hpp"
+
+namespace mpfem {
+
+/// One class for each subcommand. Its constructor adds the options; execute() does the work once they are parsed.
+class Command {
+public:
+  Command(CLI::App& app, const std::string& name, const std::string& help);
+  virtual ~Command() = default;
+  Command(const Command&) = delete;
+  Command& operator=(const Command&) = delete;
+
+  /// Does nothing where the command line has another subcommand. Else refuses outputs that would overwrite an input or
+  /// cannot be written, then executes. Throws InputError, StorageError, SimulationError.
+  void run_if_given() const;
+
+protected:
+  CLI::App& options() { return *options_; }
+  bool given(const std::string& option) const { return options_->count(option) > 0; }
+
+  /// An option whose file no output of this subcommand may overwrite.
+  CLI::Option* add_input(const std::string& name, std::string& path, const std::string& help);
+  /// An option that names a file to write.
+  CLI::Option* add_output(const std::string& name, std::string& path, const std::string& help,
+                          OutputKind kind = OutputKind::text);
+
+  virtual void check_outputs() const;
+  virtual void execute() const = 0;
+
+private:
+  struct OutputFile {
+    std::string option; ///< its long name, for messages
+    const std::string* path;
+    OutputKind kind;
+  };
+  CLI::App* options_;
+  std::vector<const std::string*> inputs_;
+  std::vector<OutputFile> outputs_;
+};
+
+/// With a result that goes to -o.
+class ResultCommand : public Command {
+protected:
+  ResultCommand(CLI::App& app, const std::string& name, const std::string& help, const std::string& output_help,
+                OutputKind kind = OutputKind::text);
+
+  const std::string& output() const { return output_; }
+  CLI::Option* output_option() { return output_option_; }
+  bool quiet() const { return quiet_; }
+  /// To the file that -o names, or to standard output.
+  void deliver(const std::string& text) const;
+
+private:
+  std::string output_;
+  bool quiet_ = false;
+  CLI::Option* output_option_;
+};
+
+/// With a result that is read from a run file.
+class RunCommand : public ResultCommand {
+protected:
+  RunCommand(CLI::App& app, const std::string& name, const std::string& help, const std::string& output_help);
+  schema::FileReader open_run() const { return {run_, schema::FileKind::run}; }
+  const std::string& path_of_run() const { return run_; }
+
+private:
+  std::string run_;
+};
+
+/// With a result that is read from a state of the grains: a snapshot of a run, or a meshed packing.
+class StateCommand : public ResultCommand {
+protected:
+  StateCommand(CLI::App& app, const std::string& name, const std::string& help, const std::string& output_help,
+               OutputKind kind);
+  bool of_packing() const { return !packing_.empty(); }
+  const std::string& path_of_run() const { return run_; }
+  /// Throws InputError where both of them are given, or neither.
+  Snapshot read_state(int snapshot) const;
+
+private:
+  std::string run_, packing_;
+};
+
+/// On standard error, a line each.
+void print_notes(const std::vector<std::string>& notes);
+
+/// --snapshot; -1 is the last.
+void add_snapshot(CLI::App& command, int& snapshot);
+/// --axis, one of x, y, z.
+void add_axis(CLI::App& command, std::string& axis, const std::string& help);
+/// 0, 1 or 2 of "x", "y" or "z".
+int axis_number(const std::string& axis);
+
+/// --mesh, --title and --pixels of a picture. `when` begins their help; `patches` are what the mesh is the edges of.
+template <class PictureRequest>
+void add_drawing(CLI::App& command, PictureRequest& request, const std::string& when, const std::string& default_title,
+                 const std::string& patches) {
+  command.add_flag("--mesh", request.mesh_lines, when + "Draw the edges of " + patches);
+  command.add_option("--title", request.title, when + "Title (default: " + default_title + ")");
+  add_number(command, "--pixels", request.pixels, Range::between(50, 4000), "", when + "Pixels along the longer side")
+      ->capture_default_str();
+}
+
+} // namespace mpfem

@@ -1,0 +1,147 @@
+// One number that the paper does not have: loops and offsets of stress and strain, coordination, stress and damage of a
+// snapshot.
+
+#include "postproc/commands/commands.hpp"
+#include "postproc/commands/metric_command.hpp"
+#include "postproc/coordination.hpp"
+#include "postproc/damage_of_test.hpp"
+#include "postproc/inner_stress.hpp"
+#include "postproc/offset_yield.hpp"
+#include "postproc/unload_reload.hpp"
+
+namespace mpfem {
+
+namespace {
+
+class UnloadReloadModulusCommand : public StageMetricCommand {
+public:
+  explicit UnloadReloadModulusCommand(CLI::App& app)
+      : StageMetricCommand(app, "unload-reload-modulus",
+                           "Young's modulus of a compact from a loop of unloading and reloading: the line through its "
+                           "turning points.\n"
+                           "Example: postproc unload-reload-modulus run.h5 -o modulus.json",
+                           "the last unconfined_compression; stages of its type beside it belong to the curve") {
+    add_number(options(), "--loop", loop_, whole_numbers, "", "Number of the loop, from 0; -1 is the last")
+        ->capture_default_str();
+  }
+
+private:
+  Measurement measure(const schema::FileReader& run) const override {
+    return measure_unload_reload_modulus(run, stage(), loop_);
+  }
+
+  int loop_ = -1;
+};
+
+class OffsetYieldCommand : public StageMetricCommand {
+public:
+  explicit OffsetYieldCommand(CLI::App& app)
+      : StageMetricCommand(app, "offset-yield",
+                           "Yield by plastic strain: where a loading has left an offset beside its elastic line.\n"
+                           "Example: postproc offset-yield run.h5 --offset 0.002 -o yield.json",
+                           "the last probe, unconfined or triaxial compression, else the last") {
+    add_number(options(), "--offset", rule_.offset, Range::between(1e-9, 1), "", "Plastic strain at yield")
+        ->capture_default_str();
+    add_number(options(), "--slope", rule_.slope, Range::between(1e-9, 1e12), "MPa",
+               "Elastic slope (default: read by the rule of modulus)");
+  }
+
+private:
+  Measurement measure(const schema::FileReader& run) const override {
+    return measure_offset_yield(run, stage(), rule_);
+  }
+
+  OffsetYieldRule rule_;
+};
+
+class CoordinationCommand : public MetricCommand {
+public:
+  explicit CoordinationCommand(CLI::App& app)
+      : MetricCommand(app, "coordination",
+                      "Coordination numbers of a snapshot: with and without rattlers, with and without walls.\n"
+                      "Example: postproc coordination run.h5 --snapshot -1 -o coordination.json") {
+    add_snapshot(options(), snapshot_);
+    add_number(options(), "--fewest-contacts", fewest_contacts_, whole_numbers, "",
+               "Grains with fewer contacts, walls included, and no bond are rattlers")
+        ->capture_default_str();
+  }
+
+private:
+  Measurement measure(const schema::FileReader& run) const override {
+    return measure_coordination(run, snapshot_, fewest_contacts_);
+  }
+
+  int snapshot_ = -1, fewest_contacts_ = 4;
+};
+
+class InnerStressCommand : public MetricCommand {
+public:
+  explicit InnerStressCommand(CLI::App& app)
+      : MetricCommand(
+            app, "inner-stress",
+            "Mean stress of the inner part of the box by the forces between grains (Love and Weber), beside the "
+            "walls'.\n"
+            "Example: postproc inner-stress run.h5 --share 0.5 -o inner.json") {
+    add_snapshot(options(), snapshot_);
+    add_number(options(), "--share", share_, Range::between(1e-3, 1), "", "Of each length of the box")
+        ->capture_default_str();
+  }
+
+private:
+  Measurement measure(const schema::FileReader& run) const override {
+    return measure_inner_stress(run, snapshot_, share_);
+  }
+
+  int snapshot_ = -1;
+  double share_ = 0.5;
+};
+
+class DamageOfTestCommand : public MetricCommand {
+public:
+  explicit DamageOfTestCommand(CLI::App& app)
+      : MetricCommand(app, "damage-of-test",
+                      "What a test did to the bonds that it found, apart from those that formed in it.\n"
+                      "Example: postproc damage-of-test test.h5 --before compact.h5 -o damage.json\n"
+                      "Example: postproc damage-of-test run.h5 --snapshot-before 1") {
+    add_snapshot(options(), snapshot_);
+    add_input("--before", before_,
+              "Run file with the state in which the test began (default: the run's own snapshot 0)");
+    add_number(options(), "--snapshot-before", snapshot_before_, whole_numbers, "",
+               "Number of the snapshot of that state (default: 0 of the run itself, -1 of another)");
+  }
+
+private:
+  Measurement measure(const schema::FileReader& run) const override {
+    const bool of_itself = before_.empty();
+    return measure_damage_of_test(run, snapshot_, {of_itself ? path_of_run() : before_, schema::FileKind::run},
+                                  snapshot_before_.value_or(of_itself ? 0 : -1));
+  }
+
+  int snapshot_ = -1;
+  std::string before_;
+  std::optional<int> snapshot_before_;
+};
+
+} // namespace
+
+std::unique_ptr<Command> unload_reload_modulus_command(CLI::App& app) {
+  return std::make_unique<UnloadReloadModulusCommand>(app);
+}
+
+std::unique_ptr<Command> offset_yield_command(CLI::App& app) {
+  return std::make_unique<OffsetYieldCommand>(app);
+}
+
+std::unique_ptr<Command> coordination_command(CLI::App& app) {
+  return std::make_unique<CoordinationCommand>(app);
+}
+
+std::unique_ptr<Command> inner_stress_command(CLI::App& app) {
+  return std::make_unique<InnerStressCommand>(app);
+}
+
+std::unique_ptr<Command> damage_of_test_command(CLI::App& app) {
+  return std::make_unique<DamageOfTestCommand>(app);
+}
+
+} // namespace mpfem

@@ -1,0 +1,276 @@
+// One number off a stage of a run: springing back, modulus, strength, yield, cycles, quality of a loading, energies.
+
+#include <map>
+
+#include <fmt/format.h>
+
+#include "common/errors.hpp"
+#include "common/one_line.hpp"
+#include "postproc/commands/commands.hpp"
+#include "postproc/commands/metric_command.hpp"
+#include "postproc/elastic_recovery.hpp"
+#include "postproc/energy.hpp"
+#include "postproc/energy_release.hpp"
+#include "postproc/hysteresis.hpp"
+#include "postproc/mean_radius.hpp"
+#include "postproc/modulus.hpp"
+#include "postproc/quasi_static.hpp"
+#include "postproc/strength.hpp"
+#include "postproc/text_file.hpp"
+#include "postproc/triaxial_test.hpp"
+#include "postproc/yield_point.hpp"
+
+namespace mpfem {
+
+namespace {
+
+constexpr Range share = Range::between(0, 1);
+constexpr Range strains = Range::between(1e-12, 1e3);
+
+class ElasticRecoveryCommand : public StageMetricCommand {
+public:
+  explicit ElasticRecoveryCommand(CLI::App& app)
+      : StageMetricCommand(app, "elastic-recovery",
+                           "How far a compact springs back: (D_max - D_min) / D_max (paper, Eq. 9).\n"
+                           "Example: postproc elastic-recovery run.h5 -o recovery.json",
+                           "the last isotropic_unloading, else the first after the densest row that unloads") {}
+
+private:
+  Measurement measure(const schema::FileReader& run) const override { return measure_elastic_recovery(run, stage()); }
+};
+
+class ModulusCommand : public StageMetricCommand {
+public:
+  explicit ModulusCommand(CLI::App& app)
+      : StageMetricCommand(
+            app, "modulus",
+            "Young's modulus of a compact: slope of axial stress at the beginning of an axial reloading.\n"
+            "Example: postproc modulus run.h5 --stage -1 -o modulus.json\n"
+            "Example: postproc modulus run.h5 --strain-range 0,0.002",
+            "the last unconfined_compression, else the last") {
+    add_share("--slope-change", rule_.slope_change, "Largest change of slope between the window's halves, share");
+    add_share("--damage-share", rule_.damage_share, "Largest damage dissipation over axial work in the window");
+    add_share("--stress-fraction", rule_.stress_fraction, "The window ends at this share of the rise to the peak");
+    add_number(options(), "--strain-range", strain_range_, Range::between(-1e3, 1e3), "",
+               "low,high: axial strain since the stage began, in place of the rule")
+        ->delimiter(',')
+        ->expected(2);
+    options().add_flag("--need-window", need_window_, "Refuse a stage in which no window meets the rule");
+    add_number(options(), "--youngs-modulus", youngs_modulus_, moduli, "MPa",
+               "Of the grains (default: the scenario's)");
+  }
+
+private:
+  void add_share(const std::string& name, double& variable, const std::string& help) {
+    add_number(options(), name, variable, share, "", help)->capture_default_str();
+  }
+
+  void execute() const override {
+    if (!strain_range_.empty() && !(strain_range_[1] > strain_range_[0]))
+      throw InputError(fmt::format("--strain-range: found {:g},{:g}, allowed: low,high with low < high",
+                                   strain_range_[0], strain_range_[1]));
+    StageMetricCommand::execute();
+  }
+
+  Measurement measure(const schema::FileReader& run) const override {
+    ModulusRule rule = rule_;
+    if (!strain_range_.empty()) rule.strain_range = {strain_range_[0], strain_range_[1]};
+    const Measurement m = measure_modulus(run, stage(), rule, youngs_modulus_);
+    if (need_window_ && !m.details["window_meets_rule"].get<bool>())
+      throw InputError(fmt::format("{}: {}", one_line(path_of_run()), m.notes.front()));
+    return m;
+  }
+
+  ModulusRule rule_;
+  std::vector<double> strain_range_;
+  bool need_window_ = false;
+  std::optional<double> youngs_modulus_; ///< MPa
+};
+
+class StrengthCommand : public StageMetricCommand {
+public:
+  explicit StrengthCommand(CLI::App& app)
+      : StageMetricCommand(
+            app, "strength",
+            "Strength: unconfined, the peak of the axial stress; triaxial, the peak of q, else q at an axial strain.\n"
+            "Example: postproc strength run.h5 -o strength.json\n"
+            "Example: postproc strength run.h5 --test triaxial --at-strain 0.1",
+            "the last unconfined_compression or triaxial_compression, else the last") {
+    add_choice<StrengthTest>("--test", "unconfined or triaxial (default: as the stage is)",
+                             {{"unconfined", StrengthTest::unconfined}, {"triaxial", StrengthTest::triaxial}},
+                             [this](StrengthTest test) { rule_.test = test; });
+    add_choice<StrengthCriterion>(
+        "--criterion", "peak, or damage-onset: the stress where damage begins to grow (default: peak)",
+        {{"peak", StrengthCriterion::peak}, {"damage-onset", StrengthCriterion::damage_onset}},
+        [this](StrengthCriterion criterion) { rule_.criterion = criterion; });
+    add_number(options(), "--drop", rule_.drop, share, "", "Fall after the largest stress that makes it a peak, share")
+        ->capture_default_str();
+    add_number(options(), "--at-strain", rule_.at_strain, strains, "",
+               "Axial strain since the stage began, where q has no peak by then")
+        ->capture_default_str();
+  }
+
+private:
+  template <class Choice, class Take>
+  void add_choice(const std::string& name, const std::string& help,
+                  const std::vector<std::pair<std::string, Choice>>& choices, const Take& take) {
+    const std::map<std::string, Choice> by_name(choices.begin(), choices.end());
+    std::vector<std::string> names;
+    for (const auto& [choice, value] : choices) names.push_back(choice);
+    options()
+        .add_option_function<std::string>(
+            name, [by_name, take](const std::string& choice) { take(by_name.at(choice)); }, help)
+        ->check(CLI::IsMember(names));
+  }
+
+  Measurement measure(const schema::FileReader& run) const override { return measure_strength(run, stage(), rule_); }
+
+  StrengthRule rule_;
+};
+
+class YieldCommand : public StageMetricCommand {
+public:
+  explicit YieldCommand(CLI::App& app)
+      : StageMetricCommand(app, "yield",
+                           "Yield point of a probe: where plastic and damage dissipation reach 1.003 times their value "
+                           "at its beginning.\n"
+                           "Example: postproc yield probe.h5 -o yield.json",
+                           "the last probe, else the last") {
+    add_number(options(), "--ratio", ratio_, Range::between(1.0 + 1e-9, 100.0), "",
+               "Of the dissipation at yield to that at the stage's beginning")
+        ->capture_default_str();
+  }
+
+private:
+  Measurement measure(const schema::FileReader& run) const override { return measure_yield(run, stage(), ratio_); }
+
+  double ratio_ = 1.003;
+};
+
+class HysteresisCommand : public StageMetricCommand {
+public:
+  explicit HysteresisCommand(CLI::App& app)
+      : StageMetricCommand(app, "hysteresis",
+                           "Isotropic load cycles: loop area, drift of the density and dissipation of each.\n"
+                           "Example: postproc hysteresis run.h5 -o hysteresis.json --cycles cycles.csv",
+                           "the last stress_cycles, else the whole run") {
+    add_output("--cycles", cycles_, "CSV file to write, a row a cycle");
+  }
+
+private:
+  Measurement measure(const schema::FileReader& run) const override {
+    const HysteresisMeasurement result = measure_hysteresis(run, stage());
+    if (!cycles_.empty()) write_file(cycles_, csv_text(result.cycles));
+    return result.measurement;
+  }
+
+  std::string cycles_;
+};
+
+class QuasiStaticCommand : public StageMetricCommand {
+public:
+  explicit QuasiStaticCommand(CLI::App& app)
+      : StageMetricCommand(
+            app, "quasi-static",
+            "How quasi-static a loading was: kinetic over internal energy, balance of opposite walls and of energy.\n"
+            "Example: postproc quasi-static run.h5 -o quality.json",
+            "the last") {}
+
+private:
+  Measurement measure(const schema::FileReader& run) const override { return measure_quasi_static(run, stage()); }
+};
+
+class TriaxialCommand : public StageMetricCommand {
+public:
+  explicit TriaxialCommand(CLI::App& app)
+      : StageMetricCommand(
+            app, "triaxial",
+            "A triaxial compression: stresses and strains at its end and where q is largest, dissipation, and how well "
+            "the lateral force was kept.\n"
+            "Example: postproc triaxial run.h5 --lateral-stress 8 -o triaxial.json",
+            "the last triaxial_compression") {
+    add_number(options(), "--lateral-stress", lateral_stress_, moduli, "MPa", "At the beginning")->required();
+  }
+
+private:
+  Measurement measure(const schema::FileReader& run) const override {
+    return measure_triaxial_test(run, stage(), lateral_stress_);
+  }
+
+  double lateral_stress_ = 0; ///< MPa
+};
+
+class EnergyCommand : public StageMetricCommand {
+public:
+  explicit EnergyCommand(CLI::App& app)
+      : StageMetricCommand(
+            app, "energy",
+            "Energies: the ledger over time as CSV, or with -o FILE.json what an unloading releases and dissipates, "
+            "also over\n"
+            "E R^3 of the grains.\n"
+            "Example: postproc energy run.h5 -o energy.csv\n"
+            "Example: postproc energy run.h5 --packing packing.h5 -o energy.json",
+            "as for elastic-recovery",
+            "File to write, .json, or CSV with any other ending (default: CSV on standard output)") {
+    add_number(options(), "--youngs-modulus", scale_.youngs_modulus, moduli, "MPa",
+               "Of the grains (default: the scenario's)");
+    add_number(options(), "--mean-radius", scale_.mean_radius, lengths, "mm",
+               "Of the grains (default: from --packing, else from a snapshot)");
+    add_input("--packing", packing_, "Packing file (HDF5) to take the mean radius from");
+  }
+
+private:
+  void execute() const override {
+    if (output().ends_with(".json"))
+      StageMetricCommand::execute();
+    else
+      deliver(csv_text(energy_ledger(HistoryTable(open_run()))));
+  }
+
+  Measurement measure(const schema::FileReader& run) const override {
+    EnergyScale scale = scale_;
+    if (!scale.youngs_modulus) scale.youngs_modulus = scenario_facts(run).youngs_modulus;
+    if (!scale.mean_radius)
+      scale.mean_radius = packing_.empty() ? mean_radius_of_run(run) : mean_radius_of_packing(packing_);
+    return measure_energy(run, stage(), scale);
+  }
+
+  EnergyScale scale_; ///< as far as given
+  std::string packing_;
+};
+
+} // namespace
+
+std::unique_ptr<Command> elastic_recovery_command(CLI::App& app) {
+  return std::make_unique<ElasticRecoveryCommand>(app);
+}
+
+std::unique_ptr<Command> modulus_command(CLI::App& app) {
+  return std::make_unique<ModulusCommand>(app);
+}
+
+std::unique_ptr<Command> strength_command(CLI::App& app) {
+  return std::make_unique<StrengthCommand>(app);
+}
+
+std::unique_ptr<Command> yield_command(CLI::App& app) {
+  return std::make_unique<YieldCommand>(app);
+}
+
+std::unique_ptr<Command> hysteresis_command(CLI::App& app) {
+  return std::make_unique<HysteresisCommand>(app);
+}
+
+std::unique_ptr<Command> quasi_static_command(CLI::App& app) {
+  return std::make_unique<QuasiStaticCommand>(app);
+}
+
+std::unique_ptr<Command> triaxial_command(CLI::App& app) {
+  return std::make_unique<TriaxialCommand>(app);
+}
+
+std::unique_ptr<Command> energy_command(CLI::App& app) {
+  return std::make_unique<EnergyCommand>(app);
+}
+
+} // namespace mpfem

@@ -1,0 +1,33 @@
+#pragma once
+// Where damage begins to grow in a test.
+
+#include <optional>
+#include <vector>
+
+#include "postproc/stage_curve.hpp"
+#include "postproc/statistics.hpp"
+
+namespace mpfem {
+
+/// Where damage begins to grow: the steepest tangent of the damage dissipation against axial strain, up to the peak of
+/// the stress, carried back to the level at the stage's beginning.
+struct DamageOnset {
+  double strain = 0, stress = 0; ///< 1, MPa
+  /// Of the strain: what the noise of damage makes of the tangent and of the level, in first order (95 %), and the
+  /// change of the onset with a tangent over twice the strain, added. Of the stress: half of its change within that and
+  /// its ringing.
+  double strain_uncertainty = 0, stress_uncertainty = 0;
+};
+
+/// `smooth` and `raw`: the axial stress or q (MPa), a value a row, smoothed and as it is; `peak`: the row of its
+/// largest. Nothing where damage does not grow up to there.
+std::optional<DamageOnset> damage_onset(const StageCurve& curve, const std::vector<double>& smooth,
+                                        const std::vector<double>& raw, std::size_t peak);
+
+/// Where the strain is reached, between rows 0 and `last`; at the ends where it lies beyond.
+Crossing at_strain(const std::vector<double>& strain, double target, std::size_t last);
+
+/// Half of the change of a column between the strains `at` ± `reach`, in the column's unit.
+double half_change(const std::vector<double>& column, const std::vector<double>& strain, double at, double reach);
+
+} // namespace mpfem

@@ -1,0 +1,108 @@
+#include "postproc/figure/figure_texts.hpp"
+
+#include <fmt/format.h>
+
+namespace mpfem {
+
+Value value_of(const toml::node& node, const Place& place) {
+  if (const auto* text = node.as_string()) return {text->get(), {}};
+  if (const auto number = node.is_number() ? node.value<double>() : std::nullopt) return Value::of(*number);
+  place.fail("expected a number or a text");
+}
+
+std::vector<Value> values_of(TableReader& reader, const std::string& key) {
+  const Place place(reader, key);
+  const toml::node* node = reader.value(key);
+  std::vector<Value> values;
+  if (const toml::array* list = node->as_array())
+    for (const toml::node& element : *list) values.push_back(value_of(element, place));
+  else
+    values.push_back(value_of(*node, place));
+  if (values.empty()) place.fail("found an empty list, expected a value or more");
+  return values;
+}
+
+std::string checked_name(TableReader& reader, const std::string& key, std::string name) {
+  if (name.empty() ||
+      name.find_first_not_of("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789._-") != std::string::npos)
+    reader.fail(key, fmt::format("found '{}', allowed: letters, digits, '.', '_' and '-'", name));
+  return name;
+}
+
+std::vector<std::string> Texts::list(const std::string& key) {
+  std::vector<std::string> texts = reader_.strings_or(key, {});
+  for (std::string& text : texts) text = filled_in(key, text);
+  return texts;
+}
+
+std::vector<Filter> Texts::filters(const std::string& key) {
+  std::vector<Filter> result;
+  auto table = reader_.optional_table(key);
+  if (!table) return result;
+  for (const std::string& name : table->keys()) result.push_back(filter(key, *table, name));
+  return result;
+}
+
+Filter Texts::filter(const std::string& key, TableReader& table, const std::string& name) {
+  Filter filter{name, {}, {}, {}};
+  if (table.value(name)->is_table()) {
+    TableReader limits = table.table(name);
+    Texts texts(limits, words_);
+    filter.at_least = texts.number("at_least");
+    filter.at_most = texts.number("at_most");
+    limits.finish();
+    return filter;
+  }
+  filter.equal = values_of(table, name);
+  for (Value& value : filter.equal)
+    if (!value.number) value = Value::of_text(filled_in(key, value.text));
+  return filter;
+}
+
+std::optional<double> Texts::number(const std::string& key) {
+  if (!reader_.has(key) || !reader_.value(key)->is_string()) return reader_.optional_number(key);
+  const auto number = Value::of_text(required(key)).number;
+  if (!number) reader_.fail(key, "expected a number");
+  return number;
+}
+
+int Texts::integer(const std::string& key, int fallback, Range range) {
+  if (!reader_.has(key) || !reader_.value(key)->is_string())
+    return static_cast<int>(reader_.integer_or(key, fallback, range));
+  const auto number = Value::of_text(required(key)).number;
+  if (!number || *number != static_cast<int>(*number) || !range.contains(*number))
+    reader_.fail(key, fmt::format("expected a whole number {}", range.text()));
+  return static_cast<int>(*number);
+}
+
+std::vector<Value> Texts::values(const std::string& key) {
+  std::vector<Value> result = values_of(reader_, key);
+  if (lists_ != nullptr && result.size() == 1 && !result.front().number)
+    for (const auto& [name, list] : *lists_)
+      if (result.front().text == fmt::format("{{{}}}", name)) return list;
+  for (Value& value : result)
+    if (!value.number) value = Value::of_text(filled_in(key, value.text));
+  return result;
+}
+
+std::string Texts::filled_in(const std::string& key, const std::string& text) {
+  return filled_at(Place(reader_, key), text, words_, Unknown::kept);
+}
+
+std::vector<std::pair<Words, Lists>> for_each_entries(TableReader& table) {
+  std::vector<std::pair<Words, Lists>> entries;
+  for (TableReader& entry : table.tables("for_each")) {
+    auto& [words, lists] = entries.emplace_back();
+    for (const std::string& key : entry.keys()) {
+      std::vector<Value> values = values_of(entry, key);
+      if (values.size() == 1)
+        words[key] = values.front();
+      else
+        lists[key] = std::move(values);
+    }
+  }
+  if (entries.empty()) entries.emplace_back();
+  return entries;
+}
+
+} // namespace mpfem

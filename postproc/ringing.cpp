@@ -1,0 +1,36 @@
+#include "postproc/ringing.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "postproc/smoothing.hpp"
+#include "postproc/statistics.hpp"
+
+namespace mpfem {
+
+namespace {
+
+/// Rows to either side of parabolas twice as wide as the smoothing's: they show ringing whose period the narrow ones
+/// follow.
+std::size_t wide_half_rows(std::size_t rows) {
+  const std::size_t half = smoothing_half_rows(rows);
+  return rows > 4 * half ? 2 * half : half;
+}
+
+} // namespace
+
+RowRange ringing_rows(std::size_t row, std::size_t rows) {
+  const std::size_t wide = wide_half_rows(rows);
+  return {row > wide ? row - wide : 0, std::min(row + wide, rows - 1)};
+}
+
+double ringing(const std::vector<double>& column, std::size_t row) {
+  const RowRange rows = ringing_rows(row, column.size());
+  const std::vector<double> calm = local_parabolas(column, wide_half_rows(column.size()));
+  double squares = 0;
+  for (std::size_t i = rows.first; i <= rows.last; ++i) squares += (column[i] - calm[i]) * (column[i] - calm[i]);
+  // A parabola takes three of the rows' degrees of freedom.
+  return 2 * std::sqrt(squares / std::max(1.0, static_cast<double>(rows.count()) - 3));
+}
+
+} // namespace mpfem
