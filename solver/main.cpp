@@ -111,6 +111,9 @@ CLI::App* add_bench(CLI::App& app, Arguments& arguments, BenchOptions& options) 
       ->transform(CLI::CheckedTransformer(
           std::map<std::string, Precision>{{"double", Precision::full}, {"mixed", Precision::mixed}}));
   bench->add_flag("!--no-bonds", options.bonds, "Built-in packing without bonds");
+  add_number(*bench, "--friction", options.friction, Range::between(0, 2), "",
+             "Friction of the built-in packing, between grains and at walls")
+      ->capture_default_str();
   add_number(*bench, "--steps", options.steps, Range::between(5, 1e6), "", "Steps to measure")->capture_default_str();
   bench->add_flag("--json", options.json, "Print one JSON object");
   bench->add_flag("--quiet", options.quiet, "No progress");
