@@ -347,27 +347,29 @@ TEST_CASE("an oblique impact on a wall never gains energy, and a sliding one tak
 
 namespace {
 
-const std::string rubbing_text = replaced(scenario_text, "[output]",
-                                          "[contact]\nfriction = 0.3\n[walls]\nfriction = 0.2\n"
-                                          "[output]");
-const std::string rubbing_bonded_text = replaced(
-    bonded_text, "[output]", "[contact]\nfriction = 0.3\nsurface = \"smooth\"\n[walls]\nfriction = 0.2\n[output]");
+std::string rubbing_text() {
+  return replaced(scenario_text, "[output]", "[contact]\nfriction = 0.3\n[walls]\nfriction = 0.2\n[output]");
+}
+std::string rubbing_bonded_text() {
+  return replaced(bonded_text, "[output]",
+                  "[contact]\nfriction = 0.3\nsurface = \"smooth\"\n[walls]\nfriction = 0.2\n[output]");
+}
 
 } // namespace
 
 TEST_CASE("a run with friction is bitwise the same on one, two and four threads, and when it is resumed") {
-  check_threads(rubbing_text, 4);
-  check_resuming(rubbing_text, 5);
+  check_threads(rubbing_text(), 4);
+  check_resuming(rubbing_text(), 5);
 }
 
 TEST_CASE("a run with friction and bonds is bitwise the same on one, two and four threads, and when it is resumed") {
-  check_threads(rubbing_bonded_text, 3);
-  check_resuming(rubbing_bonded_text, 4);
+  check_threads(rubbing_bonded_text(), 3);
+  check_resuming(rubbing_bonded_text(), 4);
 }
 
 TEST_CASE("the columns of friction are in a run's history where the scenario has it, and its ledger closes") {
   const Folder folder;
-  for (const std::string& text : {rubbing_text, rubbing_bonded_text, scenario_text}) {
+  for (const std::string& text : {rubbing_text(), rubbing_bonded_text(), scenario_text}) {
     prepare(folder, 4, text);
     REQUIRE(mpfem_command(fmt::format("run {} -o {} --quiet", folder / "scenario.toml", folder / "run.h5")).exit_code ==
             0);
@@ -393,7 +395,7 @@ TEST_CASE("the columns of friction are in a run's history where the scenario has
 
 TEST_CASE("a branch may begin, change or leave friction") {
   const Folder folder;
-  prepare(folder, 4, replaced(rubbing_text, "[output]\n", "[output]\ncheckpoint_relative_densities = [0.58]\n"));
+  prepare(folder, 4, replaced(rubbing_text(), "[output]\n", "[output]\ncheckpoint_relative_densities = [0.58]\n"));
   REQUIRE(mpfem_command(fmt::format("run {} -o {} --quiet", folder / "scenario.toml", folder / "run.h5")).exit_code ==
           0);
   const std::string from = folder / "run.D0.580.checkpoint.h5";
