@@ -13,9 +13,11 @@ namespace {
 /// The friction of one wall on one grain in one step.
 class WallRubbing {
 public:
-  WallRubbing(Model& model, double friction, std::size_t axis, const std::vector<WallAnchor>& before)
-      : model_(model), friction_(friction), across_{(axis + 1) % 3, (axis + 2) % 3}, next_(before.begin()),
-        end_(before.end()) {
+  /// `last_step` in s; `approach` of the wall in it, mm inward.
+  WallRubbing(Model& model, double friction, const AxisNormal& normal, double last_step, double approach,
+              const std::vector<WallAnchor>& before)
+      : model_(model), friction_(friction), normal_(normal), across_{(normal.axis + 1) % 3, (normal.axis + 2) % 3},
+        last_step_(last_step), approach_(approach), next_(before.begin()), end_(before.end()) {
     anchors_.reserve(before.size());
   }
 
@@ -25,13 +27,14 @@ public:
     release_before(number);
     const std::array<double, 2> place = place_of(number);
     const bool known = next_ != end_ && next_->node == number;
-    WallAnchor anchor = known ? *next_++ : WallAnchor{number, place, {}};
+    const Entry entry = known ? Entry{} : entry_of(node, depth);
+    WallAnchor anchor = known ? *next_++ : WallAnchor{number, moved_back(place, entry.inside), {}};
     const double stiffness = push / depth;
     const Vector3<double> drift = difference(place, anchor.place);
     const double left = share_left_by_slip(norm(drift), longest_drift(friction_, stiffness, stiffness, depth));
     const Vector3<double> slip = (1.0 - left) * drift, force = (left * stiffness) * drift;
     energy += stick_energy(stiffness, left * left * dot(drift, drift), 0.0);
-    dissipation += slip_dissipation(vector_of(anchor.force), force, slip);
+    dissipation += slip_dissipation(vector_of(anchor.force), force, slip + entry.before);
     if (left < 1) anchor.place = {anchor.place[0] + slip.x, anchor.place[1] + slip.y};
     anchor.force = {force.x, force.y};
     for (std::size_t i = 0; i < 2; ++i) model_.push_contact_point(node, across_[i], -anchor.force[i]);
@@ -56,6 +59,22 @@ private:
     return {model_.contact_coordinate(static_cast<std::size_t>(node), across_[0]),
             model_.contact_coordinate(static_cast<std::size_t>(node), across_[1])};
   }
+  /// Motion of a node along the wall in the step in which it came through it, mm.
+  struct Entry {
+    Vector3<double> inside{0, 0, 0}; ///< since then
+    Vector3<double> before{0, 0, 0}; ///< until then: central differences do the work of the whole step
+  };
+  Entry entry_of(std::size_t node, double depth) const {
+    const Vector3<double> v = model_.contact_velocity(node);
+    const double velocity[3] = {v.x, v.y, v.z};
+    const double closing = approach_ - last_step_ * normal_.sign * velocity[normal_.axis];
+    const double share = share_inside(depth, closing);
+    const Vector3<double> along{last_step_ * velocity[across_[0]], last_step_ * velocity[across_[1]], 0};
+    return {share * along, (1.0 - share) * along};
+  }
+  static std::array<double, 2> moved_back(const std::array<double, 2>& place, const Vector3<double>& by) {
+    return {place[0] - by.x, place[1] - by.y};
+  }
   /// Nodes that have come in front of the wall: their anchors slip all the way.
   void release_before(std::int32_t node) {
     for (; next_ != end_ && next_->node < node; ++next_)
@@ -65,7 +84,9 @@ private:
 
   Model& model_;
   double friction_;
+  AxisNormal normal_;
   std::array<std::size_t, 2> across_;
+  double last_step_, approach_;
   std::vector<WallAnchor>::const_iterator next_, end_;
   std::vector<WallAnchor> anchors_;
 };
@@ -80,13 +101,15 @@ WallFriction::WallFriction(double friction, int grains) : friction_(friction) {
   if (friction > 0) anchors_.resize(static_cast<std::size_t>(grains));
 }
 
-WallFrictionSums WallFriction::add_forces(Model& model, const Box& box, const Bounds& bounds, int grain) {
+WallFrictionSums WallFriction::add_forces(Model& model, const Box& box, const Bounds& bounds, double last_step,
+                                          int grain) {
   WallFrictionSums sums;
   for (std::size_t side = 0; side < 6; ++side) {
     if (!box.has_walls(side / 2)) continue;
     std::vector<WallAnchor>& anchors = this->anchors(grain, side);
-    WallRubbing wall(model, friction_, side / 2, anchors);
-    for_each_node_behind(model, box.wall(side), bounds, grain, [&](std::size_t node, const auto& gap) {
+    const Plane plane = box.wall(side);
+    WallRubbing wall(model, friction_, plane.normal, last_step, box.movement(side), anchors);
+    for_each_node_behind(model, plane, bounds, grain, [&](std::size_t node, const auto& gap) {
       wall.rub(node, -gap.distance, surface_force(model, node, grain, gap.distance));
     });
     anchors = wall.finish();

@@ -33,8 +33,9 @@ public:
   WallFriction(double friction, int grains);
 
   bool present() const { return friction_ > 0; }
-  /// Adds the walls' friction on a grain to model.force. For one grain at a time, different grains at once.
-  WallFrictionSums add_forces(Model& model, const Box& box, const Bounds& bounds, int grain);
+  /// Adds the walls' friction on a grain to model.force, before the box takes in its loads. `last_step` in s, the step
+  /// that led to the present. Different grains may be at work at once.
+  WallFrictionSums add_forces(Model& model, const Box& box, const Bounds& bounds, double last_step, int grain);
   /// Forgets the anchors in the walls across these axes.
   void forget(const std::array<bool, 3>& axes);
 

@@ -100,7 +100,8 @@ private:
       pushed *= evaluate_closed_bond(pair, contact_.bond[at(point)], node, x, facet, closest, distance);
     ContactForce& record = contact_.force[at(pair.first_point + pair.active++)];
     if constexpr (rubbing)
-      record = evaluate_friction({x, facet, geometry.x, closest, distance}, geometry, point, k, pushed, sums);
+      record = evaluate_friction({x, facet, geometry.x, closest, distance, motion(point, closest, geometry)}, geometry,
+                                 point, k, pushed, sums);
     else
       record = make_record(penalty_force(pushed, offset), closest.weight1, closest.weight2, std::abs(pushed), node,
                            geometry);
@@ -195,6 +196,15 @@ private:
     sums.friction_dissipation += step.dissipated;
     return make_record(-(pushed * step.reach), friction.weight1, friction.weight2, pushed,
                        contact_.candidates.point_node[at(point)], step.on_closest ? closest_facet : anchor);
+  }
+
+  /// mm, of a point's node against its closest point in the last step; nothing where friction has an anchor already.
+  Vector3<double> motion(std::int32_t point, const ClosestPoint<double>& closest, const Facet& facet) const {
+    if (contact_.rubbing[at(point)].exists()) return {0, 0, 0};
+    const std::size_t node = at(contact_.candidates.point_node[at(point)]);
+    const Vector3<double> v[3] = {vector_of(model_.velocity, facet.node[0]), vector_of(model_.velocity, facet.node[1]),
+                                  vector_of(model_.velocity, facet.node[2])};
+    return contact_.last_step * (model_.contact_velocity(node) - facet_point(v, closest.weight1, closest.weight2));
   }
 
   /// Forgets the anchor of a point that has opened.

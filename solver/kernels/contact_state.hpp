@@ -49,6 +49,7 @@ struct Contact {
   std::vector<std::int32_t> pulling;    ///< [pairs]: number of pulling bonds
   double friction = 0;                  ///< mu; 0: no friction, and the array below stays empty
   std::vector<PointFriction> rubbing;   ///< [points]
+  double last_step = 0;                 ///< s, that led to the present positions; friction asks where points came in
   std::vector<double> travel;           ///< [grains], mm: bound of any node's path length since the run began
   std::vector<double> travel_at_search; ///< [grains], mm
 

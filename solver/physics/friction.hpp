@@ -37,6 +37,14 @@ S share_left_by_new_area(const S& before, const S& now) {
   return select(before < now, before / max(now, S(1e-300)), S(1.0));
 }
 
+/// Share of the last step's motion that a point which was open before it made inside. `depth` g >= 0 and `closing`, by
+/// how much the step closed the gap, mm. The point is anchored where it came in: a contact of few steps, as in
+/// chattering, would else have no friction in the first of them.
+template <class S>
+S share_inside(const S& depth, const S& closing) {
+  return select(closing > depth, depth / max(closing, S(1e-300)), select(closing > S(0.0), S(1.0), S(0.0)));
+}
+
 /// Stored energy (mJ) of the stick spring. `stiffness` k_t, N/mm; `square` |x - a|^2 and `depth` g, mm.
 template <class S>
 S stick_energy(const S& stiffness, const S& square, const S& depth) {

@@ -33,7 +33,8 @@ struct ClosedPoint {
   std::int32_t facet;                 ///< the closest
   const Vector3<double> (&corner)[3]; ///< mm, of the closest facet
   const ClosestPoint<double>& closest;
-  double depth; ///< |node - closest point|, mm
+  double depth;          ///< |node - closest point|, mm
+  Vector3<double> moved; ///< mm, of the node against the facet in the last step; read where it closes
 };
 
 /// What is between a point's node and its anchor: constants of this step.
@@ -73,38 +74,41 @@ inline Vector3<double> part_across(const Vector3<double>& vector, const Vector3<
   return square > 0 ? vector - (dot(vector, direction) / square) * direction : vector;
 }
 
+/// Where a point that has closed in the last step came through the surface, mm.
+inline Vector3<double> entry_point(const ClosedPoint& at) {
+  const Vector3<double> offset = at.node - at.closest.point;
+  const double share = share_inside(at.depth, dot(at.moved, offset) / at.depth);
+  return at.closest.point - share * part_across(at.moved, offset);
+}
+
 /// Takes the friction of a closed point to this time level. `anchor` are the corners of the facet of its anchor (mm),
-/// any where it has none yet: then it is anchored at the closest point.
+/// any where it has none yet: then it is anchored where it came in.
 inline FrictionStep rub(PointFriction& point, const Rubbing& rubbing, const ClosedPoint& at,
                         const Vector3<double> (&anchor)[3]) {
-  FrictionStep step;
   const Vector3<double> closest = at.closest.point;
   const bool fresh = !point.exists();
-  const Vector3<double> before = fresh ? closest : facet_point(anchor, point.weight1, point.weight2);
+  const Vector3<double> before = fresh ? entry_point(at) : facet_point(anchor, point.weight1, point.weight2);
   const Vector3<double> trial = at.node - before;
   const double drift = std::sqrt(std::max(dot(trial, trial) - at.depth * at.depth, 0.0));
   // 1. Area that has begun to rub is unloaded.
-  const double diluted = share_left_by_new_area(point.stiffness, rubbing.stiffness);
+  const double kept = fresh ? 1.0 : share_left_by_new_area(point.stiffness, rubbing.stiffness);
   // 2. Slip.
   const double longest =
       rubbing.stiffness > 0 ? longest_drift(rubbing.friction, rubbing.penalty, rubbing.stiffness, at.depth) : 0.0;
-  const double left = diluted * share_left_by_slip(diluted * drift, longest);
-  Vector3<double> now = before;
-  if (fresh) {
-    point.facet = at.facet, point.weight1 = at.closest.weight1, point.weight2 = at.closest.weight2;
-  } else if (left < 1) {
-    const Vector3<double> chord = part_across(closest - before, at.node - closest);
-    anchor_at(point, at.facet, at.corner, closest - left * chord);
-    now = facet_point(at.corner, point.weight1, point.weight2);
-  }
+  const double left = kept * share_left_by_slip(kept * drift, longest);
+  FrictionStep step;
   step.on_closest = fresh || left < 1;
+  if (step.on_closest)
+    anchor_at(point, at.facet, at.corner, closest - left * part_across(closest - before, at.node - closest));
+  const Vector3<double> now = step.on_closest ? facet_point(at.corner, point.weight1, point.weight2) : before;
   step.reach = at.node - now;
   // 3. Energies: what the new area took off, and the slip.
-  const Vector3<double> force = rubbing.stiffness * step.reach, moved = now - before,
-                        unloaded = (1.0 - diluted) * (closest - before);
+  const Vector3<double> force = rubbing.stiffness * step.reach, unloaded = (1.0 - kept) * (closest - before);
   step.stored = stick_energy(rubbing.stiffness, dot(step.reach, step.reach), at.depth);
-  step.dissipated =
-      0.5 * point.stiffness * dot(closest - before, unloaded) + slip_dissipation(point.force, force, moved - unloaded);
+  // Central differences do the work of the whole step in which a point closes, not of the part inside.
+  const Vector3<double> start = fresh ? closest - part_across(at.moved, at.node - closest) : before;
+  step.dissipated = 0.5 * point.stiffness * dot(closest - before, unloaded) +
+                    slip_dissipation(point.force, force, now - start - unloaded);
   point.stiffness = rubbing.stiffness;
   point.force = force;
   return step;

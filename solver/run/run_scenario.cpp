@@ -56,8 +56,8 @@ double stiffness_of(const Model& model) {
 std::vector<double> internal_energy(const std::vector<HistoryRow>& history) {
   std::vector<StageEnergyRow> rows;
   for (const HistoryRow& row : history)
-    rows.push_back({row.stage, row.elastic_energy + row.bond_energy + row.contact_energy,
-                    row.plastic_dissipation + row.damage_dissipation});
+    rows.push_back({row.stage, row.elastic_energy + row.bond_energy + row.contact_energy + row.friction_energy,
+                    row.plastic_dissipation + row.damage_dissipation + row.friction_dissipation});
   return stage_internal_energy(rows);
 }
 

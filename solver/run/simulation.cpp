@@ -51,6 +51,7 @@ Simulation::Simulation(Model model, const Scenario& scenario, ThreadTeam& team, 
 void Simulation::evaluate_forces() {
   damping_rate_ = damping_rate(); // one for the grips' forces and the advance that they are for
   if (search_is_due(contact_)) search();
+  contact_.last_step = state_.last_step;
   add_contact_and_walls();
   for (const GrainSums& sums : sums_) energies_.add_friction(sums.contact, sums.wall_friction);
   check_penetration();
@@ -93,7 +94,7 @@ void Simulation::add_contact_and_walls() {
     contact_reactions(model_, contact_, grain);
     watch.mark(Part::contact);
     sums_[g].box = box_.add_forces(model_, bounds_[g], grain);
-    if (wall_friction_.present()) sums_[g].wall_friction = wall_friction_.add_forces(model_, box_, bounds_[g], grain);
+    if (wall_friction_.present()) sums_[g].wall_friction = wall_friction_.add_forces(model_, box_, bounds_[g], state_.last_step, grain);
     watch.mark(Part::integration);
   });
 }

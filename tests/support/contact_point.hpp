@@ -63,7 +63,8 @@ struct ContactPoint {
     forces.energy += penalty_energy(k, -distance);
     if (friction > 0) {
       const double share = law ? 1 - bond.remaining : 1.0;
-      const FrictionStep step = rub(rubbing, {share * friction, k, pushed}, {node, 0, x, closest, -distance}, x);
+      const FrictionStep step =
+          rub(rubbing, {share * friction, k, pushed}, {node, 0, x, closest, -distance, {0, 0, 0}}, x);
       rubbed += step.dissipated;
       forces.energy += step.stored;
       forces.add(-(pushed * step.reach), rubbing.weight1, rubbing.weight2);

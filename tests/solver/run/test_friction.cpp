@@ -101,25 +101,48 @@ GrainMesh cube_of(int n, double edge) {
 // ------------------------------------------------------------------------------------------ grains against grains
 
 TEST_CASE("cubes that are pressed together stick until their shear comes to mu N, then slide at it") {
+  constexpr double way = 0.004; // mm
   for (const ContactSurface surface : {ContactSurface::facets, ContactSurface::smooth}) {
-    Scenario scenario = rubbing_scenario({grip("press", -6e-4, 500), grip("slide", 0, 500, {0.003, 0, 0})});
+    // Slow: at 30 mm/s waves carry 0.1 MPa, where mu p is 2 MPa.
+    Scenario scenario = rubbing_scenario({grip("press", -6e-4, 30), grip("slide", 0, 30, {way, 0, 0})});
     scenario.walls = false;
     scenario.contact.surface = surface;
     ThreadTeam team(1);
     Simulation simulation(build_model(two_cubes(4), scenario, "test"), scenario, team);
-    const Record record = run_stages(simulation, scenario);
-    const Vector force = force_on_first(simulation);
-    const double shear = std::hypot(force.x(), force.y());
-    REQUIRE(std::abs(force.z()) > 0.1); // N
-    // Nodes all slide one way, but for what elastic grains shiver.
-    CHECK(within(shear, mu * std::abs(force.z()), 2e-3));
-    CHECK(record.worst_residual < 0.01);
-    // Stuck while pressed: what slips then is what widens by Poisson's ratio.
-    const HistoryRow &pressed = record.last[0], &slid = record.last[1];
-    CHECK(pressed.friction_dissipation < 0.02 * pressed.external_work);
-    const double sliding = 0.003 - mu * 3e-6; // mm, less the elastic drift and shear of the cubes
-    CHECK(within(slid.friction_dissipation - pressed.friction_dissipation, shear * sliding, 0.25));
+    const auto row_of_stage = [&](auto&& look) {
+      for (simulation.evaluate_forces(); !simulation.stage_complete(); simulation.evaluate_forces()) {
+        look();
+        simulation.advance();
+      }
+      return simulation.observe();
+    };
+    const HistoryRow pressed = row_of_stage([] {});
+    simulation.begin_next_stage();
+    simulation.advance();
+    Vector sum = Vector::Zero();
+    double largest = 0; // |T|/N
+    int count = 0;
+    const double start = simulation.state().time;
+    const HistoryRow slid = row_of_stage([&] {
+      const Vector force = force_on_first(simulation);
+      largest = std::max(largest, std::hypot(force.x(), force.y()) / std::abs(force.z()));
+      const double gone = 2 * 30 * (simulation.state().time - start); // mm, of both grips together, nearly
+      if (gone < 0.5 * way || gone > way) return;
+      sum += force;
+      ++count;
+    });
+    REQUIRE(count > 1000);
+    const Vector force = sum / count;
+    CHECK(std::abs(force.z()) > 0.1); // N
+    // All nodes slide one way, but for what the faces widen and bend.
+    CHECK(within(std::hypot(force.x(), force.y()), mu * std::abs(force.z()), 1e-2));
+    CHECK(largest < 1.02 * mu);
+    CHECK(std::abs(slid.energy_residual) < 0.01 * slid.external_work);
     CHECK(slid.friction_energy > 0);
+    // Before it slides, the shear of the cubes takes up some 10 % of the way.
+    const double lost = slid.friction_dissipation - pressed.friction_dissipation;
+    CHECK(lost < force.norm() * way);
+    CHECK(within(lost, mu * std::abs(force.z()) * way, 0.2));
   }
 }
 
@@ -130,7 +153,7 @@ TEST_CASE("shear far below mu N leaves every anchor of pressed cubes where it wa
   const Record record = run_stages(two_cubes(4), scenario);
   CHECK(record.last[1].friction_energy > 0);
   CHECK(std::abs(record.last[1].friction_dissipation - record.last[0].friction_dissipation) <
-        1e-3 * record.last[1].friction_energy);
+        1e-2 * record.last[1].friction_energy); // a few nodes at the faces' edges, in the ringing of the start
 }
 
 TEST_CASE("balls dragged over each other keep momentum and angular momentum, and the ledger") {
@@ -224,7 +247,7 @@ TEST_CASE("a node dragged round a faceted ball has mu times its push on the mean
     const auto closest = closest_point_on_triangle(x, facet.x);
     const double g = norm(x - closest.point);
     const Facet anchor = friction.exists() ? facet_geometry(model, friction.facet) : facet;
-    const FrictionStep step = rub(friction, {mu, 1, 1}, {x, nearest, facet.x, closest, g}, anchor.x);
+    const FrictionStep step = rub(friction, {mu, 1, 1}, {x, nearest, facet.x, closest, g, {0, 0, 0}}, anchor.x);
     lost += step.dissipated;
     if (angle < 0.3) continue;
     sum += Vector(step.reach.x, step.reach.y, step.reach.z).dot(along) / (mu * g);
@@ -240,7 +263,7 @@ TEST_CASE("a block on an incline rests below the angle of friction, without cree
   constexpr double edge = 0.2, gravity = 3e9; // mm, mm/s^2: a pressure of 1 MPa
   for (const double steepness : {0.9, 1.5}) { // tan(angle)/mu
     const double angle = std::atan(steepness * mu);
-    Scenario scenario = rubbing_scenario({damped_rest(2e-5, 1e6), holding_scenario(1).stages[0]});
+    Scenario scenario = rubbing_scenario({damped_rest(4e-5, 1e6), holding_scenario(1).stages[0]});
     ThreadTeam team(1);
     // Low, so that it does not rock.
     GrainMesh slab = cube_of(2, edge);
@@ -249,10 +272,7 @@ TEST_CASE("a block on an incline rests below the angle of friction, without cree
     const Vector down(0, 0, -gravity * std::cos(angle)), along(gravity * std::sin(angle), 0, 0);
     const auto advance = [&](const Vector& body_force) {
       simulation.evaluate_forces();
-      if (simulation.stage_complete()) {
-        simulation.begin_next_stage();
-        simulation.evaluate_forces();
-      }
+      if (simulation.stage_complete()) simulation.begin_next_stage();
       add_body_force(simulation, body_force);
       simulation.advance();
     };
@@ -274,8 +294,8 @@ TEST_CASE("a block on an incline rests below the angle of friction, without cree
 TEST_CASE("a ball that is set sliding rolls with 5/7 of its speed, after 2 v/(7 mu g)") {
   constexpr double radius = 0.1, gravity = 1e9, speed = 1e4; // mm, mm/s^2, mm/s
   Scenario scenario = rubbing_scenario({damped_rest(4e-6, 2e6), holding_scenario(1).stages[0]});
-  // A ball of facets drops by 1e-3 of its radius from edge to edge.
-  const GrainMesh ball = ball_mesh(12, radius);
+  // A ball of facets drops by 0.005 of its radius from edge to edge: 1 % of its kinetic energy.
+  const GrainMesh ball = ball_mesh(8, radius);
   ThreadTeam team(1);
   Simulation simulation(build_model(on_the_floor(ball, radius), scenario, "test"), scenario, team);
   double start = 0, rolls_since = 0, speed_sum = 0, spin_sum = 0;
@@ -287,7 +307,6 @@ TEST_CASE("a ball that is set sliding rolls with 5/7 of its speed, after 2 v/(7 
       simulation.begin_next_stage();
       set_velocity(simulation, {speed, 0, 0});
       start = simulation.state().time;
-      simulation.evaluate_forces();
     }
     add_body_force(simulation, {0, 0, -gravity});
     simulation.advance();
