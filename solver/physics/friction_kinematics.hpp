@@ -6,8 +6,8 @@
 //
 // With a bond, the intact share 1 - D of the point carries the bond and the damaged share D rubs. The stiffness of
 // friction is what the bond leaves of the penalty (solver/physics/bond_kinematics.hpp), D k where the bond has the
-// stiffness of the penalty, and its bound is D mu N. Area that damage adds begins unloaded: the friction force stays, so
-// the anchor comes nearer. Damage then dissipates exactly G^c at any pressure.
+// stiffness of the penalty, and its bound is D mu N. Area that damage adds begins unloaded: the friction force stays,
+// so the anchor comes nearer. Damage then dissipates exactly G^c at any pressure.
 
 #include <algorithm>
 #include <cmath>

@@ -94,7 +94,8 @@ void Simulation::add_contact_and_walls() {
     contact_reactions(model_, contact_, grain);
     watch.mark(Part::contact);
     sums_[g].box = box_.add_forces(model_, bounds_[g], grain);
-    if (wall_friction_.present()) sums_[g].wall_friction = wall_friction_.add_forces(model_, box_, bounds_[g], state_.last_step, grain);
+    if (wall_friction_.present())
+      sums_[g].wall_friction = wall_friction_.add_forces(model_, box_, bounds_[g], state_.last_step, grain);
     watch.mark(Part::integration);
   });
 }
@@ -226,8 +227,8 @@ void Simulation::begin_stage(std::int64_t stage) {
   grip_faces();
 }
 
-/// Walls that are taken away take what is stored in their penalty and friction with them; walls that return stand where they touch
-/// nothing, so that the ledger knows of them from the first touch on.
+/// Walls that are taken away take what is stored in their penalty and friction with them; walls that return stand where
+/// they touch nothing, so that the ledger knows of them from the first touch on.
 void Simulation::change_walls(const Axes& withdrawn) {
   for (std::size_t axis = 0; axis < 3; ++axis) {
     if (withdrawn[axis] && box_.has_walls(axis))
