@@ -69,7 +69,6 @@ Dragged drag(int n, double friction, double way, bool loop) {
   }
   Scenario scenario = holding_scenario(1);
   scenario.contact.friction = friction;
-  scenario.contact.stiffness_factor = 40;
   scenario.contact.surface = ContactSurface::facets;
   scenario.numerics.element = ElementType::tet4_anp;
   scenario.stages = stages;
@@ -162,7 +161,8 @@ double largest_error(const std::vector<Drag>& drag, const Theory& theory, double
 
 } // namespace
 
-// Three elements in the contact's radius. The theory leaves out that normal and tangential slip are coupled.
+// Three elements in the contact's radius: forces were 2 % (out) and 4 % (back) of mu P off, the loss 13 %. The theory
+// leaves out that normal and tangential slip are coupled.
 TEST_CASE("two caps that are dragged slip from the edge of their contact inwards, as Cattaneo and Mindlin say") {
   constexpr int n = 14;
   constexpr double mu = 0.3;
@@ -184,6 +184,6 @@ TEST_CASE("two caps that are dragged slip from the edge of their contact inwards
   CAPTURE(out, back, loss, amplitude / theory.limit);
   REQUIRE(amplitude > 0.7 * theory.limit);
   CHECK(out < 0.04);
-  CHECK(back < 0.04);
-  CHECK(std::abs(loss - 1) < 0.15); // a small difference of two curves
+  CHECK(back < 0.05);
+  CHECK(std::abs(loss - 1) < 0.16); // a small difference of two curves
 }
