@@ -212,7 +212,7 @@ private:
     std::map<std::string, std::string> commands;
     for (const Case& row : cases_of(*current_, script.series, script.where, request_.results.mesh, script.place)) {
       Words words = row.values;
-      words["here"] = {std::filesystem::path(current_->path).parent_path().string(), {}};
+      words["here"] = {folder_of_file(current_->path), {}};
       words["folder"] = {folder_, {}};
       words["mpfem"] = {"$(BIN)/mpfem", {}};
       words["postproc"] = {"$(BIN)/postproc", {}};

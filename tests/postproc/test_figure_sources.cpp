@@ -97,7 +97,7 @@ TEST_CASE("a packing of a case's own is made by its command or size, a run begin
 size = [0.001, 0.002]
 [[packings]]
 name = "pair"
-command = "hemispheres --size {size}"
+command = "hemispheres --size {size} --from {here}/s.csv"
 [[packings]]
 name = "mesh"
 size = "{size}"
@@ -118,7 +118,8 @@ columns = ["tets = mesh/quality.tets", "p = pressed/strength.value:.2f", "z = fi
 )");
   const std::string rules = studies.rules(figure), out = studies.path("out");
   const std::string pair = out + "/study/packings/pair-0.001/packing";
-  CHECK_THAT(rules, Contains(pair + ".h5: private command := hemispheres --size 0.001"));
+  CHECK_THAT(rules, Contains(fmt::format("{}.h5: private command := hemispheres --size 0.001 --from {}/s.csv", pair,
+                                         folder_of_file(figure.path))));
   CHECK_THAT(rules, Contains(fmt::format("{0}/study/runs/pressed-0.001/run.h5: {1}.h5", out, pair)));
   CHECK_THAT(rules, Contains(fmt::format("--set 'packing={}.h5'", pair)));
   const std::string mesh = studies.path("packings/mesh-0.002.h5");
