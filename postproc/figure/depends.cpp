@@ -166,6 +166,7 @@ private:
     words["packing"] = {packing_of(run, runs_), {}};
     words["description"] = {request_.description, {}};
     words["folder"] = {folder, {}};
+    words["here"] = {folder_of_file(current_->path), {}};
     const std::string full = fmt::format("{} {}{}", command.substr(0, end), file_of_run(run),
                                          end == std::string::npos ? "" : filled(command.substr(end), words));
     const auto [known, added] = metrics_.try_emplace(file, full);

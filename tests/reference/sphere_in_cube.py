@@ -228,7 +228,7 @@ class Sphere:
             for j in range(3):
                 operator[:, :, 3 * i + j, i::3] = b[..., j]
         weighted = (a * volume[..., None, None, None, None]).reshape(count, 27, 9, 9)
-        matrix = np.einsum("eqmr,eqmn->ern", operator, weighted @ operator, optimize=True)
+        matrix = np.swapaxes(operator.reshape(count, 243, 81), 1, 2) @ (weighted @ operator).reshape(count, 243, 81)
         divergence = operator[:, :, 0] + operator[:, :, 4] + operator[:, :, 8]
         modes = np.einsum("eqr,eq,qs->ers", divergence, volume, PRESSURE)
         matrix += K * modes @ np.einsum("esq,eqn->esn", self.project, divergence)
@@ -263,7 +263,7 @@ class Sphere:
                 return normal, area, iteration
             values, rows, columns = (np.concatenate(parts) for parts in zip(inner, outer))
             matrix = sparse.csc_matrix((values, (rows, columns)), shape=(size, size))
-            step = self.free @ splu((self.free.T @ matrix @ self.free).tocsc()).solve(-residual)
+            step = self.free @ splu((self.free.T @ matrix @ self.free).tocsc(), permc_spec="MMD_AT_PLUS_A").solve(-residual)
             x = x + min(1, 0.02 / np.abs(step).max()) * step.reshape(-1, 3)
         raise RuntimeError(f"no equilibrium at wall = {wall}")
 
