@@ -97,8 +97,8 @@ TEST_CASE("a smooth contact surface takes most of the error out of the first tou
 
 TEST_CASE(
     "pressure on a flattened contact differs by less than 28 % from node to node, by facets and by smooth surfaces") {
-  // The level of studies/contact-surface, 12 to 28 % of the mean pressure over elements, meshes and penalties, belongs to
-  // the elements. Contact that excited an oscillation would show half of the nodes bare and the others at twice the
+  // The level of studies/contact-surface, 12 to 28 % of the mean pressure over elements, meshes and penalties, is that
+  // of the elements. Contact that excited an oscillation would show half of the nodes bare and the others at twice the
   // pressure, 100 %.
   constexpr double radius = 0.1;
   for (const auto surface : {mpfem::ContactSurface::facets, mpfem::ContactSurface::smooth}) {
