@@ -156,6 +156,41 @@ TEST_CASE("shear far below mu N leaves every anchor of pressed cubes where it wa
         1e-2 * record.last[1].friction_energy); // a few nodes at the faces' edges, in the ringing of the start
 }
 
+TEST_CASE(
+    "bonded cubes that are sheared under a push bear mu N more than without friction, and spend no more on damage") {
+  double peak[2] = {}, push = 0, damage[2] = {}, area = 0;
+  for (const std::size_t with : {0U, 1U}) {
+    Scenario scenario = rubbing_scenario({grip("press", -2.1e-3, 500), grip("shear", 0, 500, {0.04, 0, 0})});
+    scenario.walls = false;
+    scenario.bond = table_1(0.1);
+    scenario.contact.friction = with == 1 ? mu : 0.0;
+    ThreadTeam team(1);
+    Simulation simulation(build_model(two_cubes(4), scenario, "test"), scenario, team);
+    double residual = 0, work = 0;
+    for (int i = 0;; ++i) {
+      simulation.evaluate_forces();
+      if (simulation.stage_complete()) {
+        const HistoryRow row = simulation.observe();
+        residual = std::abs(row.energy_residual), work = row.external_work, damage[with] = row.damage_dissipation;
+        if (simulation.state().stage == 1) break;
+        area = 0.5 * row.bonded_area;
+        simulation.begin_next_stage();
+      }
+      if (i % 10 == 0) {
+        const Vector force = force_on_first(simulation);
+        if (const double shear = std::hypot(force.x(), force.y()); shear > peak[with])
+          peak[with] = shear, push = std::abs(force.z());
+      }
+      simulation.advance();
+    }
+    CHECK(residual < 0.01 * work);
+    CHECK(within(damage[with], 0.1 * area, 0.01)); // sheared by seven times G^c/t: 0.1 % are left, and some at the rim
+  }
+  REQUIRE(push > 0.5); // N
+  // Edges of the faces fail before their middle, in both cases.
+  CHECK(within(peak[1] - peak[0], mu * push, 0.15));
+}
+
 TEST_CASE("balls dragged over each other keep momentum and angular momentum, and the ledger") {
   Scenario scenario = rubbing_scenario({grip("press", -3e-3, 2000), grip("drag", 0, 2000, {0.02, 0.01, 0})});
   scenario.walls = false;
