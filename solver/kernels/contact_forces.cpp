@@ -183,7 +183,8 @@ private:
   }
 
   /// The force of a closed point with friction: one spring between the node and its anchor. `penalty` k and `pushed`,
-  /// what a bond leaves of it, N/mm.
+  /// what a bond leaves of it, N/mm. A branch
+  /// may find bonds of an earlier law that are stiffer than the penalty: until they are damaged nothing rubs.
   ContactForce evaluate_friction(const ClosedPoint& closed, const Facet& closest_facet, std::int32_t point,
                                  double penalty, double pushed, ContactSums& sums) {
     PointFriction& friction = contact_.rubbing[at(point)];
@@ -191,10 +192,11 @@ private:
     if constexpr (bonding) share -= contact_.bond[at(point)].remaining;
     const bool elsewhere = friction.exists() && friction.facet != closed.facet;
     const Facet anchor = elsewhere ? facet_geometry(model_, friction.facet) : closest_facet;
-    const FrictionStep step = rub(friction, {share * contact_.friction, penalty, pushed}, closed, anchor.x);
+    const FrictionStep step =
+        rub(friction, {share * contact_.friction, penalty, std::max(pushed, 0.0)}, closed, anchor.x);
     sums.friction_energy += step.stored;
     sums.friction_dissipation += step.dissipated;
-    return make_record(-(pushed * step.reach), friction.weight1, friction.weight2, pushed,
+    return make_record(-(pushed * step.reach), friction.weight1, friction.weight2, std::abs(pushed),
                        contact_.candidates.point_node[at(point)], step.on_closest ? closest_facet : anchor);
   }
 

@@ -130,13 +130,13 @@ void read_initial(TableReader table, Scenario& scenario) {
 /// true, false, or a table where there are walls.
 void read_walls(TableReader& root, Scenario& scenario) {
   const toml::node* value = root.value("walls");
-  if (value != nullptr && !value->is_table()) {
-    if (!value->is_boolean()) root.fail("walls", "found neither, allowed true, false, or a table with 'friction'");
-    scenario.walls = value->as_boolean()->get();
-  } else if (auto table = root.optional_table("walls")) {
-    scenario.wall_friction = table->number_or("friction", scenario.wall_friction, friction_or_zero);
-    table->finish();
+  if (value == nullptr || !value->is_table()) {
+    scenario.walls = root.boolean_or("walls", true);
+    return;
   }
+  TableReader table = root.table("walls");
+  scenario.wall_friction = table.number_or("friction", scenario.wall_friction, friction_or_zero);
+  table.finish();
 }
 
 /// The damaged share of a bond rubs with the stiffness that the bond leaves of the penalty.

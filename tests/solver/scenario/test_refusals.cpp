@@ -57,7 +57,7 @@ TEST_CASE("friction is refused where it means nothing, and walls may be true, fa
            {"--set contact.friction=2.5", "contact.friction"},
            {"--set walls.friction=3", "walls.friction"},
            {"--set walls.frction=0.3", "friction"},
-           {"--set walls=0.3", "allowed true, false, or a table"},
+           {"--set walls=0.3", "expected true or false"},
            {"--set contact.friction=0.3 --set bond.normal_only=true", "no meaning with 'bond.normal_only'"},
            {"--set contact.friction=0.3 --set bond.stiffness_factor=20", "up to contact.stiffness_factor = 10"},
            {"--set contact.friction=0.3 --set bond.stiffness=1e9", "the smallest penalty of a contact point"}}) {
