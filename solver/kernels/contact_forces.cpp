@@ -183,8 +183,8 @@ private:
   }
 
   /// The force of a closed point with friction: one spring between the node and its anchor. `penalty` k and `pushed`,
-  /// what a bond leaves of it, N/mm. A branch
-  /// may find bonds of an earlier law that are stiffer than the penalty: until they are damaged nothing rubs.
+  /// what a bond leaves of it, N/mm. A branch may find bonds of an earlier law that are stiffer than the penalty: until
+  /// they are damaged nothing rubs.
   ContactForce evaluate_friction(const ClosedPoint& closed, const Facet& closest_facet, std::int32_t point,
                                  double penalty, double pushed, ContactSums& sums) {
     PointFriction& friction = contact_.rubbing[at(point)];
