@@ -161,8 +161,8 @@ double largest_error(const std::vector<Drag>& drag, const Theory& theory, double
 
 } // namespace
 
-// Three elements in the contact's radius: forces were 2 % (out) and 4 % (back) of mu P off, the loss 13 %. With four (n =
-// 18, three times the work) it was 1.3 %, 2.1 % and 3 %. The theory leaves out that normal and tangential slip are
+// Three elements in the contact's radius: forces were 2 % (out) and 4 % (back) of mu P off, the loss 13 %. With four
+// (n = 18, three times the work) it was 1.3 %, 2.1 % and 3 %. The theory leaves out that normal and tangential slip are
 // coupled.
 TEST_CASE("two caps that are dragged slip from the edge of their contact inwards, as Cattaneo and Mindlin say") {
   constexpr int n = 14;
