@@ -14,7 +14,8 @@ declare -A names=(
 
 # "NAME DESCRIPTION" of each subcommand, as the program's own --help lists them.
 subcommands() {
-  "$bin/$1" --help | awk '/^Subcommands:/ { listed = 1; next } listed && /^  [a-z]/ { sub(/\.$/, ""); $1 = $1; print }'
+  "$bin/$1" --help |
+    awk '/^Subcommands:/ { listed = 1; next } listed && /^  [a-z]/ { sub(/\.$/, ""); $1 = $1; print }'
 }
 
 # page EXECUTABLE NAME DESCRIPTION
