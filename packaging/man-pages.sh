@@ -20,8 +20,10 @@ subcommands() {
 
 # page EXECUTABLE NAME DESCRIPTION
 page() {
-  help2man --locale C.UTF-8 --no-info --no-discard-stderr --section 1 --source mpfem --manual 'User commands' --name "$3" \
-    --version-string "$("$bin/${1%% *}" --version | cut -d ' ' -f 1)" --output "$folder/$2.1" "$bin/$1"
+  local version
+  version=$("$bin/${1%% *}" --version | cut -d ' ' -f 1)
+  help2man --locale C.UTF-8 --no-info --no-discard-stderr --section 1 --source mpfem --manual 'User commands' \
+    --name "$3" --version-string "$version" --output "$folder/$2.1" "$bin/$1"
 }
 
 mkdir -p "$folder"
