@@ -19,4 +19,5 @@ awk -F, 'NR > 1 {
     printf "D_r %s: %.2f MPa, reference %.2f MPa, ratio %.3f\n", $2, $3, $4, $5
     if ($5 == "" || $5 < 0.98 || $5 > 1.02) bad = 1
   }
-  END { exit bad || NR != 8 }' "$folder/stress.csv" || { echo 'one-grain.sh: beyond 2 % of the reference' >&2 && exit 1; }
+  END { exit bad || NR != 8 }' "$folder/stress.csv" ||
+  { echo 'one-grain.sh: beyond 2 % of the reference' >&2 && exit 1; }
