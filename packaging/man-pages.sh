@@ -14,13 +14,16 @@ declare -A names=(
 
 # "NAME DESCRIPTION" of each subcommand, as the program's own --help lists them.
 subcommands() {
-  "$bin/$1" --help | awk '/^Subcommands:/ { listed = 1; next } listed && /^  [a-z]/ { sub(/\.$/, ""); $1 = $1; print }'
+  "$bin/$1" --help |
+    awk '/^Subcommands:/ { listed = 1; next } listed && /^  [a-z]/ { sub(/\.$/, ""); $1 = $1; print }'
 }
 
 # page EXECUTABLE NAME DESCRIPTION
 page() {
-  help2man --locale C.UTF-8 --no-info --no-discard-stderr --section 1 --source mpfem --manual 'User commands' --name "$3" \
-    --version-string "$("$bin/${1%% *}" --version | cut -d ' ' -f 1)" --output "$folder/$2.1" "$bin/$1"
+  local version
+  version=$("$bin/${1%% *}" --version | cut -d ' ' -f 1)
+  help2man --locale C.UTF-8 --no-info --no-discard-stderr --section 1 --source mpfem --manual 'User commands' \
+    --name "$3" --version-string "$version" --output "$folder/$2.1" "$bin/$1"
 }
 
 mkdir -p "$folder"
