@@ -19,3 +19,13 @@ find_library(GMSH_LIBRARY gmsh REQUIRED)
 add_library(gmsh_api INTERFACE IMPORTED)
 target_include_directories(gmsh_api INTERFACE ${GMSH_INCLUDE_DIR})
 target_link_libraries(gmsh_api INTERFACE ${GMSH_LIBRARY})
+
+# Pictures in three dimensions (postproc picture) are built where VTK is there; ./bootstrap pictures installs it.
+find_package(VTK 9 QUIET COMPONENTS CommonCore CommonDataModel FiltersCore FiltersSources IOImage RenderingCore
+             RenderingFreeType RenderingOpenGL2)
+find_package(OpenGL QUIET COMPONENTS EGL)
+find_package(GLEW QUIET)
+set(MPFEM_PICTURES OFF)
+if(VTK_FOUND AND TARGET OpenGL::EGL AND TARGET GLEW::GLEW)
+  set(MPFEM_PICTURES ON)
+endif()

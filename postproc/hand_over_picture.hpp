@@ -1,0 +1,10 @@
+#pragma once
+// postproc picture is an executable of its own.
+
+namespace mpfem {
+
+/// Where the first argument is "picture", goes on as the executable that stands beside this one and is called
+/// postproc-picture, with the same arguments. Throws SimulationError where it is missing. Returns for all else.
+void hand_over_picture(int argc, char** argv);
+
+} // namespace mpfem
