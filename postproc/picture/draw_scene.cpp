@@ -76,8 +76,8 @@ vtkNew<vtkActor> actor_of(vtkPolyData* mesh, bool lit) {
   vtkNew<vtkActor> actor;
   actor->SetMapper(mapper);
   actor->GetProperty()->SetLighting(lit);
-  actor->GetProperty()->SetAmbient(0.42);
-  actor->GetProperty()->SetDiffuse(0.68);
+  actor->GetProperty()->SetAmbient(0.48);
+  actor->GetProperty()->SetDiffuse(0.62);
   actor->GetProperty()->SetSpecular(0);
   return actor;
 }
@@ -118,7 +118,7 @@ vtkNew<vtkActor> rods_of(const std::vector<BondRod>& rods, bool whole) {
   return actor;
 }
 
-vtkNew<vtkActor> box_edges(const Bounds& box, double radius) {
+vtkNew<vtkActor> box_edges(const ShownBox& box, double radius) {
   vtkNew<vtkOutlineSource> edges;
   edges->SetBounds(box.low[0], box.high[0], box.low[1], box.high[1], box.low[2], box.high[2]);
   vtkNew<vtkTubeFilter> tubes;
@@ -133,7 +133,7 @@ vtkNew<vtkActor> box_edges(const Bounds& box, double radius) {
   return actor;
 }
 
-void set_camera(vtkRenderer* renderer, const ViewFrame& view, const Bounds& shown) {
+void set_camera(vtkRenderer* renderer, const ViewFrame& view, const ShownBox& shown) {
   const double reach = (shown.high - shown.low).norm();
   const Eigen::Vector3d position = view.focus + 2 * reach * view.towards_camera;
   vtkCamera* camera = renderer->GetActiveCamera();
@@ -241,7 +241,7 @@ vtkNew<vtkImageData> drawn(vtkRenderWindow* window, vtkRenderer* renderer) {
 
 /// Colours, light and the shade that near grains cast on each other (screen-space ambient occlusion), with all text.
 vtkNew<vtkImageData> draw_colours(vtkRenderWindow* window, const PictureScene& scene, const ViewFrame& view,
-                                  const Bounds& shown) {
+                                  const ShownBox& shown) {
   vtkNew<vtkRenderer> renderer;
   renderer->SetBackground(1, 1, 1);
   const double length = (scene.box_high - scene.box_low).minCoeff();
@@ -265,12 +265,16 @@ vtkNew<vtkImageData> draw_colours(vtkRenderWindow* window, const PictureScene& s
 
 /// The same view with a colour of its own for each face of each grain.
 vtkNew<vtkImageData> draw_keys(vtkRenderWindow* window, const PictureScene& scene, const ViewFrame& view,
-                               const Bounds& shown) {
+                               const ShownBox& shown) {
   vtkNew<vtkRenderer> renderer;
   renderer->SetBackground(0, 0, 0);
   renderer->AddActor(actor_of(
       mesh_of(scene.triangles, [&](std::size_t t, std::size_t) { return outline_key(scene.triangles[t]); }), false));
-  for (const bool whole : {true, false}) renderer->AddActor(rods_of(scene.rods, whole));
+  for (const bool whole : {true, false}) {
+    vtkNew<vtkActor> rods = rods_of(scene.rods, whole);
+    rods->GetProperty()->SetLighting(false);
+    renderer->AddActor(rods);
+  }
   set_camera(renderer, view, shown);
   return drawn(window, renderer);
 }
@@ -324,7 +328,7 @@ void write_png(const std::string& path, vtkImageData* image) {
 
 } // namespace
 
-void draw_scene(const std::string& path, const PictureScene& scene, const Bounds& shown, const PictureSize& size) {
+void draw_scene(const std::string& path, const PictureScene& scene, const ShownBox& shown, const PictureSize& size) {
   const PictureSize large{supersampling * size.width, supersampling * size.height};
   const ViewFrame view = frame_view(shown, scene.towards_camera, large, scene.bar.has_value());
   vtkNew<OffscreenWindow> window;

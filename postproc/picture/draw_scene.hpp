@@ -8,6 +8,6 @@
 namespace mpfem {
 
 /// Writes the PNG; the picture shows all of `shown`. Throws SimulationError where nothing can be drawn, StorageError.
-void draw_scene(const std::string& path, const PictureScene& scene, const Bounds& shown, const PictureSize& size);
+void draw_scene(const std::string& path, const PictureScene& scene, const ShownBox& shown, const PictureSize& size);
 
 } // namespace mpfem

@@ -117,11 +117,11 @@ private:
     if (of_packing() || !output().empty())
       throw InputError(fmt::format("--frames: found {}, allowed: with a run alone", of_packing() ? "--packing" : "-o"));
     const int count = static_cast<int>(schema::FileReader(path_of_run(), schema::FileKind::run).snapshots().size());
-    std::optional<Bounds> shown;
+    std::optional<ShownBox> shown;
     std::pair<double, double> range{0, 0};
     for (int number = 0; number < count; ++number) {
       const PictureScene scene = make_scene(read_state(number), request);
-      const Bounds bounds = bounds_of(scene);
+      const ShownBox bounds = bounds_of(scene);
       shown = shown ? united(*shown, bounds) : bounds;
       if (scene.bar)
         range = {std::min(range.first, scene.bar->range.first), std::max(range.second, scene.bar->range.second)};

@@ -130,7 +130,7 @@ std::vector<BondRod> bond_rods(const schema::FileReader& file, const Snapshot& s
   const auto damage = file.read(run::snapshots_pair_damage, snapshot.name);
   const auto area = file.read(run::snapshots_pair_bonded_area, snapshot.name);
   const std::vector<Eigen::Vector3d> centre = centres_of_grains(snapshot);
-  const double thin = 0.004 * (vector_of(snapshot.box_high) - vector_of(snapshot.box_low)).minCoeff();
+  const double thin = 0.006 * (vector_of(snapshot.box_high) - vector_of(snapshot.box_low)).minCoeff();
   std::vector<BondRod> rods;
   for (std::size_t p = 0; p < damage.size(); ++p) {
     const auto first = static_cast<std::size_t>(grains[2 * p]), second = static_cast<std::size_t>(grains[2 * p + 1]);
@@ -189,17 +189,19 @@ PictureScene make_scene(const Snapshot& snapshot, const SceneRequest& request) {
   return scene;
 }
 
-Bounds bounds_of(const PictureScene& scene) {
-  Bounds bounds{scene.box_low, scene.box_high};
+ShownBox bounds_of(const PictureScene& scene) {
+  const Eigen::Vector3d beyond = 0.3 * (scene.box_high - scene.box_low);
+  const Eigen::Vector3d lowest = scene.box_low - beyond, highest = scene.box_high + beyond;
+  ShownBox bounds{scene.box_low, scene.box_high};
   for (const SolidTriangle& t : scene.triangles)
     for (const SolidVertex& vertex : t.corner) {
-      bounds.low = bounds.low.cwiseMin(vertex.position);
-      bounds.high = bounds.high.cwiseMax(vertex.position);
+      bounds.low = bounds.low.cwiseMin(vertex.position.cwiseMax(lowest));
+      bounds.high = bounds.high.cwiseMax(vertex.position.cwiseMin(highest));
     }
   return bounds;
 }
 
-Bounds united(const Bounds& a, const Bounds& b) {
+ShownBox united(const ShownBox& a, const ShownBox& b) {
   return {a.low.cwiseMin(b.low), a.high.cwiseMax(b.high)};
 }
 

@@ -63,13 +63,14 @@ std::pair<double, double> range_of(const std::vector<SolidTriangle>& triangles, 
 PictureScene make_scene(const Snapshot& snapshot, const SceneRequest& request);
 
 /// A box, mm.
-struct Bounds {
+struct ShownBox {
   Eigen::Vector3d low, high;
 };
 
-/// Those of the scene's box and all its grains.
-Bounds bounds_of(const PictureScene& scene);
-Bounds united(const Bounds& a, const Bounds& b);
+/// Those of the scene's box and its grains, as far as these have come within 0.3 of the box's lengths: grains of a sample
+/// that fails fly off.
+ShownBox bounds_of(const PictureScene& scene);
+ShownBox united(const ShownBox& a, const ShownBox& b);
 
 /// Round values for the ticks of a scale, 1, 2 or 5 times a power of ten apart, at most `most` + 1 of them.
 std::vector<double> round_ticks(std::pair<double, double> range, int most);

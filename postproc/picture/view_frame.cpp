@@ -12,7 +12,7 @@ namespace {
 // Shares of the picture that are left free.
 constexpr double top_margin = 0.11, other_margin = 0.055, bar_margin = 0.19;
 
-Eigen::Vector3d corner(const Bounds& box, int number) {
+Eigen::Vector3d corner(const ShownBox& box, int number) {
   return {(number & 1) ? box.high[0] : box.low[0], (number & 2) ? box.high[1] : box.low[1],
           (number & 4) ? box.high[2] : box.low[2]};
 }
@@ -23,7 +23,7 @@ Eigen::Vector2d ViewFrame::pixel_of(const Eigen::Vector3d& x) const {
   return {0.5 * size.width + right.dot(x - focus) / pixel, 0.5 * size.height + up.dot(x - focus) / pixel};
 }
 
-ViewFrame frame_view(const Bounds& shown, const Eigen::Vector3d& towards_camera, const PictureSize& size,
+ViewFrame frame_view(const ShownBox& shown, const Eigen::Vector3d& towards_camera, const PictureSize& size,
                      bool with_bar) {
   ViewFrame view;
   view.size = size;
@@ -47,7 +47,7 @@ ViewFrame frame_view(const Bounds& shown, const Eigen::Vector3d& towards_camera,
   return view;
 }
 
-std::array<Eigen::Vector2d, 3> axis_names_places(const ViewFrame& view, const Bounds& box) {
+std::array<Eigen::Vector2d, 3> axis_names_places(const ViewFrame& view, const ShownBox& box) {
   const Eigen::Vector3d middle = 0.5 * (box.low + box.high), half = 0.5 * (box.high - box.low);
   const Eigen::Vector2d centre = view.pixel_of(middle);
   std::array<Eigen::Vector2d, 3> places;

@@ -24,10 +24,10 @@ struct ViewFrame {
 };
 
 /// The largest scale that shows all of `shown` below the title and, where there is a bar, left of it.
-ViewFrame frame_view(const Bounds& shown, const Eigen::Vector3d& towards_camera, const PictureSize& size,
+ViewFrame frame_view(const ShownBox& shown, const Eigen::Vector3d& towards_camera, const PictureSize& size,
                      bool with_bar);
 
 /// Where the names of the box's edges x, y and z stand: in the middle of an edge at the picture's rim, a little outside.
-std::array<Eigen::Vector2d, 3> axis_names_places(const ViewFrame& view, const Bounds& box);
+std::array<Eigen::Vector2d, 3> axis_names_places(const ViewFrame& view, const ShownBox& box);
 
 } // namespace mpfem
