@@ -44,8 +44,8 @@ struct ShownField {
 /// Throws InputError where there is no such field.
 ShownField shown_field(const Snapshot& snapshot, const std::string& name);
 
-/// The tets are cut, not their shells: each grain's triangles bound what is left of its volume. Ordered by grain for the
-/// surface, then face by face for the cuts.
+/// The tets are cut, not their shells: each grain's triangles bound what is left of its volume. First all surfaces,
+/// ordered by grain, then the cuts, face by face.
 std::vector<SolidTriangle> cut_solid(const Snapshot& snapshot, const ShownField& field, const CutAway& away);
 
 } // namespace mpfem

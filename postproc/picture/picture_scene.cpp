@@ -137,7 +137,7 @@ std::vector<BondRod> bond_rods(const schema::FileReader& file, const Snapshot& s
     if (damage[p] < 0 || !lies_in(away, 0.5 * (centre[first] + centre[second]))) continue; // < 0: never bonded
     const bool whole = area[p] > 0;
     rods.push_back(
-        {centre[first], centre[second], whole ? std::max(thin, std::sqrt(0.25 * area[p] / M_PI)) : thin, whole});
+        {centre[first], centre[second], whole ? std::max(thin, std::sqrt(0.1 * area[p] / M_PI)) : thin, whole});
   }
   return rods;
 }

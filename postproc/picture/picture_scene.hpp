@@ -36,7 +36,7 @@ CutAway cut_away(const Snapshot& snapshot, const SceneRequest& request);
 /// Two grains that are bonded or have been, drawn as a rod from centre to centre.
 struct BondRod {
   Eigen::Vector3d from, to; ///< mm
-  double radius = 0;        ///< mm; of a whole bond that of a circle a quarter of its area
+  double radius = 0;        ///< mm; of a whole bond that of a circle of a tenth of its area
   bool whole = false;       ///< some of its area is unbroken
 };
 
@@ -67,8 +67,8 @@ struct ShownBox {
   Eigen::Vector3d low, high;
 };
 
-/// Those of the scene's box and its grains, as far as these have come within 0.3 of the box's lengths: grains of a sample
-/// that fails fly off.
+/// Around the scene's box and its grains, as far as these lie within 0.3 of the box's lengths: grains of a sample that
+/// fails fly off.
 ShownBox bounds_of(const PictureScene& scene);
 ShownBox united(const ShownBox& a, const ShownBox& b);
 

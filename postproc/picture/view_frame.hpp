@@ -27,7 +27,7 @@ struct ViewFrame {
 ViewFrame frame_view(const ShownBox& shown, const Eigen::Vector3d& towards_camera, const PictureSize& size,
                      bool with_bar);
 
-/// Where the names of the box's edges x, y and z stand: in the middle of an edge at the picture's rim, a little outside.
+/// Where the names of the box's edges x, y and z stand: outside the middle of an edge at the picture's rim.
 std::array<Eigen::Vector2d, 3> axis_names_places(const ViewFrame& view, const ShownBox& box);
 
 } // namespace mpfem
