@@ -73,25 +73,30 @@ void spheres(const Arguments& arguments) {
                               arguments.output));
 }
 
-void mesh(const Arguments& arguments) {
-  const SphereFile file = read_spheres(arguments.input);
-  refuse_overlap(file.packing, arguments.input);
+/// Meshes the spheres and writes the packing. Throws SimulationError where a gap between facets cannot be proven.
+void write_meshed(const Arguments& arguments, const SpherePacking& packing, const PackingOrigin& origin) {
   Progress progress("pack-gen", arguments.quiet);
   const PackingMesh mesh = mesh_packing(
-      file.packing, {.nominal_size = arguments.size,
-                     .seed = static_cast<std::uint64_t>(arguments.seed.value_or(1)),
-                     .threads = arguments.threads,
-                     .optimise = arguments.optimise,
-                     .progress = [&](double fraction, const std::string& what) { progress.update(fraction, what); }});
-  const MeshReport report = report_mesh(file.packing, mesh, arguments.size, arguments.material, arguments.threads);
+      packing, {.nominal_size = arguments.size,
+                .seed = static_cast<std::uint64_t>(arguments.seed.value_or(1)),
+                .threads = arguments.threads,
+                .optimise = arguments.optimise,
+                .progress = [&](double fraction, const std::string& what) { progress.update(fraction, what); }});
+  const MeshReport report = report_mesh(packing, mesh, arguments.size, arguments.material, arguments.threads);
   if (!(report.facet_gap.gap > 0))
     throw SimulationError(fmt::format("{}: no positive facet gap could be proven (grains {} and {})", arguments.input,
                                       report.facet_gap.first, report.facet_gap.second));
-  write_packing_file(arguments.output, file.packing, file.origin,
+  write_packing_file(arguments.output, packing, origin,
                      MeshForFile{&mesh, arguments.size, report.facet_gap.gap, report.smallest_quality});
   progress.finish(fmt::format("{} tets, {}", report.tets, arguments.output));
   for (const std::string& note : mesh.notes) fmt::print(stderr, "note: {}\n", note);
   if (!arguments.quiet) fmt::print("{}", report_text(report));
+}
+
+void mesh(const Arguments& arguments) {
+  const SphereFile file = read_spheres(arguments.input);
+  refuse_overlap(file.packing, arguments.input);
+  write_meshed(arguments, file.packing, file.origin);
 }
 
 void hemispheres(const Arguments& arguments) {
@@ -126,7 +131,9 @@ void import(const Arguments& arguments) {
   if (!arguments.box.empty()) box = Point{arguments.box[0], arguments.box[1], arguments.box[2]};
   const SpherePacking packing = import_spheres(arguments.input, box);
   refuse_overlap(packing, arguments.input);
-  write_packing_file(arguments.output, packing, {{}, "imported from " + arguments.input, {}, {}});
+  const PackingOrigin origin{{}, "imported from " + arguments.input, {}, {}};
+  if (arguments.size > 0) return write_meshed(arguments, packing, origin);
+  write_packing_file(arguments.output, packing, origin);
   if (!arguments.quiet)
     fmt::print(stderr, "pack-gen: {} spheres, D_r = {:.6f}, smallest gap {:.4g} mm, {}\n", packing.radius.size(),
                relative_density(packing), smallest_gap(packing).gap, arguments.output);
@@ -233,9 +240,12 @@ CLI::App* add_mesh(CLI::App& app, Arguments& arguments) {
 CLI::App* add_import(CLI::App& app, Arguments& arguments) {
   CLI::App* command = add_command(app, arguments, "import",
                                   "Spheres from a table x,y,z,radius (mm), e.g. of a DEM code.\n"
-                                  "Example: pack-gen import spheres.csv --box 1,1,1 -o spheres.h5",
+                                  "Example: pack-gen import spheres.csv --box 1,1,1 -o spheres.h5\n"
+                                  "         pack-gen import spheres.csv --size 0.03 -o packing.h5",
                                   "Spheres (CSV)");
   add_output(*command, arguments);
+  add_number(*command, "--size", arguments.size, lengths, "mm", "Nominal element size (default: not meshed)");
+  add_threads(*command, arguments);
   add_number(*command, "--box", arguments.box, lengths, "mm",
              "Edge lengths X,Y,Z of the box from the origin (default: the tightest box)")
       ->delimiter(',')

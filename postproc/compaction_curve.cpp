@@ -7,6 +7,7 @@
 
 #include "common/errors.hpp"
 #include "common/one_line.hpp"
+#include "postproc/csv_file.hpp"
 #include "postproc/inertia.hpp"
 
 namespace mpfem {
@@ -68,11 +69,31 @@ Measurement measure_stress_at_densities(const schema::FileReader& file, const st
   return m;
 }
 
-std::string stress_at_densities_csv(const schema::FileReader& file, const std::vector<double>& wanted) {
+CompactionCurve read_compaction_curve(const std::string& path) {
+  const std::vector<Column> columns = read_csv(path);
+  CompactionCurve curve{csv_column(columns, "relative_density", path).values,
+                        csv_column(columns, "mean_stress_MPa", path).values};
+  const auto& density = curve.relative_density;
+  if (density.empty() || std::adjacent_find(density.begin(), density.end(), std::greater_equal<>()) != density.end())
+    throw InputError(fmt::format("{}: relative_density: expected one or more rows, each denser than the one before",
+                                 one_line(path)));
+  return curve;
+}
+
+std::string stress_at_densities_csv(const schema::FileReader& file, const std::vector<double>& wanted,
+                                    const std::optional<CompactionCurve>& reference) {
   const auto found = stresses(HistoryTable(file), wanted);
-  std::string text = "name,relative_density [1],mean_stress [MPa]\n";
-  for (std::size_t i = 0; i < wanted.size(); ++i)
-    text += fmt::format("D{0:.2f},{0:.2f},{1}\n", wanted[i], found[i] ? fmt::format("{:.10g}", *found[i]) : "");
+  std::vector<std::optional<double>> expected(wanted.size());
+  if (reference) expected = stress_at_densities(reference->relative_density, reference->mean_stress, wanted);
+  std::string text = fmt::format("name,relative_density [1],mean_stress [MPa]{}\n",
+                                 reference ? ",reference [MPa],over_reference [1]" : "");
+  const auto cell = [](const std::optional<double>& value) { return value ? fmt::format("{:.10g}", *value) : ""; };
+  for (std::size_t i = 0; i < wanted.size(); ++i) {
+    text += fmt::format("D{0:.2f},{0:.2f},{1}", wanted[i], cell(found[i]));
+    const bool comparable = found[i] && expected[i] && *expected[i] != 0;
+    if (reference) text += fmt::format(",{},{}", cell(expected[i]), comparable ? cell(*found[i] / *expected[i]) : "");
+    text += '\n';
+  }
   return text;
 }
 

@@ -1,5 +1,6 @@
 // One number off a snapshot or a whole run: damage, sections, the end of a stress path, a compaction.
 
+#include "common/errors.hpp"
 #include "postproc/commands/commands.hpp"
 #include "postproc/commands/metric_command.hpp"
 #include "postproc/compaction_curve.hpp"
@@ -83,16 +84,21 @@ public:
         ->required()
         ->delimiter(',');
     add_output("--data", data_, "CSV file to write: a row a density");
+    options().add_option("--reference", reference_,
+                         "CSV file with relative_density, mean_stress_MPa: the run is compared with it in --data");
   }
 
 private:
   Measurement measure(const schema::FileReader& run) const override {
-    if (!data_.empty()) write_file(data_, stress_at_densities_csv(run, densities_));
+    if (!reference_.empty() && data_.empty()) throw InputError("--reference: needs --data, where it is compared");
+    std::optional<CompactionCurve> reference;
+    if (!reference_.empty()) reference = read_compaction_curve(reference_);
+    if (!data_.empty()) write_file(data_, stress_at_densities_csv(run, densities_, reference));
     return measure_stress_at_densities(run, densities_);
   }
 
   std::vector<double> densities_;
-  std::string data_;
+  std::string data_, reference_;
 };
 
 class CompactionQualityCommand : public MetricCommand {

@@ -166,6 +166,7 @@ private:
     words["packing"] = {packing_of(run, runs_), {}};
     words["description"] = {request_.description, {}};
     words["folder"] = {folder, {}};
+    words["here"] = {folder_of_file(current_->path), {}};
     const std::string full = fmt::format("{} {}{}", command.substr(0, end), file_of_run(run),
                                          end == std::string::npos ? "" : filled(command.substr(end), words));
     const auto [known, added] = metrics_.try_emplace(file, full);
@@ -212,7 +213,7 @@ private:
     std::map<std::string, std::string> commands;
     for (const Case& row : cases_of(*current_, script.series, script.where, request_.results.mesh, script.place)) {
       Words words = row.values;
-      words["here"] = {std::filesystem::path(current_->path).parent_path().string(), {}};
+      words["here"] = {folder_of_file(current_->path), {}};
       words["folder"] = {folder_, {}};
       words["mpfem"] = {"$(BIN)/mpfem", {}};
       words["postproc"] = {"$(BIN)/postproc", {}};

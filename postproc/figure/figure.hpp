@@ -192,10 +192,12 @@ struct ConditionSpec {
 struct StatementSpec {
   std::string text, paper, source, ours, note;
   std::string ours_unjudged, note_unjudged; ///< in place of both where it cannot be judged
+  std::string why;                          ///< the reason where it differs
   std::vector<QuantitySpec> quantities;
   std::vector<ConditionSpec> require, judged_if;
   bool only_refutes = false;   ///< agreement cannot be shown, only disagreement
   bool only_if_judged = false; ///< left out where it cannot be judged
+  bool judged = true;          ///< false: reported without a verdict
   std::vector<std::string> meshes;
   Place place;
 };

@@ -92,6 +92,14 @@ double volume(const HistoryTable& h, std::size_t row) {
   return h["box_lengths_0"][row] * h["box_lengths_1"][row] * h["box_lengths_2"][row];
 }
 
+/// N, over the six walls.
+double mean_wall_force(const HistoryRow& r) {
+  const double x = r("box_lengths_0"), y = r("box_lengths_1"), z = r("box_lengths_2");
+  return ((r("wall_stress_0") + r("wall_stress_1")) * y * z + (r("wall_stress_2") + r("wall_stress_3")) * z * x +
+          (r("wall_stress_4") + r("wall_stress_5")) * x * y) /
+         6;
+}
+
 const std::vector<CurveColumn>& curve_columns() {
   static const std::vector<CurveColumn> columns = {
       {"axial_stress", "mean of both z walls, MPa",
@@ -102,6 +110,7 @@ const std::vector<CurveColumn>& curve_columns() {
        }},
       {"upper_plate_force", "force of the upper z wall, N",
        [](const HistoryRow& r) { return r("wall_stress_5") * r("box_lengths_0") * r("box_lengths_1"); }},
+      {"mean_wall_force", "of the six walls, N", mean_wall_force},
       {"displacement", "approach of the z walls since the stage began, mm",
        [](const HistoryRow& r) { return r.then("box_lengths_2") - r("box_lengths_2"); }},
       {"stage_axial_strain", "logarithmic, since the stage began; compression positive",

@@ -402,6 +402,13 @@ StatementSpec read_statement(Texts& t) {
     s.note_unjudged = texts.optional("note", s.note);
     unjudged->finish();
   }
+  s.why = t.optional("why");
+  const std::vector<Filter> judged_where = t.filters("verdict_where");
+  for (const Filter& filter : judged_where) {
+    const auto word = t.words().find(filter.name);
+    if (word == t.words().end()) s.place.fail(fmt::format("verdict_where: for_each has no '{}'", filter.name));
+    s.judged = s.judged && filter.accepts(word->second);
+  }
   s.only_refutes = r.boolean_or("only_refutes", false);
   s.only_if_judged = r.boolean_or("only_if_judged", false);
   s.meshes = t.list("meshes");

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <filesystem>
 
 #include <fmt/format.h>
 
@@ -208,6 +209,8 @@ bool belongs_to(const RunTemplate& run, const Case& row) {
   return run.series.empty() || std::find(run.series.begin(), run.series.end(), row.series) != run.series.end();
 }
 
+std::string folder_of_file(const std::string& path) { return std::filesystem::path(path).parent_path().string(); }
+
 std::string folder_of(const Figure& figure, const RunTemplate& run, const Case& row) {
   if (!run.mesh.empty()) {
     const std::string mesh = filled_at(run.place, run.mesh, row.values);
@@ -233,7 +236,9 @@ const RunInstance& add_run(RunGraph& graph, const Figure& figure, const RunTempl
   instance.is_packing = run.is_packing;
   instance.is_made = !instance.folder.starts_with("../");
   instance.size = filled_at(run.place, run.size, row.values);
-  instance.command = filled_at(run.place, run.command, row.values);
+  Words words = row.values;
+  words["here"] = {folder_of_file(figure.path), {}};
+  instance.command = filled_at(run.place, run.command, words);
   if (instance.folder.find_first_of(" '\"$#:\\%") != std::string::npos)
     run.place.fail(fmt::format("folder: found '{}', allowed: no blanks, quotes, $, #, :, % and \\", instance.folder));
   const Settings own = filled_settings(run, row);

@@ -40,6 +40,9 @@ using RunGraph = std::map<std::string, RunInstance>;
 /// Whether a run or packing is meant for this case.
 bool belongs_to(const RunTemplate& run, const Case& row);
 
+/// The folder in which a figure's file lies: {here} in its commands.
+std::string folder_of_file(const std::string& path);
+
 /// The folder of a case's run, below the results' folder: as the file says, else "FIGURE/runs/RUN-VALUE-VALUE…" with
 /// the values of the case that the run depends on.
 std::string folder_of(const Figure& figure, const RunTemplate& run, const Case& row);

@@ -276,18 +276,22 @@ Json judge(const StatementSpec& statement, FigureData& data) {
   }
   for (const ConditionSpec& condition : statement.judged_if)
     if (!holds(condition, statement, quantities, data).value_or(false)) agrees = nullptr;
-  if (statement.require.empty() || (statement.only_refutes && agrees == true)) agrees = nullptr;
+  if (statement.require.empty() || !statement.judged || (statement.only_refutes && agrees == true)) agrees = nullptr;
   Words words;
   for (const QuantitySpec& q : statement.quantities) add_words(words, q, quantities.at(q.name), data);
   const bool unjudged = agrees.is_null() && !statement.ours_unjudged.empty();
   const auto text = [&](const std::string& usual, const std::string& otherwise) {
     return filled_at(statement.place, unjudged ? otherwise : usual, words);
   };
-  return {{"statement", statement.text},
-          {"paper", statement.paper},
-          {"ours", text(statement.ours, statement.ours_unjudged)},
-          {"agrees", agrees},
-          {"note", text(statement.note, statement.note_unjudged)}};
+  std::string note = text(statement.note, statement.note_unjudged);
+  if (!statement.judged) note += note.empty() ? "no verdict is given" : "; no verdict is given";
+  Json judged = {{"statement", statement.text},
+                 {"paper", statement.paper},
+                 {"ours", text(statement.ours, statement.ours_unjudged)},
+                 {"agrees", agrees},
+                 {"note", note}};
+  if (agrees == false && !statement.why.empty()) judged["why"] = filled_at(statement.place, statement.why, words);
+  return judged;
 }
 
 std::string verdict_text(FigureData& data, const std::string& mesh) {

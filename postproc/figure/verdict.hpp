@@ -33,8 +33,9 @@ std::map<std::string, Quantity> quantities_of(const StatementSpec& statement, Fi
 std::optional<bool> holds(const ConditionSpec& condition, const StatementSpec& statement,
                           const std::map<std::string, Quantity>& quantities, FigureData& data);
 
-/// {statement, paper, ours, agrees, note}; `agrees` is null where the statement cannot be judged: a condition of
-/// judged_if does not hold, a quantity is not known, or nothing but disagreement could be shown and was not.
+/// {statement, paper, ours, agrees, note}, and `why` where it differs and the figure gives a reason. `agrees` is null
+/// where the statement is not judged: a condition of judged_if does not hold, a quantity is not known, nothing but
+/// disagreement could be shown and was not, or the figure wants no verdict of this case.
 nlohmann::ordered_json judge(const StatementSpec& statement, FigureData& data);
 
 /// The list of all statements for a mesh, one object a line.

@@ -20,7 +20,7 @@ namespace {
 namespace filesystem = std::filesystem;
 
 struct Statement {
-  std::string text, paper, ours;
+  std::string text, paper, ours, why;
   int agrees = 2; ///< 0 agrees, 1 differs, 2 not judged
 };
 
@@ -35,7 +35,7 @@ std::vector<Statement> read_statements(const filesystem::path& path) {
   for (const auto& s : list) {
     if (!s.is_object() || !s.contains("agrees")) refuse();
     const auto& agrees = s["agrees"];
-    statements.push_back({s.value("statement", ""), s.value("paper", ""), s.value("ours", ""),
+    statements.push_back({s.value("statement", ""), s.value("paper", ""), s.value("ours", ""), s.value("why", ""),
                           agrees.is_boolean() ? (agrees.get<bool>() ? 0 : 1) : 2});
   }
   return statements;
@@ -58,7 +58,7 @@ std::string cell(const std::string& text) {
   return result;
 }
 
-/// "agrees / differs / could not be judged".
+/// "agrees / differs / not judged".
 std::string tally(const std::array<int, 3>& count) {
   return count == std::array<int, 3>{} ? "" : fmt::format("{} / {} / {}", count[0], count[1], count[2]);
 }
@@ -77,6 +77,14 @@ std::vector<Statement> all_statements(const std::vector<Verdicts>& meshes, const
       for (const Statement& s : at->second)
         if (find(all, s.text) == nullptr) all.push_back(s);
   return all;
+}
+
+/// Why a statement differs: the first mesh's reason, since all meshes share the figure's file.
+std::string reason(const std::vector<Verdicts>& meshes, const std::string& figure, const std::string& text) {
+  for (const Verdicts& mesh : meshes)
+    if (const auto at = mesh.find(figure); at != mesh.end())
+      if (const Statement* found = find(at->second, text); found != nullptr && !found->why.empty()) return found->why;
+  return {};
 }
 
 std::string tallies(const std::vector<Verdicts>& meshes, const std::set<std::string>& figures) {
@@ -100,6 +108,24 @@ std::string tallies(const std::vector<Verdicts>& meshes, const std::set<std::str
   return text + "\n";
 }
 
+/// The rows of a figure's table: what each mesh found, then why it differs.
+std::string rows_of_figure(const std::vector<Verdicts>& meshes, const std::string& figure) {
+  static constexpr std::array words = {"agrees", "**differs**", "not judged"};
+  std::string text;
+  for (const Statement& statement : all_statements(meshes, figure)) {
+    text += fmt::format("| {} | {} |", cell(statement.text), cell(statement.paper));
+    for (const Verdicts& mesh : meshes) {
+      const auto at = mesh.find(figure);
+      const Statement* found = at == mesh.end() ? nullptr : find(at->second, statement.text);
+      text += found == nullptr
+                  ? "  |"
+                  : fmt::format(" {}: {} |", words.at(static_cast<std::size_t>(found->agrees)), cell(found->ours));
+    }
+    text += fmt::format(" {} |\n", cell(reason(meshes, figure, statement.text)));
+  }
+  return text;
+}
+
 } // namespace
 
 std::string verdicts_of_mesh(const MeshVerdicts& mesh) {
@@ -116,7 +142,6 @@ std::string verdicts_of_mesh(const MeshVerdicts& mesh) {
 }
 
 std::string verdicts_of_meshes(const std::vector<MeshVerdicts>& meshes) {
-  static constexpr std::array words = {"agrees", "**differs**", "not judged"};
   std::vector<Verdicts> verdicts;
   std::set<std::string> figures;
   std::string head, rule;
@@ -127,25 +152,12 @@ std::string verdicts_of_meshes(const std::vector<MeshVerdicts>& meshes) {
     for (const auto& [figure, statements] : verdicts.back())
       if (figure.starts_with("fig")) figures.insert(figure);
   }
-  std::string text = fmt::format("Statements that agree / differ / could not be judged:\n\n| study |{}\n|---|{}\n{}",
-                                 head, rule, tallies(verdicts, figures));
-  for (const std::string& figure : figures) {
-    text +=
-        fmt::format("\n## {0}\n\n[How it is made and judged](../studies/{0}/README.md)\n\n| statement | paper |{1}\n"
-                    "|---|---|{2}\n",
-                    figure, head, rule);
-    for (const Statement& statement : all_statements(verdicts, figure)) {
-      text += fmt::format("| {} | {} |", cell(statement.text), cell(statement.paper));
-      for (const Verdicts& mesh : verdicts) {
-        const auto at = mesh.find(figure);
-        const Statement* found = at == mesh.end() ? nullptr : find(at->second, statement.text);
-        text += found == nullptr
-                    ? "  |"
-                    : fmt::format(" {}: {} |", words.at(static_cast<std::size_t>(found->agrees)), cell(found->ours));
-      }
-      text += '\n';
-    }
-  }
+  std::string text = fmt::format("Statements that agree / differ / are not judged:\n\n| study |{}\n|---|{}\n{}", head,
+                                 rule, tallies(verdicts, figures));
+  for (const std::string& figure : figures)
+    text += fmt::format("\n## {0}\n\n[How it is made and judged](../studies/{0}/README.md)\n\n"
+                        "| statement | paper |{1} why it differs |\n|---|---|{2}---|\n{3}",
+                        figure, head, rule, rows_of_figure(verdicts, figure));
   return text;
 }
 

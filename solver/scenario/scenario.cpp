@@ -144,7 +144,7 @@ std::string packing_path(TableReader& root, const std::string& scenario_file) {
 } // namespace
 
 double usual_own_pressure(ElementType element) {
-  // So little keeps the tets of a patch from collapsing into each other (docs/numerics.md).
+  // So little keeps the tets of a patch from collapsing into each other (studies/nodal-pressure).
   return element == ElementType::tet4_patch ? 0.03 : 0.0;
 }
 

@@ -124,7 +124,7 @@ function choice(   g, t, i, cell, mark, marks, e, first) {
       cell = ""
       first = t == 1 ? title(part[1], part[2]) : ""
       if (mark[t] < doubt[group_of[g]]) {
-        printf "| %s | %d %% | the reference is sure to %s only | | | |\n", first, 100 * mark[t] + 0.5, \
+        printf "| %s | %d %% | the reference is known to %s only | | | |\n", first, 100 * mark[t] + 0.5, \
                percent(doubt[group_of[g]])
         break
       }

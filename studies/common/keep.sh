@@ -23,9 +23,8 @@ done
   echo
   echo 'Statements of Ku, Zhao, Mollon and Zhao beside what the studies of this folder found, computed from their' \
     'data. How each is'
-  echo 'judged, and what differs why, is in the notes of the verdict.json files and the README of each study.' \
-    'A study that is no'
-  echo 'figure states what it expects itself.'
+  echo 'judged, and why it differs, stands in the verdict.json files. A study that is no figure states what it expects'
+  echo 'itself.'
   "$postproc" verdicts "$mesh=$kept"
   # Times of the figures at hand take the place of those kept before; of the plan, what is not this machine's.
   kept_times=$kept/times.csv
@@ -50,18 +49,4 @@ mv "$kept/verdicts.md.partial" "$kept/verdicts.md"
   done
 } >"$kept/provenance.txt.partial"
 mv "$kept/provenance.txt.partial" "$kept/provenance.txt"
-{
-  cat <<END
-# Verdicts
-
-Every statement of Ku, Zhao, Mollon and Zhao that a figure of theirs makes, beside what was found here with each mesh: \
-\`coarse\` is
-the paper's packing of 329 grains at its coarsest mesh (0.03 mm), \`medium\` the same at 0.015 mm, \
-\`smoke\` 25 grains. How each is
-judged is in the notes of studies/results/MESH/figNN/verdict.json, why it differs in the README of each study.
-\`make -f Makefile.studies keep MESH=NAME\` writes this page.
-
-END
-  "$postproc" verdicts coarse=studies/results/coarse medium=studies/results/medium smoke=studies/results/smoke
-} >docs/verdicts.md.partial
-mv docs/verdicts.md.partial docs/verdicts.md
+sh studies/common/verdicts.sh "$postproc"

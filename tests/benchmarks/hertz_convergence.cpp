@@ -1,4 +1,4 @@
-// Error of the contact force against Hertz, over mesh size: prints the table of docs/numerics.md.
+// Error of the contact force against Hertz, over mesh size: prints the table of studies/contact-surface/README.md.
 // Usage: hertz-convergence [largest R/h, default 10] [penalty factor, default 10]
 
 #include <cstdlib>

@@ -90,6 +90,20 @@ TEST_CASE("an import without a box takes the tightest one") {
   CHECK(packing.center[0][0] == Approx(0.5));
 }
 
+TEST_CASE("an import with an element size gives the packing that meshing the imported spheres gives") {
+  const Folder folder;
+  write_text(folder / "s.csv", "x,y,z,radius\n0.2,0.2,0.2,0.1\n0.5,0.2,0.2,0.15\n");
+  REQUIRE(pack_gen(fmt::format("import {} --box 1,1,1 --size 0.08 -o {} --quiet", folder / "s.csv", folder / "a.h5"))
+              .exit_code == 0);
+  REQUIRE(pack_gen(fmt::format("import {} --box 1,1,1 -o {} --quiet", folder / "s.csv", folder / "s.h5")).exit_code ==
+          0);
+  REQUIRE(pack_gen(fmt::format("mesh {} --size 0.08 -o {} --quiet", folder / "s.h5", folder / "b.h5")).exit_code == 0);
+  const MeshFromFile at_once = read_mesh(folder / "a.h5"), in_two = read_mesh(folder / "b.h5");
+  REQUIRE(at_once.mesh.tet.size() > 100);
+  CHECK(at_once.mesh.tet == in_two.mesh.tet);
+  CHECK(at_once.mesh.node == in_two.mesh.node);
+}
+
 TEST_CASE("pack-gen refuses what it cannot use with one line and exit code 2, and writes nothing") {
   const Folder folder;
   struct Case {

@@ -97,7 +97,7 @@ TEST_CASE("a packing of a case's own is made by its command or size, a run begin
 size = [0.001, 0.002]
 [[packings]]
 name = "pair"
-command = "hemispheres --size {size}"
+command = "hemispheres --size {size} --from {here}/s.csv"
 [[packings]]
 name = "mesh"
 size = "{size}"
@@ -118,7 +118,8 @@ columns = ["tets = mesh/quality.tets", "p = pressed/strength.value:.2f", "z = fi
 )");
   const std::string rules = studies.rules(figure), out = studies.path("out");
   const std::string pair = out + "/study/packings/pair-0.001/packing";
-  CHECK_THAT(rules, Contains(pair + ".h5: private command := hemispheres --size 0.001"));
+  CHECK_THAT(rules, Contains(fmt::format("{}.h5: private command := hemispheres --size 0.001 --from {}/s.csv", pair,
+                                         folder_of_file(figure.path))));
   CHECK_THAT(rules, Contains(fmt::format("{0}/study/runs/pressed-0.001/run.h5: {1}.h5", out, pair)));
   CHECK_THAT(rules, Contains(fmt::format("--set 'packing={}.h5'", pair)));
   const std::string mesh = studies.path("packings/mesh-0.002.h5");
@@ -264,6 +265,30 @@ TEST_CASE("a statement that cannot be judged says so in its own words, or is lef
   CHECK(verdict("only_if_judged = true\n").empty());
 }
 
+TEST_CASE("a statement may want no verdict of some of its cases, and tells why it differs where it does") {
+  const Studies studies;
+  const auto verdict = [&](const std::string& filter) {
+    const Figure figure =
+        studies.figure("[[tables]]\nname = \"t\"\nfile = \"t.csv\"\ncolumns = [\"x\", \"y\"]\n[[statements]]\n"
+                       "for_each = [{ law = \"a\" }, { law = \"b\" }]\ntext = \"{law}\"\npaper = \"p\"\nours = \"o\"\n"
+                       "note = \"n\"\nwhy = \"the mesh, by {y:.1f}\"\n" +
+                       filter +
+                       "quantities.y = { table = \"t\", column = \"y\", take = \"last\" }\n"
+                       "require = [{ quantity = \"y\", above = 7 }]\n");
+    write_text(studies.path("out/study/t.csv"), "x,y\n1,5\n");
+    FigureData data(figure, studies.path("out/study"));
+    return nlohmann::json::parse(verdict_text(data, "coarse"));
+  };
+  const auto judged = verdict("verdict_where = { law = \"a\" }\n");
+  CHECK(judged[0]["agrees"] == false);
+  CHECK(judged[0]["why"] == "the mesh, by 5.0");
+  CHECK(judged[0]["note"] == "n");
+  CHECK(judged[1]["agrees"].is_null());
+  CHECK(judged[1]["note"] == "n; no verdict is given");
+  CHECK_FALSE(judged[1].contains("why"));
+  CHECK_THROWS_WITH(verdict("verdict_where = { lwa = \"a\" }\n"), Contains("for_each has no 'lwa'"));
+}
+
 TEST_CASE("numbers of axes, limits and lines may be words of for_each, and what is no number is told") {
   const Studies studies;
   const std::string text = R"([[tables]]
@@ -327,11 +352,11 @@ TEST_CASE("verdicts of meshes stand side by side, counted, and what a mesh did n
              R"([{"statement": "a|b", "paper": "1", "ours": "2", "agrees": true, "note": ""},
                 {"statement": "s", "paper": "p", "ours": "o", "agrees": null, "note": ""}])");
   write_text(studies.path("f/fig03/verdict.json"),
-             R"([{"statement": "a|b", "paper": "1", "ours": "3", "agrees": false, "note": ""}])");
+             R"([{"statement": "a|b", "paper": "1", "ours": "3", "agrees": false, "note": "", "why": "r"}])");
   write_text(studies.path("c/other/verdict.json"), "[]");
   const std::string page = verdicts_of_meshes({{"coarse", studies.path("c")}, {"fine", studies.path("f")}});
   CHECK_THAT(page, Contains("| study | coarse | fine |") && Contains("| [fig03](#fig03) | 1 / 0 / 1 | 0 / 1 / 0 |"));
-  CHECK_THAT(page, Contains("| a\\|b | 1 | agrees: 2 | **differs**: 3 |\n| s | p | not judged: o |  |"));
+  CHECK_THAT(page, Contains("| a\\|b | 1 | agrees: 2 | **differs**: 3 | r |\n| s | p | not judged: o |  |  |"));
   CHECK_THAT(page, !Contains("other"));
   const std::string mesh = verdicts_of_mesh({"coarse", studies.path("c")});
   CHECK_THAT(mesh, Contains("## fig03\n\n| statement | paper | here | verdict |") && Contains("## other") &&

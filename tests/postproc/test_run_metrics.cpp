@@ -115,6 +115,14 @@ TEST_CASE("stresses at densities are numbers by name and rows of a table; a last
   CHECK(m.details["at_0.50"].is_null());
   CHECK(stress_at_densities_csv(file, {0.5, 0.7}) ==
         "name,relative_density [1],mean_stress [MPa]\nD0.50,0.50,\nD0.70,0.70,2\n");
+  write_text(folder / "r.csv", "relative_density,mean_stress_MPa\n0.6,2\n0.8,6\n");
+  CHECK(stress_at_densities_csv(file, {0.5, 0.7}, read_compaction_curve(folder / "r.csv")) ==
+        "name,relative_density [1],mean_stress [MPa],reference [MPa],over_reference [1]\nD0.50,0.50,,,\n"
+        "D0.70,0.70,2,4,0.5\n");
+  write_text(folder / "r.csv", "relative_density,mean_stress_MPa\n0.8,6\n0.6,2\n");
+  CHECK_THROWS_WITH(read_compaction_curve(folder / "r.csv"), Catch::Contains("each denser than the one before"));
+  write_text(folder / "r.csv", "relative_density,stress\n0.8,6\n");
+  CHECK_THROWS_WITH(read_compaction_curve(folder / "r.csv"), Catch::Contains("mean_stress_MPa"));
   CHECK_THROWS_WITH(measure_stress_at_densities(file, {0.9}), Catch::Contains("0.9 is not passed"));
   CHECK_THROWS_WITH(measure_stress_at_densities(file, {0.8, 0.7}), Catch::Contains("each larger than the one before"));
 }

@@ -1,5 +1,5 @@
 // Contact force against Hertz. The whole table over mesh size: tests/benchmarks/hertz_convergence.cpp,
-// docs/numerics.md.
+// studies/contact-surface/README.md.
 
 #include <catch2/catch.hpp>
 
@@ -89,7 +89,7 @@ TEST_CASE("a smooth contact surface takes most of the error out of the first tou
     error[surface == mpfem::ContactSurface::smooth ? 1 : 0] =
         state.pair_force / finite_sphere_force(state.pair_approach, radius, reduced) - 1;
   }
-  // Twenty pairs: 24 +- 9 % by facets (docs/numerics.md).
+  // Twenty pairs: 24 +- 9 % by facets (studies/contact-surface/README.md).
   CAPTURE(error[0], error[1]);
   CHECK(error[0] > 0.1);
   CHECK(std::abs(error[1]) < 0.5 * error[0]);
@@ -97,8 +97,8 @@ TEST_CASE("a smooth contact surface takes most of the error out of the first tou
 
 TEST_CASE(
     "pressure on a flattened contact differs by less than 28 % from node to node, by facets and by smooth surfaces") {
-  // The level of docs/numerics.md, 12 to 28 % of the mean pressure over elements, meshes and penalties: it belongs to
-  // the elements. Contact that excited an oscillation would show half of the nodes bare and the others at twice the
+  // The level of studies/contact-surface, 12 to 28 % of the mean pressure over elements, meshes and penalties, is that
+  // of the elements. Contact that excited an oscillation would show half of the nodes bare and the others at twice the
   // pressure, 100 %.
   constexpr double radius = 0.1;
   for (const auto surface : {mpfem::ContactSurface::facets, mpfem::ContactSurface::smooth}) {
