@@ -19,6 +19,7 @@ constexpr const char* help =
     "  postproc section run.h5 --snapshot -1 --axis z --position 0.5 --relative --field von_mises -o section.png\n"
     "  postproc section run.h5 --field damage -o damage.png\n"
     "  postproc picture run.h5 --color von-mises -o run.png      (in three dimensions, cut open)\n"
+    "  postproc view run.h5 -o view.html                         (a page to turn the grains in)\n"
     "  postproc contact run.h5 --pair 3,17 --view contact.png\n"
     "  postproc elastic-recovery run.h5 -o recovery.json   (and modulus, strength, yield, hysteresis, energy)\n"
     "  postproc damage run.h5 --snapshot -1 -o damage.json\n"
@@ -34,6 +35,7 @@ constexpr MakeCommand* before_figures[] = {summary_command,
                                            contact_command,
                                            vtk_command,
                                            section_command,
+                                           view_command,
                                            elastic_recovery_command,
                                            modulus_command,
                                            strength_command,

@@ -10,6 +10,7 @@
 
 #include "common/errors.hpp"
 #include "common/one_line.hpp"
+#include "postproc/base64.hpp"
 
 namespace mpfem {
 
@@ -31,18 +32,6 @@ std::string html(const std::string& text) {
   std::string result;
   for (const char c : text) result += c == '&' ? "&amp;" : c == '<' ? "&lt;" : c == '>' ? "&gt;" : std::string(1, c);
   return result;
-}
-
-std::string base64(const std::string& bytes) {
-  constexpr const char* letters = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-  std::string text;
-  for (std::size_t i = 0; i < bytes.size(); i += 3) {
-    unsigned int group = 0;
-    for (std::size_t k = 0; k < 3; ++k)
-      group = group << 8U | (i + k < bytes.size() ? static_cast<unsigned char>(bytes[i + k]) : 0U);
-    for (std::size_t k = 0; k < 4; ++k) text += i + k > bytes.size() ? '=' : letters[group >> (18 - 6 * k) & 63U];
-  }
-  return text;
 }
 
 std::string content_of(const std::filesystem::path& path) {
