@@ -1,58 +1,21 @@
 // postproc picture: pictures as files, by what their pixels are. Built where VTK is.
 
-#include <png.h>
-
 #include <algorithm>
-#include <array>
 
 #include <catch2/catch.hpp>
 #include <fmt/format.h>
 
 #include "small_run.hpp"
 #include "tests/support/folder.hpp"
+#include "tests/support/png_image.hpp"
 
 using namespace mpfem;
 using namespace mpfem::test;
 
 namespace {
 
-struct Image {
-  unsigned int width = 0, height = 0;
-  std::vector<std::uint8_t> bytes; ///< RGB, row by row from the top
-
-  std::array<int, 3> at(unsigned int x, unsigned int y) const {
-    const std::uint8_t* pixel = bytes.data() + 3 * (static_cast<std::size_t>(y) * width + x);
-    return {pixel[0], pixel[1], pixel[2]};
-  }
-  /// Share of pixels for which something holds.
-  template <class Predicate>
-  double share(const Predicate& holds) const {
-    std::size_t count = 0;
-    for (unsigned int y = 0; y < height; ++y)
-      for (unsigned int x = 0; x < width; ++x) count += holds(at(x, y)) ? 1 : 0;
-    return static_cast<double>(count) / (static_cast<double>(width) * height);
-  }
-};
-
-Image read_png(const std::string& path) {
-  png_image header{};
-  header.version = PNG_IMAGE_VERSION;
-  REQUIRE(png_image_begin_read_from_file(&header, path.c_str()) != 0);
-  header.format = PNG_FORMAT_RGB;
-  Image image{header.width, header.height, std::vector<std::uint8_t>(PNG_IMAGE_SIZE(header))};
-  REQUIRE(png_image_finish_read(&header, nullptr, image.bytes.data(), 0, nullptr) != 0);
-  return image;
-}
-
 Outcome picture(const std::string& arguments) {
   return run_command(fmt::format("'{}' picture {}", MPFEM_POSTPROC, arguments));
-}
-
-bool is_white(const std::array<int, 3>& c) {
-  return c[0] > 250 && c[1] > 250 && c[2] > 250;
-}
-bool is_coloured(const std::array<int, 3>& c) {
-  return std::max({c[0], c[1], c[2]}) - std::min({c[0], c[1], c[2]}) > 30;
 }
 
 } // namespace
