@@ -17,6 +17,8 @@ void hand_over_picture(int argc, char** argv) {
   const std::filesystem::path self = std::filesystem::read_symlink("/proc/self/exe", error);
   const std::string program = self.string() + "-picture";
   execv(program.c_str(), argv); // comes back only where it fails
+  for (int i = 2; i < argc; ++i)
+    if (std::string_view(argv[i]) == "--help" || std::string_view(argv[i]) == "-h") return;
   throw SimulationError(
       fmt::format("{} is not built: it needs VTK 9, which ./bootstrap pictures installs on Debian", program));
 }

@@ -65,7 +65,8 @@ int body(int argc, char** argv) {
   app.require_subcommand(1);
   std::vector<std::unique_ptr<Command>> commands;
   for (MakeCommand* make : before_figures) commands.push_back(make(app));
-  app.add_subcommand("picture", "A snapshot in three dimensions, cut open, as a picture."); // see hand_over_picture
+  app.add_subcommand("picture", "A snapshot in three dimensions, cut open, as a picture.\n"
+                                "Needs the executable postproc-picture, which ./bootstrap pictures builds.");
   const FigureCommands figures(app);
   for (MakeCommand* make : after_figures) commands.push_back(make(app));
 

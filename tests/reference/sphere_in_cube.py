@@ -12,7 +12,7 @@ in time. By symmetry a 48th of the sphere stands for all of it: 0 <= z <= y <= x
 - Contact: penalty at the quadrature points of the surface; penetrations are of 1e-5 R.
 
 Units: mm, N, MPa; R = 1. Needs NumPy and SciPy.
-Usage: sphere_in_cube.py [SUBDIVISIONS] [STEPS] > sphere_in_cube.csv
+Usage: sphere_in_cube.py [SUBDIVISIONS] [LARGEST_STEP] > sphere_in_cube.csv
 """
 import sys
 
@@ -250,44 +250,52 @@ class Sphere:
         return force.ravel(), (matrix.ravel(), rows, columns), pressed.sum(), (area * (depth > 0)).sum()
 
     def press(self, wall, guess):
-        """Equilibrium against the plane. Returns the force on the plane and the area, both of the wedge."""
+        """Equilibrium against the plane: its force and area on the wedge, and the iterations; None where none is found."""
         x, size = guess.copy(), 3 * len(self.x0)
-        for iteration in range(40):
+        for iteration in range(16):
+            if gradients(x[self.elements])[1].min() <= 0:
+                return None
             f, inner, stress, plastic = self.inner(x)
             push, outer, normal, area = self.contact(x, wall)
             residual = self.free.T @ (f + push)
             scale = max(np.abs(self.free.T @ push).max(), 1e-6)
             if iteration > 0 and np.abs(residual).max() < 1e-6 * scale:
-                self.velocity = x - self.x
                 self.x, self.stress, self.plastic = x, stress, plastic
                 return normal, area, iteration
             values, rows, columns = (np.concatenate(parts) for parts in zip(inner, outer))
             matrix = sparse.csc_matrix((values, (rows, columns)), shape=(size, size))
-            step = self.free @ splu((self.free.T @ matrix @ self.free).tocsc(), permc_spec="MMD_AT_PLUS_A").solve(-residual)
+            solver = splu((self.free.T @ matrix @ self.free).tocsc(), permc_spec="MMD_AT_PLUS_A")
+            step = self.free @ solver.solve(-residual)
             x = x + min(1, 0.02 / np.abs(step).max()) * step.reshape(-1, 3)
-        raise RuntimeError(f"no equilibrium at wall = {wall}")
+        return None
 
 
 def main():
     n = int(sys.argv[1]) if len(sys.argv) > 1 else 4
-    steps = int(sys.argv[2]) if len(sys.argv) > 2 else 200
+    largest_step = float(sys.argv[2]) if len(sys.argv) > 2 else 0.002
     sphere = Sphere(n)
-    print(f"# One sphere in a closing cubic box: sphere_in_cube.py {n} {steps}; {len(sphere.elements)} elements of 27 nodes")
+    print(f"# One sphere in a closing cubic box: sphere_in_cube.py {n} {largest_step:g}, {len(sphere.elements)} elements")
     print("# Table 1 of Ku, Zhao, Mollon and Zhao: E = 5000 MPa, nu = 0.3, 25 + 125 eps_p^0.3 MPa")
     print("relative_density,mean_stress_MPa,contact_area_over_wall,largest_plastic_strain")
-    sphere.velocity = np.zeros_like(sphere.x0)
-    # The first steps are small: contact begins at a point.
-    parameter = np.linspace(0, 1, steps + 1)[1:]
-    walls = 1 - (1 - SMALLEST_WALL) * (0.2 * parameter + 0.8 * parameter**2)
-    last = 1.0
-    for k, wall in enumerate(walls):
-        ratio = (wall - last) / (last - walls[k - 2]) if k > 1 else 0
-        force, area, iterations = sphere.press(wall, sphere.x + ratio * sphere.velocity)
-        last = wall
-        density = np.pi / 6 / wall**3
-        side = (2 * wall) ** 2
+    # Steps follow the iterations: contact begins at a point, and elements join it one after the other.
+    wall, step, rate = 1.0, 0.0005, np.zeros_like(sphere.x0)
+    while wall > SMALLEST_WALL:
+        before = sphere.x
+        found = sphere.press(wall - step, before + step * rate)
+        found = found or sphere.press(wall - step, before)
+        if found is None:
+            step /= 2
+            if step < 1e-6:
+                sys.exit(f"no equilibrium below a wall of {wall}")
+            continue
+        wall -= step
+        rate = (sphere.x - before) / step
+        force, area, iterations = found
+        density, side = np.pi / 6 / wall**3, (2 * wall) ** 2
         print(f"{density:.6f},{8 * force / side:.6f},{8 * area / side:.6f},{sphere.plastic.max():.4f}", flush=True)
         print(f"wall {wall:.5f} D_r {density:.4f} p {8 * force / side:.3f} iterations {iterations}", file=sys.stderr)
+        if iterations <= 5:
+            step = min(1.4 * step, largest_step)
 
 
 if __name__ == "__main__":
