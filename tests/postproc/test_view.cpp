@@ -60,7 +60,7 @@ TEST_CASE("a view keeps places to a half of a 65535th of their range and fields 
   const Snapshot snapshot = read_snapshot({folder / "run.h5", schema::FileKind::run}, 0);
   const ViewData data = view_data({snapshot});
   REQUIRE(data.states.size() == 1);
-  CHECK(data.facet.size() == 3 * 48); // of the cube 24 facets, or more between its two grains
+  CHECK(data.facet.size() == 3 * (6 * 8 + 2 * 8)); // the cube's six faces, and both sides between its two grains
   CHECK(data.tet.size() == 4 * 48);
   for (std::size_t i = 0; i < snapshot.node.size(); ++i) {
     const double width = data.high[i % 3] - data.low[i % 3];
