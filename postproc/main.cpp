@@ -5,6 +5,7 @@
 #include "postproc/commands/command.hpp"
 #include "postproc/commands/commands.hpp"
 #include "postproc/figure/figure_commands.hpp"
+#include "postproc/hand_over_picture.hpp"
 
 namespace {
 
@@ -17,6 +18,8 @@ constexpr const char* help =
     "  postproc curve run.h5 --columns relative_density,mean_stress -o curve.csv\n"
     "  postproc section run.h5 --snapshot -1 --axis z --position 0.5 --relative --field von_mises -o section.png\n"
     "  postproc section run.h5 --field damage -o damage.png\n"
+    "  postproc picture run.h5 --color von-mises -o run.png      (in three dimensions, cut open)\n"
+    "  postproc view run.h5 -o view.html                         (a page to turn the grains in)\n"
     "  postproc contact run.h5 --pair 3,17 --view contact.png\n"
     "  postproc elastic-recovery run.h5 -o recovery.json   (and modulus, strength, yield, hysteresis, energy)\n"
     "  postproc damage run.h5 --snapshot -1 -o damage.json\n"
@@ -32,6 +35,7 @@ constexpr MakeCommand* before_figures[] = {summary_command,
                                            contact_command,
                                            vtk_command,
                                            section_command,
+                                           view_command,
                                            elastic_recovery_command,
                                            modulus_command,
                                            strength_command,
@@ -55,11 +59,14 @@ constexpr MakeCommand* before_figures[] = {summary_command,
 constexpr MakeCommand* after_figures[] = {validate_command, cost_command};
 
 int body(int argc, char** argv) {
+  hand_over_picture(argc, argv);
   CLI::App app(help);
   app.set_version_flag("--version", version_and_commit());
   app.require_subcommand(1);
   std::vector<std::unique_ptr<Command>> commands;
   for (MakeCommand* make : before_figures) commands.push_back(make(app));
+  app.add_subcommand("picture", "A snapshot in three dimensions, cut open, as a picture.\n"
+                                "Needs the executable postproc-picture, which ./bootstrap pictures builds.");
   const FigureCommands figures(app);
   for (MakeCommand* make : after_figures) commands.push_back(make(app));
 

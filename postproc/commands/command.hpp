@@ -84,6 +84,7 @@ protected:
                OutputKind kind);
   bool of_packing() const { return !packing_.empty(); }
   const std::string& path_of_run() const { return run_; }
+  const std::string& path_of_packing() const { return packing_; }
   /// Throws InputError where both of them are given, or neither.
   Snapshot read_state(int snapshot) const;
 

@@ -17,13 +17,14 @@
 #include "postproc/figure/verdict_pages.hpp"
 #include "postproc/gnuplot.hpp"
 #include "postproc/text_file.hpp"
+#include "postproc/view/view_page.hpp"
 
 namespace mpfem {
 
 struct FigureCommands::State {
   std::string figure, name, output, results = "out/coarse", mesh = "coarse", programmes = "studies/branches", packing,
                                     description;
-  std::string title;
+  std::string title, run;
   std::vector<std::string> files, settings;
   int packings = 0;
   std::vector<std::pair<CLI::App*, std::function<void()>>> commands;
@@ -129,13 +130,19 @@ struct FigureCommands::State {
     deliver(meshes.size() == 1 ? verdicts_of_mesh(meshes.front()) : verdicts_of_meshes(meshes));
   }
 
+  /// Of at most six snapshots, so that the page stays small.
+  static std::string view_of(const std::string& run) {
+    if (run.empty()) return "";
+    return view_page(view_data(spread_snapshots({run, schema::FileKind::run}, 6)), "Compaction in three dimensions");
+  }
+
   void report() const {
     std::vector<ReportEntry> entries;
     for (const std::string& file : files) {
       const Figure f = read_figure(file, programmes);
       entries.push_back({f.name, f.name == f.title ? f.title : fmt::format("{}: {}", f.name, f.title), f.question});
     }
-    deliver(report_page(entries, results, title));
+    deliver(report_page(entries, results, title, view_of(run)));
   }
 };
 
@@ -185,6 +192,7 @@ FigureCommands::FigureCommands(CLI::App& app) : state_(std::make_unique<State>()
   report.add_option("figures", s.files, "Figures' files (TOML)")->required();
   s.add_common(report);
   report.add_option("--title", s.title, "Title of the page")->required();
+  report.add_option("--view", s.run, "A run to turn in three dimensions on the page (HDF5)");
 }
 
 FigureCommands::~FigureCommands() = default;

@@ -10,6 +10,8 @@
 
 #include "common/errors.hpp"
 #include "common/one_line.hpp"
+#include "postproc/base64.hpp"
+#include "postproc/view/view_page.hpp"
 
 namespace mpfem {
 
@@ -24,26 +26,9 @@ constexpr const char* style =
   .pictures { display: flex; flex-wrap: wrap; gap: 1rem; }
   figure { margin: 0; width: 36rem; max-width: 100%; }
   img { width: 100%; }
+  .view { width: 100%; height: 56rem; max-height: 95vh; border: 1px solid #ccc; }
   figcaption { font-size: 0.85rem; color: #555; }
 )";
-
-std::string html(const std::string& text) {
-  std::string result;
-  for (const char c : text) result += c == '&' ? "&amp;" : c == '<' ? "&lt;" : c == '>' ? "&gt;" : std::string(1, c);
-  return result;
-}
-
-std::string base64(const std::string& bytes) {
-  constexpr const char* letters = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-  std::string text;
-  for (std::size_t i = 0; i < bytes.size(); i += 3) {
-    unsigned int group = 0;
-    for (std::size_t k = 0; k < 3; ++k)
-      group = group << 8U | (i + k < bytes.size() ? static_cast<unsigned char>(bytes[i + k]) : 0U);
-    for (std::size_t k = 0; k < 4; ++k) text += i + k > bytes.size() ? '=' : letters[group >> (18 - 6 * k) & 63U];
-  }
-  return text;
-}
 
 std::string content_of(const std::filesystem::path& path) {
   std::ifstream file(path, std::ios::binary);
@@ -68,7 +53,7 @@ std::string statements_table(const std::filesystem::path& folder) {
     const auto& agrees = s.at("agrees");
     const char* word = agrees.is_null() ? "not judged" : agrees.get<bool>() ? "agrees" : "differs";
     const char* row = agrees.is_null() ? "null" : agrees.get<bool>() ? "true" : "false";
-    const auto cell = [&](const char* key) { return html(s.at(key).get<std::string>()); };
+    const auto cell = [&](const char* key) { return html_text(s.at(key).get<std::string>()); };
     text += fmt::format("<tr class=\"{}\"><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td></tr>\n", row,
                         cell("statement"), cell("paper"), cell("ours"), word, cell("note"));
   }
@@ -77,16 +62,20 @@ std::string statements_table(const std::filesystem::path& folder) {
 
 } // namespace
 
-std::string report_page(const std::vector<ReportEntry>& entries, const std::string& results, const std::string& title) {
+std::string report_page(const std::vector<ReportEntry>& entries, const std::string& results, const std::string& title,
+                        const std::string& view) {
   std::string page = fmt::format("<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
                                  "<title>{0}</title>\n<style>\n{1}</style>\n</head>\n<body>\n<h1>{0}</h1>\n",
-                                 html(title), style);
+                                 html_text(title), style);
   page += "<p>Each table sets what was stated or expected beside what was computed here; the last but one column is "
           "computed from the data.</p>\n";
+  if (!view.empty())
+    page += fmt::format("<iframe class=\"view\" title=\"Grains in three dimensions\" srcdoc=\"{}\"></iframe>\n",
+                        html_text(view));
   for (const ReportEntry& entry : entries) {
     const std::filesystem::path folder = std::filesystem::path(results) / entry.name;
-    page += fmt::format("<h2 id=\"{}\">{}</h2>\n<p>{}</p>\n<div class=\"pictures\">\n", entry.name, html(entry.title),
-                        html(entry.question));
+    page += fmt::format("<h2 id=\"{}\">{}</h2>\n<p>{}</p>\n<div class=\"pictures\">\n", entry.name,
+                        html_text(entry.title), html_text(entry.question));
     for (const auto& picture : files_with(folder, ".png"))
       page +=
           fmt::format("<figure><img alt=\"{}\" src=\"data:image/png;base64,{}\"><figcaption>{}</figcaption></figure>\n",

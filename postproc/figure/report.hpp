@@ -12,7 +12,9 @@ struct ReportEntry {
   std::string title, question; ///< plain text
 };
 
-/// The page, pictures included. Throws InputError where a verdict is missing.
-std::string report_page(const std::vector<ReportEntry>& entries, const std::string& results, const std::string& title);
+/// The page, pictures included, and below the title a page of its own where `view` is not empty (view_page). Throws
+/// InputError where a verdict is missing.
+std::string report_page(const std::vector<ReportEntry>& entries, const std::string& results, const std::string& title,
+                        const std::string& view);
 
 } // namespace mpfem

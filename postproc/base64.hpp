@@ -1,0 +1,12 @@
+#pragma once
+// Bytes as text, for pages that hold their pictures and data themselves.
+
+#include <string>
+#include <string_view>
+
+namespace mpfem {
+
+/// Base64 of RFC 4648, with padding, without line breaks.
+std::string base64(std::string_view bytes);
+
+} // namespace mpfem

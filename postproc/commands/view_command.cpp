@@ -1,0 +1,42 @@
+// view: a page to turn the grains in.
+
+#include <filesystem>
+
+#include "postproc/commands/command.hpp"
+#include "postproc/commands/commands.hpp"
+#include "postproc/view/view_page.hpp"
+
+namespace mpfem {
+
+namespace {
+
+class ViewCommand : public RunCommand {
+public:
+  explicit ViewCommand(CLI::App& app)
+      : RunCommand(app, "view",
+                   "The grains as one page for a browser: turn, zoom, cut, colour, step through snapshots.\n"
+                   "Example: postproc view run.h5 -o view.html",
+                   "HTML file to write") {
+    output_option()->required();
+    add_number(options(), "--most", most_, Range::between(1, 1000), "", "Snapshots at most, evenly spread")
+        ->capture_default_str();
+    options().add_option("--title", title_, "Title of the page (default: the name of the run's file)");
+  }
+
+private:
+  void execute() const override {
+    const std::string title = title_.empty() ? std::filesystem::path(path_of_run()).filename().string() : title_;
+    deliver(view_page(view_data(spread_snapshots(open_run(), most_)), title));
+  }
+
+  int most_ = 8;
+  std::string title_;
+};
+
+} // namespace
+
+std::unique_ptr<Command> view_command(CLI::App& app) {
+  return std::make_unique<ViewCommand>(app);
+}
+
+} // namespace mpfem

@@ -1,0 +1,11 @@
+#pragma once
+// postproc picture is an executable of its own.
+
+namespace mpfem {
+
+/// Where the first argument is "picture", goes on as the executable that stands beside this one and is called
+/// postproc-picture, with the same arguments. Where it is missing, returns if help is asked for and else throws
+/// SimulationError. Returns for all other first arguments.
+void hand_over_picture(int argc, char** argv);
+
+} // namespace mpfem

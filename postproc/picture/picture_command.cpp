@@ -1,0 +1,158 @@
+#include "postproc/picture/picture_command.hpp"
+
+#include <filesystem>
+
+#include <fmt/format.h>
+
+#include "common/errors.hpp"
+#include "common/one_line.hpp"
+#include "postproc/commands/command.hpp"
+#include "postproc/picture/draw_scene.hpp"
+
+namespace mpfem {
+
+namespace {
+
+/// The file that -o names or, without it, run.png for run.h5: never over a file that is there already.
+std::string picture_path(const std::string& output, const std::string& input) {
+  if (!output.empty()) return output;
+  const std::string path = std::filesystem::path(input).replace_extension(".png").string();
+  std::error_code ignored;
+  if (std::filesystem::exists(path, ignored))
+    throw InputError(fmt::format("{}: is there already; allowed: -o with the picture to write", one_line(path)));
+  check_output_path("--output", path, OutputKind::binary);
+  return path;
+}
+
+PictureSize size_of(const std::string& text) {
+  PictureSize size;
+  char more = 0;
+  const int numbers = std::sscanf(text.c_str(), "%dx%d%c", &size.width, &size.height, &more);
+  const auto fits = [](int pixels) { return pixels >= 200 && pixels <= 4000; };
+  if (numbers != 2 || !fits(size.width) || !fits(size.height))
+    throw InputError(fmt::format("--size: found '{}', allowed: WIDTHxHEIGHT, each 200 … 4000 pixels", one_line(text)));
+  return size;
+}
+
+class PictureCommand : public StateCommand {
+public:
+  explicit PictureCommand(CLI::App& app)
+      : StateCommand(
+            app, "picture",
+            "A snapshot in three dimensions, cut open, as a picture.\n"
+            "Example: postproc picture run.h5 -o run.png\n"
+            "Example: postproc picture run.h5 --snapshot 3 --color plastic-strain --cut z --cut-at 0.6 -o z.png\n"
+            "Example: postproc picture run.h5 --frames film\n"
+            "Stresses and strains are averaged around nodes; postproc section shows them tet by tet.",
+            "PNG file to write (default: RUN.png beside RUN.h5)", OutputKind::binary) {
+    add_snapshot(options(), snapshot_);
+    options().add_option("--frames", frames_, "Instead every snapshot as FOLDER/NNNN.png, all in one scale");
+    add_choices();
+    add_number(options(), "--cut-at", request_.cut_at, Range::between(0, 1), "", "Where, as a fraction of the box")
+        ->capture_default_str();
+    add_number(options(), "--camera", camera_, Range::between(-360, 360), "degrees",
+               "Azimuth,elevation of the camera: from the x axis towards y, and above the x-y plane")
+        ->delimiter(',')
+        ->expected(2)
+        ->capture_default_str();
+    add_number(options(), "--range", range_, Range::between(-1e12, 1e12), "",
+               "low,high of the colour scale (default: from the data; of damage 0,1)")
+        ->delimiter(',')
+        ->expected(2);
+    options().add_option("--size", size_, "WIDTHxHEIGHT in pixels")->capture_default_str();
+    options().add_option("--title", request_.title, "Title (default: relative density and mean stress)");
+    options().add_flag("--bonds", request_.bonds,
+                       "Draw bonds from grain to grain in the part that is cut away: whole ones blue, as thick as "
+                       "their area is large, broken ones orange");
+  }
+
+private:
+  void add_choices() {
+    options()
+        .add_option("--color", request_.colour, "What colours mean (for --packing: grain)")
+        ->check(CLI::IsMember(colour_names()))
+        ->capture_default_str();
+    options()
+        .add_option("--cut", request_.cut,
+                    "What is cut away: the octant towards the camera, all on the camera's side of a plane normal to "
+                    "x, y or z, or none")
+        ->check(CLI::IsMember(cut_names()))
+        ->capture_default_str();
+  }
+
+  SceneRequest request() const {
+    SceneRequest request = request_;
+    request.camera = {camera_[0], camera_[1]};
+    if (of_packing() && !given("--color")) request.colour = "grain";
+    if (request.bonds && (of_packing() || request.cut == "none"))
+      throw InputError(fmt::format("--bonds: found {}; allowed: with a run, and a cut that shows them",
+                                   of_packing() ? "--packing" : "--cut none"));
+    if (range_.empty()) return request;
+    if (!(range_[1] > range_[0]))
+      throw InputError(fmt::format("--range: found {},{}; allowed: low,high with low < high", range_[0], range_[1]));
+    request.range = {range_[0], range_[1]};
+    return request;
+  }
+
+  PictureScene scene_of(const Snapshot& state, const SceneRequest& request) const {
+    PictureScene scene = make_scene(state, request);
+    if (!request.bonds) return scene;
+    scene.rods = bond_rods({path_of_run(), schema::FileKind::run}, state, cut_away(state, request));
+    scene.note += "; bonds: blue whole, orange broken";
+    return scene;
+  }
+
+  void execute() const override {
+    const PictureSize size = size_of(size_);
+    if (!frames_.empty()) return draw_frames(request(), size);
+    const Snapshot state = read_state(snapshot_);
+    const std::string path = picture_path(output(), of_packing() ? path_of_packing() : path_of_run());
+    const PictureScene scene = scene_of(state, request());
+    draw_scene(path, scene, bounds_of(scene), size);
+    if (!quiet()) fmt::print("{}\n", path);
+  }
+
+  /// The scale of colours is that of the snapshot with the widest one, the scale of lengths one that shows them all.
+  void draw_frames(SceneRequest request, const PictureSize& size) const {
+    if (of_packing() || !output().empty())
+      throw InputError(fmt::format("--frames: found {}, allowed: with a run alone", of_packing() ? "--packing" : "-o"));
+    const int count = static_cast<int>(schema::FileReader(path_of_run(), schema::FileKind::run).snapshots().size());
+    std::optional<ShownBox> shown;
+    std::pair<double, double> range{0, 0};
+    for (int number = 0; number < count; ++number) {
+      const PictureScene scene = make_scene(read_state(number), request);
+      const ShownBox bounds = bounds_of(scene);
+      shown = shown ? united(*shown, bounds) : bounds;
+      if (scene.bar)
+        range = {std::min(range.first, scene.bar->range.first), std::max(range.second, scene.bar->range.second)};
+    }
+    if (!shown) throw InputError(fmt::format("{}: the run has no snapshots", one_line(path_of_run())));
+    if (!request.range && range.second > range.first) request.range = range;
+    make_folder(frames_);
+    for (int number = 0; number < count; ++number) {
+      const std::string path = fmt::format("{}/{:04}.png", frames_, number);
+      draw_scene(path, scene_of(read_state(number), request), *shown, size);
+      if (!quiet()) fmt::print("{}\n", path);
+    }
+  }
+
+  static void make_folder(const std::string& path) {
+    std::error_code error;
+    std::filesystem::create_directories(path, error);
+    if (error || !std::filesystem::is_directory(path))
+      throw InputError(fmt::format("--frames {}: cannot be made; allowed: a folder, new or not", one_line(path)));
+  }
+
+  int snapshot_ = -1;
+  std::string frames_, size_ = "1200x1000";
+  std::vector<double> camera_{-55, 25}, range_;
+  SceneRequest request_; ///< but for what is checked first: camera, range
+};
+
+} // namespace
+
+std::unique_ptr<Command> picture_command(CLI::App& app) {
+  return std::make_unique<PictureCommand>(app);
+}
+
+} // namespace mpfem

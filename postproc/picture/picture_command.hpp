@@ -1,0 +1,15 @@
+#pragma once
+// postproc picture: a snapshot in three dimensions.
+
+#include <memory>
+
+namespace CLI {
+class App;
+}
+
+namespace mpfem {
+
+class Command;
+std::unique_ptr<Command> picture_command(CLI::App& app);
+
+} // namespace mpfem

@@ -1,0 +1,219 @@
+#include "postproc/picture/picture_scene.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include <Eigen/Geometry>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "common/errors.hpp"
+#include "common/one_line.hpp"
+
+namespace mpfem {
+
+namespace {
+
+struct ColourChoice {
+  const char *field, *label; ///< of the snapshot; beside the colour bar, without the unit
+};
+
+const std::map<std::string, ColourChoice> choices = {
+    {"von-mises", {"von_mises", "von Mises stress"}},
+    {"plastic-strain", {"plastic_strain", "Equivalent plastic strain"}},
+    {"pressure", {"pressure", "Pressure"}},
+    {"damage", {"damage", "Damage of bonds"}},
+    {"grain", {"grain", "Grain"}}};
+
+const ColourChoice& choice_of(const std::string& name) {
+  const auto found = choices.find(name);
+  if (found == choices.end())
+    throw InputError(fmt::format("--color: found '{}', allowed: {}", one_line(name), fmt::join(colour_names(), ", ")));
+  return found->second;
+}
+
+Eigen::Vector3d vector_of(const std::array<double, 3>& x) {
+  return {x[0], x[1], x[2]};
+}
+
+double area(const SolidTriangle& t) {
+  const Eigen::Vector3d& a = t.corner[0].position;
+  return 0.5 * (t.corner[1].position - a).cross(t.corner[2].position - a).norm();
+}
+
+/// A bonded run's snapshot without bonds on a surface, and a run without any, show plain grey.
+constexpr Colour grey{205, 205, 205};
+
+CornerColours colours_of(const SolidTriangle& triangle, bool grains, const std::pair<double, double>& range) {
+  if (grains) {
+    const Colour colour = grain_colour(triangle.grain);
+    return {colour, colour, colour};
+  }
+  CornerColours colours;
+  for (std::size_t c = 0; c < 3; ++c) {
+    const double value = triangle.corner[c].value;
+    colours[c] = std::isnan(value) ? grey : scale_colour((value - range.first) / (range.second - range.first));
+  }
+  return colours;
+}
+
+std::string title_of(const Snapshot& snapshot) {
+  std::string title;
+  if (snapshot.relative_density > 0) title = fmt::format("Relative density {:.3f}", snapshot.relative_density);
+  if (snapshot.name != "packing") title += fmt::format(", mean stress {:.3g} MPa", snapshot.mean_stress);
+  return title;
+}
+
+/// Volume and first moment of every grain, from which its centre follows.
+std::vector<Eigen::Vector3d> centres_of_grains(const Snapshot& snapshot) {
+  const std::int32_t grains = 1 + *std::max_element(snapshot.tet_grain.begin(), snapshot.tet_grain.end());
+  std::vector<Eigen::Vector3d> moment(static_cast<std::size_t>(grains), Eigen::Vector3d::Zero());
+  std::vector<double> volume(moment.size(), 0.0);
+  for (std::size_t t = 0; t < snapshot.tets(); ++t) {
+    Eigen::Matrix<double, 3, 4> x;
+    for (int c = 0; c < 4; ++c)
+      for (int k = 0; k < 3; ++k)
+        x(k, c) = static_cast<double>(
+            snapshot.node[3 * static_cast<std::size_t>(snapshot.tet[4 * t + static_cast<std::size_t>(c)]) +
+                          static_cast<std::size_t>(k)]);
+    const Eigen::Vector3d a = x.col(1) - x.col(0), b = x.col(2) - x.col(0), c = x.col(3) - x.col(0);
+    const double six_volumes = std::abs(a.dot(b.cross(c)));
+    const auto g = static_cast<std::size_t>(snapshot.tet_grain[t]);
+    moment[g] += six_volumes * x.rowwise().mean();
+    volume[g] += six_volumes;
+  }
+  for (std::size_t g = 0; g < moment.size(); ++g)
+    if (volume[g] > 0) moment[g] /= volume[g];
+  return moment;
+}
+
+bool lies_in(const CutAway& away, const Eigen::Vector3d& x) {
+  return std::all_of(away.begin(), away.end(),
+                     [&](const HalfSpace& half_space) { return half_space.normal.dot(x) < half_space.offset; });
+}
+
+} // namespace
+
+const std::vector<std::string>& colour_names() {
+  static const std::vector<std::string> names = {"von-mises", "plastic-strain", "pressure", "damage", "grain"};
+  return names;
+}
+
+const std::vector<std::string>& cut_names() {
+  static const std::vector<std::string> names = {"octant", "x", "y", "z", "none"};
+  return names;
+}
+
+Eigen::Vector3d towards_camera(const std::array<double, 2>& angles) {
+  const double azimuth = angles[0] * M_PI / 180, elevation = angles[1] * M_PI / 180;
+  return {std::cos(elevation) * std::cos(azimuth), std::cos(elevation) * std::sin(azimuth), std::sin(elevation)};
+}
+
+CutAway cut_away(const Snapshot& snapshot, const SceneRequest& request) {
+  const Eigen::Vector3d low = vector_of(snapshot.box_low), high = vector_of(snapshot.box_high);
+  const Eigen::Vector3d at = low + request.cut_at * (high - low), camera = towards_camera(request.camera);
+  CutAway away;
+  for (int axis = 0; axis < 3; ++axis) {
+    if (request.cut != "octant" && request.cut != std::string(1, static_cast<char>('x' + axis))) continue;
+    const double side = camera[axis] < 0 ? 1 : -1; // below the plane for a camera that stands below
+    away.push_back({side * Eigen::Vector3d::Unit(axis), side * at[axis]});
+  }
+  return away;
+}
+
+std::vector<BondRod> bond_rods(const schema::FileReader& file, const Snapshot& snapshot, const CutAway& away) {
+  namespace run = schema::run;
+  if (!file.has(run::snapshots_pair_damage, snapshot.name))
+    throw InputError(fmt::format("{}: --bonds: the run is without bonds", one_line(file.path())));
+  const auto grains = file.read(run::snapshots_pair_grains, snapshot.name);
+  const auto damage = file.read(run::snapshots_pair_damage, snapshot.name);
+  const auto area = file.read(run::snapshots_pair_bonded_area, snapshot.name);
+  const std::vector<Eigen::Vector3d> centre = centres_of_grains(snapshot);
+  const double thin = 0.006 * (vector_of(snapshot.box_high) - vector_of(snapshot.box_low)).minCoeff();
+  std::vector<BondRod> rods;
+  for (std::size_t p = 0; p < damage.size(); ++p) {
+    const auto first = static_cast<std::size_t>(grains[2 * p]), second = static_cast<std::size_t>(grains[2 * p + 1]);
+    if (damage[p] < 0 || !lies_in(away, 0.5 * (centre[first] + centre[second]))) continue; // < 0: never bonded
+    const bool whole = area[p] > 0;
+    rods.push_back(
+        {centre[first], centre[second], whole ? std::max(thin, std::sqrt(0.1 * area[p] / M_PI)) : thin, whole});
+  }
+  return rods;
+}
+
+std::pair<double, double> range_of(const std::vector<SolidTriangle>& triangles, const ShownField& field) {
+  if (field.name == "damage" || field.name == "grain") return {0, 1};
+  std::vector<std::pair<double, double>> value_area;
+  double total = 0;
+  for (const SolidTriangle& t : triangles) {
+    const double part = area(t) / 3;
+    for (const SolidVertex& vertex : t.corner) {
+      if (!std::isfinite(vertex.value)) continue; // a failed run's last state may hold some
+      value_area.emplace_back(vertex.value, part);
+      total += part;
+    }
+  }
+  std::sort(value_area.begin(), value_area.end());
+  const auto percentile = [&](double fraction) {
+    double sum = 0;
+    for (const auto& [value, part] : value_area)
+      if ((sum += part) >= fraction * total) return value;
+    return value_area.empty() ? 0.0 : value_area.back().first;
+  };
+  std::pair<double, double> range{std::min(0.0, percentile(0.005)), percentile(0.995)};
+  if (!(range.second > range.first)) range.second = range.first + 1;
+  return range;
+}
+
+PictureScene make_scene(const Snapshot& snapshot, const SceneRequest& request) {
+  const ColourChoice& choice = choice_of(request.colour);
+  const ShownField field = shown_field(snapshot, choice.field);
+  PictureScene scene;
+  scene.triangles = cut_solid(snapshot, field, cut_away(snapshot, request));
+  if (scene.triangles.empty())
+    throw InputError(
+        fmt::format("--cut {}: nothing is left of the grains at --cut-at {}", request.cut, request.cut_at));
+  const auto range = request.range.value_or(range_of(scene.triangles, field));
+  scene.colours.reserve(scene.triangles.size());
+  for (const SolidTriangle& t : scene.triangles)
+    scene.colours.push_back(colours_of(t, request.colour == "grain", range));
+  scene.box_low = vector_of(snapshot.box_low);
+  scene.box_high = vector_of(snapshot.box_high);
+  scene.towards_camera = towards_camera(request.camera);
+  scene.title = request.title.empty() ? title_of(snapshot) : request.title;
+  const Eigen::Vector3d box = scene.box_high - scene.box_low;
+  scene.note = fmt::format("box {:.3g} × {:.3g} × {:.3g} mm", box[0], box[1], box[2]);
+  if (request.colour != "grain")
+    scene.bar = ColourBar{range, field.unit == "1" ? choice.label : fmt::format("{} ({})", choice.label, field.unit)};
+  return scene;
+}
+
+ShownBox bounds_of(const PictureScene& scene) {
+  const Eigen::Vector3d beyond = 0.3 * (scene.box_high - scene.box_low);
+  const Eigen::Vector3d lowest = scene.box_low - beyond, highest = scene.box_high + beyond;
+  ShownBox bounds{scene.box_low, scene.box_high};
+  for (const SolidTriangle& t : scene.triangles)
+    for (const SolidVertex& vertex : t.corner) {
+      bounds.low = bounds.low.cwiseMin(vertex.position.cwiseMax(lowest));
+      bounds.high = bounds.high.cwiseMax(vertex.position.cwiseMin(highest));
+    }
+  return bounds;
+}
+
+ShownBox united(const ShownBox& a, const ShownBox& b) {
+  return {a.low.cwiseMin(b.low), a.high.cwiseMax(b.high)};
+}
+
+std::vector<double> round_ticks(std::pair<double, double> range, int most) {
+  const double width = range.second - range.first;
+  double step = std::pow(10.0, std::floor(std::log10(width / most)));
+  for (const double factor : {2.0, 2.5, 2.0}) // 1, 2, 5, 10
+    if (width / step > most) step *= factor;
+  std::vector<double> ticks;
+  for (double k = std::ceil(range.first / step - 1e-9); k * step <= range.second + 1e-9 * width; ++k)
+    ticks.push_back(k * step + 0.0); // no -0
+  return ticks;
+}
+
+} // namespace mpfem

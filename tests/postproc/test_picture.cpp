@@ -1,0 +1,93 @@
+// postproc picture: pictures as files, by what their pixels are. Built where VTK is.
+
+#include <algorithm>
+
+#include <catch2/catch.hpp>
+#include <fmt/format.h>
+
+#include "small_run.hpp"
+#include "tests/support/folder.hpp"
+#include "tests/support/png_image.hpp"
+
+using namespace mpfem;
+using namespace mpfem::test;
+
+namespace {
+
+Outcome picture(const std::string& arguments) {
+  return run_command(fmt::format("'{}' picture {}", MPFEM_POSTPROC, arguments));
+}
+
+} // namespace
+
+TEST_CASE("a picture has the size asked for, the cube in the middle on white, and a colour bar at the right") {
+  const Folder folder;
+  write_run(folder / "run.h5", small_run());
+  const Outcome outcome =
+      picture(fmt::format("{} --size 600x500 --cut none -o {}", folder / "run.h5", folder / "p.png"));
+  INFO(outcome.messages);
+  REQUIRE(outcome.exit_code == 0);
+  const Image image = read_png(folder / "p.png");
+  CHECK(image.width == 600);
+  CHECK(image.height == 500);
+  CHECK(is_white(image.at(5, 5)));
+  CHECK(is_white(image.at(5, 494)));
+  CHECK(is_coloured(image.at(250, 270)));
+  // The bar: dark violet below, yellow above (viridis).
+  const auto low = image.at(520, 396), high = image.at(520, 104);
+  CHECK((low[2] > low[1] && low[0] < 100));
+  CHECK((high[0] > 200 && high[1] > 200 && high[2] < 100));
+}
+
+TEST_CASE("a cut takes away what stands before it, and its face shows the inside") {
+  const Folder folder;
+  RunContents run = small_run();
+  run.numbers["/snapshots/*/von_mises"].assign(48, 1.0);
+  write_run(folder / "run.h5", run);
+  const auto share = [&](const std::string& cut) {
+    const std::string path = folder / (cut + ".png");
+    REQUIRE(picture(fmt::format("{} --size 400x400 --cut {} --color grain -o {}", folder / "run.h5", cut, path))
+                .exit_code == 0);
+    return read_png(path).share(is_coloured);
+  };
+  const double whole = share("none"), octant = share("octant"), half = share("y");
+  CHECK(whole > 0.1);
+  CHECK(half < 0.85 * whole);                     // half of the cube is gone; its outline shrinks by less than half
+  CHECK(std::abs(octant - whole) < 0.05 * whole); // an open corner is seen against the faces behind it
+}
+
+TEST_CASE("without -o the picture is named after the run, and is not written over") {
+  const Folder folder;
+  write_run(folder / "run.h5", small_run());
+  REQUIRE(picture(folder / "run.h5" + " --size 200x200").exit_code == 0);
+  const Outcome again = picture(folder / "run.h5" + " --size 200x200");
+  CHECK(again.exit_code == 2);
+  CHECK(again.messages.find("run.png: is there already") != std::string::npos);
+}
+
+TEST_CASE("frames are one picture for each snapshot") {
+  const Folder folder;
+  write_run(folder / "run.h5", small_run());
+  REQUIRE(picture(fmt::format("{} --size 200x200 --frames {}", folder / "run.h5", folder / "film")).exit_code == 0);
+  CHECK(read_png(folder / "film/0000.png").width == 200);
+}
+
+TEST_CASE("what cannot be drawn is refused in one line") {
+  const Folder folder;
+  write_run(folder / "run.h5", small_run());
+  const std::pair<const char*, const char*> mistakes[] = {{"--size 10x10", "--size: found '10x10'"},
+                                                          {"--size big", "--size: found 'big'"},
+                                                          {"--range 3,2", "--range: found 3,2"},
+                                                          {"--color damage", "the run is without bonds"},
+                                                          {"--cut none --bonds", "--bonds: found --cut"},
+                                                          {"--bonds", "the run is without bonds"},
+                                                          {"--cut w", "--cut"},
+                                                          {"--color height", "--color"}};
+  for (const auto& [options, message] : mistakes) {
+    const Outcome outcome = picture(fmt::format("{} {} -o {}", folder / "run.h5", options, folder / "p.png"));
+    INFO(options << ": " << outcome.messages);
+    CHECK(outcome.exit_code == 2);
+    CHECK(outcome.messages.find(message) != std::string::npos);
+    CHECK(std::count(outcome.messages.begin(), outcome.messages.end(), '\n') == 1);
+  }
+}
