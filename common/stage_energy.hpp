@@ -15,8 +15,8 @@ namespace mpfem {
 /// Of a row of the history.
 struct StageEnergyRow {
   double stage = 0;      ///< number of the stage that it belongs to
-  double stored = 0;     ///< mJ: elastic energy of the grains, energy of bonds and of the contact penalty
-  double dissipated = 0; ///< mJ: by plastic flow and damage, since the run began
+  double stored = 0;     ///< mJ: elastic energy of the grains, energy of bonds, contact penalty and friction
+  double dissipated = 0; ///< mJ: by plastic flow, damage and friction, since the run began
 };
 
 /// Internal energy (mJ) of each row's stage: what was stored when the stage began, and what it has gained since; that

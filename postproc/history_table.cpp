@@ -86,11 +86,16 @@ std::vector<const Column*> HistoryTable::select(const std::vector<std::string>& 
 }
 
 std::vector<double> internal_energy(const HistoryTable& history) {
+  const bool friction = history.has("friction_energy");
   std::vector<StageEnergyRow> rows;
-  for (std::size_t row = 0; row < history.rows(); ++row)
+  for (std::size_t row = 0; row < history.rows(); ++row) {
     rows.push_back({history["stage"][row],
                     history["elastic_energy"][row] + history["bond_energy"][row] + history["contact_energy"][row],
                     history["plastic_dissipation"][row] + history["damage_dissipation"][row]});
+    if (!friction) continue;
+    rows.back().stored += history["friction_energy"][row];
+    rows.back().dissipated += history["friction_dissipation"][row];
+  }
   return stage_internal_energy(rows);
 }
 

@@ -84,11 +84,14 @@ std::vector<ForceLine> lines_between_grains(const schema::FileReader& file, cons
   return lines;
 }
 
-/// The walls' pushes on grains, where the snapshot has them.
+/// The walls' pushes on grains, and their friction, where the snapshot has them.
 void add_lines_to_walls(std::vector<ForceLine>& lines, const schema::FileReader& file, const std::string& name,
                         const Region& box, std::span<const Eigen::Vector3d> centre) {
   if (!file.has(schema::run::snapshots_wall_force, name)) return;
   const auto push = file.read(schema::run::snapshots_wall_force, name);
+  const bool rubs = file.has(schema::run::snapshots_wall_friction, name);
+  const auto friction =
+      rubs ? file.read(schema::run::snapshots_wall_friction, name) : std::vector<double>(2 * push.size(), 0.0);
   for (std::size_t grain = 0; grain < centre.size(); ++grain)
     for (std::size_t side = 0; side < 6; ++side) {
       const double force = push[6 * grain + side];
@@ -98,6 +101,8 @@ void add_lines_to_walls(std::vector<ForceLine>& lines, const schema::FileReader&
       ForceLine line{centre[grain], centre[grain], Eigen::Vector3d::Zero()};
       line.to[axis] = low ? box.low[axis] : box.high[axis];
       line.force[axis] = low ? force : -force;
+      for (const Eigen::Index i : {0, 1}) // along the two axes that follow the wall's own
+        line.force[(axis + 1 + i) % 3] = friction[12 * grain + 2 * side + static_cast<std::size_t>(i)];
       lines.push_back(line);
     }
 }

@@ -95,6 +95,7 @@ CLI::App* add_bench(CLI::App& app, Arguments& arguments, BenchOptions& options) 
       "Examples:\n"
       "  mpfem bench                                    # 329 dense, bonded grains of 600 tets each\n"
       "  mpfem bench --tets 1600000 --threads 1 --json\n"
+      "  mpfem bench --no-bonds --friction 0.3\n"
       "  mpfem bench compaction.toml --from run.compaction.checkpoint.h5 --set stages.0.relative_density=0.95");
   bench->add_option("scenario", arguments.scenario, "Scenario to measure instead of the built-in packing (TOML)");
   bench->add_option("--from", arguments.from, "Checkpoint whose state is measured")->check(CLI::ExistingFile);
@@ -111,6 +112,9 @@ CLI::App* add_bench(CLI::App& app, Arguments& arguments, BenchOptions& options) 
       ->transform(CLI::CheckedTransformer(
           std::map<std::string, Precision>{{"double", Precision::full}, {"mixed", Precision::mixed}}));
   bench->add_flag("!--no-bonds", options.bonds, "Built-in packing without bonds");
+  add_number(*bench, "--friction", options.friction, Range::between(0, 2), "",
+             "Friction of the built-in packing, between grains and at walls")
+      ->capture_default_str();
   add_number(*bench, "--steps", options.steps, Range::between(5, 1e6), "", "Steps to measure")->capture_default_str();
   bench->add_flag("--json", options.json, "Print one JSON object");
   bench->add_flag("--quiet", options.quiet, "No progress");
@@ -130,7 +134,10 @@ constexpr const char* help_text =
     "5 interrupted (resumable).";
 
 CLI::App* add_run(CLI::App& app, Arguments& arguments) {
-  CLI::App* run = app.add_subcommand("run", "Run a scenario.\nExample: mpfem run compaction.toml -o run.h5 --resume");
+  CLI::App* run = app.add_subcommand("run", "Run a scenario.\n"
+                                            "Examples:\n"
+                                            "  mpfem run compaction.toml -o run.h5 --resume\n"
+                                            "  mpfem run compaction.toml -o rough.h5 --set contact.friction=0.3");
   add_common(*run, arguments);
   run->add_option("-o,--output", arguments.run.output, "Run file to write (HDF5)")->required();
   run->add_flag("--resume", arguments.run.resume, "Go on from the run's checkpoint if there is one");

@@ -46,6 +46,7 @@ Scenario built_in_scenario(const BenchOptions& options) {
     scenario.bond->shear_strength = 18;
     scenario.bond->fracture_energy = 0.5;
   }
+  scenario.contact.friction = scenario.wall_friction = options.friction;
   scenario.numerics.element = options.element;
   scenario.numerics.own_pressure = usual_own_pressure(options.element);
   scenario.numerics.precision = options.precision;

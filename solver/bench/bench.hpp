@@ -16,6 +16,7 @@ struct BenchOptions {
   ElementType element = ElementType::tet4;
   Precision precision = Precision::full;
   bool bonds = true;
+  double friction = 0;              ///< mu between grains and at walls
   int steps = 150;                  ///< measured after the packing has begun to flow
   std::optional<Scenario> scenario; ///< instead of the built-in packing
   std::optional<std::string> from;  ///< checkpoint whose state is measured (with a scenario)

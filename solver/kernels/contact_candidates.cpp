@@ -100,6 +100,24 @@ BondedCandidates keep_bonded_points(const ContactCandidates& found, const Contac
   return merged;
 }
 
+/// The friction of new points: what the old ones of the same node and grain had.
+std::vector<PointFriction> carried_friction(const ContactCandidates& now, const ContactCandidates& old,
+                                            const std::vector<PointFriction>& friction) {
+  std::vector<PointFriction> carried(now.point_node.size());
+  PairCursor next_old{old};
+  for (PairCursor next_now{now}; next_now.left();) {
+    const Pair pair = next_now.grains();
+    while (next_old.grains() < pair) ++next_old.pair;
+    PointRange points = next_now.take(pair), before = next_old.take(pair);
+    for (; points.left(); ++points.point) {
+      const std::int32_t node = next_node(now, points);
+      while (next_node(old, before) < node) ++before.point;
+      if (next_node(old, before) == node) carried[at(points.point)] = friction[at(before.point)];
+    }
+  }
+  return carried;
+}
+
 } // namespace
 
 void renew_candidates(const Model& model, double margin, ThreadTeam& team, Contact& contact) {
@@ -113,6 +131,7 @@ void renew_candidates(const Model& model, double margin, ThreadTeam& team, Conta
     contact.bond_force.resize(contact.bond.size());
     contact.pulling.assign(candidates.pair_first.size(), 0);
   }
+  if (contact.has_friction()) contact.rubbing = carried_friction(candidates, contact.candidates, contact.rubbing);
   contact.candidates = std::move(candidates);
   contact.margin = margin;
   const std::size_t points = contact.candidates.point_node.size();

@@ -30,8 +30,8 @@ struct PairOfGrains {
   std::int32_t pulling = 0; ///< records of bonds' forces so far
 };
 
-/// Evaluates the points of one grain's own nodes.
-template <bool bonding>
+/// Evaluates the points of one grain's own nodes, with bonds or without, with friction or without.
+template <bool bonding, bool rubbing>
 class PointEvaluation {
 public:
   PointEvaluation(Model& model, Contact& contact) : model_(model), contact_(contact) {}
@@ -88,8 +88,10 @@ private:
     const Vector3<double> offset = x - closest.point;
     const double distance = norm(offset);
     // 2. Outside.
-    if (distance == 0 || is_outside(model_, offset, closest, geometry))
+    if (distance == 0 || is_outside(model_, offset, closest, geometry)) {
+      if constexpr (rubbing) release_friction(point, closest.point, sums);
       return evaluate_open_point(pair, point, node, x, distance);
+    }
     refuse_depth(pair, distance);
     // 3. Inside: pushed back to the closest point. What a bond carries of the push is not left to the penalty.
     const double k = pair.stiffness * model_.local_stiffness(at(node)) * model_.reference_area[at(node)];
@@ -97,8 +99,12 @@ private:
     if constexpr (bonding)
       pushed *= evaluate_closed_bond(pair, contact_.bond[at(point)], node, x, facet, closest, distance);
     ContactForce& record = contact_.force[at(pair.first_point + pair.active++)];
-    record =
-        make_record(penalty_force(pushed, offset), closest.weight1, closest.weight2, std::abs(pushed), node, geometry);
+    if constexpr (rubbing)
+      record = evaluate_friction({x, facet, geometry.x, closest, distance, motion(point, closest, geometry)}, geometry,
+                                 point, k, pushed, sums);
+    else
+      record = make_record(penalty_force(pushed, offset), closest.weight1, closest.weight2, std::abs(pushed), node,
+                           geometry);
     add_to_node(model_, record);
     sums.energy += penalty_energy(k, distance);
     sums.penetration = std::max(sums.penetration, distance / model_.element_size[pair.grain]);
@@ -176,6 +182,40 @@ private:
     return penalty_left_by_bond(law, bond, penalty);
   }
 
+  /// The force of a closed point with friction: one spring between the node and its anchor. `penalty` k and `pushed`,
+  /// what a bond leaves of it, N/mm. A branch may find bonds of an earlier law that are stiffer than the penalty: until
+  /// they are damaged nothing rubs.
+  ContactForce evaluate_friction(const ClosedPoint& closed, const Facet& closest_facet, std::int32_t point,
+                                 double penalty, double pushed, ContactSums& sums) {
+    PointFriction& friction = contact_.rubbing[at(point)];
+    double share = 1.0; // of the point that rubs
+    if constexpr (bonding) share -= contact_.bond[at(point)].remaining;
+    const bool elsewhere = friction.exists() && friction.facet != closed.facet;
+    const Facet anchor = elsewhere ? facet_geometry(model_, friction.facet) : closest_facet;
+    const FrictionStep step =
+        rub(friction, {share * contact_.friction, penalty, std::max(pushed, 0.0)}, closed, anchor.x);
+    sums.friction_energy += step.stored;
+    sums.friction_dissipation += step.dissipated;
+    return make_record(-(pushed * step.reach), friction.weight1, friction.weight2, std::abs(pushed),
+                       contact_.candidates.point_node[at(point)], step.on_closest ? closest_facet : anchor);
+  }
+
+  /// mm, of a point's node against its closest point in the last step; nothing where friction has an anchor already.
+  Vector3<double> motion(std::int32_t point, const ClosestPoint<double>& closest, const Facet& facet) const {
+    if (contact_.rubbing[at(point)].exists()) return {0, 0, 0};
+    const std::size_t node = at(contact_.candidates.point_node[at(point)]);
+    const Vector3<double> v[3] = {vector_of(model_.velocity, facet.node[0]), vector_of(model_.velocity, facet.node[1]),
+                                  vector_of(model_.velocity, facet.node[2])};
+    return contact_.last_step * (model_.contact_velocity(node) - facet_point(v, closest.weight1, closest.weight2));
+  }
+
+  /// Forgets the anchor of a point that has opened.
+  void release_friction(std::int32_t point, const Vector3<double>& closest, ContactSums& sums) {
+    PointFriction& friction = contact_.rubbing[at(point)];
+    if (friction.exists())
+      sums.friction_dissipation += release(friction, closest, facet_geometry(model_, friction.facet).x);
+  }
+
   static ContactForce make_record(const Vector3<double>& force, double weight1, double weight2, double stiffness,
                                   std::int32_t node, const Facet& facet) {
     return {
@@ -199,8 +239,11 @@ private:
 } // namespace
 
 ContactSums contact_forces(Model& model, Contact& contact, int grain) {
-  return contact.bonding() ? PointEvaluation<true>(model, contact).evaluate(grain)
-                           : PointEvaluation<false>(model, contact).evaluate(grain);
+  if (contact.has_friction())
+    return contact.bonding() ? PointEvaluation<true, true>(model, contact).evaluate(grain)
+                             : PointEvaluation<false, true>(model, contact).evaluate(grain);
+  return contact.bonding() ? PointEvaluation<true, false>(model, contact).evaluate(grain)
+                           : PointEvaluation<false, false>(model, contact).evaluate(grain);
 }
 
 void contact_reactions(Model& model, const Contact& contact, int grain) {

@@ -14,8 +14,10 @@ namespace mpfem {
 
 /// Sums of a grain's own nodes over one contact pass.
 struct ContactSums {
-  double energy = 0;      ///< mJ stored in the penalty
-  double penetration = 0; ///< largest penetration over h
+  double energy = 0;               ///< mJ stored in the penalty
+  double penetration = 0;          ///< largest penetration over h
+  double friction_energy = 0;      ///< mJ stored in stick springs
+  double friction_dissipation = 0; ///< mJ, since the time level before
   int active_points = 0;
 };
 

@@ -3,7 +3,8 @@
 //
 // Each of the two passes (nodes of A on facets of B, nodes of B on facets of A) carries half of the penalty stiffness
 // (solver/physics/penalty.hpp). Bonds belong to the same points (solver/physics/bond_kinematics.hpp); an unbroken bond
-// keeps its point among the candidates however far it has opened.
+// keeps its point among the candidates however far it has opened. Friction belongs to points that are closed
+// (solver/physics/friction_kinematics.hpp).
 
 #include <cstdint>
 #include <span>
@@ -11,10 +12,12 @@
 
 #include "solver/kernels/contact_search.hpp"
 #include "solver/physics/bond_kinematics.hpp"
+#include "solver/physics/friction_kinematics.hpp"
 
 namespace mpfem {
 
-/// Force of one contact point, of the penalty or of its bond.
+/// Force of one contact point, of the penalty or of its bond. With friction that of the penalty is the stick spring's,
+/// which acts at the anchor.
 struct ContactForce {
   double force[3];         ///< N, on the node
   double weight1, weight2; ///< shape functions of the facet's second and third node where the reaction acts
@@ -44,10 +47,14 @@ struct Contact {
   std::vector<PointBond> bond;          ///< [points]
   std::vector<ContactForce> bond_force; ///< [points]: pulling bonds first within every pair's range
   std::vector<std::int32_t> pulling;    ///< [pairs]: number of pulling bonds
+  double friction = 0;                  ///< mu; 0: no friction, and the array below stays empty
+  std::vector<PointFriction> rubbing;   ///< [points]
+  double last_step = 0;                 ///< s, that led to the present positions; friction asks where points came in
   std::vector<double> travel;           ///< [grains], mm: bound of any node's path length since the run began
   std::vector<double> travel_at_search; ///< [grains], mm
 
   bool bonding() const { return !bond_laws.empty(); }
+  bool has_friction() const { return friction > 0; }
   std::span<const ContactForce> active_points(std::int32_t pair) const {
     const auto p = static_cast<std::size_t>(pair);
     return {force.data() + candidates.pair_point_offset[p], static_cast<std::size_t>(active[p])};

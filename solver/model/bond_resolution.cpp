@@ -39,9 +39,27 @@ BondResolution bond_resolution(const Model& model, const Scenario& scenario) {
   return result;
 }
 
+namespace {
+
+/// MPa/mm, of the contact points of all grains.
+double smallest_penalty(const Model& model) {
+  double smallest = std::numeric_limits<double>::infinity();
+  for (std::size_t g = 0; g < static_cast<std::size_t>(model.grains); ++g)
+    for (auto n = model.node_offset[g]; n < model.node_offset[g] + model.surface_node_count[g]; ++n)
+      smallest = std::min(smallest, model.penalty_stiffness[g] * model.local_stiffness(static_cast<std::size_t>(n)));
+  return smallest;
+}
+
+} // namespace
+
 std::vector<std::string> check_bonds(const Model& model, const Scenario& scenario) {
   std::vector<std::string> warnings;
   if (!scenario.bond) return warnings;
+  if (const auto stiffness = scenario.bond->stiffness; stiffness && scenario.contact.friction > 0)
+    if (const double allowed = smallest_penalty(model); *stiffness > allowed)
+      throw InputError(fmt::format("{}[bond] key 'stiffness': found {:g} MPa/mm, with contact.friction allowed up to "
+                                   "{:.3g} MPa/mm, the smallest penalty of a contact point",
+                                   scenario.bond_places.prefix("stiffness"), *stiffness, allowed));
   const BondResolution r = bond_resolution(model, scenario);
   const double energy = scenario.bond->fracture_energy;
   if (!(energy > 1.01 * r.smallest_fracture_energy))

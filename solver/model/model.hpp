@@ -106,6 +106,14 @@ struct Model {
   Vector3<double> contact_point(std::size_t node) const {
     return {contact_coordinate(node, 0), contact_coordinate(node, 1), contact_coordinate(node, 2)};
   }
+  /// mm/s, of a surface node's contact point.
+  Vector3<double> contact_velocity(std::size_t node) const {
+    const auto row = [this](std::size_t n) {
+      return Vector3<double>{velocity[4 * n], velocity[4 * n + 1], velocity[4 * n + 2]};
+    };
+    if (inner_node.empty()) return row(node);
+    return row(node) + inward[node] * (row(static_cast<std::size_t>(inner_node[node])) - row(node));
+  }
   /// Adds a force on a surface node's contact point, N.
   void push_contact_point(std::size_t node, std::size_t axis, double f) {
     if (inner_node.empty()) {

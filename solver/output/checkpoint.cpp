@@ -100,6 +100,8 @@ public:
   void write_fields(const FieldValues& fields);
   void write_tets(const Model& model);
   void write_bonds(const Contact& contact);
+  void write_friction(const Contact& contact);
+  void write_wall_friction(const WallFriction& friction);
   void write_grips(const Grips& grips);
   void commit() { file_.commit(); }
 
@@ -162,6 +164,33 @@ void Writer::write_bonds(const Contact& contact) {
   if (contact.bond_laws.size() > 1) write(check::bond_law, law);
 }
 
+void Writer::write_friction(const Contact& contact) {
+  std::vector<std::int32_t> facet;
+  std::vector<double> values;
+  for (const PointFriction& point : contact.rubbing) {
+    facet.push_back(point.facet);
+    const Vector3<double>& force = point.force;
+    values.insert(values.end(), {point.weight1, point.weight2, point.stiffness, force.x, force.y, force.z});
+  }
+  write(check::friction_facet, facet);
+  write(check::friction_values, values, facet.size());
+}
+
+void Writer::write_wall_friction(const WallFriction& friction) {
+  std::vector<std::int32_t> node, sides;
+  std::vector<double> values;
+  for (int grain = 0; grain < friction.grains(); ++grain)
+    for (std::size_t side = 0; side < 6; ++side)
+      for (const WallAnchor& anchor : friction.anchors(grain, side)) {
+        node.push_back(anchor.node);
+        sides.push_back(static_cast<std::int32_t>(side));
+        values.insert(values.end(), {anchor.place[0], anchor.place[1], anchor.force[0], anchor.force[1]});
+      }
+  write(check::wall_friction_node, node);
+  write(check::wall_friction_side, sides);
+  write(check::wall_friction_values, values, node.size());
+}
+
 void Writer::write_grips(const Grips& grips) {
   std::vector<std::int32_t> node, side;
   std::vector<double> reference;
@@ -191,6 +220,8 @@ void write_checkpoint(const std::string& path, const CheckpointState& state, con
   for_each_step_array(state.grain_steps, grains, nodes, write);
   for_each_contact_array(state.contact, grains, write);
   if (state.contact.bonding()) file.write_bonds(state.contact);
+  if (state.contact.has_friction()) file.write_friction(state.contact);
+  if (state.wall_friction.present()) file.write_wall_friction(state.wall_friction);
   if (state.grips.present()) file.write_grips(state.grips);
   file.commit();
 }
@@ -282,8 +313,8 @@ FieldValues CheckpointReader::fields() const {
           .integer = file_.read(check::run_integers)};
 }
 
-void CheckpointReader::take_arrays(Model& model, Contact& contact, GrainSteps& grain_steps, Grips* grips,
-                                   const std::optional<BondParameters>& bond_parameters) const {
+void CheckpointReader::take_arrays(Model& model, Contact& contact, WallFriction& wall_friction, GrainSteps& grain_steps,
+                                   Grips* grips, const std::optional<BondParameters>& bond_parameters) const {
   const auto nodes = static_cast<std::size_t>(model.nodes()), grains = static_cast<std::size_t>(model.grains);
   for_each_node_array(model, [&](const auto& dataset, AlignedVector<double>& into) {
     const auto values = file_.read(dataset); // one array at a time is in memory beside the model
@@ -304,6 +335,8 @@ void CheckpointReader::take_arrays(Model& model, Contact& contact, GrainSteps& g
     contact.pulling.assign(contact.candidates.pair_first.size(), 0);
     if (bond_parameters) take_bonds(model, contact, *bond_parameters);
   }
+  if (contact.has_friction()) take_friction(model, contact);
+  if (wall_friction.present() && file_.has(check::wall_friction_node)) take_wall_friction(model, wall_friction);
   if (grips && file_.has(check::grip_node)) take_grips(model, *grips);
 }
 
@@ -354,6 +387,35 @@ void CheckpointReader::take_bonds(const Model& model, Contact& contact, const Bo
                        .separation = 0};
   }
   if (contact.bond_laws.back() != coming) contact.bond_laws.push_back(coming);
+}
+
+void CheckpointReader::take_friction(const Model& model, Contact& contact) const {
+  const std::size_t points = contact.point_facet.size();
+  contact.rubbing.assign(points, {});
+  if (!file_.has(check::friction_facet)) return;
+  const auto facet = file_.read(check::friction_facet);
+  const auto values = file_.read(check::friction_values);
+  if (facet.size() != points || values.size() != 6 * points) fail_damaged();
+  for (std::size_t i = 0; i < points; ++i) {
+    const double* v = &values[6 * i];
+    if (facet[i] < -1 || facet[i] >= model.facets()) fail_damaged();
+    contact.rubbing[i] = {facet[i], v[0], v[1], v[2], {v[3], v[4], v[5]}};
+  }
+}
+
+void CheckpointReader::take_wall_friction(const Model& model, WallFriction& friction) const {
+  const auto node = file_.read(check::wall_friction_node), side = file_.read(check::wall_friction_side);
+  const auto values = file_.read(check::wall_friction_values);
+  if (side.size() != node.size() || values.size() != 4 * node.size()) fail_damaged();
+  const auto& first = model.node_offset;
+  for (std::size_t i = 0; i < node.size(); ++i) {
+    if (node[i] < 0 || node[i] >= model.nodes() || side[i] < 0 || side[i] > 5) fail_damaged();
+    const auto grain = static_cast<int>(std::upper_bound(first.begin(), first.end(), node[i]) - first.begin()) - 1;
+    auto& anchors = friction.anchors(grain, static_cast<std::size_t>(side[i]));
+    if (!anchors.empty() && anchors.back().node >= node[i]) fail_damaged();
+    const double* v = &values[4 * i];
+    anchors.push_back({node[i], {v[0], v[1]}, {v[2], v[3]}});
+  }
 }
 
 void CheckpointReader::take_grips(const Model& model, Grips& grips) const {

@@ -9,6 +9,7 @@
 #include "common/fields.hpp"
 #include "results-schema/file.hpp"
 #include "solver/boundary/grips.hpp"
+#include "solver/boundary/wall_friction.hpp"
 #include "solver/kernels/contact_forces.hpp"
 #include "solver/kernels/node_motion.hpp"
 #include "solver/model/grain_steps.hpp"
@@ -44,6 +45,7 @@ struct RunRecord {
 struct CheckpointState {
   const Model& model;
   const Contact& contact;
+  const WallFriction& wall_friction;
   const Grips& grips;
   const GrainSteps& grain_steps;
   FieldValues fields; ///< of the simulation, whose first whole number is the step, then of the record
@@ -77,13 +79,16 @@ public:
   /// Replaces the state of nodes, tets and contact points. Bonds keep the laws by which they formed; whether they
   /// resist sliding is said by `bond_parameters`, of the run that wrote the checkpoint; none where no bond has formed.
   /// The last law in `contact` stays that of bonds to come. `grips`: of a stage that grips, its axis set, or none.
-  void take_arrays(Model& model, Contact& contact, GrainSteps& grain_steps, Grips* grips,
+  /// Friction that is on only now begins without anchors; anchors of friction that is off now are left out.
+  void take_arrays(Model& model, Contact& contact, WallFriction& wall_friction, GrainSteps& grain_steps, Grips* grips,
                    const std::optional<BondParameters>& bond_parameters) const;
 
 private:
   void take_tets(Model& model) const;
   void take_candidates(const Model& model, Contact& contact) const;
   void take_bonds(const Model& model, Contact& contact, const BondParameters& parameters) const;
+  void take_friction(const Model& model, Contact& contact) const;
+  void take_wall_friction(const Model& model, WallFriction& friction) const;
   void take_grips(const Model& model, Grips& grips) const;
   [[noreturn]] void fail_damaged() const;
 

@@ -32,10 +32,17 @@ void write_column(schema::FileWriter& file, const Rows& rows, const schema::Data
   file.write(dataset, std::span<const double>(values), rows.size());
 }
 
+bool is_of_friction(const schema::DatasetDescription& column) {
+  return column.path == schema::run::history_friction_energy.path ||
+         column.path == schema::run::history_friction_dissipation.path;
+}
+
 } // namespace
 
-void write_history(schema::FileWriter& file, const Rows& rows) {
-  HistoryRow::for_each_column([&](const auto& dataset, auto member) { write_column(file, rows, dataset, member); });
+void write_history(schema::FileWriter& file, const Rows& rows, bool friction) {
+  HistoryRow::for_each_column([&](const auto& dataset, auto member) {
+    if (friction || !is_of_friction(dataset)) write_column(file, rows, dataset, member);
+  });
 }
 
 std::vector<double> flatten(const Rows& rows) {

@@ -90,6 +90,16 @@ void write_wall_forces(schema::FileWriter& file, const std::string& name, const 
   write_rows(file, name, run::snapshots_wall_force, force, static_cast<std::size_t>(model.grains));
 }
 
+/// Writes the friction of the walls on each grain.
+void write_wall_friction(schema::FileWriter& file, const std::string& name, const WallFriction& friction) {
+  std::vector<double> force;
+  for (int grain = 0; grain < friction.grains(); ++grain) {
+    const std::array<double, 12> of_grain = friction.forces_on_grain(grain);
+    force.insert(force.end(), of_grain.begin(), of_grain.end());
+  }
+  write_rows(file, name, run::snapshots_wall_friction, force, static_cast<std::size_t>(friction.grains()));
+}
+
 /// Writes every bond of a snapshot, and the mean damage at nodes.
 void write_bonds(schema::FileWriter& file, const std::string& name, const Model& model, const Contact& contact) {
   const auto nodes = static_cast<std::size_t>(model.nodes());
@@ -218,6 +228,7 @@ void write_snapshot_file(const std::string& path, const SnapshotState& state) {
   file.write(run::snapshots_pair_force, std::span<const double>(force), area.size(), name);
   file.write(run::snapshots_pair_area, std::span<const double>(area), area.size(), name);
   write_wall_forces(file, name, model, state.box);
+  if (state.wall_friction.present()) write_wall_friction(file, name, state.wall_friction);
   if (state.contact.bonding()) {
     write_bonds_of_pairs(file, name, pairs);
     write_bonds(file, name, model, state.contact);
@@ -228,7 +239,7 @@ void write_snapshot_file(const std::string& path, const SnapshotState& state) {
 void write_run_file(const std::string& path, const Model& model, const std::vector<HistoryRow>& history,
                     const std::vector<std::string>& snapshot_files, const Provenance& provenance) {
   schema::FileWriter file(path, schema::FileKind::run, fmt::format("mpfem {}", version_and_commit()));
-  write_history(file, history);
+  write_history(file, history, provenance.friction);
 
   write_mesh(file, model);
   for (std::size_t i = 0; i < snapshot_files.size(); ++i) {

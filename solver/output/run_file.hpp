@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "solver/boundary/box.hpp"
+#include "solver/boundary/wall_friction.hpp"
 #include "solver/kernels/contact_forces.hpp"
 #include "solver/kernels/node_motion.hpp"
 #include "solver/output/history.hpp"
@@ -20,6 +21,7 @@ struct SnapshotState {
   const Model& model;
   const Contact& contact;
   const Box& box;
+  const WallFriction& wall_friction;
   double time = 0; ///< s
   std::int64_t step = 0;
   double relative_density = 0;
@@ -36,6 +38,7 @@ struct Provenance {
   std::vector<std::string> profile_name;
   std::vector<double> profile_seconds;
   std::vector<StageResult> stages; ///< those that are complete
+  bool friction = false;           ///< the scenario has friction
   std::string from;                ///< where the run began: checksum of a checkpoint, "packing", or empty: not known
 };
 

@@ -105,6 +105,9 @@ void print_model(const Scenario& scenario, const Simulation& simulation, const N
              : model.smooth_grains == model.grains
                  ? "the grains' smooth surfaces"
                  : fmt::format("the smooth surfaces of {} grains, facets of the others", model.smooth_grains));
+  if (scenario.has_friction())
+    fmt::print("friction       {:g} between grains, {:g} at walls\n", scenario.contact.friction,
+               scenario.wall_friction);
   fmt::print("relative density at the start  {:.4f}\n", simulation.relative_density());
   fmt::print(
       "memory         {:.1f} MB of model data ({:.0f} B a tet); the run needs about {:.0f} MB at most, and {:.0f} MB "

@@ -15,6 +15,10 @@ void EnergyLedger::add_walls(const std::array<double, 6>& work) {
   for (const double of_wall : work) external_work += of_wall;
 }
 
+void EnergyLedger::add_friction(const ContactSums& contact, const WallFrictionSums& walls) {
+  friction_dissipation += contact.friction_dissipation + walls.dissipation;
+}
+
 void EnergyLedger::add_step(const ElementSums& elements, const AdvanceSums& advance) {
   plastic_dissipation += elements.plastic_work;
   viscous_dissipation += elements.viscous_work;
@@ -23,7 +27,8 @@ void EnergyLedger::add_step(const ElementSums& elements, const AdvanceSums& adva
 
 double EnergyLedger::residual(const StoredEnergies& stored) const {
   return external_work + initial - stored.kinetic - stored.elastic - plastic_dissipation - stored.contact -
-         viscous_dissipation - damping_dissipation - stored.bonds - stored.damage_dissipation;
+         viscous_dissipation - damping_dissipation - stored.bonds - stored.damage_dissipation - stored.friction -
+         friction_dissipation;
 }
 
 } // namespace mpfem

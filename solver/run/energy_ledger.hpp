@@ -5,6 +5,8 @@
 #include <vector>
 
 #include "solver/boundary/grips.hpp"
+#include "solver/boundary/wall_friction.hpp"
+#include "solver/kernels/contact_forces.hpp"
 #include "solver/kernels/element_forces.hpp"
 #include "solver/kernels/element_step.hpp"
 #include "solver/kernels/grain_state.hpp"
@@ -18,22 +20,25 @@ struct StoredEnergies {
   double elastic = 0;
   double contact = 0; ///< in the penalty of contacts and walls
   double bonds = 0;
+  double friction = 0;           ///< in stick springs, of grains and walls
   double damage_dissipation = 0; ///< a function of the bonds' states, not summed up over time
 };
 
 struct EnergyLedger {
-  double initial = 0;             ///< mJ, of motion and strain at the start
-  double plastic_dissipation = 0; ///< mJ
-  double viscous_dissipation = 0; ///< mJ, of bulk viscosity
-  double damping_dissipation = 0; ///< mJ, of mass-proportional damping
-  double external_work = 0;       ///< mJ, of walls and grips
-  double grip_work_ahead = 0;     ///< mJ, half of the grips' forces times the step that follows
+  double initial = 0;              ///< mJ, of motion and strain at the start
+  double plastic_dissipation = 0;  ///< mJ
+  double viscous_dissipation = 0;  ///< mJ, of bulk viscosity
+  double damping_dissipation = 0;  ///< mJ, of mass-proportional damping
+  double friction_dissipation = 0; ///< mJ, of slip between grains and at walls
+  double external_work = 0;        ///< mJ, of walls and grips
+  double grip_work_ahead = 0;      ///< mJ, half of the grips' forces times the step that follows
 
   template <class Self, class Visitor>
   static void for_each_field(Self& s, Visitor&& visit) {
     visit("energy.initial", s.initial), visit("energy.plastic_dissipation", s.plastic_dissipation);
     visit("energy.viscous_dissipation", s.viscous_dissipation);
-    visit("energy.damping_dissipation", s.damping_dissipation), visit("energy.external_work", s.external_work);
+    visit("energy.damping_dissipation", s.damping_dissipation);
+    visit("energy.friction_dissipation", s.friction_dissipation), visit("energy.external_work", s.external_work);
     visit("energy.grip_work_ahead", s.grip_work_ahead);
   }
 
@@ -41,6 +46,8 @@ struct EnergyLedger {
   void add_grips(const std::vector<GripSums>& grains);
   /// Adds the work (mJ) of the walls since the time level before.
   void add_walls(const std::array<double, 6>& work);
+  /// Adds what friction dissipated at one grain since the time level before.
+  void add_friction(const ContactSums& contact, const WallFrictionSums& walls);
   /// Adds what one grain dissipated in a step.
   void add_step(const ElementSums& elements, const AdvanceSums& advance);
   /// mJ that are not accounted for.

@@ -22,6 +22,7 @@ namespace {
 constexpr double of_program = 19.7e6; // libraries, code, HDF5
 constexpr double of_contact = 102;    // a facet: points, their forces and candidates, with the search's own
 constexpr double of_bonds = 65;       // a facet more
+constexpr double of_friction = 26;    // a facet more, as many points as bonds
 constexpr double margin = 0.1;        // of the available memory: the error that the forecast may have
 
 template <class Real>
@@ -48,7 +49,8 @@ double memory_of(const PackingCounts& packing, const Scenario& scenario) {
   // Its number in the file, and the copy of one array for a checkpoint.
   const double tet = (numerics.precision == Precision::mixed ? bytes_of_tet<float>() : bytes_of_tet<double>()) +
                      sizeof(std::int32_t) + sizeof(double);
-  const double facet = 3 * sizeof(std::int32_t) + of_contact + (scenario.bond ? of_bonds : 0.0);
+  const double facet = 3 * sizeof(std::int32_t) + of_contact + (scenario.bond ? of_bonds : 0.0) +
+                       (scenario.contact.friction > 0 ? of_friction : 0.0);
   const double rows = scenario.output.history_rows * static_cast<double>(scenario.stages.size());
   return of_program + tet * number(packing.all_tets()) + node * number(packing.nodes) + facet * packing.facets() +
          2 * sizeof(HistoryRow) * rows;
@@ -59,7 +61,8 @@ double disk_of(const PackingCounts& packing, const Scenario& scenario) {
   const double tets = number(packing.all_tets()), nodes = number(packing.nodes), facets = packing.facets();
   const auto stages = static_cast<double>(scenario.stages.size());
   // Eight numbers of a tet, thirteen of a node, and contact points; measured, since most points have few candidates.
-  const double checkpoint = 64 * tets + 104 * nodes + (scenario.bond ? 43.0 : 20.0) * facets;
+  const double checkpoint = 64 * tets + 104 * nodes + (scenario.bond ? 43.0 : 20.0) * facets +
+                            (scenario.contact.friction > 0 ? 24.0 * facets : 0.0);
   // Those that stay, the rolling one, and the one that is being written.
   const double checkpoints = stages + 2 + static_cast<double>(output.checkpoint_relative_densities.size());
   // Snapshots stand beside the run file until it holds them all.

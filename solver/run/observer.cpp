@@ -84,6 +84,7 @@ void take_over_sums(HistoryRow& row, const EnergyLedger& energies) {
   row.plastic_dissipation = energies.plastic_dissipation;
   row.viscous_dissipation = energies.viscous_dissipation;
   row.damping_dissipation = energies.damping_dissipation;
+  row.friction_dissipation = energies.friction_dissipation;
   row.external_work = energies.external_work;
 }
 
@@ -120,6 +121,7 @@ HistoryRow observe_row(const Simulation& simulation, std::span<const GrainSums> 
     row.surface_area += grains[g].surface_area;
     row.contact_area += grains[g].contact_area;
     row.contact_energy += sums[g].contact.energy + sums[g].box.energy;
+    row.friction_energy += sums[g].contact.friction_energy + sums[g].wall_friction.stored();
     row.max_penetration = std::max({row.max_penetration, sums[g].contact.penetration, sums[g].box.penetration()});
   }
   row.mass_spread = mass_spread(grains);
@@ -133,6 +135,7 @@ HistoryRow observe_row(const Simulation& simulation, std::span<const GrainSums> 
                                                         .elastic = row.elastic_energy,
                                                         .contact = row.contact_energy,
                                                         .bonds = row.bond_energy,
+                                                        .friction = row.friction_energy,
                                                         .damage_dissipation = row.damage_dissipation});
   row.coordination_number = coordination_number(model, simulation.contact());
   double wall_force = 0;

@@ -51,8 +51,8 @@ void restore(const CheckpointReader& checkpoint, bool bonded, const Scenario& be
   try {
     simulation.restore(fields, branch ? std::optional<std::int64_t>(0) : std::nullopt,
                        [&](const Simulation::Arrays& arrays) {
-                         checkpoint.take_arrays(arrays.model, arrays.contact, arrays.grain_steps, arrays.grips,
-                                                bonded ? before.bond : std::nullopt);
+                         checkpoint.take_arrays(arrays.model, arrays.contact, arrays.wall_friction, arrays.grain_steps,
+                                                arrays.grips, bonded ? before.bond : std::nullopt);
                        });
     if (branch) return; // its record is its own
     RunRecord::for_each_field(record, fields);
@@ -70,7 +70,7 @@ void save_checkpoint(const std::string& path, const Simulation& simulation, cons
   simulation.write(fields);
   RunRecord::for_each_field(record, fields);
   write_checkpoint(path,
-                   {simulation.model(), simulation.contact(), simulation.grips(),
+                   {simulation.model(), simulation.contact(), simulation.wall_friction(), simulation.grips(),
                     simulation.step_estimate().grain_steps(), fields.values()},
                    record, simulation.scenario().text);
 }

@@ -56,8 +56,8 @@ double stiffness_of(const Model& model) {
 std::vector<double> internal_energy(const std::vector<HistoryRow>& history) {
   std::vector<StageEnergyRow> rows;
   for (const HistoryRow& row : history)
-    rows.push_back({row.stage, row.elastic_energy + row.bond_energy + row.contact_energy,
-                    row.plastic_dissipation + row.damage_dissipation});
+    rows.push_back({row.stage, row.elastic_energy + row.bond_energy + row.contact_energy + row.friction_energy,
+                    row.plastic_dissipation + row.damage_dissipation + row.friction_dissipation});
   return stage_internal_energy(rows);
 }
 
@@ -375,8 +375,9 @@ private:
     std::filesystem::create_directories(parts_folder(options_.output));
     const std::string name = snapshot_name(record_.snapshot_files.size());
     const RunState& state = simulation_.state();
-    write_snapshot_file(snapshot_path(name), {simulation_.model(), simulation_.contact(), simulation_.box(), state.time,
-                                              state.step, simulation_.relative_density()});
+    write_snapshot_file(snapshot_path(name),
+                        {simulation_.model(), simulation_.contact(), simulation_.box(), simulation_.wall_friction(),
+                         state.time, state.step, simulation_.relative_density()});
     record_.snapshot_files.push_back(name); // the name alone: a run may be resumed from another folder
     simulation_.profile().add_serial(Part::output, Profile::since(start));
   }
@@ -433,8 +434,9 @@ private:
   void write_result(const std::string& status) {
     RunRecord record = record_;
     add_times(record);
-    Provenance provenance{scenario_.text, status,      options_.threads, record.wall_time, {}, {},
-                          record_.stages, record_.from};
+    Provenance provenance{
+        scenario_.text,           status,      options_.threads, record.wall_time, {}, {}, record_.stages,
+        scenario_.has_friction(), record_.from};
     double accounted = 0;
     for (std::size_t i = 0; i < profile_parts; ++i) {
       provenance.profile_name.emplace_back(part_names[i]);

@@ -27,14 +27,15 @@ Axes withdrawn_in(const Scenario& scenario, std::int64_t stage) {
 Simulation::Simulation(Model model, const Scenario& scenario, ThreadTeam& team, bool branch)
     : scenario_(&scenario), team_(&team), profile_(team.size()), model_(std::move(model)),
       box_({model_.box_low, model_.box_high}, scenario.walls ? Axes{} : all_axes),
-      step_estimate_(model_, scenario.numerics), bounds_(static_cast<std::size_t>(model_.grains)),
-      sums_(static_cast<std::size_t>(model_.grains)) {
+      wall_friction_(scenario.wall_friction, model_.grains), step_estimate_(model_, scenario.numerics),
+      bounds_(static_cast<std::size_t>(model_.grains)), sums_(static_cast<std::size_t>(model_.grains)) {
   energies_.initial = set_initial_velocities(model_, scenario);
   state_.initial_lengths = box_.cell().lengths();
   if (scenario.bond) {
     contact_.bond_laws = {law_of_bonds(*scenario.bond, scenario.contact)};
     contact_.rebond_on_contact = scenario.bond->rebond_on_contact;
   }
+  contact_.friction = scenario.contact.friction;
   margin_ = scenario.contact.search_margin * *std::max_element(model_.element_size.begin(), model_.element_size.end());
 
   update_surfaces();
@@ -50,7 +51,9 @@ Simulation::Simulation(Model model, const Scenario& scenario, ThreadTeam& team, 
 void Simulation::evaluate_forces() {
   damping_rate_ = damping_rate(); // one for the grips' forces and the advance that they are for
   if (search_is_due(contact_)) search();
+  contact_.last_step = state_.last_step;
   add_contact_and_walls();
+  for (const GrainSums& sums : sums_) energies_.add_friction(sums.contact, sums.wall_friction);
   check_penetration();
   measure_walls(grips_.present() ? add_grips() : std::array<double, 2>{});
   if (stage_run_->loading_rate_is_due(state_.step)) regulate_loading_rate();
@@ -91,6 +94,8 @@ void Simulation::add_contact_and_walls() {
     contact_reactions(model_, contact_, grain);
     watch.mark(Part::contact);
     sums_[g].box = box_.add_forces(model_, bounds_[g], grain);
+    if (wall_friction_.present())
+      sums_[g].wall_friction = wall_friction_.add_forces(model_, box_, bounds_[g], state_.last_step, grain);
     watch.mark(Part::integration);
   });
 }
@@ -222,16 +227,18 @@ void Simulation::begin_stage(std::int64_t stage) {
   grip_faces();
 }
 
-/// Walls that are taken away take what is stored in their penalty with them; walls that return stand where they touch
-/// nothing, so that the ledger knows of them from the first touch on.
+/// Walls that are taken away take what is stored in their penalty and friction with them; walls that return stand where
+/// they touch nothing, so that the ledger knows of them from the first touch on.
 void Simulation::change_walls(const Axes& withdrawn) {
   for (std::size_t axis = 0; axis < 3; ++axis) {
     if (withdrawn[axis] && box_.has_walls(axis))
       for (const GrainSums& sums : sums_)
-        energies_.external_work -= sums.box.wall[2 * axis].energy + sums.box.wall[2 * axis + 1].energy;
+        for (std::size_t side = 2 * axis; side < 2 * axis + 2; ++side)
+          energies_.external_work -= sums.box.wall[side].energy + sums.wall_friction.energy[side];
     if (!withdrawn[axis] && !box_.has_walls(axis)) return_walls(axis);
   }
   box_.withdraw(withdrawn);
+  wall_friction_.forget(withdrawn);
 }
 
 void Simulation::return_walls(std::size_t axis) {

@@ -13,6 +13,7 @@
 
 #include "solver/boundary/box.hpp"
 #include "solver/boundary/grips.hpp"
+#include "solver/boundary/wall_friction.hpp"
 #include "solver/kernels/contact_forces.hpp"
 #include "solver/kernels/element_forces.hpp"
 #include "solver/kernels/element_step.hpp"
@@ -51,6 +52,7 @@ struct RunState {
 struct GrainSums {
   ContactSums contact;
   BoxSums box;
+  WallFrictionSums wall_friction;
   AdvanceSums advance;
   ElementSums elements;
 };
@@ -87,6 +89,7 @@ public:
   const Model& model() const { return model_; }
   const Contact& contact() const { return contact_; }
   const Box& box() const { return box_; }
+  const WallFriction& wall_friction() const { return wall_friction_; }
   const Grips& grips() const { return grips_; }
   const RunState& state() const { return state_; }
   const EnergyLedger& energies() const { return energies_; }
@@ -102,6 +105,7 @@ public:
   struct Arrays {
     Model& model;
     Contact& contact;
+    WallFriction& wall_friction;
     GrainSteps& grain_steps;
     Grips* grips; ///< of a stage that grips, its axis set, or none
   };
@@ -112,7 +116,7 @@ public:
   void restore(FieldReader& fields, std::optional<std::int64_t> stage, Take&& take) {
     read(fields, stage);
     GrainSteps grain_steps;
-    take(Arrays{model_, contact_, grain_steps, prepare_grips()});
+    take(Arrays{model_, contact_, wall_friction_, grain_steps, prepare_grips()});
     take_up(std::move(grain_steps));
   }
   /// After restore(): its state is the beginning of this scenario's first stage. Candidates and step are found anew
@@ -149,6 +153,7 @@ private:
   Model model_;
   Contact contact_;
   Box box_;
+  WallFriction wall_friction_;
   Grips grips_;
   RunState state_;
   EnergyLedger energies_;

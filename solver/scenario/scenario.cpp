@@ -46,13 +46,14 @@ std::vector<GrainMaterial> read_grain_materials(TableReader& root) {
   return materials;
 }
 
-ContactParameters read_contact(TableReader table) {
+ContactParameters read_contact(TableReader& table) {
   ContactParameters contact;
   contact.stiffness_factor = table.number_or("stiffness_factor", contact.stiffness_factor, stiffness_factors);
   if (table.has("stiffness")) {
     if (table.has("stiffness_factor")) table.fail("stiffness", "has no meaning with 'stiffness_factor'");
     contact.stiffness = table.number("stiffness", positive_stiffness);
   }
+  contact.friction = table.number_or("friction", contact.friction, friction_or_zero);
   contact.search_margin = table.number_or("search_margin", contact.search_margin, Range::between(0.05, 2));
   const std::string surface = table.choice_or("surface", "automatic", {"automatic", "facets", "smooth"});
   contact.surface = surface == "smooth"   ? ContactSurface::smooth
@@ -126,6 +127,28 @@ void read_initial(TableReader table, Scenario& scenario) {
   table.finish();
 }
 
+/// true, false, or a table where there are walls.
+void read_walls(TableReader& root, Scenario& scenario) {
+  const toml::node* value = root.value("walls");
+  if (value == nullptr || !value->is_table()) {
+    scenario.walls = root.boolean_or("walls", true);
+    return;
+  }
+  TableReader table = root.table("walls");
+  scenario.wall_friction = table.number_or("friction", scenario.wall_friction, friction_or_zero);
+  table.finish();
+}
+
+/// The damaged share of a bond rubs with the stiffness that the bond leaves of the penalty.
+void check_friction(const TableReader& contact, const Scenario& scenario) {
+  if (scenario.contact.friction == 0 || !scenario.bond) return;
+  if (scenario.bond->normal_only) contact.fail("friction", "has no meaning with 'bond.normal_only'");
+  if (scenario.bond->stiffness_factor && *scenario.bond->stiffness_factor > scenario.contact.stiffness_factor)
+    contact.fail("friction", fmt::format("found bonds stiffer than the penalty (bond.stiffness_factor = {:g}), allowed "
+                                         "up to contact.stiffness_factor = {:g}",
+                                         *scenario.bond->stiffness_factor, scenario.contact.stiffness_factor));
+}
+
 void check_walls(const TableReader& root, const Scenario& scenario) {
   if (scenario.walls) return;
   for (const Stage& stage : scenario.stages)
@@ -185,18 +208,20 @@ Scenario read_scenario(const TomlDocument& document) {
   TableReader root(document);
   scenario.text = document.text();
   scenario.packing_file = packing_path(root, document.name());
-  scenario.walls = root.boolean_or("walls", true);
+  read_walls(root, scenario);
   TableReader material = root.table("material");
   scenario.material = read_material(material);
   material.finish();
   scenario.grain_materials = read_grain_materials(root);
-  if (auto table = root.optional_table("contact")) scenario.contact = read_contact(*table);
+  auto contact = root.optional_table("contact");
+  if (contact) scenario.contact = read_contact(*contact);
   if (auto table = root.optional_table("bond")) {
     scenario.bond_places = table->places();
     scenario.bond = read_bond(*table);
     if (scenario.bond->stiffness_factor && scenario.contact.stiffness)
       table->fail("stiffness_factor", "has no meaning with 'contact.stiffness'; allowed is 'stiffness' (MPa/mm)");
   }
+  if (contact) check_friction(*contact, scenario);
   if (auto table = root.optional_table("numerics")) scenario.numerics = read_numerics(*table);
   scenario.numerics.element = default_element;
   scenario.numerics.own_pressure = usual_own_pressure(default_element);

@@ -60,6 +60,7 @@ enum class ContactSurface {
 struct ContactParameters {
   double stiffness_factor = 10;    ///< penalty K = factor * E / h, h the mean facet edge of the grain
   std::optional<double> stiffness; ///< K itself, MPa/mm, where it is given instead (locally refined meshes)
+  double friction = 0;             ///< Coulomb's mu between grains
   double search_margin = 0.3;      ///< candidates are kept for gaps up to this multiple of h
   ContactSurface surface = ContactSurface::automatic;
   bool penalty_differs(const ContactParameters& other) const {
@@ -131,6 +132,7 @@ struct OutputParameters {
 struct Scenario {
   std::string packing_file;                   ///< meshed packing; relative to the scenario's folder
   bool walls = true;                          ///< the six walls of the box
+  double wall_friction = 0;                   ///< Coulomb's mu between grains and walls
   MaterialParameters material;                ///< of all grains but those of grain_materials
   std::vector<GrainMaterial> grain_materials; ///< no grain stands in two of them
   ContactParameters contact;
@@ -143,6 +145,9 @@ struct Scenario {
   std::vector<Stage> stages;
   KeyPlaces bond_places; ///< of the keys of [bond]
   std::string text;      ///< the TOML text, with values set on the command line
+
+  /// Between grains or at walls.
+  bool has_friction() const { return contact.friction > 0 || wall_friction > 0; }
 };
 
 /// Reads the keys of a [bond] table. Throws InputError.

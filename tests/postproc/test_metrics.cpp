@@ -135,6 +135,24 @@ TEST_CASE("the ledger has every term, and the ratios of the rows") {
   CHECK(kinetic.values[2] == Approx(0.005));
 }
 
+TEST_CASE("the ledger of a run with friction has what it stores and dissipates, and internal energy counts both") {
+  const Folder folder;
+  RunContents contents = small_run();
+  contents.numbers["/history/friction_energy"] = {0, 0.2, 0.5};
+  contents.numbers["/history/friction_dissipation"] = {0, 0.3, 1};
+  write_run(folder / "run.h5", contents);
+  const schema::FileReader file(folder / "run.h5");
+  const auto ledger = energy_ledger(HistoryTable(file));
+  const auto of = [&](const std::string& name) {
+    const auto found = std::find_if(ledger.begin(), ledger.end(), [&](const Column& c) { return c.name == name; });
+    REQUIRE(found != ledger.end());
+    return found->values[2];
+  };
+  CHECK(of("friction_energy") == 0.5);
+  CHECK(of("friction_dissipation") == 1);
+  CHECK(of("kinetic_over_internal") == Approx(0.02 / (1 + 3 + 0.5 + 1)).epsilon(1e-12));
+}
+
 TEST_CASE("a contact table has force, area and pressure of every pair") {
   const Folder folder;
   write_run(folder / "run.h5", small_run());

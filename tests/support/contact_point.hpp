@@ -1,10 +1,11 @@
 #pragma once
 // Mesh-free driver of one contact point: a node and a facet of another grain, with the penalty and, if there is a law,
-// a bond. It calls the same functions in the same order as the kernel.
+// a bond and friction. It calls the same functions in the same order as the kernel.
 
 #include <optional>
 
 #include "solver/physics/bond_kinematics.hpp"
+#include "solver/physics/friction_kinematics.hpp"
 #include "solver/physics/gap.hpp"
 #include "solver/physics/penalty.hpp"
 
@@ -14,7 +15,7 @@ namespace mpfem::test {
 struct PointForces {
   Vector3<double> node{0, 0, 0}; ///< N
   Vector3<double> facet[3] = {{0, 0, 0}, {0, 0, 0}, {0, 0, 0}};
-  double energy = 0; ///< mJ, of penalty and bond
+  double energy = 0; ///< mJ, of penalty, bond and stick spring
 
   void add(const Vector3<double>& force, double weight1, double weight2) {
     const double weight[3] = {1 - weight1 - weight2, weight1, weight2};
@@ -30,6 +31,9 @@ struct ContactPoint {
   Vector3<double> node{0.25, 0.25, 0.1};                    ///< mm
   std::optional<BondLaw> law;                               ///< its stiffness follows the penalty where it is 0
   PointBond bond;
+  double friction = 0; ///< mu
+  PointFriction rubbing;
+  double rubbed = 0; ///< mJ, dissipated by friction so far
 
   /// Signed distance of the node, mm. The sign is that of the facet's own normal.
   double gap() const {
@@ -52,9 +56,21 @@ struct ContactPoint {
       forces.energy += 0.5 * bond.remaining * here.stiffness * area * bond.separation * bond.separation;
       if (distance < 0) pushed *= penalty_left_by_bond(here, bond, stiffness);
     }
-    if (distance >= 0) return forces;
-    forces.add(penalty_force(pushed, offset), closest.weight1, closest.weight2);
+    if (distance >= 0) {
+      if (rubbing.exists()) rubbed += release(rubbing, closest.point, x);
+      return forces;
+    }
     forces.energy += penalty_energy(k, -distance);
+    if (friction > 0) {
+      const double share = law ? 1 - bond.remaining : 1.0;
+      const FrictionStep step =
+          rub(rubbing, {share * friction, k, pushed}, {node, 0, x, closest, -distance, {0, 0, 0}}, x);
+      rubbed += step.dissipated;
+      forces.energy += step.stored;
+      forces.add(-(pushed * step.reach), rubbing.weight1, rubbing.weight2);
+    } else {
+      forces.add(penalty_force(pushed, offset), closest.weight1, closest.weight2);
+    }
     return forces;
   }
 };

@@ -137,7 +137,12 @@ inline std::vector<double> results(const std::string& path) {
   take(run::history_contact_area, "");
   take(run::history_bonds, "");
   take(run::history_damage_dissipation, "");
+  if (file.has(run::history_friction_energy)) {
+    take(run::history_friction_energy, "");
+    take(run::history_friction_dissipation, "");
+  }
   for (const std::string& name : file.snapshots()) {
+    if (file.has(run::snapshots_wall_friction, name)) take(run::snapshots_wall_friction, name);
     take(run::snapshots_node, name);
     take(run::snapshots_velocity, name);
     take(run::snapshots_von_mises, name);

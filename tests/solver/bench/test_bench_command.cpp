@@ -28,6 +28,8 @@ TEST_CASE("bench prints one object with what a step costs") {
     CHECK(std::stod(bench.output.substr(at + key.size() + 4)) > 0);
   }
   CHECK(bench.output.front() == '{');
+  CHECK(mpfem_command("bench --tets 3000 --grains 6 --steps 6 --no-bonds --friction 0.3 --quiet").exit_code == 0);
+  CHECK(mpfem_command("bench --friction -0.1").exit_code == 2);
   CHECK(mpfem_command("bench --element brick").exit_code == 2);
   CHECK(mpfem_command("bench --from /nowhere").exit_code == 2);
 }

@@ -39,6 +39,36 @@ TEST_CASE("grains of another material are named by numbers that the packing has,
   }
 }
 
+TEST_CASE("friction is refused where it means nothing, and walls may be true, false or a table") {
+  const Folder folder;
+  prepare(folder, 2, bonded_text);
+  const auto check = [&](const std::string& set) {
+    return mpfem_command(fmt::format("check {} {}", folder / "scenario.toml", set));
+  };
+  for (const char* set : {"--set contact.friction=0.3", "--set walls.friction=0.3", "--set walls.friction=0",
+                          "--set walls=true", "--set contact.friction=0.3 --set bond.stiffness_factor=10",
+                          "--set contact.friction=0 --set bond.normal_only=true"}) {
+    const Outcome outcome = check(set);
+    INFO(set << ": " << outcome.messages);
+    CHECK(outcome.exit_code == 0);
+  }
+  for (const auto& [set, expected] : std::vector<std::pair<std::string, std::string>>{
+           {"--set contact.friction=-0.1", "contact.friction"},
+           {"--set contact.friction=2.5", "contact.friction"},
+           {"--set walls.friction=3", "walls.friction"},
+           {"--set walls.frction=0.3", "friction"},
+           {"--set walls=0.3", "expected true or false"},
+           {"--set contact.friction=0.3 --set bond.normal_only=true", "no meaning with 'bond.normal_only'"},
+           {"--set contact.friction=0.3 --set bond.stiffness_factor=20", "up to contact.stiffness_factor = 10"},
+           {"--set contact.friction=0.3 --set bond.stiffness=1e9", "the smallest penalty of a contact point"}}) {
+    const Outcome outcome = check(set);
+    INFO(set << ": " << outcome.messages);
+    CHECK(outcome.exit_code == 2);
+    CHECK(outcome.one_error_line("mpfem"));
+    CHECK_THAT(outcome.messages, Catch::Contains(expected));
+  }
+}
+
 TEST_CASE("keys of loadings are checked like all others") {
   const Folder folder;
   prepare(folder, 2);

@@ -1,0 +1,54 @@
+#pragma once
+// Coulomb friction of grains at the walls of the box (solver/physics/friction.hpp).
+//
+// A node behind a wall has an anchor in it, a stick spring with the stiffness of the wall's penalty. Walls move along
+// their normals only: an anchor keeps its place across them. It is forgotten when the node comes in front of the wall.
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "solver/boundary/box.hpp"
+
+namespace mpfem {
+
+/// The stick spring of a node behind a wall. Components are along the two axes that follow the wall's own.
+struct WallAnchor {
+  std::int32_t node = 0;
+  std::array<double, 2> place{}; ///< mm
+  std::array<double, 2> force{}; ///< N, of the node on the anchor at the last time level
+};
+
+/// What friction at the walls stores and dissipates at one grain.
+struct WallFrictionSums {
+  std::array<double, 6> energy{}; ///< mJ, of each wall
+  double dissipation = 0;         ///< mJ, since the time level before
+  double stored() const;
+};
+
+class WallFriction {
+public:
+  /// `friction` mu; 0: none.
+  WallFriction(double friction, int grains);
+
+  bool present() const { return friction_ > 0; }
+  /// Adds the walls' friction on a grain to model.force, before the box takes in its loads. `last_step` in s, the step
+  /// that led to the present. Different grains may be at work at once.
+  WallFrictionSums add_forces(Model& model, const Box& box, const Bounds& bounds, double last_step, int grain);
+  /// Forgets the anchors in the walls across these axes.
+  void forget(const std::array<bool, 3>& axes);
+
+  /// N on a grain, of each wall along both axes.
+  std::array<double, 12> forces_on_grain(int grain) const;
+  /// By ascending node.
+  const std::vector<WallAnchor>& anchors(int grain, std::size_t side) const;
+  std::vector<WallAnchor>& anchors(int grain, std::size_t side);
+  int grains() const { return static_cast<int>(anchors_.size()); }
+
+private:
+  double friction_;
+  std::vector<std::array<std::vector<WallAnchor>, 6>> anchors_; ///< [grains]
+};
+
+} // namespace mpfem

@@ -1,0 +1,224 @@
+// Coulomb friction of one contact point: sticking, slip, what is stored and lost, alone and beside a bond.
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+#include <string>
+
+#include <catch2/catch.hpp>
+
+#include "tests/support/contact_point.hpp"
+#include "tests/support/reference_table.hpp"
+#include "tests/support/tolerances.hpp"
+
+using namespace mpfem;
+using namespace mpfem::test;
+
+namespace {
+
+constexpr double mu = 0.3;
+/// Drifts of some 1e-4 mm are differences of places that are up to 10 mm from a corner of their facet.
+constexpr double of_places = 1e-11;
+
+/// A point with friction, `depth` (mm) inside a facet that is some millimetres wide.
+ContactPoint pressed_point(double depth) {
+  ContactPoint point;
+  for (Vector3<double>& x : point.x) x = {10 * x.x - 4, 10 * x.y - 4, 0};
+  point.friction = mu;
+  point.node = {0, 0, -depth};
+  point.evaluate();
+  return point;
+}
+
+double tangential(const PointForces& forces) {
+  return std::hypot(forces.node.x, forces.node.y);
+}
+
+/// Moves a point to `end` in steps. Returns the work (mJ) against the forces on its node, by the trapezoidal rule.
+double work_to(ContactPoint& point, const Vector3<double>& end, int steps) {
+  const Vector3<double> start = point.node;
+  double work = 0;
+  Vector3<double> force = point.evaluate().node, place = start;
+  for (int i = 1; i <= steps; ++i) {
+    point.node = start + (1.0 * i / steps) * (end - start);
+    const Vector3<double> now = point.evaluate().node;
+    work -= 0.5 * dot(force + now, point.node - place);
+    force = now, place = point.node;
+  }
+  return work;
+}
+
+} // namespace
+
+TEST_CASE("a closed point sticks with the stiffness of the penalty, and slides at mu times its normal force") {
+  const double depth = 1e-3;
+  ContactPoint point = pressed_point(depth);
+  const double k = point.stiffness * point.area;
+  point.node.x = 0.9 * mu * depth;
+  CHECK(within(tangential(point.evaluate()), k * 0.9 * mu * depth, of_places));
+  CHECK(std::abs(point.rubbed) < rounding * k * depth * depth);
+  for (const double x : {1.1, 5.0, 40.0}) {
+    point.node.x = x * mu * depth;
+    const PointForces forces = point.evaluate();
+    CHECK(within(tangential(forces), mu * forces.node.z, of_places));
+    CHECK(within(forces.node.z, k * depth, of_places));
+  }
+  point.node = {point.node.x, point.node.y, -0.5 * depth}; // the push halves, and so does the bound
+  CHECK(within(tangential(point.evaluate()), 0.5 * mu * k * depth, of_places));
+}
+
+TEST_CASE("a point that sticks keeps its anchor bitwise, whatever its normal force does above its bound") {
+  ContactPoint point = pressed_point(1e-3);
+  point.node.x = 0.5 * mu * 1e-3;
+  point.evaluate();
+  const PointFriction before = point.rubbing;
+  for (int i = 0; i < 100000; ++i) {
+    point.node.z = -1e-3 * (1 + 0.45 * std::sin(0.1 * i));
+    point.evaluate();
+  }
+  CHECK(point.rubbing.weight1 == before.weight1);
+  CHECK(point.rubbing.weight2 == before.weight2);
+}
+
+TEST_CASE("a cycle of sliding under constant push loses 4 mu N (U - mu N/k), whatever the length of a step") {
+  const double depth = 1e-3, amplitude = 2e-3;
+  for (const int steps : {50, 500}) {
+    ContactPoint point = pressed_point(depth);
+    const double k = point.stiffness * point.area;
+    work_to(point, {amplitude, 0, -depth}, steps);
+    const double before = point.rubbed;
+    const double work =
+        work_to(point, {-amplitude, 0, -depth}, 2 * steps) + work_to(point, {amplitude, 0, -depth}, 2 * steps);
+    const double expected = 4 * mu * k * depth * (amplitude - mu * depth);
+    CHECK(within(point.rubbed - before, expected, 1e-9)); // 5 mm of facet in numbers of 16 digits
+    // The step in which a point begins to slide is the one whose work is not that of a straight line.
+    CHECK(within(work, expected, 20.0 / (steps * steps)));
+  }
+}
+
+TEST_CASE("on a random way under varying push the work is what is stored and lost, and friction never gives") {
+  ContactPoint point = pressed_point(1e-3);
+  std::mt19937 random(1);
+  std::normal_distribution<double> step(0, 2e-5);
+  const double start = point.evaluate().energy;
+  double work = 0, given = 0;
+  Vector3<double> force = point.evaluate().node, place = point.node;
+  for (int i = 0; i < 20000; ++i) {
+    point.node = {place.x + step(random), place.y + step(random), -1e-3 * (1 + 0.9 * std::sin(i / 300.0))};
+    const double rubbed = point.rubbed;
+    const Vector3<double> now = point.evaluate().node;
+    given = std::min(given, point.rubbed - rubbed);
+    work -= 0.5 * dot(force + now, point.node - place);
+    force = now, place = point.node;
+  }
+  REQUIRE(point.rubbed > 0.1 * std::abs(work));
+  CHECK(within(work, point.evaluate().energy - start + point.rubbed, 1e-9));
+  // In a step that reverses the direction of sliding altogether, forces before and after do opposite work.
+  CHECK(given > -1e-3 * point.rubbed);
+}
+
+TEST_CASE("an open point forgets its anchor, and a closing one is anchored where it closes") {
+  ContactPoint point = pressed_point(1e-3);
+  point.node.x = 0.5 * mu * 1e-3;
+  point.evaluate();
+  point.node.z = 1e-4;
+  point.evaluate();
+  CHECK_FALSE(point.rubbing.exists());
+  CHECK(point.rubbed > 0);
+  point.node = {0.3, 0.2, -1e-4};
+  CHECK(tangential(point.evaluate()) < rounding);
+}
+
+TEST_CASE("forces with friction add up to no force and no moment, and turn with the point and its facet") {
+  ContactPoint point = pressed_point(1e-3);
+  point.node.x = 2e-4;
+  for (const double y : {1e-4, 1e-3}) { // sticking, sliding
+    point.node.y = y;
+    const PointForces before = point.evaluate();
+    REQUIRE(tangential(before) > 0.1 * before.node.z);
+    Vector3<double> force = before.node, moment = cross(point.node, before.node);
+    for (int c = 0; c < 3; ++c) force = force + before.facet[c], moment = moment + cross(point.x[c], before.facet[c]);
+    CHECK(norm(force) < 1e-12 * norm(before.node)); // weights of a wide facet
+    CHECK(norm(moment) < 1e-12 * norm(before.node));
+    ContactPoint turned = point;
+    const auto turn = [](const Vector3<double>& v) { return Vector3<double>{v.y, v.z, v.x}; };
+    turned.node = turn(turned.node);
+    for (Vector3<double>& x : turned.x) x = turn(x);
+    const PointForces after = turned.evaluate();
+    CHECK(within(after.energy, before.energy, 1e-12));
+    CHECK(norm(after.node - turn(before.node)) < 1e-12 * norm(before.node));
+  }
+}
+
+TEST_CASE("the damaged share of a bond rubs: shear under pressure follows the reference table") {
+  for (const auto& row : read_reference("friction_with_damage.csv")) {
+    const double energy = std::stod(row[0]), pressure = std::stod(row[1]);
+    ContactPoint point;
+    point.stiffness = 3.333e6;
+    for (Vector3<double>& x : point.x) x = {10 * x.x - 4, 10 * x.y - 4, 0};
+    point.law = BondLaw{.tensile_strength = 25, .shear_strength = 25, .fracture_energy = energy};
+    point.friction = mu;
+    const double depth = pressure / point.stiffness, end = 0.5 * energy;
+    if (depth == 0) continue; // an open point has no friction: the next test
+    point.node = {0, 0, -depth};
+    const double before = point.evaluate().energy;
+    double peak = 0, work = 0, last = 0;
+    constexpr int steps = 100000;
+    for (int i = 1; i <= steps; ++i) {
+      point.node.x = end * i / steps;
+      const double traction = -point.evaluate().node.x / point.area;
+      work += 0.5 * (last + traction) * end / steps;
+      peak = std::max(peak, last = traction);
+    }
+    INFO("G^c = " << energy << " N/mm, p = " << pressure << " MPa");
+    const BondLaw law = law_at_point(*point.law, point.stiffness);
+    const double damage = damage_dissipation(law, point.bond.state), friction = point.rubbed / point.area;
+    // Both integrations have errors of their steps, which span 0.5 of a micrometre per mm here.
+    CHECK(within(damage, energy * std::stod(row[2]), 1e-4));
+    CHECK(within(friction, std::stod(row[3]), 1e-3));
+    CHECK(within(peak, std::stod(row[4]), 1e-3));
+    CHECK(within(last, std::stod(row[5]), 1e-4));
+    CHECK(within(work, damage + friction + (point.evaluate().energy - before) / point.area, 1e-4));
+  }
+}
+
+TEST_CASE("friction changes nothing at a bonded point that is open or undamaged") {
+  for (const double z : {1e-4, -1e-3}) {
+    ContactPoint with = pressed_point(1e-3);
+    with.rubbing = {};
+    with.law = BondLaw{.tensile_strength = 1e6, .shear_strength = 1e6, .fracture_energy = 1e6};
+    ContactPoint without = with;
+    without.friction = 0;
+    for (ContactPoint* point : {&with, &without}) {
+      point->evaluate();
+      point->node = {2e-3, 1e-3, z};
+    }
+    const PointForces a = with.evaluate(), b = without.evaluate();
+    REQUIRE(tangential(b) > 0);
+    CHECK(norm(a.node - b.node) == 0);
+    CHECK(a.energy == b.energy);
+  }
+}
+
+TEST_CASE("every lane of a pack has the slip and the energies of the scalar") {
+  using S = NativePack;
+  std::mt19937 random(2);
+  std::uniform_real_distribution<double> uniform(0, 1);
+  S drift, longest, before, now, depth;
+  for (S* field : {&drift, &longest, &before, &now, &depth})
+    for (int lane = 0; lane < S::lanes; ++lane) field->v[lane] = lane % 3 == 0 ? 0.0 : uniform(random);
+  const S left = share_left_by_slip(drift, longest), kept = share_left_by_new_area(before, now);
+  const S stored = stick_energy(before, drift, depth);
+  const S lost = slip_dissipation(Vector3<S>{drift, longest, depth}, Vector3<S>{now, before, drift},
+                                  Vector3<S>{depth, drift, now});
+  for (int i = 0; i < S::lanes; ++i) {
+    CHECK(left[i] == share_left_by_slip(drift[i], longest[i]));
+    CHECK(kept[i] == share_left_by_new_area(before[i], now[i]));
+    CHECK(within(stored[i], stick_energy(before[i], drift[i], depth[i]), rounding));
+    CHECK(within(lost[i],
+                 slip_dissipation(Vector3<double>{drift[i], longest[i], depth[i]},
+                                  Vector3<double>{now[i], before[i], drift[i]},
+                                  Vector3<double>{depth[i], drift[i], now[i]}),
+                 rounding));
+  }
+}
