@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # one-grain.sh BIN: presses one grain in a closing cube and compares its mean stress with the implicit solution of
-# sphere_in_cube.py. With seven elements a radius it is within 2 % from a relative density of 0.65 to 0.95, the error
-# that the mesh leaves (studies/one-grain has coarser and finer ones).
+# sphere_in_cube.py. With seven elements a radius it is within 3 % from a relative density of 0.65 to 0.95: 2 %
+# that the mesh leaves (studies/one-grain has coarser and finer ones), and 1 % to which the reference is known.
 set -euo pipefail
 bin=$1
 source=$(cd "$(dirname "${BASH_SOURCE[0]}")/../.." && pwd)
@@ -17,7 +17,7 @@ trap 'rm -rf "$folder"' EXIT
   --reference "$source/studies/one-grain/reference.csv" --data "$folder/stress.csv" --quiet >"$folder/last.txt"
 awk -F, 'NR > 1 {
     printf "D_r %s: %.2f MPa, reference %.2f MPa, ratio %.3f\n", $2, $3, $4, $5
-    if ($5 == "" || $5 < 0.98 || $5 > 1.02) bad = 1
+    if ($5 == "" || $5 < 0.97 || $5 > 1.03) bad = 1
   }
   END { exit bad || NR != 8 }' "$folder/stress.csv" ||
-  { echo 'one-grain.sh: beyond 2 % of the reference' >&2 && exit 1; }
+  { echo 'one-grain.sh: beyond 3 % of the reference' >&2 && exit 1; }
