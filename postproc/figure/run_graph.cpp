@@ -209,7 +209,9 @@ bool belongs_to(const RunTemplate& run, const Case& row) {
   return run.series.empty() || std::find(run.series.begin(), run.series.end(), row.series) != run.series.end();
 }
 
-std::string folder_of_file(const std::string& path) { return std::filesystem::path(path).parent_path().string(); }
+std::string folder_of_file(const std::string& path) {
+  return std::filesystem::path(path).parent_path().string();
+}
 
 std::string folder_of(const Figure& figure, const RunTemplate& run, const Case& row) {
   if (!run.mesh.empty()) {
