@@ -1,6 +1,7 @@
 #include "postproc/figure/report.hpp"
 
 #include <algorithm>
+#include <array>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
@@ -44,10 +45,41 @@ std::vector<std::filesystem::path> files_with(const std::filesystem::path& folde
   return files;
 }
 
-std::string statements_table(const std::filesystem::path& folder) {
+/// The statements of a figure. Throws InputError.
+nlohmann::json statements_in(const std::filesystem::path& folder) {
   const std::filesystem::path path = folder / "verdict.json";
-  const auto list = nlohmann::json::parse(content_of(path), nullptr, false);
+  auto list = nlohmann::json::parse(content_of(path), nullptr, false);
   if (!list.is_array()) throw InputError(fmt::format("{}: is no list of statements", one_line(path.string())));
+  return list;
+}
+
+/// How many statements of each figure agree, differ and are not judged, with links to them.
+std::string summary_table(const std::vector<ReportEntry>& entries, const std::filesystem::path& results) {
+  std::string text = "<table class=\"summary\">\n<tr><th>study</th><th>agree</th><th>differ</th><th>not judged</th>"
+                     "</tr>\n";
+  std::array<int, 3> all{};
+  for (const ReportEntry& entry : entries) {
+    std::array<int, 3> count{};
+    for (const auto& s : statements_in(results / entry.name)) {
+      const auto& agrees = s.at("agrees");
+      ++count.at(agrees.is_null() ? 2 : agrees.get<bool>() ? 0 : 1);
+    }
+    for (std::size_t i = 0; i < 3; ++i) all[i] += count[i];
+    text += fmt::format("<tr><td><a href=\"#{0}\">{1}</a></td><td>{2}</td><td>{3}</td><td>{4}</td></tr>\n", entry.name,
+                        html_text(entry.title), count[0], count[1], count[2]);
+  }
+  return text +
+         fmt::format("<tr><th>all</th><th>{}</th><th>{}</th><th>{}</th></tr>\n</table>\n", all[0], all[1], all[2]);
+}
+
+/// The note, and why the statement differs where it does.
+std::string note_of(const nlohmann::json& statement) {
+  const std::string note = statement.at("note").get<std::string>(), why = statement.value("why", "");
+  return why.empty() ? note : fmt::format("{}{}why: {}", note, note.empty() ? "" : "; ", why);
+}
+
+std::string statements_table(const std::filesystem::path& folder) {
+  const auto list = statements_in(folder);
   std::string text = "<table>\n<tr><th>statement</th><th>paper</th><th>here</th><th>verdict</th><th>note</th></tr>\n";
   for (const auto& s : list) {
     const auto& agrees = s.at("agrees");
@@ -55,7 +87,7 @@ std::string statements_table(const std::filesystem::path& folder) {
     const char* row = agrees.is_null() ? "null" : agrees.get<bool>() ? "true" : "false";
     const auto cell = [&](const char* key) { return html_text(s.at(key).get<std::string>()); };
     text += fmt::format("<tr class=\"{}\"><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td></tr>\n", row,
-                        cell("statement"), cell("paper"), cell("ours"), word, cell("note"));
+                        cell("statement"), cell("paper"), cell("ours"), word, html_text(note_of(s)));
   }
   return text + "</table>\n";
 }
@@ -69,6 +101,7 @@ std::string report_page(const std::vector<ReportEntry>& entries, const std::stri
                                  html_text(title), style);
   page += "<p>Each table sets what was stated or expected beside what was computed here; the last but one column is "
           "computed from the data.</p>\n";
+  page += summary_table(entries, results);
   if (!view.empty())
     page += fmt::format("<iframe class=\"view\" title=\"Grains in three dimensions\" srcdoc=\"{}\"></iframe>\n",
                         html_text(view));

@@ -8,6 +8,7 @@
 
 #include "postproc/figure/depends.hpp"
 #include "postproc/figure/figure_plot.hpp"
+#include "postproc/figure/report.hpp"
 #include "postproc/figure/verdict_pages.hpp"
 #include "tests/support/folder.hpp"
 
@@ -364,4 +365,19 @@ TEST_CASE("verdicts of meshes stand side by side, counted, and what a mesh did n
   write_text(studies.path("c/fig03/verdict.json"), "{}");
   CHECK_THROWS_WITH(verdicts_of_mesh({"coarse", studies.path("c")}), Contains("is no list of statements"));
   CHECK_THROWS_WITH(verdicts_of_mesh({"coarse", studies.path("nothing")}), Contains("nothing: "));
+}
+
+TEST_CASE("a report opens with how many statements of each study agree, and says why one differs") {
+  const Studies studies;
+  write_text(studies.path("out/fig03/verdict.json"),
+             R"([{"statement": "a", "paper": "1", "ours": "2", "agrees": true, "note": ""},
+                {"statement": "b", "paper": "1", "ours": "2", "agrees": false, "note": "n", "why": "the <mesh>"}])");
+  write_text(studies.path("out/fig04/verdict.json"),
+             R"([{"statement": "c", "paper": "1", "ours": "2", "agrees": null, "note": ""}])");
+  const std::string page =
+      report_page({{"fig03", "bonds", "q"}, {"fig04", "grains", "q"}}, studies.path("out"), "Studies", "");
+  CHECK_THAT(page, Contains("<a href=\"#fig03\">bonds</a></td><td>1</td><td>1</td><td>0</td>"));
+  CHECK_THAT(page, Contains("<th>all</th><th>1</th><th>1</th><th>1</th>"));
+  CHECK_THAT(page, Contains("<td>n; why: the &lt;mesh&gt;</td>"));
+  CHECK(page.find("class=\"summary\"") < page.find("id=\"fig03\""));
 }
