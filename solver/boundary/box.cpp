@@ -41,16 +41,12 @@ double Box::wall_force_on_node(const Model& model, std::size_t node, int grain) 
 }
 
 std::array<double, 6> Box::wall_forces_on_grain(const Model& model, int grain) const {
-  const auto g = static_cast<std::size_t>(grain);
-  const auto first = static_cast<std::size_t>(model.node_offset[g]);
-  const auto end = first + static_cast<std::size_t>(model.surface_node_count[g]);
   std::array<double, 6> force{};
-  for (std::size_t side = 0; side < 6; ++side) {
-    if (!has_walls(side / 2)) continue;
-    for (std::size_t node = first; node < end; ++node)
-      if (const double distance = wall(side).gap(NodePoint{model, node}).distance; distance < 0)
-        force[side] += surface_force(model, node, grain, distance);
-  }
+  for (std::size_t side = 0; side < 6; ++side)
+    if (has_walls(side / 2))
+      for_each_node_behind(model, wall(side), grain, [&](std::size_t node, const auto& gap) {
+        force[side] += surface_force(model, node, grain, gap.distance);
+      });
   return force;
 }
 

@@ -52,17 +52,21 @@ struct SurfacePush {
   double penetration; ///< over the grain's element size
 };
 
-/// Calls visit(node, gap) for every surface node of a grain that is behind the surface. `bounds`: of the grain's
-/// surface.
+/// Calls visit(node, gap) for every surface node of a grain that is behind the surface.
 template <RigidSurface Surface, class Visitor>
-void for_each_node_behind(const Model& model, const Surface& surface, const Bounds& bounds, int grain,
-                          Visitor&& visit) {
-  if (!surface.may_touch(bounds)) return;
+void for_each_node_behind(const Model& model, const Surface& surface, int grain, Visitor&& visit) {
   const auto g = static_cast<std::size_t>(grain);
   const auto first = static_cast<std::size_t>(model.node_offset[g]);
   const auto count = static_cast<std::size_t>(model.surface_node_count[g]);
   for (std::size_t node = first; node < first + count; ++node)
     if (const auto gap = surface.gap(NodePoint{model, node}); gap.distance < 0) visit(node, gap);
+}
+
+/// The same; looks at no node where the surface cannot touch `bounds`, those of the grain's surface.
+template <RigidSurface Surface, class Visitor>
+void for_each_node_behind(const Model& model, const Surface& surface, const Bounds& bounds, int grain,
+                          Visitor&& visit) {
+  if (surface.may_touch(bounds)) for_each_node_behind(model, surface, grain, visit);
 }
 
 /// N, with which a surface at `distance` < 0 (mm) pushes a node of a grain.
