@@ -12,6 +12,7 @@
 #include "postproc/snapshot.hpp"
 #include "postproc/snapshot_window.hpp"
 #include "postproc/statistics.hpp"
+#include "postproc/tet_geometry.hpp"
 
 namespace mpfem {
 
@@ -42,34 +43,15 @@ double scatter_of_octants(const Region& region, std::span<const ForceLine> lines
   return student_t_95(octants - 1) * std::sqrt(variance / octants);
 }
 
-Eigen::Vector3d corner(const Snapshot& s, std::size_t tet, std::size_t local) {
-  const auto node = 3 * static_cast<std::size_t>(s.tet[4 * tet + local]);
-  return {s.node[node], s.node[node + 1], s.node[node + 2]};
-}
-
 /// Every tet with its pressure.
 std::vector<PressedVolume> solid_of(const Snapshot& s) {
   const Field& pressure = s.tet_field("pressure");
   std::vector<PressedVolume> solid(s.tets());
   for (std::size_t tet = 0; tet < s.tets(); ++tet) {
-    const Eigen::Vector3d a = corner(s, tet, 0), b = corner(s, tet, 1), c = corner(s, tet, 2), d = corner(s, tet, 3);
-    solid[tet] = {0.25 * (a + b + c + d), (b - a).cross(c - a).dot(d - a) / 6, pressure.values[tet]};
+    const TetGeometry geometry = tet_geometry(s, tet);
+    solid[tet] = {geometry.centre, geometry.volume, pressure.values[tet]};
   }
   return solid;
-}
-
-/// mm, of all grains, from their tets.
-std::vector<Eigen::Vector3d> centres_of(const Snapshot& s, std::span<const PressedVolume> solid, std::size_t grains) {
-  std::vector<Eigen::Vector3d> centre(grains, Eigen::Vector3d::Zero());
-  std::vector<double> volume(grains, 0.0);
-  for (std::size_t tet = 0; tet < s.tets(); ++tet) {
-    const auto grain = static_cast<std::size_t>(s.tet_grain[tet]);
-    centre[grain] += solid[tet].volume * solid[tet].centre;
-    volume[grain] += solid[tet].volume;
-  }
-  for (std::size_t grain = 0; grain < grains; ++grain)
-    if (volume[grain] > 0) centre[grain] /= volume[grain];
-  return centre;
 }
 
 std::vector<ForceLine> lines_between_grains(const schema::FileReader& file, const std::string& name,
@@ -112,7 +94,7 @@ void add_lines_to_walls(std::vector<ForceLine>& lines, const schema::FileReader&
 Measurement measure_inner_stress(const schema::FileReader& file, int snapshot, double share) {
   const Snapshot s = read_snapshot(file, snapshot);
   const std::vector<PressedVolume> solid = solid_of(s);
-  const std::vector<Eigen::Vector3d> centre = centres_of(s, solid, file.rows(schema::run::mesh_grain_tet_offset) - 1);
+  const std::vector<Eigen::Vector3d> centre = grain_centres(s);
   const Region box{{s.box_low[0], s.box_low[1], s.box_low[2]}, {s.box_high[0], s.box_high[1], s.box_high[2]}};
   const Region region = inner_region(box, share);
   std::vector<ForceLine> lines = lines_between_grains(file, s.name, centre);

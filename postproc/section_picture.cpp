@@ -7,6 +7,7 @@
 
 #include "common/errors.hpp"
 #include "postproc/damage_section.hpp"
+#include "postproc/field_display.hpp"
 #include "postproc/raster_picture.hpp"
 #include "postproc/text_file.hpp"
 
@@ -14,21 +15,13 @@ namespace mpfem {
 
 namespace {
 
-/// Percentile (0 … 1) of the section's values, weighted by area.
-double percentile(const std::vector<SectionPolygon>& polygons, const std::vector<float>& values, double fraction) {
-  std::vector<std::pair<double, double>> value_area;
-  double total = 0;
-  for (const SectionPolygon& polygon : polygons) {
-    const auto value = static_cast<double>(values[static_cast<std::size_t>(polygon.tet)]);
-    if (!std::isfinite(value)) continue; // a failed run's last state may hold some
-    value_area.emplace_back(value, area(polygon));
-    total += value_area.back().second;
-  }
-  std::sort(value_area.begin(), value_area.end());
-  double sum = 0;
-  for (const auto& [value, part] : value_area)
-    if ((sum += part) >= fraction * total) return value;
-  return value_area.empty() ? 0.0 : value_area.back().first;
+/// The section's values and the areas that they have on it.
+std::vector<std::pair<double, double>> values_and_areas(const std::vector<SectionPolygon>& polygons,
+                                                        const std::vector<float>& values) {
+  std::vector<std::pair<double, double>> parts;
+  for (const SectionPolygon& polygon : polygons)
+    parts.emplace_back(values[static_cast<std::size_t>(polygon.tet)], area(polygon));
+  return parts;
 }
 
 bool overlaps(const SectionPolygon& polygon, const View& view) {
@@ -85,11 +78,10 @@ struct Scale {
 
 Scale scale_of(const Shown& shown, const std::vector<SectionPolygon>& polygons, const PictureRequest& request) {
   std::pair<double, double> range{0, 1};
-  const std::vector<float>& values = shown.field.values;
   if (request.range)
     range = *request.range;
   else if (!shown.grains && !shown.damage)
-    range = {std::min(0.0, percentile(polygons, values, 0.005)), percentile(polygons, values, 0.995)};
+    range = colour_range(values_and_areas(polygons, shown.field.values));
   if (!(range.second > range.first)) range.second = range.first + 1;
   return {range};
 }
@@ -104,7 +96,7 @@ std::vector<Colour> tet_colours(const Snapshot& snapshot, const Shown& shown, co
   return colour;
 }
 
-/// The tets' edges where they are asked for, and of damage a band along each boundary that has been bonded.
+/// The tets' edges where the request has them, and of damage a band along each boundary that has been bonded.
 Lines lines_over(const Snapshot& snapshot, const Shown& shown, const Scale& scale, const PictureRequest& request) {
   Lines lines;
   lines.mesh = request.mesh_lines;
@@ -119,11 +111,7 @@ Lines lines_over(const Snapshot& snapshot, const Shown& shown, const Scale& scal
 
 std::string label_of(const Shown& shown) {
   const std::string& name = shown.field.name;
-  const char* label = shown.damage          ? "Damage of bonds (0 intact, 1 broken)"
-                      : name == "von_mises" ? "von Mises stress"
-                      : name == "pressure"  ? "Pressure"
-                                            : "Equivalent plastic strain";
-  return shown.field.unit == "1" ? label : fmt::format("{} ({})", label, shown.field.unit);
+  return with_unit(shown.damage ? "Damage of bonds (0 intact, 1 broken)" : field_label(name), shown.field.unit);
 }
 
 /// The picture's frame, with a colour bar where there is a scale.

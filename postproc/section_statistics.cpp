@@ -7,6 +7,7 @@
 
 #include "common/errors.hpp"
 #include "common/one_line.hpp"
+#include "postproc/statistics.hpp"
 
 namespace mpfem {
 
@@ -37,14 +38,9 @@ SectionStress section_stress(std::vector<std::pair<double, double>> value_and_ar
     moment += value * area;
     if (value > threshold) above += area;
   }
-  const auto percentile = [&](double share) {
-    double sum = 0;
-    for (const auto& [value, area] : value_and_area)
-      if ((sum += area) >= share * total) return value;
-    return value_and_area.back().first;
-  };
-  return {moment / total, percentile(0.5), percentile(0.95), percentile(0.99), value_and_area.back().first,
-          above / total};
+  const double largest = value_and_area.back().first;
+  const WeightedPercentiles percentiles(std::move(value_and_area));
+  return {moment / total, percentiles.at(0.5), percentiles.at(0.95), percentiles.at(0.99), largest, above / total};
 }
 
 SectionDamage section_damage(const std::vector<BoundarySegment>& segments, double threshold) {

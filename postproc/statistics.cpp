@@ -32,6 +32,19 @@ double mean(std::span<const double> values) {
 
 } // namespace
 
+WeightedPercentiles::WeightedPercentiles(std::vector<std::pair<double, double>> value_and_weight)
+    : value_and_weight_(std::move(value_and_weight)) {
+  for (const auto& [value, weight] : value_and_weight_) total_ += weight;
+  std::sort(value_and_weight_.begin(), value_and_weight_.end());
+}
+
+double WeightedPercentiles::at(double share) const {
+  double sum = 0;
+  for (const auto& [value, weight] : value_and_weight_)
+    if ((sum += weight) >= share * total_) return value;
+  return value_and_weight_.empty() ? 0.0 : value_and_weight_.back().first;
+}
+
 double student_t_95(std::size_t degrees_of_freedom) {
   if (degrees_of_freedom > 10000) return 1.95996;
   double low = 1.9, high = 13;

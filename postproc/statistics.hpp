@@ -4,6 +4,7 @@
 #include <array>
 #include <cstddef>
 #include <span>
+#include <utility>
 #include <vector>
 
 namespace mpfem {
@@ -11,6 +12,19 @@ namespace mpfem {
 /// The value that Student's t with `degrees_of_freedom` >= 1 exceeds in absolute value with a probability of 5 %
 /// (12.706 for 1, 1.960 for many). Closed distribution function of whole degrees: Abramowitz & Stegun 26.7.3, 26.7.4.
 double student_t_95(std::size_t degrees_of_freedom);
+
+/// Percentiles of values that have weights.
+class WeightedPercentiles {
+public:
+  /// Pairs of value and weight > 0.
+  explicit WeightedPercentiles(std::vector<std::pair<double, double>> value_and_weight);
+  /// The smallest value up to which at least this share (0 … 1) of the weight lies; 0 without values.
+  double at(double share) const;
+
+private:
+  std::vector<std::pair<double, double>> value_and_weight_; ///< by value
+  double total_ = 0;
+};
 
 /// A straight line value = intercept + slope * x.
 struct Line {

@@ -8,6 +8,7 @@
 #include <Eigen/Geometry>
 
 #include "postproc/surface_facets.hpp"
+#include "postproc/tet_geometry.hpp"
 
 namespace mpfem {
 
@@ -162,13 +163,10 @@ ShownField shown_field(const Snapshot& snapshot, const std::string& name) {
   std::vector<double> volume(snapshot.nodes(), 0.0);
   for (std::size_t t = 0; t < snapshot.tets(); ++t) {
     const std::int32_t* node = snapshot.tet.data() + 4 * t;
-    const Eigen::Vector3d a = position_of(snapshot, node[0]);
-    const double six_volumes =
-        std::abs((position_of(snapshot, node[1]) - a)
-                     .dot((position_of(snapshot, node[2]) - a).cross(position_of(snapshot, node[3]) - a)));
+    const double of_tet = std::abs(tet_geometry(snapshot, t).volume);
     for (std::size_t c = 0; c < 4; ++c) {
-      shown.value[static_cast<std::size_t>(node[c])] += six_volumes * static_cast<double>(field.values[t]);
-      volume[static_cast<std::size_t>(node[c])] += six_volumes;
+      shown.value[static_cast<std::size_t>(node[c])] += of_tet * static_cast<double>(field.values[t]);
+      volume[static_cast<std::size_t>(node[c])] += of_tet;
     }
   }
   for (std::size_t n = 0; n < volume.size(); ++n)

@@ -10,26 +10,25 @@
 
 #include "common/errors.hpp"
 #include "common/one_line.hpp"
+#include "postproc/field_display.hpp"
+#include "postproc/tet_geometry.hpp"
 
 namespace mpfem {
 
 namespace {
 
-struct ColourChoice {
-  const char *field, *label; ///< of the snapshot; beside the colour bar, without the unit
-};
+/// The field of the snapshot that each colour shows.
+const std::map<std::string, std::string> fields = {{"von-mises", "von_mises"},
+                                                   {"plastic-strain", "plastic_strain"},
+                                                   {"pressure", "pressure"},
+                                                   {"damage", "damage"},
+                                                   {"grain", "grain"}};
 
-const std::map<std::string, ColourChoice> choices = {
-    {"von-mises", {"von_mises", "von Mises stress"}},
-    {"plastic-strain", {"plastic_strain", "Equivalent plastic strain"}},
-    {"pressure", {"pressure", "Pressure"}},
-    {"damage", {"damage", "Damage of bonds"}},
-    {"grain", {"grain", "Grain"}}};
-
-const ColourChoice& choice_of(const std::string& name) {
-  const auto found = choices.find(name);
-  if (found == choices.end())
-    throw InputError(fmt::format("--color: found '{}', allowed: {}", one_line(name), fmt::join(colour_names(), ", ")));
+const std::string& field_of(const std::string& colour) {
+  const auto found = fields.find(colour);
+  if (found == fields.end())
+    throw InputError(
+        fmt::format("--color: found '{}', allowed: {}", one_line(colour), fmt::join(colour_names(), ", ")));
   return found->second;
 }
 
@@ -63,29 +62,6 @@ std::string title_of(const Snapshot& snapshot) {
   if (snapshot.relative_density > 0) title = fmt::format("Relative density {:.3f}", snapshot.relative_density);
   if (snapshot.name != "packing") title += fmt::format(", mean stress {:.3g} MPa", snapshot.mean_stress);
   return title;
-}
-
-/// Volume and first moment of every grain, from which its centre follows.
-std::vector<Eigen::Vector3d> centres_of_grains(const Snapshot& snapshot) {
-  const std::int32_t grains = 1 + *std::max_element(snapshot.tet_grain.begin(), snapshot.tet_grain.end());
-  std::vector<Eigen::Vector3d> moment(static_cast<std::size_t>(grains), Eigen::Vector3d::Zero());
-  std::vector<double> volume(moment.size(), 0.0);
-  for (std::size_t t = 0; t < snapshot.tets(); ++t) {
-    Eigen::Matrix<double, 3, 4> x;
-    for (int c = 0; c < 4; ++c)
-      for (int k = 0; k < 3; ++k)
-        x(k, c) = static_cast<double>(
-            snapshot.node[3 * static_cast<std::size_t>(snapshot.tet[4 * t + static_cast<std::size_t>(c)]) +
-                          static_cast<std::size_t>(k)]);
-    const Eigen::Vector3d a = x.col(1) - x.col(0), b = x.col(2) - x.col(0), c = x.col(3) - x.col(0);
-    const double six_volumes = std::abs(a.dot(b.cross(c)));
-    const auto g = static_cast<std::size_t>(snapshot.tet_grain[t]);
-    moment[g] += six_volumes * x.rowwise().mean();
-    volume[g] += six_volumes;
-  }
-  for (std::size_t g = 0; g < moment.size(); ++g)
-    if (volume[g] > 0) moment[g] /= volume[g];
-  return moment;
 }
 
 bool lies_in(const CutAway& away, const Eigen::Vector3d& x) {
@@ -129,7 +105,7 @@ std::vector<BondRod> bond_rods(const schema::FileReader& file, const Snapshot& s
   const auto grains = file.read(run::snapshots_pair_grains, snapshot.name);
   const auto damage = file.read(run::snapshots_pair_damage, snapshot.name);
   const auto area = file.read(run::snapshots_pair_bonded_area, snapshot.name);
-  const std::vector<Eigen::Vector3d> centre = centres_of_grains(snapshot);
+  const std::vector<Eigen::Vector3d> centre = grain_centres(snapshot);
   const double thin = 0.006 * (vector_of(snapshot.box_high) - vector_of(snapshot.box_low)).minCoeff();
   std::vector<BondRod> rods;
   for (std::size_t p = 0; p < damage.size(); ++p) {
@@ -144,31 +120,14 @@ std::vector<BondRod> bond_rods(const schema::FileReader& file, const Snapshot& s
 
 std::pair<double, double> range_of(const std::vector<SolidTriangle>& triangles, const ShownField& field) {
   if (field.name == "damage" || field.name == "grain") return {0, 1};
-  std::vector<std::pair<double, double>> value_area;
-  double total = 0;
-  for (const SolidTriangle& t : triangles) {
-    const double part = area(t) / 3;
-    for (const SolidVertex& vertex : t.corner) {
-      if (!std::isfinite(vertex.value)) continue; // a failed run's last state may hold some
-      value_area.emplace_back(vertex.value, part);
-      total += part;
-    }
-  }
-  std::sort(value_area.begin(), value_area.end());
-  const auto percentile = [&](double fraction) {
-    double sum = 0;
-    for (const auto& [value, part] : value_area)
-      if ((sum += part) >= fraction * total) return value;
-    return value_area.empty() ? 0.0 : value_area.back().first;
-  };
-  std::pair<double, double> range{std::min(0.0, percentile(0.005)), percentile(0.995)};
-  if (!(range.second > range.first)) range.second = range.first + 1;
-  return range;
+  std::vector<std::pair<double, double>> value_and_area;
+  for (const SolidTriangle& t : triangles)
+    for (const SolidVertex& vertex : t.corner) value_and_area.emplace_back(vertex.value, area(t) / 3);
+  return colour_range(std::move(value_and_area));
 }
 
 PictureScene make_scene(const Snapshot& snapshot, const SceneRequest& request) {
-  const ColourChoice& choice = choice_of(request.colour);
-  const ShownField field = shown_field(snapshot, choice.field);
+  const ShownField field = shown_field(snapshot, field_of(request.colour));
   PictureScene scene;
   scene.triangles = cut_solid(snapshot, field, cut_away(snapshot, request));
   if (scene.triangles.empty())
@@ -185,7 +144,8 @@ PictureScene make_scene(const Snapshot& snapshot, const SceneRequest& request) {
   const Eigen::Vector3d box = scene.box_high - scene.box_low;
   scene.note = fmt::format("box {:.3g} × {:.3g} × {:.3g} mm", box[0], box[1], box[2]);
   if (request.colour != "grain")
-    scene.bar = ColourBar{range, field.unit == "1" ? choice.label : fmt::format("{} ({})", choice.label, field.unit)};
+    scene.bar = ColourBar{
+        range, with_unit(request.colour == "damage" ? "Damage of bonds" : field_label(field.name), field.unit)};
   return scene;
 }
 

@@ -10,6 +10,7 @@
 #include "common/errors.hpp"
 #include "common/one_line.hpp"
 #include "postproc/base64.hpp"
+#include "postproc/field_display.hpp"
 #include "postproc/view/view_page_text.hpp" // generated from view_page.html
 
 namespace mpfem {
@@ -45,13 +46,6 @@ std::string compressed(const std::string& bytes) {
   return result;
 }
 
-std::string label_of(const QuantisedField& field) {
-  const std::string name = field.name == "von_mises"        ? "von Mises stress"
-                           : field.name == "plastic_strain" ? "Equivalent plastic strain"
-                                                            : "Pressure";
-  return field.unit == "1" ? name : fmt::format("{} ({})", name, field.unit);
-}
-
 nlohmann::json head_of(const ViewData& data) {
   nlohmann::json head{{"nodes", data.nodes()},
                       {"facets", data.facet.size() / 3},
@@ -61,7 +55,8 @@ nlohmann::json head_of(const ViewData& data) {
                       {"fields", nlohmann::json::array()},
                       {"states", nlohmann::json::array()}};
   for (const QuantisedField& field : data.fields)
-    head["fields"].push_back({{"label", label_of(field)}, {"range", {field.range.first, field.range.second}}});
+    head["fields"].push_back({{"label", with_unit(field_label(field.name), field.unit)},
+                              {"range", {field.range.first, field.range.second}}});
   for (const ViewState& state : data.states)
     head["states"].push_back({{"relative_density", state.relative_density},
                               {"mean_stress", state.mean_stress},

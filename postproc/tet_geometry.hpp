@@ -1,0 +1,22 @@
+#pragma once
+// Centres and volumes of tetrahedra and grains in a snapshot.
+
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "postproc/snapshot.hpp"
+
+namespace mpfem {
+
+struct TetGeometry {
+  Eigen::Vector3d centre; ///< mm
+  double volume;          ///< mm^3; negative where the tet is inverted
+};
+
+TetGeometry tet_geometry(const Snapshot& snapshot, std::size_t tet);
+
+/// mm, of all grains, from their tets.
+std::vector<Eigen::Vector3d> grain_centres(const Snapshot& snapshot);
+
+} // namespace mpfem
