@@ -207,7 +207,7 @@ std::vector<Column> cycle_table(const Hysteresis& h, std::size_t first_row) {
 
 namespace {
 
-/// The stage asked for, else the last stress_cycles, else the whole run as stage -1.
+/// The stage that is given, else the last stress_cycles, else the whole run as stage -1.
 StageRows choose_cycles(const HistoryTable& history, const schema::FileReader& file, std::optional<int> number) {
   const auto stages = stages_of(history, scenario_facts(file));
   const StageRows& stage = choose_stage(stages, number, {"stress_cycles"}, file.path());

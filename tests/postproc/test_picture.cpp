@@ -20,7 +20,7 @@ Outcome picture(const std::string& arguments) {
 
 } // namespace
 
-TEST_CASE("a picture has the size asked for, the cube in the middle on white, and a colour bar at the right") {
+TEST_CASE("a picture has the requested size, the cube in the middle on white, and a colour bar at the right") {
   const Folder folder;
   write_run(folder / "run.h5", small_run());
   const Outcome outcome =
