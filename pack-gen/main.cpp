@@ -17,6 +17,7 @@
 #include "pack-gen/mesh_report.hpp"
 #include "pack-gen/packing_description.hpp"
 #include "pack-gen/packing_quality.hpp"
+#include "pack-gen/settle.hpp"
 #include "pack-gen/sphere_file.hpp"
 #include "pack-gen/sphere_import.hpp"
 
@@ -28,7 +29,10 @@ struct Arguments {
   std::string input, output, description, sizes, target;
   std::vector<std::string> assignments;
   std::optional<std::int64_t> seed;
-  std::vector<double> box;
+  std::vector<double> box, bottom_center;
+  std::string container;
+  std::optional<double> diameter, height, gap;
+  bool fit_height = false;
   double size = 0;
   HemisphereRequest hemispheres;
   StepMaterial material;
@@ -46,16 +50,25 @@ void check_output(const Arguments& arguments, OutputKind kind) {
         fmt::format("--output {}: found the input itself, allowed: another file", shown_path(arguments.output)));
 }
 
-void spheres(const Arguments& arguments) {
+/// The description with what the command line says in place of it.
+PackingDescription description_of(const Arguments& arguments) {
   TomlDocument document = TomlDocument::from_file(arguments.input);
   for (const std::string& assignment : arguments.assignments) document.set(assignment);
   if (arguments.seed) document.set(fmt::format("seed={}", *arguments.seed));
-  const PackingDescription description = read_packing_description(document);
+  if (!arguments.container.empty()) document.set(fmt::format("container={}", arguments.container));
+  if (arguments.diameter) document.set(fmt::format("diameter={}", *arguments.diameter));
+  if (arguments.height) document.set(fmt::format("height={}", *arguments.height));
+  return read_packing_description(document, arguments.container == "cylinder");
+}
+
+void spheres(const Arguments& arguments) {
+  const PackingDescription description = description_of(arguments);
   const DrawnSizes sizes = draw_sizes(description);
   Progress progress("pack-gen", arguments.quiet);
   const auto packed = [&] {
     try {
-      return pack_spheres({.box = description.box,
+      return pack_spheres({.box = description.container.lengths,
+                           .shape = description.container.shape,
                            .radius = sizes.radius,
                            .smallest_gap = description.smallest_gap,
                            .seed = description.seed,
@@ -99,6 +112,28 @@ void mesh(const Arguments& arguments) {
   write_meshed(arguments, file.packing, file.origin);
 }
 
+void settle_spheres(const Arguments& arguments) {
+  const SphereFile file = read_spheres(arguments.input);
+  refuse_overlap(file.packing, arguments.input);
+  Progress progress("pack-gen", arguments.quiet);
+  const double gap = arguments.gap.value_or(std::max(smallest_gap(file.packing).gap, 0.0));
+  const auto settled = [&] {
+    try {
+      return settle(file.packing, {.smallest_gap = gap,
+                                   .fit_height = arguments.fit_height,
+                                   .progress = [&](const std::string& state) { progress.update(0, state); }});
+    } catch (const InputError& error) { // it knows no file
+      throw InputError(fmt::format("{}: {}", shown_path(arguments.input), error.what()));
+    }
+  }();
+  write_packing_file(arguments.output, settled.packing, file.origin);
+  SpherePacking bed = settled.packing;
+  bed.box[2] = settled.bed_height + gap;
+  progress.finish(fmt::format("{} spheres at rest, bed of {:.4g} mm with D_r = {:.6f}, smallest gap {:.4g} mm, {}",
+                              bed.radius.size(), settled.bed_height, relative_density(bed),
+                              smallest_gap(settled.packing).gap, arguments.output));
+}
+
 void hemispheres(const Arguments& arguments) {
   HemisphereRequest request = arguments.hemispheres;
   if (request.bulk_size == 0) request.bulk_size = std::min(3 * request.contact_size, request.size);
@@ -126,10 +161,33 @@ void hemispheres(const Arguments& arguments) {
         report.smallest_step * arguments.material.wave_speed() / request.contact_size, report.median_step);
 }
 
-void import(const Arguments& arguments) {
+/// Throws InputError where options of a box and of a cylinder are mixed, or those of a cylinder are incomplete.
+void check_container(const Arguments& arguments) {
+  const bool cylinder = arguments.container == "cylinder";
+  const auto refuse = [](const char* option, const char* allowed) {
+    throw InputError(fmt::format("{}: allowed: {}", option, allowed));
+  };
+  if (cylinder && !arguments.box.empty()) refuse("--box: found beside --container cylinder", "--diameter and --height");
+  if (cylinder && !(arguments.diameter && arguments.height))
+    refuse("--container cylinder: found no diameter or no height", "--diameter D --height H");
+  if (!cylinder && (arguments.diameter || arguments.height || !arguments.bottom_center.empty()))
+    refuse("--diameter, --height, --bottom-center: found without a cylinder", "--container cylinder");
+}
+
+SpherePacking imported(const Arguments& arguments) {
+  check_container(arguments);
+  const auto point = [](const std::vector<double>& v) { return Point{v[0], v[1], v[2]}; };
   std::optional<Point> box;
-  if (!arguments.box.empty()) box = Point{arguments.box[0], arguments.box[1], arguments.box[2]};
-  const SpherePacking packing = import_spheres(arguments.input, box);
+  if (!arguments.box.empty()) box = point(arguments.box);
+  if (arguments.container != "cylinder") return import_spheres(arguments.input, box);
+  CylinderInTable cylinder{*arguments.diameter, *arguments.height, {}};
+  cylinder.bottom_center = arguments.bottom_center.empty() ? Point{0.5 * cylinder.diameter, 0.5 * cylinder.diameter, 0}
+                                                           : point(arguments.bottom_center);
+  return import_spheres(arguments.input, cylinder);
+}
+
+void import(const Arguments& arguments) {
+  const SpherePacking packing = imported(arguments);
   refuse_overlap(packing, arguments.input);
   const PackingOrigin origin{{}, "imported from " + arguments.input, {}, {}};
   if (arguments.size > 0) return write_meshed(arguments, packing, origin);
@@ -185,10 +243,12 @@ void add_material(CLI::App& command, StepMaterial& material) {
 }
 
 constexpr const char* help_text =
-    "pack-gen: packs spheres of a size distribution in a box, and meshes them with tetrahedra.\n"
+    "pack-gen: packs spheres of a size distribution in a box or a cylinder, and meshes them with tetrahedra.\n"
     "Examples:\n"
     "  pack-gen spheres powder.toml -o spheres.h5 --seed 2\n"
+    "  pack-gen spheres powder.toml --container cylinder --diameter 1 --height 1.2 -o spheres.h5\n"
     "  pack-gen import spheres.csv --box 1,1,1 -o spheres.h5\n"
+    "  pack-gen settle spheres.h5 --fit-height -o settled.h5\n"
     "  pack-gen mesh spheres.h5 --size 0.03 -o packing.h5\n"
     "  pack-gen quality packing.h5\n"
     "  pack-gen hemispheres --radius 0.1 --size 0.012 --contact-size 0.0005 --contact-radius 0.01 -o pair.h5\n"
@@ -198,6 +258,15 @@ constexpr const char* help_text =
 void add_threads(CLI::App& command, Arguments& arguments) {
   add_number(command, "--threads", arguments.threads, thread_numbers, "",
              "Threads (default: all cores that it may use); the result does not depend on it");
+}
+
+/// --container, --diameter and --height; `otherwise`: what holds without them.
+void add_container(CLI::App& command, Arguments& arguments, const std::string& otherwise) {
+  command
+      .add_option("--container", arguments.container, "box, or cylinder: its axis is z (default: " + otherwise + ")")
+      ->check(CLI::IsMember({"box", "cylinder"}));
+  add_number(command, "--diameter", arguments.diameter, lengths, "mm", "Of the cylinder");
+  add_number(command, "--height", arguments.height, lengths, "mm", "Of the cylinder");
 }
 
 /// A command that reads a file, described by `input`.
@@ -215,11 +284,28 @@ void add_output(CLI::App& command, Arguments& arguments) {
 CLI::App* add_spheres(CLI::App& app, Arguments& arguments) {
   CLI::App* command =
       add_command(app, arguments, "spheres",
-                  "Pack spheres as a description says.\nExample: pack-gen spheres powder.toml -o spheres.h5",
+                  "Pack spheres as a description says.\n"
+                  "Example: pack-gen spheres powder.toml -o spheres.h5\n"
+                  "         pack-gen spheres powder.toml --container cylinder --diameter 1 --height 1.2 -o spheres.h5",
                   "Description of the packing (TOML)");
   add_output(*command, arguments);
   add_number(*command, "--seed", arguments.seed, seed_numbers, "", "Seed, in place of the description's");
+  add_container(*command, arguments, "the description's, else a box");
   command->add_option("--set", arguments.assignments, "Override a value: KEY=VALUE, e.g. count=400")->take_all();
+  return command;
+}
+
+CLI::App* add_settle(CLI::App& app, Arguments& arguments) {
+  CLI::App* command = add_command(app, arguments, "settle",
+                                  "Let spheres sink under their weight, along -z and without friction, until they rest "
+                                  "on each other and the bottom.\n"
+                                  "Example: pack-gen settle spheres.h5 --fit-height -o settled.h5",
+                                  "Spheres (HDF5)");
+  add_output(*command, arguments);
+  add_number(*command, "--gap", arguments.gap, Range::between(0, 1e9), "mm",
+             "Smallest gap that stays between spheres and to the walls (default: that of the file)");
+  command->add_flag("--fit-height", arguments.fit_height,
+                    "Lower the container to the bed (default: it stays, with free space above)");
   return command;
 }
 
@@ -241,13 +327,20 @@ CLI::App* add_import(CLI::App& app, Arguments& arguments) {
   CLI::App* command = add_command(app, arguments, "import",
                                   "Spheres from a table x,y,z,radius (mm), e.g. of a DEM code.\n"
                                   "Example: pack-gen import spheres.csv --box 1,1,1 -o spheres.h5\n"
-                                  "         pack-gen import spheres.csv --size 0.03 -o packing.h5",
+                                  "         pack-gen import spheres.csv --size 0.03 -o packing.h5\n"
+                                  "         pack-gen import spheres.csv --container cylinder --diameter 1 --height "
+                                  "1.2 -o spheres.h5",
                                   "Spheres (CSV)");
   add_output(*command, arguments);
   add_number(*command, "--size", arguments.size, lengths, "mm", "Nominal element size (default: not meshed)");
   add_threads(*command, arguments);
   add_number(*command, "--box", arguments.box, lengths, "mm",
              "Edge lengths X,Y,Z of the box from the origin (default: the tightest box)")
+      ->delimiter(',')
+      ->expected(3);
+  add_container(*command, arguments, "box");
+  add_number(*command, "--bottom-center", arguments.bottom_center, coordinates, "mm",
+             "X,Y,Z of the centre of the cylinder's bottom in the table (default: half of the diameter, the same, 0)")
       ->delimiter(',')
       ->expected(3);
   return command;
@@ -308,6 +401,7 @@ int body(int argc, char** argv) {
   Arguments arguments;
   arguments.threads = available_cores();
   const CLI::App* spheres_command = add_spheres(app, arguments);
+  const CLI::App* settle_command = add_settle(app, arguments);
   const CLI::App* mesh_command = add_mesh(app, arguments);
   const CLI::App* import_command = add_import(app, arguments);
   const CLI::App* export_command = add_export(app, arguments);
@@ -321,6 +415,7 @@ int body(int argc, char** argv) {
   for (const auto& [option, path] : {std::pair("--sizes", &arguments.sizes), std::pair("--target", &arguments.target)})
     if (!path->empty()) check_output_path(option, *path, OutputKind::text);
   if (spheres_command->parsed()) spheres(arguments);
+  if (settle_command->parsed()) settle_spheres(arguments);
   if (mesh_command->parsed()) mesh(arguments);
   if (hemispheres_command->parsed()) hemispheres(arguments);
   if (import_command->parsed()) import(arguments);

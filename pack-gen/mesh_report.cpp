@@ -31,9 +31,9 @@ Eigen::Vector3d vector(const Point& p) {
 
 } // namespace
 
-SurfaceGap smallest_facet_gap(const SpherePacking& packing, const PackingMesh& mesh, int threads) {
+SphereGap smallest_facet_gap(const SpherePacking& packing, const PackingMesh& mesh, int threads) {
   const std::size_t n = packing.radius.size();
-  SurfaceGap smallest{std::numeric_limits<double>::infinity(), -1, -1};
+  SphereGap smallest{std::numeric_limits<double>::infinity(), -1, -1};
   std::mutex guard;
 
   // 1. Walls, and the bounding radius of every grain.
@@ -41,13 +41,11 @@ SurfaceGap smallest_facet_gap(const SpherePacking& packing, const PackingMesh& m
   for_each_parallel(n, threads, [&](std::size_t i) {
     const NodeMap node = grain_nodes(mesh, i);
     reach[i] = std::sqrt((node.colwise() - vector(packing.center[i])).colwise().squaredNorm().maxCoeff());
-    const Eigen::Vector3d low = node.rowwise().minCoeff(), high = node.rowwise().maxCoeff();
     const std::lock_guard lock(guard);
-    for (int k = 0; k < 3; ++k)
-      for (const auto& [gap, wall] :
-           {std::pair{low[k], 2 * k}, std::pair{packing.box[static_cast<std::size_t>(k)] - high[k], 2 * k + 1}})
-        if (gap < smallest.gap || (gap == smallest.gap && static_cast<int>(i) < smallest.first))
-          smallest = {gap, static_cast<int>(i), -1 - wall};
+    for_each_wall_gap(packing.container(), node, [&](double gap, int wall) {
+      if (gap < smallest.gap || (gap == smallest.gap && static_cast<int>(i) < smallest.first))
+        smallest = {gap, static_cast<int>(i), -1 - wall};
+    });
   });
 
   // 2. Pairs, nearest bounding spheres first: once these are farther apart than the smallest gap found, so is the rest.
@@ -188,8 +186,7 @@ MeshReport report_mesh(const SpherePacking& packing, const PackingMesh& mesh, do
 
 std::string report_text(const MeshReport& report) {
   const double unit = report.nominal_size / report.material.wave_speed();
-  static constexpr const char* walls[] = {"-x", "+x", "-y", "+y", "-z", "+z"};
-  const SurfaceGap& gap = report.facet_gap;
+  const SphereGap& gap = report.facet_gap;
   std::string text;
   const auto line = [&](std::string_view name, const std::string& value) {
     text += fmt::format("{:<34}{}\n", name, value);
@@ -202,9 +199,9 @@ std::string report_text(const MeshReport& report) {
        fmt::format("{:.3f}  {:.3f}   (3 inradius/circumradius)", report.smallest_quality, report.median_quality));
   line("tets with 4 surface nodes", fmt::format("{}", report.surface_only_tets));
   line("nodes outside the sphere by", fmt::format("{:.2f} % of the radius at most", 100 * report.largest_excess));
-  line("facet gap, smallest", fmt::format("{:.4g} mm   (grain {} and {})", gap.gap, gap.first,
-                                          gap.second < 0 ? fmt::format("wall {}", walls[-1 - gap.second])
-                                                         : fmt::format("grain {}", gap.second)));
+  line("facet gap, smallest",
+       fmt::format("{:.4g} mm   (grain {} and {})", gap.gap, gap.first,
+                   gap.second < 0 ? wall_name(-1 - gap.second) : fmt::format("grain {}", gap.second)));
   line("critical step, smallest", fmt::format("{:.3e} s = {:.3f} h/c   (grain {})", report.smallest_step,
                                               report.smallest_step / unit, report.smallest_step_grain));
   line("critical step, median", fmt::format("{:.3e} s = {:.3f} h/c", report.median_step, report.median_step / unit));

@@ -7,11 +7,11 @@
 
 namespace mpfem {
 
-/// Smallest facet gap between grains, or a grain and a wall, with its proof's place. `second` as in SurfaceGap.
+/// Smallest facet gap between grains, or a grain and a wall, with its proof's place. `second` as in SphereGap.
 /// Each mesh is bounded by the convex hull of its nodes (for the meshes of mesh_packing it is that hull), so a
 /// separating plane between the hulls is a lower bound of the distance of any two facets. Grains farther apart than
 /// their bounding spheres' bound need no plane.
-SurfaceGap smallest_facet_gap(const SpherePacking& packing, const PackingMesh& mesh, int threads = 1);
+SphereGap smallest_facet_gap(const SpherePacking& packing, const PackingMesh& mesh, int threads = 1);
 
 struct MeshReport {
   std::size_t grains = 0, nodes = 0, tets = 0;
@@ -24,7 +24,7 @@ struct MeshReport {
   std::size_t smallest_step_grain = 0;
   double largest_excess = 0;         ///< largest node distance from a grain's centre over its radius, minus 1
   std::size_t surface_only_tets = 0; ///< tets with all four nodes on the surface
-  SurfaceGap facet_gap;
+  SphereGap facet_gap;
   StepMaterial material;
   double nominal_size = 0; ///< mm
 };

@@ -1,5 +1,5 @@
 #pragma once
-// Random packings of spheres in a box of hard walls, denser than random sequential addition can make them.
+// Random packings of spheres in a box or cylinder of hard walls, denser than random sequential addition can make them.
 //
 // Method: spheres inflated by half the wanted gap repel each other and the walls where they overlap; from random points
 // the overlap energy is minimised with FIRE (Bitzek et al., Phys. Rev. Lett. 97, 170201, 2006). Below random close
@@ -12,37 +12,42 @@
 #include <string>
 #include <vector>
 
+#include "pack-gen/container.hpp"
 #include "pack-gen/tet_mesh.hpp"
 
 namespace mpfem {
 
-/// Spheres in a box that spans [0, box].
+/// Spheres in a container that spans [0, box].
 struct SpherePacking {
   Point box{};                ///< mm
   std::vector<Point> center;  ///< mm
   std::vector<double> radius; ///< mm
+  ContainerShape shape = ContainerShape::box;
+
+  PackingContainer container() const { return {box, shape}; }
 };
 
-/// Smallest surface distance, and where it is. `second` is -1 - wall for a wall (-x, +x, -y, +y, -z, +z = 0 … 5).
-struct SurfaceGap {
+/// Smallest surface distance, and where it is. `second` is -1 - wall for a wall, numbered as in container.hpp.
+struct SphereGap {
   double gap = 0; ///< mm; negative: overlap
   int first = -1;
   int second = -1;
 };
 
 /// Smallest gap between two spheres; exact. Infinite for one sphere.
-SurfaceGap smallest_sphere_gap(const SpherePacking& packing);
+SphereGap smallest_sphere_gap(const SpherePacking& packing);
 /// Smallest gap between a sphere and a wall.
-SurfaceGap smallest_wall_gap(const SpherePacking& packing);
+SphereGap smallest_wall_gap(const SpherePacking& packing);
 /// The smaller of the two.
-SurfaceGap smallest_gap(const SpherePacking& packing);
+SphereGap smallest_gap(const SpherePacking& packing);
 
-/// Sum of sphere volumes over box volume.
+/// Sum of sphere volumes over the container's volume.
 double relative_density(const SpherePacking& packing);
 
 /// What pack_spheres needs.
 struct PackingRequest {
-  Point box{};                ///< mm
+  Point box{}; ///< mm
+  ContainerShape shape = ContainerShape::box;
   std::vector<double> radius; ///< mm
   double smallest_gap = 0;    ///< mm, between spheres and to the walls
   std::uint64_t seed = 1;

@@ -69,15 +69,34 @@ std::unique_ptr<SizeDistribution> read_distribution(TableReader table, const std
   return distribution;
 }
 
+/// A box of three edge lengths, or a cylinder of a diameter and a height; the keys of the other are refused.
+PackingContainer read_container(TableReader& root, bool without_box) {
+  const bool cylinder = root.choice_or("container", "box", {"box", "cylinder"}) == "cylinder";
+  const auto refuse = [&](const char* key, const char* allowed) {
+    if (root.has(key))
+      root.fail(key, fmt::format("found beside a {}, allowed: {}", cylinder ? "cylinder" : "box", allowed));
+  };
+  if (!cylinder) {
+    for (const char* key : {"diameter", "height"}) refuse(key, "box, or container = \"cylinder\"");
+    return {root.vector3("box", length), ContainerShape::box};
+  }
+  if (without_box)
+    root.value("box");
+  else
+    refuse("box", "diameter and height");
+  const double diameter = root.number("diameter", length), height = root.number("height", length);
+  return {{diameter, diameter, height}, ContainerShape::cylinder};
+}
+
 } // namespace
 
-PackingDescription read_packing_description(const TomlDocument& document) {
+PackingDescription read_packing_description(const TomlDocument& document, bool without_box) {
   PackingDescription description;
   TableReader root(document);
   description.text = document.text();
   description.count = static_cast<int>(root.integer("count", Range::between(1, 1e7)));
   description.relative_density = root.number("relative_density", Range::between(1e-9, 0.74));
-  description.box = root.vector3("box", length);
+  description.container = read_container(root, without_box);
   description.smallest_gap = root.number("smallest_gap", length);
   description.seed = static_cast<std::uint64_t>(root.integer_or("seed", 1, Range::non_negative()));
   description.size_scale_tolerance = root.number_or("size_scale_tolerance", 0.01, Range::between(0, 1e6));
@@ -89,17 +108,18 @@ PackingDescription read_packing_description(const TomlDocument& document) {
 
 DrawnSizes draw_sizes(const PackingDescription& description) {
   std::vector<double> diameter = description.distribution->sample(description.count);
-  const double box_volume = description.box[0] * description.box[1] * description.box[2];
-  const double scale = size_scale(diameter, description.relative_density, box_volume);
+  const PackingContainer& container = description.container;
+  const double volume = container_volume(container.shape, container.lengths);
+  const double scale = size_scale(diameter, description.relative_density, volume);
   if (!(std::abs(scale - 1) <= description.size_scale_tolerance))
-    throw InputError(fmt::format("{}key 'count': {} spheres of this size distribution at a relative_density of {:g} in "
-                                 "this box need sizes scaled "
-                                 "by {:.4g}; allowed by size_scale_tolerance: {:g} … {:g}; or take {:.0f} spheres, or "
-                                 "a box larger by {:.4g} along "
-                                 "each edge",
-                                 description.places.prefix("count"), description.count, description.relative_density,
-                                 scale, 1 - description.size_scale_tolerance, 1 + description.size_scale_tolerance,
-                                 description.count * scale * scale * scale, 1 / scale));
+    throw InputError(fmt::format(
+        "{}key 'count': {} spheres of this size distribution at a relative_density of {:g} in this {} need "
+        "sizes scaled by {:.4g}; allowed by size_scale_tolerance: {:g} … {:g}; or take {:.0f} spheres, or "
+        "a {} larger by {:.4g} along {}",
+        description.places.prefix("count"), description.count, description.relative_density, name_of(container.shape),
+        scale, 1 - description.size_scale_tolerance, 1 + description.size_scale_tolerance,
+        description.count * scale * scale * scale, name_of(container.shape), 1 / scale,
+        container.shape == ContainerShape::box ? "each edge" : "diameter and height"));
   DrawnSizes sizes{{}, scale};
   for (const double d : diameter) sizes.radius.push_back(0.5 * scale * d);
   return sizes;

@@ -15,7 +15,7 @@ namespace mpfem {
 struct PackingDescription {
   int count = 0;
   double relative_density = 0;
-  Point box{};
+  PackingContainer container; ///< a box, or a cylinder
   double smallest_gap = 0;
   std::uint64_t seed = 1;
   double size_scale_tolerance = 0; ///< how far from 1 the factor on all sizes may be that makes count and density agree
@@ -24,8 +24,9 @@ struct PackingDescription {
   std::string text; ///< the file's text with the assignments
 };
 
-/// Reads a description; keys and defaults stand in packing_description.cpp only. Throws InputError.
-PackingDescription read_packing_description(const TomlDocument& document);
+/// Reads a description; keys and defaults stand in packing_description.cpp only. Its key `box` does not count
+/// `without_box`: where the command line has a cylinder in place of it. Throws InputError.
+PackingDescription read_packing_description(const TomlDocument& document, bool without_box = false);
 
 /// Radii (mm) for the description: the distribution's quantiles, scaled by `scale` so that their volume is the wanted
 /// one. Throws InputError where the scale is further from 1 than the description allows.

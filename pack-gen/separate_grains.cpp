@@ -21,7 +21,7 @@ Vector3d vector(const Point& p) {
   return {p[0], p[1], p[2]};
 }
 
-/// Gap of a grain and what limits it: another grain, or -1 - wall as in SurfaceGap.
+/// Gap of a grain and what limits it: another grain, or -1 - wall as in SphereGap.
 struct Clearance {
   double gap = std::numeric_limits<double>::infinity();
   int other = -1;
@@ -57,12 +57,9 @@ public:
   /// Proven gap of a grain with these nodes; of no interest once it is `enough` or less.
   Clearance clearance(std::size_t grain, const Eigen::Matrix3Xd& nodes, double enough) const {
     Clearance result;
-    const Vector3d low = nodes.rowwise().minCoeff(), high = nodes.rowwise().maxCoeff();
-    for (int k = 0; k < 3; ++k) {
-      const double above = packing_.box[static_cast<std::size_t>(k)] - high[k];
-      if (low[k] < result.gap) result = {low[k], -1 - 2 * k};
-      if (above < result.gap) result = {above, -2 - 2 * k};
-    }
+    for_each_wall_gap(packing_.container(), nodes, [&](double gap, int wall) {
+      if (gap < result.gap) result = {gap, -1 - wall};
+    });
     for (const int other : near_[grain]) {
       if (result.gap <= enough) return result;
       const auto b = static_cast<std::size_t>(other);

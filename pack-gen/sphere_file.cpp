@@ -36,6 +36,7 @@ SphereFile read_spheres(const std::string& path) {
   SphereFile result;
   schema::PackingSpheres spheres = schema::read_packing_spheres(reader);
   std::copy_n(spheres.box_lengths.begin(), 3, result.packing.box.begin());
+  result.packing.shape = spheres.shape;
   for (std::size_t i = 0; i < spheres.radius.size(); ++i)
     result.packing.center.push_back({spheres.center[3 * i], spheres.center[3 * i + 1], spheres.center[3 * i + 2]});
   result.packing.radius = std::move(spheres.radius);
@@ -63,6 +64,8 @@ void write_packing_file(const std::string& path, const SpherePacking& packing, c
   for (const auto& c : packing.center) center.insert(center.end(), c.begin(), c.end());
   const std::size_t spheres = packing.radius.size();
   writer.write(file::box_lengths, Doubles(packing.box), 3);
+  // Files of boxes stay as they were, for programs that do not know of shapes.
+  if (packing.shape != ContainerShape::box) writer.write_scalar(file::box_shape, std::string(name_of(packing.shape)));
   writer.write(file::spheres_center, Doubles(center), spheres);
   writer.write(file::spheres_radius, Doubles(packing.radius), spheres);
   const bool halves = mesh && mesh->hemispheres;

@@ -17,8 +17,7 @@ namespace mpfem {
 namespace {
 
 std::string body(const SpherePacking& packing, int index) {
-  static constexpr const char* wall[] = {"-x", "+x", "-y", "+y", "-z", "+z"};
-  if (index < 0) return fmt::format("the wall {}", wall[-1 - index]);
+  if (index < 0) return "the " + wall_name(-1 - index);
   const auto& c = packing.center[static_cast<std::size_t>(index)];
   return fmt::format("sphere {} at ({:g}, {:g}, {:g})", index, c[0], c[1], c[2]);
 }
@@ -33,14 +32,17 @@ void refuse_overlap(const SpherePacking& packing, const std::string& name) {
     for (const double coordinate : packing.center[i]) largest = std::max(largest, std::abs(coordinate));
   }
   const double rounding = 8 * std::numeric_limits<double>::epsilon() * largest;
-  SurfaceGap gap = smallest_wall_gap(packing);
+  SphereGap gap = smallest_wall_gap(packing);
   if (!(gap.gap < -rounding)) gap = smallest_gap_of_pairs(packing.center, packing.radius, -rounding);
   if (gap.gap < -rounding)
     throw InputError(fmt::format("{}: {} and {} overlap by {:.4g} mm; allowed: no overlap", shown_path(name),
                                  body(packing, gap.first), body(packing, gap.second), -gap.gap));
 }
 
-SpherePacking import_spheres(CsvReader table, const std::optional<Point>& box) {
+namespace {
+
+/// Spheres as the table has them, in no container.
+SpherePacking read_table(CsvReader table) {
   SpherePacking packing;
   constexpr Range coordinate = Range::between(-1e9, 1e9), radius = Range::between(1e-12, 1e9); // mm
   for (const auto& row :
@@ -48,6 +50,13 @@ SpherePacking import_spheres(CsvReader table, const std::optional<Point>& box) {
     packing.center.push_back({row[0], row[1], row[2]});
     packing.radius.push_back(row[3]);
   }
+  return packing;
+}
+
+} // namespace
+
+SpherePacking import_spheres(CsvReader table, const std::optional<Point>& box) {
+  SpherePacking packing = read_table(std::move(table));
   if (box) {
     packing.box = *box;
   } else {
@@ -66,6 +75,19 @@ SpherePacking import_spheres(CsvReader table, const std::optional<Point>& box) {
 
 SpherePacking import_spheres(const std::string& path, const std::optional<Point>& box) {
   return import_spheres(CsvReader::from_file(path), box);
+}
+
+SpherePacking import_spheres(const std::string& path, const CylinderInTable& cylinder) {
+  SpherePacking packing = read_table(CsvReader::from_file(path));
+  packing.shape = ContainerShape::cylinder;
+  packing.box = {cylinder.diameter, cylinder.diameter, cylinder.height};
+  const Point& bottom = cylinder.bottom_center;
+  for (Point& center : packing.center) {
+    center[0] += 0.5 * cylinder.diameter - bottom[0];
+    center[1] += 0.5 * cylinder.diameter - bottom[1];
+    center[2] -= bottom[2];
+  }
+  return packing;
 }
 
 } // namespace mpfem

@@ -18,4 +18,14 @@ void refuse_overlap(const SpherePacking& packing, const std::string& name);
 SpherePacking import_spheres(const std::string& path, const std::optional<Point>& box);
 SpherePacking import_spheres(CsvReader table, const std::optional<Point>& box);
 
+/// A cylinder about z, and where the centre of its bottom stands in a table of spheres.
+struct CylinderInTable {
+  double diameter = 0, height = 0; ///< mm
+  Point bottom_center{};           ///< mm
+};
+
+/// The same into a cylinder: spheres are moved so that the box that bounds it begins at the origin. Whether they are
+/// within it says refuse_overlap. Throws InputError.
+SpherePacking import_spheres(const std::string& path, const CylinderInTable& cylinder);
+
 } // namespace mpfem

@@ -28,7 +28,7 @@ public:
     for (std::size_t n = 0; n < nodes_.size(); ++n) split(n);
   }
 
-  SurfaceGap smallest_gap(double enough) {
+  SphereGap smallest_gap(double enough) {
     best_ = {std::numeric_limits<double>::infinity(), -1, -1};
     for (std::size_t i = 0; i < center_.size() && !(best_.gap < enough); ++i) search(0, i, enough);
     return best_;
@@ -100,12 +100,12 @@ private:
   const std::vector<double>& radius_;
   std::vector<std::size_t> order_;
   std::vector<Node> nodes_;
-  SurfaceGap best_;
+  SphereGap best_;
 };
 
 } // namespace
 
-SurfaceGap smallest_gap_of_pairs(const std::vector<Point>& center, const std::vector<double>& radius, double enough) {
+SphereGap smallest_gap_of_pairs(const std::vector<Point>& center, const std::vector<double>& radius, double enough) {
   if (center.size() < 2) return {std::numeric_limits<double>::infinity(), -1, -1};
   return SphereTree(center, radius).smallest_gap(enough);
 }

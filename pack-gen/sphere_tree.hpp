@@ -10,6 +10,6 @@ namespace mpfem {
 /// The smallest gap between the surfaces of two spheres; infinity and no pair where there are less than two. The search
 /// ends early at the first pair whose gap is below `enough`: spheres that all overlap would have to be compared each
 /// with each.
-SurfaceGap smallest_gap_of_pairs(const std::vector<Point>& center, const std::vector<double>& radius, double enough);
+SphereGap smallest_gap_of_pairs(const std::vector<Point>& center, const std::vector<double>& radius, double enough);
 
 } // namespace mpfem

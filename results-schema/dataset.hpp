@@ -26,7 +26,7 @@ struct Extent {
 
 /// One line of the schema.
 struct DatasetDescription {
-  std::string_view path; ///< '*' stands for a snapshot's name
+  std::string_view path; ///< '*' stands for the name of a snapshot or a tool
   ElementType type;
   int rank; ///< 0, 1 or 2
   std::array<Extent, 2> extent;
@@ -37,7 +37,11 @@ struct DatasetDescription {
   std::string_view indexes;    ///< values are indices below this extent, where not empty
   std::string_view partitions; ///< values never fall from 0 to this extent, where not empty
 
-  constexpr bool of_snapshot() const { return path.find('*') != std::string_view::npos; }
+  /// Whether the path has a '*': there is one dataset for each snapshot or tool.
+  constexpr bool of_member() const { return path.find('*') != std::string_view::npos; }
+  constexpr bool of_snapshot() const { return path.starts_with("/snapshots/"); }
+  /// Of a path with '*' what stands before it: "/snapshots", "/history/tools".
+  constexpr std::string_view group() const { return path.substr(0, path.find("/*")); }
 };
 
 /// A dataset with its element type (double, float, std::int32_t, std::int64_t, std::string) and its rank.

@@ -24,7 +24,8 @@ public:
   FileWriter(const FileWriter&) = delete;
   FileWriter& operator=(const FileWriter&) = delete;
 
-  /// Writes an array with `rows` rows, row by row. `snapshot` takes the place of '*' in the path.
+  /// Writes an array with `rows` rows, row by row. `snapshot`, or the name of a tool, takes the place of '*' in the
+  /// path.
   /// Throws std::logic_error where the values do not fill the shape, or extents of one name differ.
   template <class T, int Rank>
   void write(const Dataset<T, Rank>& dataset, std::span<const T> values, std::size_t rows,
@@ -84,6 +85,10 @@ public:
   void verify() const;
   /// Names of the snapshots, ascending: "0000", "0001", …
   std::vector<std::string> snapshots() const;
+  /// Names of the rigid tools that the history of a run has, ascending; none where it has no tools.
+  std::vector<std::string> tools() const;
+  /// What takes the place of '*' in the path of a dataset: one name for each in the file, one empty name without '*'.
+  std::vector<std::string> members(const DatasetDescription& dataset) const;
 
   struct State;
 

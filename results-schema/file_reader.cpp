@@ -208,29 +208,34 @@ void FileReader::verify() const {
     if (!has(dataset, snapshot)) return;
     with_element(dataset.type, [&](auto element) { read_all<decltype(element)>(dataset, snapshot); });
   };
-  const auto names = snapshots();
-  for (const DatasetDescription& dataset : kinds[static_cast<std::size_t>(kind())].datasets) {
-    if (!dataset.of_snapshot()) read_one(dataset, {});
-    for (const std::string& snapshot : names)
-      if (dataset.of_snapshot()) read_one(dataset, snapshot);
-  }
+  for (const DatasetDescription& dataset : kinds[static_cast<std::size_t>(kind())].datasets)
+    for (const std::string& member : members(dataset)) read_one(dataset, member);
 }
 
-std::vector<std::string> snapshots_in(hid_t file) {
+std::vector<std::string> members_in(hid_t file, const std::string& path) {
   std::vector<std::string> names;
-  if (!path_exists(file, "/snapshots")) return names;
+  if (!path_exists(file, path)) return names;
   const auto collect = [](hid_t, const char* name, const H5L_info_t*, void* data) -> herr_t {
     static_cast<std::vector<std::string>*>(data)->emplace_back(name);
     return 0;
   };
-  const Handle group(H5Gopen2(file, "/snapshots", H5P_DEFAULT), H5Gclose);
+  const Handle group(H5Gopen2(file, path.c_str(), H5P_DEFAULT), H5Gclose);
   if (group) H5Literate(group, H5_INDEX_NAME, H5_ITER_INC, nullptr, collect, &names);
   std::sort(names.begin(), names.end());
   return names;
 }
 
 std::vector<std::string> FileReader::snapshots() const {
-  return snapshots_in(state_->file);
+  return members_in(state_->file, "/snapshots");
+}
+
+std::vector<std::string> FileReader::tools() const {
+  return members_in(state_->file, "/history/tools");
+}
+
+std::vector<std::string> FileReader::members(const DatasetDescription& dataset) const {
+  if (!dataset.of_member()) return {""};
+  return members_in(state_->file, std::string(dataset.group()));
 }
 
 } // namespace mpfem::schema

@@ -26,8 +26,8 @@ struct FileReader::State {
 std::unique_ptr<FileReader::State> open_unchecked(const std::string& path);
 /// What is wrong with the list of datasets in view of the root attribute `checksums`; "" for nothing.
 std::string wrong_list(const FileReader::State& state);
-/// Names of the groups below /snapshots.
-std::vector<std::string> snapshots_in(hid_t file);
+/// Names of the groups below a group, ascending.
+std::vector<std::string> members_in(hid_t file, const std::string& group);
 
 /// Calls f(T{}) with the type of an element.
 template <class F>

@@ -120,7 +120,8 @@ void FileWriter::State::check_call(const DatasetDescription& dataset, const std:
   if (std::none_of(datasets.begin(), datasets.end(), [&](const auto& known) { return known.path == dataset.path; }))
     misused(dataset_path, "not a dataset of this kind of file");
   if (path_exists(file, dataset_path)) misused(dataset_path, "written twice");
-  if (dataset.of_snapshot() == snapshot.empty()) misused(dataset_path, "a snapshot's name is missing or too much");
+  if (dataset.of_member() == snapshot.empty())
+    misused(dataset_path, "the name of a snapshot or tool is missing or too much");
 }
 
 /// Extents of one name are the same all over the file (of a snapshot: all over the snapshot). Throws std::logic_error.

@@ -185,12 +185,13 @@ std::string cpp_extents(const Line& line) {
   return fmt::format("{{{}}}", fmt::join(extents, ", "));
 }
 
-/// One row of the columns /history/NAME of a kind, as a struct of doubles; nothing where it has no history.
+/// One row of the columns /history/NAME of a kind, as a struct of doubles; nothing where it has no history. Columns of
+/// tools are not among them: a run has as many as its tools.
 std::string history_row(const Kind& kind) {
   const std::string folder = "/history/";
   std::string members, visits;
   for (const Line& line : kind.lines) {
-    if (!line.path.starts_with(folder)) continue;
+    if (!line.path.starts_with(folder) || line.path.find('*') != std::string::npos) continue;
     const std::string name = line.path.substr(folder.size());
     members +=
         fmt::format("  /// {} ({})\n  {} {};\n", line.description, line.unit,
@@ -256,7 +257,7 @@ std::string markdown(const Schema& schema) {
   out +=
       "- A name in a shape is a free extent; the same name has the same value everywhere in one file (with a leading "
       "`*`: in one snapshot). `NAME_plus_1` is one more than `NAME`.\n"
-      "- `*` in a path stands for a snapshot's name: `0000`, `0001`, …\n"
+      "- `*` in a path stands for a name: of a snapshot (`0000`, `0001`, …), of a rigid tool (`upper`, `lower`, …).\n"
       "\n## How files are checked\n\n";
   for (const std::string& line : schema.integrity) out += line + "\n";
   for (const Kind& kind : schema.kinds) {

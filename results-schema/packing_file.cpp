@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "common/errors.hpp"
 #include "common/one_line.hpp"
@@ -44,6 +45,35 @@ void refuse_outside(const std::vector<double>& center, const std::vector<double>
   }
 }
 
+/// "box" where the file says nothing.
+ContainerShape read_shape(const FileReader& file) {
+  if (!file.has(packing::box_shape)) return ContainerShape::box;
+  const std::string name = file.read_scalar(packing::box_shape);
+  for (const ContainerShape shape : {ContainerShape::box, ContainerShape::cylinder})
+    if (name == name_of(shape)) return shape;
+  Place{file, packing::box_shape.path}.fail(
+      fmt::format("found '{}', allowed: {}", one_line(name), fmt::join(container_names, ", ")));
+}
+
+/// The box that bounds a cylinder is as wide as it is deep.
+void refuse_oval(const std::vector<double>& lengths, const Place& place) {
+  constexpr double rounding = 1e-9;
+  if (!(std::abs(lengths[0] - lengths[1]) <= rounding * lengths[0]))
+    place.fail(fmt::format("found {:g} and {:g} at index 0 and 1, allowed: the same, the diameter of the cylinder",
+                           lengths[0], lengths[1]));
+}
+
+/// As refuse_outside, of the round wall.
+void refuse_outside_circle(const std::vector<double>& center, double diameter, const Place& place) {
+  constexpr double rounding = 1e-9;
+  for (std::size_t i = 0; i + 2 < center.size(); i += 3) {
+    const double from_axis = std::hypot(center[i] - 0.5 * diameter, center[i + 1] - 0.5 * diameter);
+    if (from_axis > (0.5 + rounding) * diameter)
+      place.fail(fmt::format("found a distance of {:g} from the axis at index {}, allowed: 0 … {:g}, in the cylinder",
+                             from_axis, i / 3, 0.5 * diameter));
+  }
+}
+
 /// Offsets rise from 0 to the end, each grain with at least one.
 void refuse_wrong_offsets(const std::vector<std::int32_t>& offset, std::size_t spheres, std::size_t end,
                           const Place& place) {
@@ -74,7 +104,7 @@ void refuse_foreign_nodes(const PackingTets& mesh, const Place& place) {
 
 PackingSpheres read_packing_spheres(const FileReader& file) {
   PackingSpheres spheres{file.read(packing::box_lengths), file.read(packing::spheres_center),
-                         file.read(packing::spheres_radius)};
+                         file.read(packing::spheres_radius), read_shape(file)};
   const auto at = [&](const DatasetDescription& dataset) { return Place{file, dataset.path}; };
   refuse_not_positive(spheres.box_lengths, at(packing::box_lengths));
   if (spheres.radius.empty()) at(packing::spheres_radius).fail("found no sphere, allowed: at least one");
@@ -85,6 +115,10 @@ PackingSpheres read_packing_spheres(const FileReader& file) {
   refuse_not_positive(spheres.radius, at(packing::spheres_radius));
   refuse_not_finite(spheres.center, at(packing::spheres_center));
   refuse_outside(spheres.center, spheres.box_lengths, at(packing::spheres_center));
+  if (spheres.shape == ContainerShape::cylinder) {
+    refuse_oval(spheres.box_lengths, at(packing::box_lengths));
+    refuse_outside_circle(spheres.center, spheres.box_lengths[0], at(packing::spheres_center));
+  }
   return spheres;
 }
 

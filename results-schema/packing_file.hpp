@@ -4,14 +4,16 @@
 #include <cstdint>
 #include <vector>
 
+#include "results-schema/container.hpp"
 #include "results-schema/file.hpp"
 
 namespace mpfem::schema {
 
 struct PackingSpheres {
-  std::vector<double> box_lengths; ///< [3], mm, > 0
-  std::vector<double> center;      ///< [spheres][3], mm, in the box
+  std::vector<double> box_lengths; ///< [3], mm, > 0; of a cylinder diameter, diameter, height
+  std::vector<double> center;      ///< [spheres][3], mm, in the container
   std::vector<double> radius;      ///< [spheres], mm, > 0; at least one
+  ContainerShape shape = ContainerShape::box;
 };
 
 struct PackingTets {

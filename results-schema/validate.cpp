@@ -151,12 +151,12 @@ private:
 
 void examine(const FileReader::State& state, const Examination::Report& report) {
   Examination examination(state, report);
-  const auto snapshots = snapshots_in(state.file);
   for (const DatasetDescription& dataset : kinds[static_cast<std::size_t>(state.kind)].datasets) {
-    if (!dataset.of_snapshot())
+    if (!dataset.of_member())
       examination.check(dataset, "");
     else
-      for (const std::string& snapshot : snapshots) examination.check(dataset, snapshot);
+      for (const std::string& member : members_in(state.file, std::string(dataset.group())))
+        examination.check(dataset, member);
   }
   examination.check_integers();
   examination.check_unknown();

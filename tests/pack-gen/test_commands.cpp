@@ -66,9 +66,145 @@ TEST_CASE("spheres, mesh, quality and export follow each other, and the files ho
   CHECK(again.packing.radius == file.packing.radius);
 }
 
+namespace {
+
+/// The description with a cylinder in place of its box, as high as wide.
+std::string cylinder_description() {
+  return replaced(description, "box = [0.4, 0.4, 0.4]", "container = \"cylinder\"\ndiameter = 0.44\nheight = 0.42");
+}
+
+} // namespace
+
+TEST_CASE("a cylinder goes through spheres, mesh, quality, export and import with its shape and volume") {
+  const Folder folder;
+  write_text(folder / "pack.toml", cylinder_description());
+  REQUIRE(pack_gen(fmt::format("spheres {} -o {} --quiet", folder / "pack.toml", folder / "s.h5")).exit_code == 0);
+  const Outcome mesh = pack_gen(fmt::format("mesh {} --size 0.04 -o {} --threads 2", folder / "s.h5", folder / "p.h5"));
+  INFO(mesh.messages);
+  REQUIRE(mesh.exit_code == 0);
+  for (const char* name : {"s.h5", "p.h5"}) {
+    CHECK(schema::validate(folder / name).empty());
+    const SpherePacking packing = read_spheres(folder / name).packing;
+    CHECK(packing.shape == ContainerShape::cylinder);
+    CHECK(packing.box == Point{0.44, 0.44, 0.42});
+    CHECK(relative_density(packing) == Approx(0.3).epsilon(1e-12));
+    CHECK(smallest_gap(packing).gap >= 0.002 * (1 - 1e-12));
+    const schema::FileReader file(folder / name);
+    CHECK(file.read_scalar(schema::packing::packing_relative_density) == Approx(0.3).epsilon(1e-12));
+  }
+  // No node of the mesh is beyond the round wall, and the file says by how much.
+  const schema::FileReader file(folder / "p.h5");
+  const auto node = file.read(schema::packing::mesh_node);
+  double farthest = 0;
+  for (std::size_t i = 0; i < node.size(); i += 3)
+    farthest = std::max(farthest, std::hypot(node[i] - 0.22, node[i + 1] - 0.22));
+  CHECK(farthest < 0.22);
+  CHECK(file.read_scalar(schema::packing::mesh_smallest_facet_gap) <= 0.22 - farthest);
+  REQUIRE(pack_gen(fmt::format("quality {} -o {} --quiet", folder / "p.h5", folder / "q.json")).exit_code == 0);
+  CHECK_THAT(read_text(folder / "q.json"),
+             Catch::Contains("\"relative_density\": 0.3") || Catch::Contains("\"relative_density\": 0.2999999"));
+
+  REQUIRE(pack_gen(fmt::format("export {} -o {}", folder / "p.h5", folder / "s.csv")).exit_code == 0);
+  REQUIRE(pack_gen(fmt::format("import {} --container cylinder --diameter 0.44 --height 0.42 -o {}", folder / "s.csv",
+                               folder / "again.h5"))
+              .exit_code == 0);
+  const SpherePacking again = read_spheres(folder / "again.h5").packing, first = read_spheres(folder / "s.h5").packing;
+  CHECK(again.shape == ContainerShape::cylinder);
+  CHECK(again.center == first.center); // bit for bit
+}
+
+TEST_CASE("settle keeps the shape, and --fit-height lowers the container to the bed") {
+  const Folder folder;
+  write_text(folder / "pack.toml", cylinder_description());
+  REQUIRE(pack_gen(fmt::format("spheres {} -o {} --quiet", folder / "pack.toml", folder / "s.h5")).exit_code == 0);
+  const Outcome settled = pack_gen(fmt::format("settle {} --fit-height -o {}", folder / "s.h5", folder / "b.h5"));
+  INFO(settled.messages);
+  REQUIRE(settled.exit_code == 0);
+  CHECK_THAT(settled.messages, Catch::Contains("spheres at rest"));
+  CHECK(schema::validate(folder / "b.h5").empty());
+  const SpherePacking bed = read_spheres(folder / "b.h5").packing;
+  CHECK(bed.shape == ContainerShape::cylinder);
+  CHECK(bed.box[0] == 0.44);
+  CHECK(bed.box[2] < 0.42);
+  CHECK(smallest_gap(bed).gap >= smallest_gap(read_spheres(folder / "s.h5").packing).gap * (1 - 1e-9));
+  CHECK(pack_gen(fmt::format("mesh {} --size 0.04 -o {} --quiet", folder / "b.h5", folder / "m.h5")).exit_code == 0);
+  const Outcome refused = pack_gen(fmt::format("settle {} --gap 0.2 -o {}", folder / "s.h5", folder / "c.h5"));
+  CHECK(refused.exit_code == 2);
+  CHECK(refused.one_error_line("pack-gen"));
+  CHECK_FALSE(std::filesystem::exists(folder / "c.h5"));
+}
+
+TEST_CASE("a cylinder on the command line takes the place of the description's box") {
+  const Folder folder;
+  write_text(folder / "box.toml", description);
+  write_text(folder / "cylinder.toml", cylinder_description());
+  REQUIRE(pack_gen(fmt::format("spheres {} --container cylinder --diameter 0.44 --height 0.42 -o {} --quiet",
+                               folder / "box.toml", folder / "a.h5"))
+              .exit_code == 0);
+  REQUIRE(pack_gen(fmt::format("spheres {} -o {} --quiet", folder / "cylinder.toml", folder / "b.h5")).exit_code == 0);
+  CHECK(read_spheres(folder / "a.h5").packing.center == read_spheres(folder / "b.h5").packing.center);
+}
+
+TEST_CASE("spheres about an axis elsewhere are imported with the centre of the bottom as given") {
+  const Folder folder;
+  write_text(folder / "s.csv", "x,y,z,radius\n0, 0, 0.5, 0.3\n0.7, 0, 0.5, 0.25\n");
+  REQUIRE(pack_gen(fmt::format("import {} --container cylinder --diameter 2 --height 1 --bottom-center 0,0,0 -o {} "
+                               "--quiet",
+                               folder / "s.csv", folder / "s.h5"))
+              .exit_code == 0);
+  const SpherePacking packing = read_spheres(folder / "s.h5").packing;
+  CHECK(packing.center[0] == Point{1, 1, 0.5});
+  CHECK(packing.center[1][0] == Approx(1.7));
+  // Further out the second sphere is beyond the round wall: it is named, with its number.
+  write_text(folder / "s.csv", "x,y,z,radius\n0, 0, 0.5, 0.3\n0.6, 0.6, 0.5, 0.25\n");
+  const Outcome outcome =
+      pack_gen(fmt::format("import {} --container cylinder --diameter 2 --height 1 --bottom-center 0,0,0 -o {}",
+                           folder / "s.csv", folder / "t.h5"));
+  CHECK(outcome.exit_code == 2);
+  CHECK(outcome.one_error_line("pack-gen"));
+  CHECK_THAT(outcome.messages, Catch::Contains("sphere 1 at (1.6, 1.6, 0.5) and the round wall overlap by 0.0985"));
+  CHECK_FALSE(std::filesystem::exists(folder / "t.h5"));
+}
+
+TEST_CASE("containers that are mixed or incomplete are refused with one line and exit code 2") {
+  const Folder folder;
+  write_text(folder / "s.csv", "x,y,z,radius\n0.5, 0.5, 0.5, 0.3\n");
+  for (const auto& [options, expected] : std::vector<std::pair<std::string, std::string>>{
+           {"--container cylinder", "--diameter D --height H"},
+           {"--container cylinder --diameter 1", "--diameter D --height H"},
+           {"--container cylinder --diameter 1 --height 1 --box 1,1,1", "--box"},
+           {"--diameter 1", "--container cylinder"},
+           {"--bottom-center 0,0,0", "--container cylinder"},
+           {"--container cone --diameter 1 --height 1", "cone"},
+           {"--container cylinder --diameter 0 --height 1", "--diameter"}}) {
+    const Outcome outcome = pack_gen(fmt::format("import {} {} -o {}", folder / "s.csv", options, folder / "s.h5"));
+    INFO(options << ": " << outcome.messages);
+    CHECK(outcome.exit_code == 2);
+    CHECK(outcome.one_error_line("pack-gen"));
+    CHECK_THAT(outcome.messages, Catch::Contains(expected));
+  }
+  const std::string cylinder = cylinder_description();
+  for (const auto& [text, expected] : std::vector<std::pair<std::string, std::string>>{
+           {replaced(cylinder, "height = 0.42\n", ""), "height"},
+           {replaced(cylinder, "height = 0.42\n", "height = 0.42\nbox = [1, 1, 1]\n"), "found beside a cylinder"},
+           {replaced(description, "smallest_gap", "diameter = 1\nsmallest_gap"), "found beside a box"},
+           {replaced(cylinder, "\"cylinder\"", "\"cone\""), "cone"},
+           {replaced(cylinder, "relative_density = 0.3", "relative_density = 0.7"), "diameter and height"},
+           {replaced(cylinder, "smallest_gap = 0.002", "smallest_gap = 0.08"), "jam"}}) {
+    write_text(folder / "pack.toml", text);
+    const Outcome outcome = pack_gen(fmt::format("spheres {} -o {}", folder / "pack.toml", folder / "s.h5"));
+    INFO(outcome.messages);
+    CHECK(outcome.exit_code == 2);
+    CHECK(outcome.one_error_line("pack-gen"));
+    CHECK_THAT(outcome.messages, Catch::Contains(expected));
+    CHECK_FALSE(std::filesystem::exists(folder / "s.h5"));
+  }
+}
+
 TEST_CASE("the examples are packed as they say") {
   const Folder folder;
-  for (const auto& [name, count, density] : {std::tuple{"mcc_ph102", 329, 0.552}, {"mcc_ph102_smoke", 25, 0.45}}) {
+  for (const auto& [name, count, density] :
+       {std::tuple{"mcc_ph102", 329, 0.552}, {"mcc_ph102_smoke", 25, 0.45}, {"mcc_ph102_die", 329, 0.552}}) {
     REQUIRE(
         pack_gen(fmt::format("spheres {}/{}.toml -o {} --quiet", MPFEM_EXAMPLES, name, folder / "s.h5")).exit_code ==
         0);

@@ -11,7 +11,7 @@ namespace mpfem::test {
 
 using namespace schema;
 
-inline const std::vector<std::string> snapshot_names = {"0000", "0001"};
+inline const std::vector<std::string> snapshot_names = {"0000", "0001"}, tool_names = {"lower", "upper"};
 
 /// Extents by name: all different, so that a mix-up of two names shows. Names of a snapshot differ from one to the
 /// next.
@@ -100,9 +100,10 @@ inline void write_values(FileWriter& writer, const DatasetDescription& dataset, 
   }
 }
 
-/// The snapshots that a dataset is written for: none but the nameless one outside snapshots.
-inline std::vector<std::string> snapshots_of(const DatasetDescription& dataset) {
-  return dataset.of_snapshot() ? snapshot_names : std::vector<std::string>{""};
+/// The snapshots or tools that a dataset is written for: none but the nameless one outside both.
+inline std::vector<std::string> members_of(const DatasetDescription& dataset) {
+  if (!dataset.of_member()) return {""};
+  return dataset.of_snapshot() ? snapshot_names : tool_names;
 }
 
 /// Writes every dataset of the kind, the ones that are not required included where `optional`.
@@ -111,8 +112,8 @@ inline void write_complete_file(const std::string& path, FileKind kind, bool opt
   Extents extents;
   for (const DatasetDescription& dataset : kinds[static_cast<std::size_t>(kind)].datasets)
     if (dataset.required || optional)
-      for (const std::string& snapshot : snapshots_of(dataset))
-        write_values(writer, dataset, good_values(dataset, extents, snapshot), snapshot);
+      for (const std::string& member : members_of(dataset))
+        write_values(writer, dataset, good_values(dataset, extents, member), member);
   writer.commit();
 }
 

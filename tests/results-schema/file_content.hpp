@@ -31,10 +31,7 @@ inline std::map<std::string, std::string> content_of(const std::string& path) {
     });
   };
   for (const auto& dataset : schema::kinds[static_cast<std::size_t>(file.kind())].datasets)
-    if (!dataset.of_snapshot())
-      add(dataset, "");
-    else
-      for (const std::string& snapshot : file.snapshots()) add(dataset, snapshot);
+    for (const std::string& member : file.members(dataset)) add(dataset, member);
   return content;
 }
 

@@ -23,6 +23,7 @@ struct Contents {
   std::vector<double> node = std::vector<double>(24, 0.5);
   std::vector<std::int32_t> tet = {0, 1, 2, 3, 4, 5, 6, 7};
   std::vector<std::int32_t> node_offset = {0, 4, 8}, tet_offset = {0, 1, 2};
+  std::string shape; ///< empty: the file says nothing of it
 };
 
 void write(const std::string& path, const Contents& c) {
@@ -32,6 +33,7 @@ void write(const std::string& path, const Contents& c) {
     file.write(dataset, std::span<const T>(values), values.size() / columns);
   };
   rows(packing::box_lengths, c.lengths, 1);
+  if (!c.shape.empty()) file.write_scalar(packing::box_shape, c.shape);
   rows(packing::spheres_center, c.center, 3);
   rows(packing::spheres_radius, c.radius, 1);
   rows(packing::mesh_node, c.node, 3);
@@ -65,6 +67,21 @@ TEST_CASE("A packing that means something is read") {
   CHECK(mesh.tet == contents.tet);
   CHECK(mesh.grain_node_offset == contents.node_offset);
   CHECK(mesh.grain_tet_offset == contents.tet_offset);
+}
+
+TEST_CASE("The shape of the container is a box where the file does not say otherwise") {
+  const test::TemporaryFolder folder;
+  Contents contents;
+  contents.lengths = {2, 2, 3};
+  for (const auto& [text, shape] :
+       {std::pair{"", ContainerShape::box}, {"box", ContainerShape::box}, {"cylinder", ContainerShape::cylinder}}) {
+    contents.shape = text;
+    write(folder.file("p.h5"), contents);
+    const PackingSpheres spheres = read_packing_spheres(FileReader(folder.file("p.h5")));
+    CHECK(spheres.shape == shape);
+    CHECK(container_volume(spheres.shape, spheres.box_lengths) ==
+          Approx(shape == ContainerShape::box ? 12 : 3 * M_PI).epsilon(1e-14));
+  }
 }
 
 TEST_CASE("A packing that means nothing is refused with its dataset, index, what was found and what is allowed") {
@@ -102,7 +119,14 @@ TEST_CASE("A packing that means nothing is refused with its dataset, index, what
          c.center.clear(), c.radius.clear(), c.node.clear(), c.tet.clear();
          c.node_offset = c.tet_offset = {0};
        },
-       "/spheres/radius: found no sphere, allowed: at least one"}};
+       "/spheres/radius: found no sphere, allowed: at least one"},
+      {[](Contents& c) { c.shape = "cone\n"; }, "/box/shape: found 'cone\\n', allowed: box, cylinder"},
+      {[](Contents& c) { c.shape = "cylinder"; },
+       "/box/lengths: found 1 and 2 at index 0 and 1, allowed: the same, the diameter of the cylinder"},
+      {[](Contents& c) {
+         c.shape = "cylinder", c.lengths = {2, 2, 3}, c.center = {1, 1, 1, 0.2, 0.2, 1};
+       },
+       "/spheres/center: found a distance of 1.13137 from the axis at index 1, allowed: 0 … 1, in the cylinder"}};
   for (const Case& c : cases) {
     const test::TemporaryFolder folder;
     const std::string path = folder.file("p.h5");

@@ -44,7 +44,7 @@ TEST_CASE("Every dataset of every kind of file is read as it was written") {
   CHECK(reader.creator() == "mpfem tests");
   test::Extents extents; // the same names in the same order give the same extents
   for (const DatasetDescription& dataset : kinds[static_cast<std::size_t>(kind)].datasets)
-    for (const std::string& snapshot : test::snapshots_of(dataset)) {
+    for (const std::string& snapshot : test::members_of(dataset)) {
       CAPTURE(dataset.path, snapshot);
       const test::Values values = test::good_values(dataset, extents, snapshot);
       CHECK(reader.has(dataset, snapshot));

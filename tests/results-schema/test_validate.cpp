@@ -23,7 +23,7 @@ struct GoodFile {
 
 /// A place of a dataset: in the first snapshot where it is of a snapshot.
 std::string place_of(const DatasetDescription& dataset) {
-  return path_of(dataset, test::snapshots_of(dataset).front());
+  return path_of(dataset, test::members_of(dataset).front());
 }
 
 std::span<const DatasetDescription> datasets_of(FileKind kind) {
@@ -197,8 +197,19 @@ TEST_CASE("A run without snapshots is clean") {
     FileWriter writer(folder.file("run.h5"), FileKind::run, "test");
     test::Extents extents;
     for (const DatasetDescription& dataset : datasets_of(FileKind::run))
-      if (!dataset.of_snapshot()) test::write_values(writer, dataset, test::good_values(dataset, extents, ""), "");
+      if (!dataset.of_member()) test::write_values(writer, dataset, test::good_values(dataset, extents, ""), "");
     writer.commit();
   }
   CHECK(validate(folder.file("run.h5")).findings == Findings{});
+}
+
+TEST_CASE("Every tool of a run is held to the schema, and has as many rows as the history") {
+  const GoodFile file(FileKind::run);
+  CHECK(FileReader(file.path).tools() == test::tool_names);
+  const auto rows = FileReader(file.path).rows(run::history_time);
+  test::replace_dataset(file.path, "/history/tools/upper/normal_force", H5T_IEEE_F64LE, {rows + 1});
+  test::replace_dataset(file.path, "/history/tools/lower/colour", H5T_IEEE_F64LE, {rows});
+  CHECK(file.findings() == Findings{"/history/tools/upper/normal_force has " + std::to_string(rows + 1) +
+                                        " rows, /history/time has " + std::to_string(rows),
+                                    "/history/tools/lower/colour is not in the schema"});
 }

@@ -1,0 +1,72 @@
+#include "pack-gen/settle.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "common/errors.hpp"
+#include "pack-gen/overlap_minimiser.hpp"
+
+namespace mpfem {
+
+namespace {
+
+/// Lengths are in mean inflated radii; spheres are inflated by half of the gap and a margin, as in pack_spheres.
+struct Inflated {
+  double unit = 0;
+  std::vector<double> radius;
+  PackingContainer inner;
+};
+
+constexpr double margin = 2e-4, allowed_overlap = 0.9 * margin;
+
+Inflated inflated(const SpherePacking& packing, double gap) {
+  Inflated result;
+  for (const double r : packing.radius) result.unit += (r + 0.5 * gap) / static_cast<double>(packing.radius.size());
+  for (const double r : packing.radius) result.radius.push_back((r + 0.5 * gap) / result.unit + margin);
+  result.inner.shape = packing.shape;
+  for (std::size_t k = 0; k < 3; ++k) result.inner.lengths[k] = (packing.box[k] - gap) / result.unit;
+  return result;
+}
+
+double top_of(const SpherePacking& packing) {
+  double top = 0;
+  for (std::size_t i = 0; i < packing.radius.size(); ++i) top = std::max(top, packing.center[i][2] + packing.radius[i]);
+  return top;
+}
+
+} // namespace
+
+SettledPacking settle(const SpherePacking& packing, const SettleRequest& request) {
+  const double gap = request.smallest_gap;
+  const Inflated spheres = inflated(packing, gap);
+  std::vector<Point> start = packing.center;
+  for (Point& p : start)
+    for (double& x : p) x = (x - 0.5 * gap) / spheres.unit;
+  OverlapMinimiser bed(std::move(start), spheres.radius, spheres.inner);
+  constexpr double at_rest = 1e-4; // share of a weight; more lets spheres balance on one another
+  constexpr int most_steps = 200000;
+  bool rests = false;
+  // A heavy bed settles fast and is soft; lighter and lighter it becomes one of hard spheres.
+  for (double weight = 1e-3; weight > 1e-8 && !(rests && bed.largest_overlap() <= allowed_overlap); weight *= 0.1) {
+    bed.weigh(weight);
+    rests = bed.sink(at_rest, most_steps, [&](double share) {
+      if (request.progress) request.progress(fmt::format("settling, {:.2g} of a weight unbalanced", share));
+    });
+  }
+  SettledPacking result{packing, 0, bed.unbalanced_share()};
+  for (std::size_t i = 0; i < packing.center.size(); ++i)
+    for (std::size_t k = 0; k < 3; ++k) result.packing.center[i][k] = bed.position()[i][k] * spheres.unit + 0.5 * gap;
+  result.bed_height = top_of(result.packing);
+  if (request.fit_height) result.packing.box[2] = result.bed_height + gap;
+  if (!rests || !(smallest_gap(result.packing).gap >= gap * (1 - 1e-9)))
+    throw InputError(
+        fmt::format("{} spheres do not come to rest with gaps of {:g} mm in this container: {:.2g} of a "
+                    "weight is unbalanced and the smallest gap is {:.4g} mm; allowed: smaller gaps or more "
+                    "room",
+                    packing.radius.size(), gap, result.unbalanced, smallest_gap(result.packing).gap));
+  return result;
+}
+
+} // namespace mpfem

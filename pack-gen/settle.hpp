@@ -1,0 +1,31 @@
+#pragma once
+// Spheres that sink under their weight until they rest on each other and on the bottom, without friction.
+//
+// Method: as in packing.hpp spheres are soft and repel each other; each is pulled down in proportion to its volume. The
+// least energy is searched with FIRE, with ever smaller weights, until what overlap bears them with is within the
+// margin that the gaps leave: then nothing overlaps, and the bed is the one of hard spheres but for that margin.
+
+#include <functional>
+#include <string>
+
+#include "pack-gen/packing.hpp"
+
+namespace mpfem {
+
+struct SettleRequest {
+  double smallest_gap = 0; ///< mm, between spheres and to the walls, kept in the bed
+  bool fit_height = false; ///< lower the container to the bed, a gap above its highest sphere
+  std::function<void(const std::string& state)> progress{};
+};
+
+struct SettledPacking {
+  SpherePacking packing;
+  double bed_height = 0; ///< mm, of the top of the highest sphere
+  double unbalanced = 0; ///< largest force left on a sphere, over its weight
+};
+
+/// The spheres of a packing at rest under gravity along -z, order and radii kept. The same request gives the same bed.
+/// Throws InputError where they do not come to rest with these gaps.
+SettledPacking settle(const SpherePacking& packing, const SettleRequest& request);
+
+} // namespace mpfem

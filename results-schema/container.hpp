@@ -1,0 +1,27 @@
+#pragma once
+// What the grains of a packing stand in.
+
+#include <array>
+#include <numbers>
+#include <span>
+#include <string_view>
+
+namespace mpfem {
+
+/// A box, or a cylinder: its axis is z through the middle of the box [D, D, H] that bounds it.
+enum class ContainerShape { box, cylinder };
+
+/// Names in files, in the order of ContainerShape.
+inline constexpr std::array<std::string_view, 2> container_names = {"box", "cylinder"};
+
+constexpr std::string_view name_of(ContainerShape shape) {
+  return container_names[static_cast<std::size_t>(shape)];
+}
+
+/// Volume (mm^3) of a container with these three edge lengths (mm) of its box: of a cylinder pi/4 D^2 H.
+constexpr double container_volume(ContainerShape shape, std::span<const double> edges) {
+  const double box = edges[0] * edges[1] * edges[2];
+  return shape == ContainerShape::box ? box : 0.25 * std::numbers::pi * box;
+}
+
+} // namespace mpfem
