@@ -85,7 +85,7 @@ std::array<double, 6> Box::stress() const {
   std::array<double, 6> stress{};
   for (std::size_t side = 0; side < 6; ++side) {
     const std::size_t axis = side / 2;
-    stress[side] = force_[side] / (cell_.length((axis + 1) % 3) * cell_.length((axis + 2) % 3));
+    stress[side] = force_[side] / cell_.area(axis);
   }
   return stress;
 }

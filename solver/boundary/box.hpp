@@ -45,6 +45,8 @@ public:
   std::array<double, 6> take_loads(const std::array<double, 6>& contact, const std::array<double, 6>& grip);
   /// The cell after a step, in which the walls go with its faces.
   void move_to(const Cell& next);
+  /// The cell as its tools stand (tools.hpp); walls are not moved by it.
+  void set_cell(const Cell& cell) { cell_ = cell; }
 
   // ---- stress, compression positive
   /// N, of each face at the last time level.
@@ -64,6 +66,7 @@ public:
   template <class Self, class Visitor>
   static void for_each_field(Self& s, Visitor&& visit) {
     visit("box.low", s.cell_.low), visit("box.high", s.cell_.high), visit("box.withdrawn", s.withdrawn_);
+    visit("box.section_share", s.cell_.section_share);
     visit("box.force", s.force_), visit("box.movement", s.movement_), visit("box.mean_stress", s.mean_stress_);
   }
 

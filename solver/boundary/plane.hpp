@@ -11,10 +11,12 @@ namespace mpfem {
 struct AxisNormal {
   std::size_t axis;
   double sign; ///< 1 or -1
+  Vector3<double> vector() const { return {axis == 0 ? sign : 0.0, axis == 1 ? sign : 0.0, axis == 2 ? sign : 0.0}; }
   void push(Model& model, std::size_t node, double force) const { model.push_contact_point(node, axis, sign * force); }
 };
 
 struct Plane {
+  static constexpr bool curved = false;
   AxisNormal normal; ///< towards the grains
   double position;   ///< mm, along the axis
 

@@ -15,7 +15,7 @@
 namespace mpfem {
 
 /// Distance (mm) of a point from a surface, negative behind it, and the unit normal towards the grains. `Normal` tells
-/// the drivers by `push` how to add a force along it to a node.
+/// the drivers by `push` how to add a force along it to a node, and by `vector` its components.
 template <class Normal>
 struct RigidGap {
   double distance;
@@ -36,6 +36,7 @@ concept RigidSurface = requires(const Surface& surface, const NodePoint& point, 
   { surface.gap(point).distance } -> std::convertible_to<double>;
   /// Adds a force (N) along the normal to the contact point of a node.
   surface.gap(point).normal.push(model, std::size_t{}, double{});
+  { surface.gap(point).normal.vector() } -> std::same_as<Vector3<double>>;
 };
 
 /// What a surface bears and stores.

@@ -1,24 +1,13 @@
 #pragma once
-// Coulomb friction of grains at the walls of the box (solver/physics/friction.hpp).
-//
-// A node behind a wall has an anchor in it, a stick spring with the stiffness of the wall's penalty. Walls move along
-// their normals only: an anchor keeps its place across them. It is forgotten when the node comes in front of the wall.
+// Coulomb friction of grains at the walls of the box (surface_friction.hpp).
 
 #include <array>
-#include <cstdint>
-#include <span>
 #include <vector>
 
 #include "solver/boundary/box.hpp"
+#include "solver/boundary/surface_friction.hpp"
 
 namespace mpfem {
-
-/// The stick spring of a node behind a wall. Components are along the two axes that follow the wall's own.
-struct WallAnchor {
-  std::int32_t node = 0;
-  std::array<double, 2> place{}; ///< mm
-  std::array<double, 2> force{}; ///< N, of the node on the anchor at the last time level
-};
 
 /// What friction at the walls stores and dissipates at one grain.
 struct WallFrictionSums {
@@ -42,13 +31,13 @@ public:
   /// N on a grain, of each wall along both axes.
   std::array<double, 12> forces_on_grain(int grain) const;
   /// By ascending node.
-  const std::vector<WallAnchor>& anchors(int grain, std::size_t side) const;
-  std::vector<WallAnchor>& anchors(int grain, std::size_t side);
+  const std::vector<SurfaceAnchor>& anchors(int grain, std::size_t side) const;
+  std::vector<SurfaceAnchor>& anchors(int grain, std::size_t side);
   int grains() const { return static_cast<int>(anchors_.size()); }
 
 private:
   double friction_;
-  std::vector<std::array<std::vector<WallAnchor>, 6>> anchors_; ///< [grains]
+  std::vector<std::array<std::vector<SurfaceAnchor>, 6>> anchors_; ///< [grains]
 };
 
 } // namespace mpfem

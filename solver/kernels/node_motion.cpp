@@ -48,6 +48,19 @@ AdvanceSums advance(Model& model, int grain, const Advance& p) {
   return sums;
 }
 
+double add_weight(Model& model, const std::array<double, 3>& gravity, int grain) {
+  const auto g = static_cast<std::size_t>(grain);
+  double work = 0;
+  for (auto n = static_cast<std::size_t>(model.node_offset[g]); n < static_cast<std::size_t>(model.node_offset[g + 1]);
+       ++n)
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const double weight = gravity[axis] / model.inverse_mass[n];
+      model.force[4 * n + axis] += weight;
+      work += weight * model.position[4 * n + axis];
+    }
+  return work;
+}
+
 ForceMoments force_moments(const Model& model, const std::array<double, 3>& centre, int grain) {
   const auto g = static_cast<std::size_t>(grain);
   ForceMoments sums;

@@ -80,6 +80,27 @@ std::uint64_t numbering_hash(const Model& model) {
                      hash_values(std::span<const std::int32_t>(model.file_node)));
 }
 
+constexpr std::size_t anchor_values = 6, walls = 6;
+
+/// Where the anchors of friction at rigid surfaces stand.
+struct AnchorDatasets {
+  const decltype(check::wall_friction_node)& node;
+  const decltype(check::wall_friction_side)& surface;
+  const decltype(check::wall_friction_values)& values;
+};
+constexpr AnchorDatasets wall_anchors{check::wall_friction_node, check::wall_friction_side,
+                                      check::wall_friction_values};
+constexpr AnchorDatasets tool_anchors{check::tool_friction_node, check::tool_friction_tool,
+                                      check::tool_friction_values};
+
+void append_anchor(std::vector<double>& values, const SurfaceAnchor& anchor) {
+  for (const Vector3<double>& v : {anchor.place, anchor.force}) values.insert(values.end(), {v.x, v.y, v.z});
+}
+
+SurfaceAnchor anchor_of(std::int32_t node, const double* v) {
+  return {node, {v[0], v[1], v[2]}, {v[3], v[4], v[5]}};
+}
+
 /// One file while it is written.
 class Writer {
 public:
@@ -101,7 +122,8 @@ public:
   void write_tets(const Model& model);
   void write_bonds(const Contact& contact);
   void write_friction(const Contact& contact);
-  void write_wall_friction(const WallFriction& friction);
+  template <class Friction>
+  void write_anchors(const AnchorDatasets& datasets, const Friction& friction, std::size_t surfaces);
   void write_grips(const Grips& grips);
   void commit() { file_.commit(); }
 
@@ -132,6 +154,7 @@ void Writer::write_record(const RunRecord& record) {
   write(check::run_stage_values, stage_values, stage_name.size());
   write(check::run_stage_hold_rms, stage_hold_rms);
   write(check::run_history, flatten(record.history));
+  if (!record.tool_history.empty()) write(check::run_tool_history, flatten(record.tool_history));
   if (!record.from.empty()) file_.write_scalar(check::run_from, record.from);
 }
 
@@ -176,19 +199,20 @@ void Writer::write_friction(const Contact& contact) {
   write(check::friction_values, values, facet.size());
 }
 
-void Writer::write_wall_friction(const WallFriction& friction) {
-  std::vector<std::int32_t> node, sides;
+template <class Friction>
+void Writer::write_anchors(const AnchorDatasets& datasets, const Friction& friction, std::size_t surfaces) {
+  std::vector<std::int32_t> node, surface_of_node;
   std::vector<double> values;
   for (int grain = 0; grain < friction.grains(); ++grain)
-    for (std::size_t side = 0; side < 6; ++side)
-      for (const WallAnchor& anchor : friction.anchors(grain, side)) {
+    for (std::size_t surface = 0; surface < surfaces; ++surface)
+      for (const SurfaceAnchor& anchor : friction.anchors(grain, surface)) {
         node.push_back(anchor.node);
-        sides.push_back(static_cast<std::int32_t>(side));
-        values.insert(values.end(), {anchor.place[0], anchor.place[1], anchor.force[0], anchor.force[1]});
+        surface_of_node.push_back(static_cast<std::int32_t>(surface));
+        append_anchor(values, anchor);
       }
-  write(check::wall_friction_node, node);
-  write(check::wall_friction_side, sides);
-  write(check::wall_friction_values, values, node.size());
+  write(datasets.node, node);
+  write(datasets.surface, surface_of_node);
+  write(datasets.values, values, node.size());
 }
 
 void Writer::write_grips(const Grips& grips) {
@@ -221,7 +245,8 @@ void write_checkpoint(const std::string& path, const CheckpointState& state, con
   for_each_contact_array(state.contact, grains, write);
   if (state.contact.bonding()) file.write_bonds(state.contact);
   if (state.contact.has_friction()) file.write_friction(state.contact);
-  if (state.wall_friction.present()) file.write_wall_friction(state.wall_friction);
+  if (state.wall_friction.present()) file.write_anchors(wall_anchors, state.wall_friction, walls);
+  if (state.tools.present()) file.write_anchors(tool_anchors, state.tools, state.tools.size());
   if (state.grips.present()) file.write_grips(state.grips);
   file.commit();
 }
@@ -291,6 +316,7 @@ RunRecord CheckpointReader::record() const {
   RunRecord record;
   try {
     record.history = unflatten(file_.read(check::run_history));
+    if (file_.has(check::run_tool_history)) record.tool_history = tool_rows_of(file_.read(check::run_tool_history));
   } catch (const std::length_error&) {
     throw InputError(
         fmt::format("{}: the checkpoint was written by a build with other history columns", one_line(path())));
@@ -313,8 +339,9 @@ FieldValues CheckpointReader::fields() const {
           .integer = file_.read(check::run_integers)};
 }
 
-void CheckpointReader::take_arrays(Model& model, Contact& contact, WallFriction& wall_friction, GrainSteps& grain_steps,
-                                   Grips* grips, const std::optional<BondParameters>& bond_parameters) const {
+void CheckpointReader::take_arrays(Model& model, Contact& contact, WallFriction& wall_friction, Tools& tools,
+                                   GrainSteps& grain_steps, Grips* grips,
+                                   const std::optional<BondParameters>& bond_parameters) const {
   const auto nodes = static_cast<std::size_t>(model.nodes()), grains = static_cast<std::size_t>(model.grains);
   for_each_node_array(model, [&](const auto& dataset, AlignedVector<double>& into) {
     const auto values = file_.read(dataset); // one array at a time is in memory beside the model
@@ -336,7 +363,13 @@ void CheckpointReader::take_arrays(Model& model, Contact& contact, WallFriction&
     if (bond_parameters) take_bonds(model, contact, *bond_parameters);
   }
   if (contact.has_friction()) take_friction(model, contact);
-  if (wall_friction.present() && file_.has(check::wall_friction_node)) take_wall_friction(model, wall_friction);
+  if (wall_friction.present() && file_.has(check::wall_friction_node))
+    take_anchors(model, wall_anchors, walls,
+                 [&](int grain, std::size_t wall) { return &wall_friction.anchors(grain, wall); });
+  if (tools.present() && file_.has(check::tool_friction_node))
+    take_anchors(model, tool_anchors, tools.size(), [&](int grain, std::size_t tool) {
+      return tools[tool].friction > 0 ? &tools.anchors(grain, tool) : nullptr;
+    });
   if (grips && file_.has(check::grip_node)) take_grips(model, *grips);
 }
 
@@ -403,18 +436,22 @@ void CheckpointReader::take_friction(const Model& model, Contact& contact) const
   }
 }
 
-void CheckpointReader::take_wall_friction(const Model& model, WallFriction& friction) const {
-  const auto node = file_.read(check::wall_friction_node), side = file_.read(check::wall_friction_side);
-  const auto values = file_.read(check::wall_friction_values);
-  if (side.size() != node.size() || values.size() != 4 * node.size()) fail_damaged();
+/// `anchors_of(grain, surface)`: where they are to stand, or null where they are left out.
+template <class Datasets, class Anchors>
+void CheckpointReader::take_anchors(const Model& model, const Datasets& datasets, std::size_t surfaces,
+                                    Anchors&& anchors_of) const {
+  const auto node = file_.read(datasets.node), surface = file_.read(datasets.surface);
+  const auto values = file_.read(datasets.values);
+  if (surface.size() != node.size() || values.size() != anchor_values * node.size()) fail_damaged();
   const auto& first = model.node_offset;
   for (std::size_t i = 0; i < node.size(); ++i) {
-    if (node[i] < 0 || node[i] >= model.nodes() || side[i] < 0 || side[i] > 5) fail_damaged();
+    if (node[i] < 0 || node[i] >= model.nodes() || surface[i] < 0 || static_cast<std::size_t>(surface[i]) >= surfaces)
+      fail_damaged();
     const auto grain = static_cast<int>(std::upper_bound(first.begin(), first.end(), node[i]) - first.begin()) - 1;
-    auto& anchors = friction.anchors(grain, static_cast<std::size_t>(side[i]));
-    if (!anchors.empty() && anchors.back().node >= node[i]) fail_damaged();
-    const double* v = &values[4 * i];
-    anchors.push_back({node[i], {v[0], v[1]}, {v[2], v[3]}});
+    std::vector<SurfaceAnchor>* anchors = anchors_of(grain, static_cast<std::size_t>(surface[i]));
+    if (anchors == nullptr) continue;
+    if (!anchors->empty() && anchors->back().node >= node[i]) fail_damaged();
+    anchors->push_back(anchor_of(node[i], &values[anchor_values * i]));
   }
 }
 

@@ -9,6 +9,7 @@
 #include "common/fields.hpp"
 #include "results-schema/file.hpp"
 #include "solver/boundary/grips.hpp"
+#include "solver/boundary/tools.hpp"
 #include "solver/boundary/wall_friction.hpp"
 #include "solver/kernels/contact_forces.hpp"
 #include "solver/kernels/node_motion.hpp"
@@ -17,12 +18,14 @@
 #include "solver/output/history_row.hpp"
 #include "solver/output/profile_parts.hpp"
 #include "solver/output/stage_result.hpp"
+#include "solver/output/tool_history.hpp"
 
 namespace mpfem {
 
 /// What a run carries besides the simulation.
 struct RunRecord {
   std::vector<HistoryRow> history;
+  std::vector<ToolRow> tool_history; ///< of all tools for each row of the history
   std::vector<std::string> snapshot_files;
   std::vector<StageResult> stages;   ///< those that are complete
   std::string from;                  ///< where the run began: checksum of a checkpoint, "packing", or empty: not known
@@ -46,6 +49,7 @@ struct CheckpointState {
   const Model& model;
   const Contact& contact;
   const WallFriction& wall_friction;
+  const Tools& tools;
   const Grips& grips;
   const GrainSteps& grain_steps;
   FieldValues fields; ///< of the simulation, whose first whole number is the step, then of the record
@@ -80,15 +84,16 @@ public:
   /// resist sliding is said by `bond_parameters`, of the run that wrote the checkpoint; none where no bond has formed.
   /// The last law in `contact` stays that of bonds to come. `grips`: of a stage that grips, its axis set, or none.
   /// Friction that is on only now begins without anchors; anchors of friction that is off now are left out.
-  void take_arrays(Model& model, Contact& contact, WallFriction& wall_friction, GrainSteps& grain_steps, Grips* grips,
-                   const std::optional<BondParameters>& bond_parameters) const;
+  void take_arrays(Model& model, Contact& contact, WallFriction& wall_friction, Tools& tools, GrainSteps& grain_steps,
+                   Grips* grips, const std::optional<BondParameters>& bond_parameters) const;
 
 private:
   void take_tets(Model& model) const;
   void take_candidates(const Model& model, Contact& contact) const;
   void take_bonds(const Model& model, Contact& contact, const BondParameters& parameters) const;
   void take_friction(const Model& model, Contact& contact) const;
-  void take_wall_friction(const Model& model, WallFriction& friction) const;
+  template <class Datasets, class Anchors>
+  void take_anchors(const Model& model, const Datasets& datasets, std::size_t surfaces, Anchors&& anchors_of) const;
   void take_grips(const Model& model, Grips& grips) const;
   [[noreturn]] void fail_damaged() const;
 

@@ -32,16 +32,18 @@ void write_column(schema::FileWriter& file, const Rows& rows, const schema::Data
   file.write(dataset, std::span<const double>(values), rows.size());
 }
 
-bool is_of_friction(const schema::DatasetDescription& column) {
-  return column.path == schema::run::history_friction_energy.path ||
-         column.path == schema::run::history_friction_dissipation.path;
+bool is_wanted(const schema::DatasetDescription& column, const OptionalColumns& optional) {
+  if (column.path == schema::run::history_friction_energy.path ||
+      column.path == schema::run::history_friction_dissipation.path)
+    return optional.friction;
+  return column.path != schema::run::history_section_share.path || optional.container;
 }
 
 } // namespace
 
-void write_history(schema::FileWriter& file, const Rows& rows, bool friction) {
+void write_history(schema::FileWriter& file, const Rows& rows, const OptionalColumns& optional) {
   HistoryRow::for_each_column([&](const auto& dataset, auto member) {
-    if (friction || !is_of_friction(dataset)) write_column(file, rows, dataset, member);
+    if (is_wanted(dataset, optional)) write_column(file, rows, dataset, member);
   });
 }
 

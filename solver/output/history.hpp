@@ -8,8 +8,14 @@
 
 namespace mpfem {
 
-/// Writes all rows as /history of a run file; the columns of friction only where there is `friction`.
-void write_history(schema::FileWriter& file, const std::vector<HistoryRow>& rows, bool friction);
+/// Columns that a history has only where the scenario has what they tell of.
+struct OptionalColumns {
+  bool friction = false;
+  bool container = false; ///< of tools
+};
+
+/// Writes all rows as /history of a run file.
+void write_history(schema::FileWriter& file, const std::vector<HistoryRow>& rows, const OptionalColumns& optional);
 
 /// Rows as plain numbers, one after another, and back (for checkpoints). unflatten throws std::length_error where the
 /// numbers are not whole rows.

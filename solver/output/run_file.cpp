@@ -31,7 +31,9 @@ std::vector<float> in_file_order(const Model& model, const AlignedVector<double>
 
 /// Normal traction at surface nodes: the sum of contact, bond and wall forces along the inward normal over the
 /// tributary area.
-std::vector<float> contact_pressure(const Model& model, const Contact& contact, const Box& box) {
+std::vector<float> contact_pressure(const SnapshotState& state) {
+  const Model& model = state.model;
+  const Contact& contact = state.contact;
   std::vector<double> force(static_cast<std::size_t>(model.nodes()), 0.0);
   const auto add = [&](std::int32_t node, double share, const ContactForce& point) {
     const double* normal = &model.normal[4 * static_cast<std::size_t>(node)];
@@ -51,7 +53,8 @@ std::vector<float> contact_pressure(const Model& model, const Contact& contact, 
     for (std::int32_t n = model.node_offset[g]; n < model.node_offset[g] + model.surface_node_count[g]; ++n) {
       const auto node = static_cast<std::size_t>(n);
       const double area = model.normal[4 * node + 3];
-      const double push = force[node] + box.wall_force_on_node(model, node, grain);
+      const double push =
+          force[node] + state.box.wall_force_on_node(model, node, grain) + state.tools.push_on_node(model, node, grain);
       pressure[static_cast<std::size_t>(model.file_node[node])] = area > 0 ? static_cast<float>(push / area) : 0.0F;
     }
   }
@@ -214,7 +217,7 @@ void write_snapshot_file(const std::string& path, const SnapshotState& state) {
   file.write(run::snapshots_von_mises, std::span<const float>(fields.von_mises), tets, name);
   file.write(run::snapshots_pressure, std::span<const float>(fields.pressure), tets, name);
   file.write(run::snapshots_plastic_strain, std::span<const float>(fields.plastic_strain), tets, name);
-  const auto pressure = contact_pressure(model, state.contact, state.box);
+  const auto pressure = contact_pressure(state);
   file.write(run::snapshots_contact_pressure, std::span<const float>(pressure), nodes, name);
   std::vector<std::int32_t> grains;
   std::vector<double> force, area;
@@ -236,10 +239,11 @@ void write_snapshot_file(const std::string& path, const SnapshotState& state) {
   file.commit();
 }
 
-void write_run_file(const std::string& path, const Model& model, const std::vector<HistoryRow>& history,
+void write_run_file(const std::string& path, const Model& model, const RunHistory& history,
                     const std::vector<std::string>& snapshot_files, const Provenance& provenance) {
   schema::FileWriter file(path, schema::FileKind::run, fmt::format("mpfem {}", version_and_commit()));
-  write_history(file, history, provenance.friction);
+  write_history(file, history.rows, provenance.columns);
+  write_tool_history(file, history.tools, history.tool_rows);
 
   write_mesh(file, model);
   for (std::size_t i = 0; i < snapshot_files.size(); ++i) {

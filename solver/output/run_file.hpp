@@ -8,11 +8,13 @@
 #include <vector>
 
 #include "solver/boundary/box.hpp"
+#include "solver/boundary/tools.hpp"
 #include "solver/boundary/wall_friction.hpp"
 #include "solver/kernels/contact_forces.hpp"
 #include "solver/kernels/node_motion.hpp"
 #include "solver/output/history.hpp"
 #include "solver/output/stage_result.hpp"
+#include "solver/output/tool_history.hpp"
 
 namespace mpfem {
 
@@ -22,6 +24,7 @@ struct SnapshotState {
   const Contact& contact;
   const Box& box;
   const WallFriction& wall_friction;
+  const Tools& tools;
   double time = 0; ///< s
   std::int64_t step = 0;
   double relative_density = 0;
@@ -38,12 +41,19 @@ struct Provenance {
   std::vector<std::string> profile_name;
   std::vector<double> profile_seconds;
   std::vector<StageResult> stages; ///< those that are complete
-  bool friction = false;           ///< the scenario has friction
-  std::string from;                ///< where the run began: checksum of a checkpoint, "packing", or empty: not known
+  OptionalColumns columns;
+  std::string from; ///< where the run began: checksum of a checkpoint, "packing", or empty: not known
+};
+
+/// What a run recorded row by row.
+struct RunHistory {
+  const std::vector<HistoryRow>& rows;
+  std::vector<std::string> tools;        ///< names
+  const std::vector<ToolRow>& tool_rows; ///< of all tools for each row
 };
 
 /// Writes RUN.h5 from history, snapshot files and provenance. Throws StorageError.
-void write_run_file(const std::string& path, const Model& model, const std::vector<HistoryRow>& history,
+void write_run_file(const std::string& path, const Model& model, const RunHistory& history,
                     const std::vector<std::string>& snapshot_files, const Provenance& provenance);
 
 /// What a run file says of its run.

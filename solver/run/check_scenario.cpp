@@ -8,6 +8,7 @@
 
 #include "common/available_memory.hpp"
 #include "common/errors.hpp"
+#include "solver/boundary/stl.hpp"
 #include "solver/model/bond_resolution.hpp"
 #include "solver/output/checkpoint.hpp"
 #include "solver/run/needs.hpp"
@@ -93,6 +94,12 @@ MeasuredTimes measure(Simulation& simulation) {
   return times;
 }
 
+void print_tool(const ToolParameters& tool) {
+  fmt::print("tool           '{}', {}, friction {:g}\n", tool.name, shape_name(tool.shape), tool.friction);
+  if (const auto* stl = std::get_if<StlShape>(&tool.shape))
+    fmt::print("               {}: {}\n", stl->file, describe(read_stl(stl->file, stl->scale).findings));
+}
+
 /// What the packing is, and what it needs.
 void print_model(const Scenario& scenario, const Simulation& simulation, const Needs& needs) {
   const Model& model = simulation.model();
@@ -108,6 +115,7 @@ void print_model(const Scenario& scenario, const Simulation& simulation, const N
   if (scenario.has_friction())
     fmt::print("friction       {:g} between grains, {:g} at walls\n", scenario.contact.friction,
                scenario.wall_friction);
+  for (const ToolParameters& tool : scenario.tools) print_tool(tool);
   fmt::print("relative density at the start  {:.4f}\n", simulation.relative_density());
   fmt::print(
       "memory         {:.1f} MB of model data ({:.0f} B a tet); the run needs about {:.0f} MB at most, and {:.0f} MB "

@@ -94,4 +94,14 @@ void check_apart(Model& model, Contact& contact, const Box& box, const std::vect
   }
 }
 
+void check_clear_of_tools(const Model& model, const Tools& tools, const std::string& packing_file) {
+  constexpr double rounding = 1e-9; // mm
+  for (std::size_t g = 0; g < static_cast<std::size_t>(model.grains); ++g)
+    for (std::int32_t n = model.node_offset[g]; n < model.node_offset[g] + model.surface_node_count[g]; ++n)
+      if (const auto found = tools.behind(model, static_cast<std::size_t>(n)); found && found->second > rounding)
+        throw InputError(fmt::format("{}: grain {} reaches {:.4g} mm into the tool '{}' at the start, allowed no "
+                                     "overlap: move the tool, or pack with a larger smallest_gap",
+                                     packing_file, g, found->second, found->first));
+}
+
 } // namespace mpfem

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "solver/boundary/box.hpp"
+#include "solver/boundary/tools.hpp"
 #include "solver/kernels/contact_forces.hpp"
 #include "solver/kernels/node_motion.hpp"
 #include "solver/scenario/scenario.hpp"
@@ -18,5 +19,8 @@ double set_initial_velocities(Model& model, const Scenario& scenario);
 /// left in the model.
 void check_apart(Model& model, Contact& contact, const Box& box, const std::vector<Bounds>& bounds,
                  const std::string& packing_file);
+
+/// Throws InputError where a grain reaches into a tool.
+void check_clear_of_tools(const Model& model, const Tools& tools, const std::string& packing_file);
 
 } // namespace mpfem

@@ -63,6 +63,7 @@ double coordination_number(const Model& model, const Contact& contact) {
 /// Stresses and strains of the box.
 void observe_box(HistoryRow& row, const Box& box, const RunState& state) {
   row.box_lengths = box.cell().lengths();
+  row.section_share = box.cell().section_share;
   row.wall_stress = box.stress();
   row.mean_stress = box.mean_stress();
   const auto& s = row.wall_stress;
@@ -124,6 +125,10 @@ HistoryRow observe_row(const Simulation& simulation, std::span<const GrainSums> 
     row.friction_energy += sums[g].contact.friction_energy + sums[g].wall_friction.stored();
     row.max_penetration = std::max({row.max_penetration, sums[g].contact.penetration, sums[g].box.penetration()});
   }
+  const ToolLoad of_tools = simulation.tools().total();
+  row.contact_energy += of_tools.energy;
+  row.friction_energy += of_tools.friction_energy;
+  row.max_penetration = std::max(row.max_penetration, of_tools.penetration);
   row.mass_spread = mass_spread(grains);
   observe_box(row, simulation.box(), state);
   const double cell_volume = simulation.box().cell().volume();
@@ -142,6 +147,20 @@ HistoryRow observe_row(const Simulation& simulation, std::span<const GrainSums> 
   for (const double force : simulation.box().force()) wall_force += force;
   row.damping_drag_ratio = wall_force > 0 ? state.damping_force / wall_force : 0.0;
   return row;
+}
+
+std::vector<ToolRow> observe_tools(const Tools& tools) {
+  const auto array_of = [](const Vector3<double>& v) { return std::array<double, 3>{v.x, v.y, v.z}; };
+  std::vector<ToolRow> rows;
+  for (std::size_t i = 0; i < tools.size(); ++i) {
+    const ToolLoad& load = tools.load(i);
+    rows.push_back({.displacement = tools[i].moved,
+                    .force = array_of(load.force),
+                    .moment = array_of(load.moment),
+                    .normal_force = load.normal_force,
+                    .friction_dissipation = tools[i].friction_dissipation});
+  }
+  return rows;
 }
 
 LoadingRateObservation observe_loading_rate(const Simulation& simulation, ThreadTeam& team) {

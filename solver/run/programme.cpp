@@ -137,9 +137,10 @@ void check_programme(const Scenario& scenario, std::int64_t first_stage, const C
     const Stage& stage = scenario.stages[s];
     const double speed = driven_speed(stage.type),
                  fastest = stage.quasi_static ? stage.quasi_static->fastest_speed : speed;
-    const char* key = stage.quasi_static                               ? "quasi_static.fastest_speed"
-                      : std::holds_alternative<GripMotion>(stage.type) ? "speed"
-                                                                       : "wall_speed";
+    const char* key = stage.quasi_static                                ? "quasi_static.fastest_speed"
+                      : std::holds_alternative<GripMotion>(stage.type)  ? "speed"
+                      : std::holds_alternative<ToolLoading>(stage.type) ? "drive"
+                                                                        : "wall_speed";
     check_speed(stage, key, fastest, size, stable_step);
     // Servos are as much faster as the stage is.
     if (const auto servo = servo_speed(stage.type))

@@ -1,5 +1,6 @@
 #include "solver/run/resume.hpp"
 
+#include <algorithm>
 #include <stdexcept>
 
 #include <fmt/format.h>
@@ -18,6 +19,12 @@ Scenario scenario_of(const CheckpointReader& checkpoint) {
   return read_scenario(TomlDocument::from_text(checkpoint.scenario_text(), checkpoint.path()));
 }
 
+bool tools_differ(const std::vector<ToolParameters>& a, const std::vector<ToolParameters>& b) {
+  return !std::equal(a.begin(), a.end(), b.begin(), b.end(), [](const ToolParameters& x, const ToolParameters& y) {
+    return x.name == y.name && x.shape == y.shape;
+  });
+}
+
 /// What a branch may not change. It goes on with the same matter: its stresses and strains mean nothing in another
 /// material.
 void check_branch(const CheckpointReader& checkpoint, bool bonded, const Scenario& before, const Scenario& now) {
@@ -29,6 +36,9 @@ void check_branch(const CheckpointReader& checkpoint, bool bonded, const Scenari
   if (now.initial_velocity != std::array<double, 3>{} || !now.grain_velocity.empty() ||
       !now.grain_angular_velocity.empty())
     refuse("[initial] has no meaning in a run that begins at a checkpoint: its grains move as they moved there");
+  if (tools_differ(before.tools, now.tools) || before.container != now.container)
+    refuse("the checkpoint's tools differ from the scenario's, allowed the same [[tools]] and [container] (another "
+           "friction is allowed)");
   if (!bonded) return;
   // Bonds keep the law by which they formed, and [bond] is that of bonds to come. Whether bonds resist sliding decides
   // how all of them are followed.
@@ -51,8 +61,8 @@ void restore(const CheckpointReader& checkpoint, bool bonded, const Scenario& be
   try {
     simulation.restore(fields, branch ? std::optional<std::int64_t>(0) : std::nullopt,
                        [&](const Simulation::Arrays& arrays) {
-                         checkpoint.take_arrays(arrays.model, arrays.contact, arrays.wall_friction, arrays.grain_steps,
-                                                arrays.grips, bonded ? before.bond : std::nullopt);
+                         checkpoint.take_arrays(arrays.model, arrays.contact, arrays.wall_friction, arrays.tools,
+                                                arrays.grain_steps, arrays.grips, bonded ? before.bond : std::nullopt);
                        });
     if (branch) return; // its record is its own
     RunRecord::for_each_field(record, fields);
@@ -70,8 +80,8 @@ void save_checkpoint(const std::string& path, const Simulation& simulation, cons
   simulation.write(fields);
   RunRecord::for_each_field(record, fields);
   write_checkpoint(path,
-                   {simulation.model(), simulation.contact(), simulation.wall_friction(), simulation.grips(),
-                    simulation.step_estimate().grain_steps(), fields.values()},
+                   {simulation.model(), simulation.contact(), simulation.wall_friction(), simulation.tools(),
+                    simulation.grips(), simulation.step_estimate().grain_steps(), fields.values()},
                    record, simulation.scenario().text);
 }
 

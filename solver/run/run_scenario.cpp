@@ -25,6 +25,7 @@
 #include "solver/run/history_schedule.hpp"
 #include "solver/run/interrupt.hpp"
 #include "solver/run/needs.hpp"
+#include "solver/run/observer.hpp"
 #include "solver/run/plan_text.hpp"
 #include "solver/run/programme.hpp"
 #include "solver/run/resume.hpp"
@@ -336,6 +337,8 @@ private:
     const auto start = Profile::Clock::now();
     record_.history.push_back(simulation_.observe());
     simulation_.reset_energy_balance(record_.history.back());
+    const std::vector<ToolRow> tools = observe_tools(simulation_.tools());
+    record_.tool_history.insert(record_.tool_history.end(), tools.begin(), tools.end());
     do ++record_.rows_in_stage;
     while (row_due() && simulation_.stage_run().expected_duration() > 0);
     simulation_.profile().add_serial(Part::output, Profile::since(start));
@@ -377,7 +380,7 @@ private:
     const RunState& state = simulation_.state();
     write_snapshot_file(snapshot_path(name),
                         {simulation_.model(), simulation_.contact(), simulation_.box(), simulation_.wall_friction(),
-                         state.time, state.step, simulation_.relative_density()});
+                         simulation_.tools(), state.time, state.step, simulation_.relative_density()});
     record_.snapshot_files.push_back(name); // the name alone: a run may be resumed from another folder
     simulation_.profile().add_serial(Part::output, Profile::since(start));
   }
@@ -434,9 +437,15 @@ private:
   void write_result(const std::string& status) {
     RunRecord record = record_;
     add_times(record);
-    Provenance provenance{
-        scenario_.text,           status,      options_.threads, record.wall_time, {}, {}, record_.stages,
-        scenario_.has_friction(), record_.from};
+    Provenance provenance{scenario_.text,
+                          status,
+                          options_.threads,
+                          record.wall_time,
+                          {},
+                          {},
+                          record_.stages,
+                          {scenario_.has_friction(), scenario_.container.has_value()},
+                          record_.from};
     double accounted = 0;
     for (std::size_t i = 0; i < profile_parts; ++i) {
       provenance.profile_name.emplace_back(part_names[i]);
@@ -447,7 +456,9 @@ private:
     provenance.profile_seconds.push_back(record.wall_time - accounted);
     std::vector<std::string> snapshots;
     for (const std::string& name : record_.snapshot_files) snapshots.push_back(snapshot_path(name));
-    write_run_file(options_.output, simulation_.model(), record_.history, snapshots, provenance);
+    RunHistory history{record_.history, {}, record_.tool_history};
+    for (const ToolParameters& tool : scenario_.tools) history.tools.push_back(tool.name);
+    write_run_file(options_.output, simulation_.model(), history, snapshots, provenance);
   }
 
   static std::string snapshot_name(std::size_t number) { return fmt::format("snapshot-{:04}.h5", number); }

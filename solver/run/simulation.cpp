@@ -8,6 +8,7 @@
 #include "solver/physics/smooth_step.hpp"
 #include "solver/run/failure_report.hpp"
 #include "solver/run/initial_state.hpp"
+#include "solver/run/make_tools.hpp"
 #include "solver/run/observer.hpp"
 #include "solver/run/programme.hpp"
 
@@ -16,10 +17,18 @@ namespace mpfem {
 namespace {
 
 constexpr Axes all_axes{true, true, true};
+constexpr double deepest_penetration = 0.5; // of a wall or tool, over the element size
 
 /// Axes whose walls are away in a stage.
 Axes withdrawn_in(const Scenario& scenario, std::int64_t stage) {
   return scenario.walls ? withdrawn_axes(scenario.stages[static_cast<std::size_t>(stage)].type) : all_axes;
+}
+
+/// mm/s^2, for masses that are scaled: weights stay as they are.
+std::array<double, 3> gravity_of_scaled_mass(const Scenario& scenario) {
+  std::array<double, 3> gravity = scenario.gravity;
+  for (double& component : gravity) component /= scenario.numerics.mass_scaling;
+  return gravity;
 }
 
 } // namespace
@@ -27,9 +36,15 @@ Axes withdrawn_in(const Scenario& scenario, std::int64_t stage) {
 Simulation::Simulation(Model model, const Scenario& scenario, ThreadTeam& team, bool branch)
     : scenario_(&scenario), team_(&team), profile_(team.size()), model_(std::move(model)),
       box_({model_.box_low, model_.box_high}, scenario.walls ? Axes{} : all_axes),
-      wall_friction_(scenario.wall_friction, model_.grains), step_estimate_(model_, scenario.numerics),
-      bounds_(static_cast<std::size_t>(model_.grains)), sums_(static_cast<std::size_t>(model_.grains)) {
+      wall_friction_(scenario.wall_friction, model_.grains), tools_(make_tools(scenario.tools, model_)),
+      step_estimate_(model_, scenario.numerics), bounds_(static_cast<std::size_t>(model_.grains)),
+      sums_(static_cast<std::size_t>(model_.grains)) {
   energies_.initial = set_initial_velocities(model_, scenario);
+  if (scenario.container) {
+    container_.emplace(
+        Container::Parts{scenario.container->wall, scenario.container->lower, scenario.container->upper});
+    box_.set_cell(container_->cell(tools_, box_.cell()));
+  }
   state_.initial_lengths = box_.cell().lengths();
   if (scenario.bond) {
     contact_.bond_laws = {law_of_bonds(*scenario.bond, scenario.contact)};
@@ -43,7 +58,9 @@ Simulation::Simulation(Model model, const Scenario& scenario, ThreadTeam& team, 
   check_apart(model_, contact_, box_, bounds_, scenario.packing_file);
   std::fill(model_.force.begin(), model_.force.end(), 0.0);
   renew_step_estimate(box_, true);
-  if (!branch) begin_stage(0);
+  if (branch) return;
+  begin_stage(0);
+  if (tools_.present()) check_clear_of_tools(model_, tools_, scenario.packing_file);
 }
 
 // ---------------------------------------------------------------------------------------------- the step
@@ -54,7 +71,9 @@ void Simulation::evaluate_forces() {
   contact_.last_step = state_.last_step;
   add_contact_and_walls();
   for (const GrainSums& sums : sums_) energies_.add_friction(sums.contact, sums.wall_friction);
+  if (scenario_->has_gravity()) add_work_of_gravity();
   check_penetration();
+  if (tools_.present()) measure_tools();
   measure_walls(grips_.present() ? add_grips() : std::array<double, 2>{});
   if (stage_run_->loading_rate_is_due(state_.step)) regulate_loading_rate();
   stage_run_->observe(observation());
@@ -65,6 +84,7 @@ void Simulation::advance() {
   plan_.reset();
   const Advance update = velocity_update(plan);
   box_.move_to(plan.cell);
+  tools_.move(stage_run_->control().tool_velocities(), plan.step);
   move_and_strain(update);
   const double strain = add_up_step(plan.step);
   stage_run_->advance(plan);
@@ -96,18 +116,20 @@ void Simulation::add_contact_and_walls() {
     sums_[g].box = box_.add_forces(model_, bounds_[g], grain);
     if (wall_friction_.present())
       sums_[g].wall_friction = wall_friction_.add_forces(model_, box_, bounds_[g], state_.last_step, grain);
+    if (tools_.present()) tools_.add_forces(model_, bounds_[g], state_.last_step, grain);
+    if (scenario_->has_gravity())
+      sums_[g].weight_potential = add_weight(model_, gravity_of_scaled_mass(*scenario_), grain);
     watch.mark(Part::integration);
   });
 }
 
 void Simulation::check_penetration() const {
-  constexpr double deepest = 0.5; // of the element size
   for (std::size_t g = 0; g < sums_.size(); ++g)
-    if (const double penetration = sums_[g].box.penetration(); penetration > deepest)
+    if (const double penetration = sums_[g].box.penetration(); penetration > deepest_penetration)
       throw SimulationError(fmt::format(
           "step {}, D_r = {:.4f}: a node of grain {} is {:.2f} of the element size behind a wall, allowed up to "
           "{:g}: raise contact.stiffness_factor or lower the speed",
-          state_.step, relative_density(), g, penetration, deepest));
+          state_.step, relative_density(), g, penetration, deepest_penetration));
 }
 
 /// Forces that take the gripped nodes where the grips will be; N, push of both grips towards the middle.
@@ -126,12 +148,32 @@ std::array<double, 2> Simulation::add_grips() {
   return force;
 }
 
+void Simulation::add_work_of_gravity() {
+  double potential = 0;
+  for (const GrainSums& sums : sums_) potential += sums.weight_potential;
+  if (state_.last_step > 0) energies_.external_work += potential - state_.weight_potential;
+  state_.weight_potential = potential;
+}
+
+/// What the tools bear and did since the time level before.
+void Simulation::measure_tools() {
+  energies_.external_work += tools_.take_loads();
+  energies_.friction_dissipation += tools_.total().friction_dissipation;
+  for (std::size_t tool = 0; tool < tools_.size(); ++tool)
+    if (const double penetration = tools_.load(tool).penetration; penetration > deepest_penetration)
+      throw SimulationError(fmt::format(
+          "step {}, D_r = {:.4f}: a node is {:.2f} of the element size behind the tool '{}', allowed up to {:g}: raise "
+          "contact.stiffness_factor or lower the speed",
+          state_.step, relative_density(), penetration, tools_[tool].name, deepest_penetration));
+}
+
 /// Work of the walls, and stresses of the box at this time level, to which grips contribute.
 void Simulation::measure_walls(const std::array<double, 2>& grip_force) {
   std::array<double, 6> contact{}, grip{};
   for (std::size_t side = 0; side < 2; ++side) grip[2 * grips_.axis + side] = grip_force[side];
   for (const GrainSums& sums : sums_)
     for (std::size_t side = 0; side < 6; ++side) contact[side] += sums.box.wall[side].force;
+  if (container_) contact = container_->face_forces(tools_);
   energies_.add_walls(box_.take_loads(contact, grip));
 }
 
@@ -147,7 +189,8 @@ StageObservation Simulation::observation() const {
                         .force = box_.axis_force(),
                         .mean_stress = box_.mean_stress(),
                         .plastic_dissipation = energies_.plastic_dissipation,
-                        .damage_dissipation = {}};
+                        .damage_dissipation = {},
+                        .tools = &tools_};
   if (!stage_complete() && stage_run_->needs_damage(state_.step))
     seen.damage_dissipation = total_bonds(model_, contact_, *team_).dissipated;
   return seen;
@@ -202,7 +245,7 @@ double Simulation::add_up_step(double step) {
 
 void Simulation::renew_step_estimate(const Box& box, bool anew) {
   const auto start = Profile::Clock::now();
-  step_estimate_.renew(model_, contact_, box, bounds_, *team_, anew);
+  step_estimate_.renew(model_, contact_, {box, tools_}, bounds_, *team_, anew);
   profile_.add_serial(Part::step_estimate, Profile::since(start));
 }
 
@@ -216,6 +259,7 @@ void Simulation::report_bad_grain(int grain) const {
 void Simulation::begin_stage(std::int64_t stage) {
   change_walls(withdrawn_in(*scenario_, stage));
   state_.stage = stage;
+  change_tools();
   if (const std::string reason =
           unreachable_stress(scenario_->stages[static_cast<std::size_t>(stage)], box_.mean_stress());
       !reason.empty())
@@ -239,6 +283,14 @@ void Simulation::change_walls(const Axes& withdrawn) {
   }
   box_.withdraw(withdrawn);
   wall_friction_.forget(withdrawn);
+}
+
+/// A stage of another type than that of tools leaves them as they are.
+void Simulation::change_tools() {
+  const auto* loading = std::get_if<ToolLoading>(&scenario_->stages[static_cast<std::size_t>(state_.stage)].type);
+  if (loading == nullptr) return;
+  energies_.external_work -= tools_.set_away(loading->away, model_);
+  if (container_) box_.set_cell(container_->cell(tools_, box_.cell()));
 }
 
 void Simulation::return_walls(std::size_t axis) {
@@ -290,6 +342,7 @@ void Simulation::reset_energy_balance(HistoryRow& first_row) {
 void Simulation::write(FieldWriter& to) const {
   RunState::for_each_field(state_, to);
   Box::for_each_field(box_, to);
+  Tools::for_each_field(tools_, to);
   EnergyLedger::for_each_field(energies_, to);
   StepEstimate::State::for_each_field(step_estimate_.state(), to);
   stage_run_->write(to);
@@ -298,6 +351,7 @@ void Simulation::write(FieldWriter& to) const {
 void Simulation::read(FieldReader& from, std::optional<std::int64_t> stage) {
   RunState::for_each_field(state_, from);
   Box::for_each_field(box_, from);
+  Tools::for_each_field(tools_, from);
   EnergyLedger::for_each_field(energies_, from);
   StepEstimate::State step = step_estimate_.state();
   StepEstimate::State::for_each_field(step, from);

@@ -13,6 +13,7 @@
 
 #include "solver/boundary/box.hpp"
 #include "solver/boundary/grips.hpp"
+#include "solver/boundary/tools.hpp"
 #include "solver/boundary/wall_friction.hpp"
 #include "solver/kernels/contact_forces.hpp"
 #include "solver/kernels/element_forces.hpp"
@@ -38,18 +39,21 @@ struct RunState {
   double time = 0;                         ///< s
   double last_step = 0;                    ///< s, the step that led to the present positions; 0 at the start
   double damping_force = 0;                ///< N, sum of magnitudes at the last advance
+  double weight_potential = 0;             ///< mJ, work of gravity from the origin to where the nodes are
   std::array<double, 3> initial_lengths{}; ///< mm, of the cell
 
   template <class Self, class Visitor>
   static void for_each_field(Self& s, Visitor&& visit) {
     visit("run.step", s.step), visit("run.stage", s.stage);
     visit("run.time", s.time), visit("run.last_step", s.last_step), visit("run.damping_force", s.damping_force);
+    visit("run.weight_potential", s.weight_potential);
     visit("run.initial_lengths", s.initial_lengths);
   }
 };
 
 /// Sums of one grain over the last pass of each kind.
 struct GrainSums {
+  double weight_potential = 0; ///< mJ, work of gravity from the origin to where the nodes are; 0 without gravity
   ContactSums contact;
   BoxSums box;
   WallFrictionSums wall_friction;
@@ -90,6 +94,7 @@ public:
   const Contact& contact() const { return contact_; }
   const Box& box() const { return box_; }
   const WallFriction& wall_friction() const { return wall_friction_; }
+  const Tools& tools() const { return tools_; }
   const Grips& grips() const { return grips_; }
   const RunState& state() const { return state_; }
   const EnergyLedger& energies() const { return energies_; }
@@ -106,6 +111,7 @@ public:
     Model& model;
     Contact& contact;
     WallFriction& wall_friction;
+    Tools& tools;
     GrainSteps& grain_steps;
     Grips* grips; ///< of a stage that grips, its axis set, or none
   };
@@ -116,7 +122,7 @@ public:
   void restore(FieldReader& fields, std::optional<std::int64_t> stage, Take&& take) {
     read(fields, stage);
     GrainSteps grain_steps;
-    take(Arrays{model_, contact_, wall_friction_, grain_steps, prepare_grips()});
+    take(Arrays{model_, contact_, wall_friction_, tools_, grain_steps, prepare_grips()});
     take_up(std::move(grain_steps));
   }
   /// After restore(): its state is the beginning of this scenario's first stage. Candidates and step are found anew
@@ -140,6 +146,9 @@ private:
   double add_up_step(double step);
   void update_surfaces();
   void change_walls(const Axes& withdrawn);
+  void change_tools();
+  void add_work_of_gravity();
+  void measure_tools();
   void return_walls(std::size_t axis);
   void grip_faces();
   void renew_step_estimate(const Box& box, bool anew);
@@ -154,6 +163,8 @@ private:
   Contact contact_;
   Box box_;
   WallFriction wall_friction_;
+  Tools tools_;
+  std::optional<Container> container_;
   Grips grips_;
   RunState state_;
   EnergyLedger energies_;

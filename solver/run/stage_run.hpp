@@ -29,6 +29,7 @@ public:
     template <class Self, class Visitor>
     static void for_each_field(Self& s, Visitor&& visit) {
       visit("stage.start_low", s.start.low), visit("stage.start_high", s.start.high);
+      visit("stage.start_section_share", s.start.section_share);
       visit("stage.start_mean_stress", s.start_mean_stress), visit("stage.time", s.time), visit("stage.ended", s.ended);
     }
   };

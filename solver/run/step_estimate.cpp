@@ -72,8 +72,8 @@ double StepEstimate::bound_since_spectrum(const Model& model, int grain, double 
   return found * grain_steps_.growth[g] + contact;
 }
 
-void StepEstimate::renew(Model& model, const Contact& contact, const Box& box, std::span<const Bounds> bounds,
-                         ThreadTeam& team, bool anew) {
+void StepEstimate::renew(Model& model, const Contact& contact, const Boundaries& boundaries,
+                         std::span<const Bounds> bounds, ThreadTeam& team, bool anew) {
   const bool whole_grains = numerics_.step_estimate == StepEstimateMethod::grain;
   anew = anew || ++state_.estimates_since_spectrum >= estimates_between_spectra;
   // |tr e| <= sqrt(3) |e|
@@ -87,7 +87,8 @@ void StepEstimate::renew(Model& model, const Contact& contact, const Box& box, s
   team.for_each(model.grains, [&](int grain, int) {
     const auto g = static_cast<std::size_t>(grain);
     contact_stiffness_rate(model, contact, grain, stiffness_rate_);
-    box.add_stiffness_rate(model, bounds[g], grain, stiffness_rate_);
+    boundaries.box.add_stiffness_rate(model, bounds[g], grain, stiffness_rate_);
+    boundaries.tools.add_stiffness_rate(model, bounds[g], grain, stiffness_rate_);
     raise_to_expected_rate(model, contact, grain, stiffness_rate_);
     of_tets_[g] = mpfem::stable_step(model, grain, stiffness_rate_, rate);
     steps[g] = of_tets_[g].step;

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "solver/boundary/box.hpp"
+#include "solver/boundary/tools.hpp"
 #include "solver/kernels/contact_forces.hpp"
 #include "solver/kernels/element_forces.hpp"
 #include "solver/kernels/element_step.hpp"
@@ -17,6 +18,12 @@
 #include "solver/scenario/scenario.hpp"
 
 namespace mpfem {
+
+/// What grains touch beside each other.
+struct Boundaries {
+  const Box& box;
+  const Tools& tools;
+};
 
 class StepEstimate {
 public:
@@ -48,8 +55,8 @@ public:
   bool is_due_after(double strain, double step);
   /// Estimates the stable step of the present state; sets the tets' lengths in the model. `anew`: with the frequencies
   /// of whole grains, whenever they were last found.
-  void renew(Model& model, const Contact& contact, const Box& box, std::span<const Bounds> bounds, ThreadTeam& team,
-             bool anew);
+  void renew(Model& model, const Contact& contact, const Boundaries& boundaries, std::span<const Bounds> bounds,
+             ThreadTeam& team, bool anew);
   /// The next step is followed by an estimate: nothing has touched yet.
   void renew_after_next_step();
   /// Take up what a checkpoint holds.

@@ -1,12 +1,14 @@
 #include "solver/scenario/read_stages.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <functional>
 #include <set>
 
 #include <fmt/format.h>
 
 #include "solver/scenario/ranges.hpp"
+#include "solver/scenario/read_tools.hpp"
 
 namespace mpfem {
 
@@ -143,39 +145,94 @@ StageType read_grip(TableReader& table) {
   return grip;
 }
 
+ToolEnds read_tool_ends(TableReader& table, const StageContext& context) {
+  ToolEnds ends;
+  ends.relative_density = table.optional_number("relative_density", target_density);
+  ends.axial_stress = table.optional_number("axial_stress", stress_or_zero);
+  ends.travel = table.optional_number("travel", positive_length);
+  ends.force = table.optional_number("force", stress_or_zero);
+  ends.force_drop = table.optional_number("force_drop", {.low = 0, .high = 1, .low_open = true, .high_open = true});
+  ends.duration = table.optional_number("duration", positive_time);
+  if (!ends.relative_density && !ends.axial_stress && !ends.travel && !ends.force && !ends.force_drop && !ends.duration)
+    table.fail("type", "found 'tools' without an end, expected at least one of relative_density, axial_stress, travel, "
+                       "force, force_drop and duration");
+  for (const char* key : {"relative_density", "axial_stress"})
+    if (table.has(key) && !context.container) table.fail(key, "has no meaning without a [container]");
+  if (table.has("smallest_peak") && !ends.force_drop)
+    table.fail("smallest_peak", "has no meaning without 'force_drop'");
+  ends.smallest_peak = table.number_or("smallest_peak", 0, stress_or_zero);
+  const bool watches = ends.force || ends.force_drop;
+  if (!watches && table.has("watch")) table.fail("watch", "has no meaning without 'force' or 'force_drop'");
+  if (watches) ends.watched = tool_named(table, "watch", table.string("watch"), context.tools);
+  return ends;
+}
+
+StageType read_tool_loading(TableReader& table, const StageContext& context) {
+  ToolLoading loading;
+  loading.container = context.container;
+  loading.drives = read_drives(table, context.tools);
+  for (const std::string& name : table.strings_or("away", {}))
+    loading.away.push_back(tool_named(table, "away", name, context.tools));
+  for (const ToolDrive& drive : loading.drives) {
+    if (std::find(loading.away.begin(), loading.away.end(), drive.tool) != loading.away.end())
+      table.fail("away", fmt::format("found '{}', which the stage also drives", context.tools[drive.tool].name));
+    const auto& v = drive.velocity;
+    loading.speed = std::max({loading.speed, std::hypot(v[0], v[1], v[2]), drive.servo_speed});
+  }
+  loading.ramp_fraction = read_ramp_fraction(table);
+  loading.ends = read_tool_ends(table, context);
+  if (loading.speed == 0 && !loading.ends.duration)
+    table.fail("duration", "missing, expected the time of a stage in which no tool moves");
+  if (loading.ends.force || loading.ends.force_drop)
+    if (!direction_of(context.tools[loading.ends.watched].shape))
+      table.fail("watch", "found a sphere or an STL surface, whose push has no direction, expected another tool");
+  return loading;
+}
+
 /// A type of stage as scenarios name it.
 struct StageKeyword {
   std::string name;
   std::vector<std::string> keys; ///< besides those that all stages have
-  std::function<StageType(TableReader&)> read;
+  std::function<StageType(TableReader&, const StageContext&)> read;
 };
+
+/// Of a type that refers to nothing else in the scenario.
+auto alone(StageType (*read)(TableReader&)) {
+  return [read](TableReader& table, const StageContext& /*context*/) { return read(table); };
+}
 
 const std::vector<StageKeyword>& stage_keywords() {
   static const std::vector<StageKeyword> keywords = {
       {"isotropic_compaction",
        {"relative_density", "mean_stress", "wall_speed", "ramp_fraction"},
-       read_isotropic_compaction},
-      {"isotropic_unloading", {"mean_stress", "wall_speed", "ramp_fraction"}, read_isotropic_unloading},
-      {"grip", {"axis", "grip_depth", "lateral", "displacement", "sliding", "speed", "ramp_fraction"}, read_grip},
-      {"hold", {"duration", "mean_stress", "servo_speed"}, read_hold},
+       alone(read_isotropic_compaction)},
+      {"isotropic_unloading", {"mean_stress", "wall_speed", "ramp_fraction"}, alone(read_isotropic_unloading)},
+      {"grip",
+       {"axis", "grip_depth", "lateral", "displacement", "sliding", "speed", "ramp_fraction"},
+       alone(read_grip)},
+      {"hold", {"duration", "mean_stress", "servo_speed"}, alone(read_hold)},
       {"unconfined_compression",
        {"wall_speed", "ramp_fraction", "axial_strain", "axial_stress", "stress_drop", "dissipation_ratio", "duration"},
-       read_unconfined},
+       alone(read_unconfined)},
       {"triaxial_compression",
        {"wall_speed", "servo_speed", "ramp_fraction", "hold", "lateral_stress", "axial_strain", "axial_stress",
         "deviatoric_stress", "stress_drop", "dissipation_ratio", "duration"},
-       read_triaxial},
+       alone(read_triaxial)},
       {"die_compression",
        {"wall_speed", "ramp_fraction", "axial_strain", "relative_density", "axial_stress", "dissipation_ratio",
         "duration"},
-       read_die},
+       alone(read_die)},
       {"probe",
        {"wall_speed", "servo_speed", "ramp_fraction", "direction", "axial_strain", "mean_stress", "deviatoric_stress",
         "dissipation_ratio", "duration"},
-       read_probe},
+       alone(read_probe)},
       {"stress_cycles",
        {"wall_speed", "ramp_fraction", "lowest_mean_stress", "highest_mean_stress", "cycles"},
-       read_stress_cycles},
+       alone(read_stress_cycles)},
+      {"tools",
+       {"drive", "away", "ramp_fraction", "relative_density", "axial_stress", "travel", "force", "force_drop",
+        "smallest_peak", "watch", "duration"},
+       read_tool_loading},
   };
   return keywords;
 }
@@ -223,7 +280,7 @@ void check_stage_name(const TableReader& table, const std::string& name) {
                                    name.size() > longest ? "a longer text" : name, longest));
 }
 
-Stage read_stage(TableReader table, std::size_t number, double youngs_modulus) {
+Stage read_stage(TableReader table, std::size_t number, const StageContext& context) {
   std::vector<std::string> types, all_keys;
   for (const StageKeyword& keyword : stage_keywords()) {
     types.push_back(keyword.name);
@@ -236,8 +293,10 @@ Stage read_stage(TableReader table, std::size_t number, double youngs_modulus) {
   const auto keyword = std::find_if(stage_keywords().begin(), stage_keywords().end(),
                                     [&](const StageKeyword& known) { return known.name == type; });
   refuse_foreign_keys(table, all_keys, keyword->keys, fmt::format("type = '{}'", type));
-  stage.type = keyword->read(table);
-  stage.quasi_static = read_quasi_static(table, driven_speed(stage.type), youngs_modulus);
+  stage.type = keyword->read(table, context);
+  if (std::holds_alternative<ToolLoading>(stage.type) && table.has("quasi_static"))
+    table.fail("quasi_static", "has no meaning with type = 'tools'");
+  stage.quasi_static = read_quasi_static(table, driven_speed(stage.type), context.youngs_modulus);
   stage.damping = read_damping(table);
   stage.places = table.places();
   table.finish();
@@ -246,7 +305,7 @@ Stage read_stage(TableReader table, std::size_t number, double youngs_modulus) {
 
 } // namespace
 
-std::vector<Stage> read_stages(TableReader& root, double youngs_modulus) {
+std::vector<Stage> read_stages(TableReader& root, const StageContext& context) {
   std::vector<TableReader> tables = root.tables("stages");
   if (tables.empty())
     root.fail("stages", root.has("stages") ? "found no stage, expected at least one [[stages]]"
@@ -254,7 +313,7 @@ std::vector<Stage> read_stages(TableReader& root, double youngs_modulus) {
   std::vector<Stage> stages;
   std::set<std::string> names;
   for (TableReader& table : tables) {
-    stages.push_back(read_stage(table, stages.size() + 1, youngs_modulus));
+    stages.push_back(read_stage(table, stages.size() + 1, context));
     const std::string& name = stages.back().name;
     if (!names.insert(name).second)
       table.fail("name", fmt::format("found '{}', which an earlier stage has, expected different names", name));

@@ -1,6 +1,8 @@
 #pragma once
 // The [[stages]] of a scenario.
 
+#include <optional>
+#include <span>
 #include <vector>
 
 #include "common/table_reader.hpp"
@@ -8,7 +10,14 @@
 
 namespace mpfem {
 
-/// Reads all stages. `youngs_modulus` in MPa, of the grains. Throws InputError with file, line and column.
-std::vector<Stage> read_stages(TableReader& root, double youngs_modulus);
+/// What stages refer to of the rest of the scenario.
+struct StageContext {
+  double youngs_modulus = 0; ///< MPa, of the grains
+  std::span<const ToolParameters> tools{};
+  std::optional<ContainerParameters> container{};
+};
+
+/// Reads all stages. Throws InputError with file, line and column.
+std::vector<Stage> read_stages(TableReader& root, const StageContext& context);
 
 } // namespace mpfem

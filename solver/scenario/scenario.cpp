@@ -11,6 +11,7 @@
 #include "solver/scenario/ranges.hpp"
 #include "solver/scenario/read_hardening.hpp"
 #include "solver/scenario/read_stages.hpp"
+#include "solver/scenario/read_tools.hpp"
 
 namespace mpfem {
 
@@ -127,15 +128,25 @@ void read_initial(TableReader table, Scenario& scenario) {
   table.finish();
 }
 
-/// true, false, or a table where there are walls.
+/// true, false, or a table where there are walls. A container takes their place.
 void read_walls(TableReader& root, Scenario& scenario) {
   const toml::node* value = root.value("walls");
   if (value == nullptr || !value->is_table()) {
-    scenario.walls = root.boolean_or("walls", true);
+    scenario.walls = root.boolean_or("walls", !scenario.container);
+    if (scenario.walls && scenario.container) root.fail("walls", "found true, expected false with a [container]");
     return;
   }
+  if (scenario.container) root.fail("walls", "has no meaning with a [container], whose tools have their own friction");
   TableReader table = root.table("walls");
   scenario.wall_friction = table.number_or("friction", scenario.wall_friction, friction_or_zero);
+  table.finish();
+}
+
+void read_gravity(TableReader table, Scenario& scenario) {
+  scenario.gravity = table.vector3("acceleration", Range::between(-1e12, 1e12)); // mm/s^2
+  if (scenario.has_gravity() && scenario.numerics.mass_scaling_step > 0)
+    table.fail("acceleration", "has no meaning with 'numerics.mass_scaling_step', which makes single nodes heavier; "
+                               "allowed is 'numerics.mass_scaling'");
   table.finish();
 }
 
@@ -187,6 +198,11 @@ const char* precision_name(Precision precision) {
   return precision == Precision::mixed ? "mixed" : "double";
 }
 
+bool Scenario::has_friction() const {
+  return contact.friction > 0 || wall_friction > 0 ||
+         std::any_of(tools.begin(), tools.end(), [](const ToolParameters& tool) { return tool.friction > 0; });
+}
+
 BondParameters read_bond(TableReader table) {
   BondParameters bond;
   bond.tensile_strength = table.number("tensile_strength", positive_modulus);
@@ -208,6 +224,8 @@ Scenario read_scenario(const TomlDocument& document) {
   TableReader root(document);
   scenario.text = document.text();
   scenario.packing_file = packing_path(root, document.name());
+  scenario.tools = read_tools(root, document.name());
+  scenario.container = read_container(root, scenario.tools);
   read_walls(root, scenario);
   TableReader material = root.table("material");
   scenario.material = read_material(material);
@@ -228,7 +246,8 @@ Scenario read_scenario(const TomlDocument& document) {
   if (auto table = root.optional_table("element")) read_element(*table, scenario.numerics);
   if (auto table = root.optional_table("output")) scenario.output = read_output(*table);
   if (auto table = root.optional_table("initial")) read_initial(*table, scenario);
-  scenario.stages = read_stages(root, scenario.material.youngs_modulus);
+  if (auto table = root.optional_table("gravity")) read_gravity(*table, scenario);
+  scenario.stages = read_stages(root, {scenario.material.youngs_modulus, scenario.tools, scenario.container});
   check_walls(root, scenario);
   root.finish();
   return scenario;

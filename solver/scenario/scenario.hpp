@@ -11,6 +11,7 @@
 #include "common/key_places.hpp"
 #include "solver/physics/bond.hpp"
 #include "solver/scenario/stages.hpp"
+#include "solver/scenario/tools.hpp"
 
 namespace mpfem {
 
@@ -130,11 +131,14 @@ struct OutputParameters {
 };
 
 struct Scenario {
-  std::string packing_file;                   ///< meshed packing; relative to the scenario's folder
-  bool walls = true;                          ///< the six walls of the box
-  double wall_friction = 0;                   ///< Coulomb's mu between grains and walls
-  MaterialParameters material;                ///< of all grains but those of grain_materials
-  std::vector<GrainMaterial> grain_materials; ///< no grain stands in two of them
+  std::string packing_file; ///< meshed packing; relative to the scenario's folder
+  bool walls = true;        ///< the six walls of the box
+  double wall_friction = 0; ///< Coulomb's mu between grains and walls
+  std::vector<ToolParameters> tools;
+  std::optional<ContainerParameters> container; ///< none: relative density and stresses are those of the box
+  std::array<double, 3> gravity{};              ///< mm/s^2
+  MaterialParameters material;                  ///< of all grains but those of grain_materials
+  std::vector<GrainMaterial> grain_materials;   ///< no grain stands in two of them
   ContactParameters contact;
   std::optional<BondParameters> bond; ///< none: grains do not stick
   NumericsParameters numerics;
@@ -146,8 +150,9 @@ struct Scenario {
   KeyPlaces bond_places; ///< of the keys of [bond]
   std::string text;      ///< the TOML text, with values set on the command line
 
-  /// Between grains or at walls.
-  bool has_friction() const { return contact.friction > 0 || wall_friction > 0; }
+  /// Between grains, at walls or at tools.
+  bool has_friction() const;
+  bool has_gravity() const { return gravity != std::array<double, 3>{}; }
 };
 
 /// Reads the keys of a [bond] table. Throws InputError.

@@ -7,7 +7,7 @@ double driven_speed(const StageType& type) {
       [](const auto& stage) {
         if constexpr (requires { stage.wall_speed; })
           return stage.wall_speed;
-        else if constexpr (requires { stage.speed; }) // of grips
+        else if constexpr (requires { stage.speed; }) // of grips and tools
           return stage.speed;
         else
           return 0.0;
@@ -29,7 +29,7 @@ std::optional<double> servo_speed(const StageType& type) {
 const LoadingEnds* loading_ends(const StageType& type) {
   return std::visit(
       [](const auto& stage) -> const LoadingEnds* {
-        if constexpr (requires { stage.ends; })
+        if constexpr (requires { stage.ends.axial_strain; })
           return &stage.ends;
         else
           return nullptr;
@@ -44,7 +44,8 @@ Axes withdrawn_axes(const StageType& type) {
 }
 
 bool moves_walls(const StageType& type) {
-  return !std::holds_alternative<Rest>(type) && !std::holds_alternative<GripMotion>(type);
+  return !std::holds_alternative<Rest>(type) && !std::holds_alternative<GripMotion>(type) &&
+         !std::holds_alternative<ToolLoading>(type);
 }
 
 } // namespace mpfem

@@ -7,8 +7,10 @@
 #include <optional>
 #include <string>
 #include <variant>
+#include <vector>
 
 #include "common/key_places.hpp"
+#include "solver/scenario/tools.hpp"
 
 namespace mpfem {
 
@@ -109,10 +111,32 @@ struct GripMotion {
   double ramp_fraction = 0.1;
 };
 
+/// What ends a loading by tools: the first of those that are given.
+struct ToolEnds {
+  std::optional<double> relative_density{}; ///< of the container
+  std::optional<double> axial_stress{};     ///< MPa, of the container's punches
+  std::optional<double> travel{};           ///< mm, of the tool that moves fastest, since the stage began
+  std::optional<double> force{};            ///< N, push of the watched tool along its direction
+  std::optional<double> force_drop{};       ///< fall of that push below its peak, over the peak
+  double smallest_peak = 0;                 ///< N, of a peak that counts
+  std::optional<double> duration{};         ///< s
+  std::size_t watched = 0;                  ///< the tool of `force` and `force_drop`
+};
+
+/// Rigid tools move, hold a force, or are away. Walls of the box, where there are any, are at rest.
+struct ToolLoading {
+  std::vector<ToolDrive> drives; ///< of the tools that move; the others are at rest
+  std::vector<std::size_t> away; ///< tools that touch nothing while the stage lasts
+  double speed = 0;              ///< mm/s, of the fastest driven tool
+  double ramp_fraction = 0.1;    ///< of the time of the whole travel (of 5 % of the container's length) to full speed
+  ToolEnds ends;
+  std::optional<ContainerParameters> container{}; ///< the scenario's
+};
+
 /// What a stage does. A new type is added here, to the reader (read_stages.cpp) and to make_stage_control().
 using StageType =
     std::variant<IsotropicCompaction, IsotropicLoading, IsotropicUnloading, StressCycles, UnconfinedCompression,
-                 DieCompression, TriaxialCompression, StressProbe, HeldStress, Rest, GripMotion>;
+                 DieCompression, TriaxialCompression, StressProbe, HeldStress, Rest, GripMotion, ToolLoading>;
 
 /// Mass-proportional damping of each grain's velocity relative to the affine velocity at the grain's centre. It fades
 /// from full at mean stress 0 to nothing at `fade_stress`.

@@ -13,7 +13,7 @@ cd "$(dirname "${BASH_SOURCE[0]}")/../.."
 seconds=$1
 shift
 names=("$@")
-((${#names[@]} > 0)) || names=(scenario assignments bond powder spheres points)
+((${#names[@]} > 0)) || names=(scenario assignments bond powder spheres points stl)
 
 build='build-fuzz'
 cmake --preset fuzz -DCMAKE_CXX_COMPILER_LAUNCHER=ccache >/dev/null

@@ -26,6 +26,7 @@ struct Program {
 const std::vector<Program> programs = {
     {MPFEM_PACK_GEN,
      {{"spheres", {"none", "-o", "none.h5"}},
+      {"settle", {"none", "-o", "none.h5"}},
       {"mesh", {"none", "-o", "none.h5"}},
       {"import", {"none", "-o", "none.h5"}},
       {"export", {"none", "-o", "none.h5"}},
@@ -49,6 +50,9 @@ const std::vector<Program> programs = {
       {"hysteresis", {"none"}},
       {"damage", {"none"}},
       {"energy", {"none"}},
+      {"tablet", {"none"}},
+      {"heckel", {"none"}},
+      {"diametral", {"none"}},
       {"fit", {"none", "--x", "a", "--y", "b", "--model", "linear"}},
       {"validate", {"none"}}}},
 };

@@ -15,6 +15,7 @@ int fuzz_bond(const std::uint8_t* data, std::size_t size);
 int fuzz_powder(const std::uint8_t* data, std::size_t size);
 int fuzz_spheres(const std::uint8_t* data, std::size_t size);
 int fuzz_points(const std::uint8_t* data, std::size_t size);
+int fuzz_stl(const std::uint8_t* data, std::size_t size);
 }
 
 using namespace mpfem::test;
@@ -28,7 +29,8 @@ TEST_CASE("Inputs that fuzzers have found are taken or refused, and in time") {
                                                                                       {"bond", fuzz_bond},
                                                                                       {"powder", fuzz_powder},
                                                                                       {"spheres", fuzz_spheres},
-                                                                                      {"points", fuzz_points}}) {
+                                                                                      {"points", fuzz_points},
+                                                                                      {"stl", fuzz_stl}}) {
     for (const char* folder : {MPFEM_FOUND_INPUTS, MPFEM_SEEDS}) {
       const std::filesystem::path path = std::filesystem::path(folder) / name;
       if (!std::filesystem::is_directory(path)) continue;

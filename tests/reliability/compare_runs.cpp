@@ -74,14 +74,13 @@ bool same(const schema::FileReader& a, const schema::FileReader& b, const schema
 int body(int argc, char** argv) {
   if (argc != 3) throw InputError("found other than two files, allowed: compare-runs A B");
   const schema::FileReader a(argv[1]), b(argv[2]);
-  if (a.kind() != b.kind() || a.snapshots() != b.snapshots())
-    throw SimulationError(fmt::format("{} and {} differ in kind or snapshots", argv[1], argv[2]));
+  if (a.kind() != b.kind() || a.snapshots() != b.snapshots() || a.tools() != b.tools())
+    throw SimulationError(fmt::format("{} and {} differ in kind, snapshots or tools", argv[1], argv[2]));
   for (const schema::DatasetDescription& what : schema::kinds[static_cast<std::size_t>(a.kind())].datasets) {
     if (may_differ(what.path)) continue;
-    const auto snapshots = what.of_snapshot() ? a.snapshots() : std::vector<std::string>{""};
-    for (const std::string& snapshot : snapshots)
-      if (!same(a, b, what, snapshot))
-        throw SimulationError(fmt::format("{} and {} differ in {} {}", argv[1], argv[2], what.path, snapshot));
+    for (const std::string& member : a.members(what))
+      if (!same(a, b, what, member))
+        throw SimulationError(fmt::format("{} and {} differ in {} {}", argv[1], argv[2], what.path, member));
   }
   return 0;
 }

@@ -7,6 +7,7 @@
 #include "solver/run/stages/isotropic_loading.hpp"
 #include "solver/run/stages/isotropic_unloading.hpp"
 #include "solver/run/stages/rest.hpp"
+#include "solver/run/stages/tool_loading.hpp"
 
 namespace mpfem {
 
@@ -42,6 +43,8 @@ template <>
 struct ControlOf<Rest> : RunBy<RestControl> {};
 template <>
 struct ControlOf<GripMotion> : RunBy<GripMotionControl> {};
+template <>
+struct ControlOf<ToolLoading> : RunBy<ToolLoadingControl> {};
 
 } // namespace
 

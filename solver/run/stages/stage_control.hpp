@@ -6,11 +6,13 @@
 #include <limits>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 
 #include "common/fields.hpp"
 #include "solver/boundary/cell.hpp"
 #include "solver/boundary/grips.hpp"
+#include "solver/boundary/tools.hpp"
 #include "solver/kernels/node_motion.hpp"
 #include "solver/output/stage_result.hpp"
 #include "solver/run/stages/sample.hpp"
@@ -28,6 +30,7 @@ struct StageObservation {
   double mean_stress = 0;                     ///< MPa, of all faces
   double plastic_dissipation = 0;             ///< mJ
   std::optional<double> damage_dissipation{}; ///< mJ; required where `needs_damage`
+  const Tools* tools = nullptr;               ///< with what they bear
 };
 
 /// The cell and the packing in it when a stage begins.
@@ -72,6 +75,8 @@ public:
   virtual void move(Cell& cell, double time, double clock_step, double step) const = 0;
   /// mm that the high grip has slid across the axis against the low one, at a time of the stage.
   virtual std::array<double, 3> sliding(double /*time*/) const { return {}; }
+  /// mm/s of every tool in the next step; empty where all are at rest.
+  virtual std::span<const std::array<double, 3>> tool_velocities() const { return {}; }
   /// Whether what was last observed ends the stage. Stages with a duration end by that.
   virtual bool ended() const { return false; }
   /// Part of the stage that is done at its time `time` (s) and the present mean stress (MPa), in [0, 1].

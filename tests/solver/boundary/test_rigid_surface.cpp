@@ -1,12 +1,14 @@
-// Grains against rigid surfaces: planes, and one that is curved, which only these tests have.
+// Grains against rigid surfaces: planes, and one that is curved.
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <vector>
 
 #include <catch2/catch.hpp>
 
 #include "solver/boundary/plane.hpp"
+#include "solver/boundary/tool_surfaces.hpp"
 #include "tests/support/meshes.hpp"
 #include "tests/support/tolerances.hpp"
 
@@ -16,22 +18,9 @@ using namespace mpfem::test;
 namespace {
 
 /// A cylinder around the grains, its axis along z through (0.5, 0.5).
-struct Cylinder {
-  struct Normal {
-    double x, y;
-    void push(Model& model, std::size_t node, double force) const {
-      model.push_contact_point(node, 0, x * force);
-      model.push_contact_point(node, 1, y * force);
-    }
-  };
-  double radius;
-  bool may_touch(const Bounds&) const { return true; }
-  template <class Point>
-  RigidGap<Normal> gap(const Point& point) const {
-    const double x = point(0) - 0.5, y = point(1) - 0.5, distance = std::hypot(x, y);
-    return {radius - distance, {-x / distance, -y / distance}};
-  }
-};
+CylinderSurface bore(double radius) {
+  return {2, {0.5, 0.5, 0.5}, radius, true, std::numeric_limits<double>::infinity(), 0};
+}
 
 /// A ball of radius 0.4 mm in the middle of the unit box.
 Model ball_in_the_middle(ContactSurface surface) {
@@ -82,7 +71,7 @@ TEST_CASE("forces of a rigid surface are the gradient of what it stores, on face
     const Model model = ball_in_the_middle(surface);
     check_forces(model, Plane{{0, 1.0}, 0.14});
     check_forces(model, Plane{{2, -1.0}, 0.86});
-    check_forces(model, Cylinder{0.38});
+    check_forces(model, bore(0.38));
   }
 }
 

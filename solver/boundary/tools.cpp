@@ -1,0 +1,220 @@
+#include "solver/boundary/tools.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include <fmt/format.h>
+
+#include "common/errors.hpp"
+
+namespace mpfem {
+
+namespace {
+
+Vector3<double> vector_of(const std::array<double, 3>& v) {
+  return {v[0], v[1], v[2]};
+}
+
+std::array<double, 3> array_of(const Vector3<double>& v) {
+  return {v.x, v.y, v.z};
+}
+
+/// Calls visit(surface) with a tool's surface where it stands now.
+template <class Visitor>
+auto with_surface(const Tool& tool, Visitor&& visit) {
+  return std::visit(
+      [&](const auto& surface) {
+        return visit(Shifted<std::decay_t<decltype(surface)>>{surface, vector_of(tool.moved)});
+      },
+      tool.surface);
+}
+
+/// The point about which a tool's moment is taken: a point of the plane, the centre, the apex.
+Vector3<double> reference_of(const ToolSurface& surface) {
+  return std::visit(
+      [](const auto& s) {
+        if constexpr (requires { s.point; })
+          return s.point;
+        else if constexpr (requires { s.centre; })
+          return s.centre;
+        else
+          return s.apex;
+      },
+      surface);
+}
+
+} // namespace
+
+void ToolLoad::add(const ToolLoad& other) {
+  force = force + other.force;
+  moment = moment + other.moment;
+  normal_force += other.normal_force;
+  energy += other.energy;
+  friction_energy += other.friction_energy;
+  friction_dissipation += other.friction_dissipation;
+  penetration = std::max(penetration, other.penetration);
+}
+
+Tools::Tools(std::vector<Tool> tools, int grains) : grains_(grains), tools_(std::move(tools)) {
+  of_grain_.resize(tools_.size() * static_cast<std::size_t>(grains_));
+  anchors_.resize(of_grain_.size());
+  load_.resize(tools_.size());
+}
+
+ToolLoad Tools::add_tool(Model& model, std::size_t index, const Bounds& bounds, double last_step, int grain) {
+  const Tool& tool = tools_[index];
+  std::vector<SurfaceAnchor>& anchors = anchors_[slot(grain, index)];
+  return with_surface(tool, [&](const auto& surface) {
+    ToolLoad load;
+    if (!surface.may_touch(bounds) && anchors.empty()) return load;
+    const Vector3<double> about = reference_of(tool.surface) + vector_of(tool.moved);
+    const SurfaceMotion motion{vector_of(tool.moved), vector_of(tool.movement), last_step};
+    SurfaceRubbing rubbing(model, tool.friction, surface, motion, anchors);
+    const double size = model.element_size[static_cast<std::size_t>(grain)];
+    for_each_node_behind(model, surface, bounds, grain, [&](std::size_t node, const auto& gap) {
+      const double push = surface_force(model, node, grain, gap.distance);
+      gap.normal.push(model, node, push);
+      Vector3<double> on_node = push * gap.normal.vector();
+      if (tool.friction > 0) on_node = on_node + rubbing.rub(node, gap, push);
+      load.force = load.force - on_node;
+      load.moment = load.moment - cross(model.contact_point(node) - about, on_node);
+      load.normal_force += push;
+      load.energy += wall_energy(push, gap.distance);
+      load.penetration = std::max(load.penetration, -gap.distance / size);
+    });
+    if (tool.friction > 0) anchors = rubbing.finish();
+    load.friction_energy = rubbing.energy;
+    load.friction_dissipation = rubbing.dissipation;
+    return load;
+  });
+}
+
+void Tools::add_forces(Model& model, const Bounds& bounds, double last_step, int grain) {
+  for (std::size_t tool = 0; tool < size(); ++tool)
+    of_grain_[slot(grain, tool)] = tools_[tool].away ? ToolLoad{} : add_tool(model, tool, bounds, last_step, grain);
+}
+
+double Tools::take_loads() {
+  double work = 0;
+  for (std::size_t index = 0; index < size(); ++index) {
+    ToolLoad sum;
+    for (int grain = 0; grain < grains_; ++grain) sum.add(of_grain_[slot(grain, index)]);
+    Tool& tool = tools_[index];
+    work -= 0.5 * dot(sum.force + vector_of(tool.force), vector_of(tool.movement));
+    tool.force = array_of(sum.force);
+    tool.movement = {};
+    tool.friction_dissipation += sum.friction_dissipation;
+    load_[index] = sum;
+  }
+  return work;
+}
+
+ToolLoad Tools::total() const {
+  ToolLoad sum;
+  for (const ToolLoad& load : load_) sum.add(load);
+  return sum;
+}
+
+void Tools::move(std::span<const std::array<double, 3>> velocity, double step) {
+  for (std::size_t index = 0; index < velocity.size(); ++index)
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      tools_[index].movement[axis] = step * velocity[index][axis];
+      tools_[index].moved[axis] += tools_[index].movement[axis];
+    }
+}
+
+void Tools::add_stiffness_rate(const Model& model, const Bounds& bounds, int grain, std::span<double> rate) const {
+  for (const Tool& tool : tools_)
+    if (!tool.away)
+      with_surface(tool, [&](const auto& surface) { add_surface_stiffness_rate(model, surface, bounds, grain, rate); });
+}
+
+double Tools::push_on_node(const Model& model, std::size_t node, int grain) const {
+  double push = 0;
+  for (const Tool& tool : tools_) {
+    if (tool.away) continue;
+    const double distance = with_surface(tool, [&](const auto& surface) {
+      return surface.gap(NodePoint{model, node}).distance;
+    });
+    if (distance < 0) push += surface_force(model, node, grain, distance);
+  }
+  return push;
+}
+
+double Tools::set_away(std::span<const std::size_t> away, const Model& model) {
+  double taken = 0;
+  for (std::size_t index = 0; index < size(); ++index) {
+    Tool& tool = tools_[index];
+    const bool leaves = std::find(away.begin(), away.end(), index) != away.end();
+    if (leaves && !tool.away) {
+      taken += load_[index].energy + load_[index].friction_energy;
+      load_[index] = {};
+      tool.force = tool.movement = {};
+      for (int grain = 0; grain < grains_; ++grain) {
+        of_grain_[slot(grain, index)] = {};
+        anchors_[slot(grain, index)].clear();
+      }
+    }
+    if (!leaves && tool.away) come_back(tool, model);
+    tool.away = leaves;
+  }
+  return taken;
+}
+
+void Tools::come_back(Tool& tool, const Model& model) const {
+  double deepest = 0;
+  with_surface(tool, [&](const auto& surface) {
+    for (int grain = 0; grain < grains_; ++grain)
+      for_each_node_behind(model, surface, grain,
+                           [&](std::size_t, const auto& gap) { deepest = std::max(deepest, -gap.distance); });
+  });
+  if (deepest == 0) return;
+  const auto* plane = std::get_if<OrientedPlane>(&tool.surface);
+  if (plane == nullptr)
+    throw SimulationError(fmt::format(
+        "tool '{}' comes back {:.4g} mm inside grains, allowed where it touches none: let grains move clear of it "
+        "before, or do not take it away",
+        tool.name, deepest));
+  const std::array<double, 3> normal = array_of(plane->normal);
+  for (std::size_t axis = 0; axis < 3; ++axis) tool.moved[axis] -= deepest * normal[axis];
+}
+
+std::optional<std::pair<std::string, double>> Tools::behind(const Model& model, std::size_t node) const {
+  std::optional<std::pair<std::string, double>> found;
+  for (const Tool& tool : tools_) {
+    if (tool.away) continue;
+    const double depth = -with_surface(tool, [&](const auto& surface) {
+      return surface.gap(NodePoint{model, node}).distance;
+    });
+    if (depth > 0 && (!found || depth > found->second)) found = {tool.name, depth};
+  }
+  return found;
+}
+
+// ---------------------------------------------------------------------------------------------- container
+
+Cell Container::cell(const Tools& tools, const Cell& last) const {
+  const Tool &wall = tools[parts_.wall], &lower = tools[parts_.lower], &upper = tools[parts_.upper];
+  const auto& bore = std::get<CylinderSurface>(wall.surface);
+  Cell cell = last;
+  cell.section_share = std::numbers::pi / 4;
+  const double centre[2] = {bore.centre.x, bore.centre.y};
+  for (std::size_t axis = 0; axis < 2; ++axis) {
+    cell.low[axis] = centre[axis] + wall.moved[axis] - bore.radius;
+    cell.high[axis] = centre[axis] + wall.moved[axis] + bore.radius;
+  }
+  if (!lower.away) cell.low[2] = std::get<OrientedPlane>(lower.surface).point.z + lower.moved[2];
+  if (!upper.away) cell.high[2] = std::get<OrientedPlane>(upper.surface).point.z + upper.moved[2];
+  if (upper.away) cell.high[2] = cell.low[2] + last.length(2);
+  if (lower.away) cell.low[2] = cell.high[2] - last.length(2);
+  return cell;
+}
+
+std::array<double, 6> Container::face_forces(const Tools& tools) const {
+  // The pressure s of a bore drives its halves apart with s D H, and pushes on its wall with s pi D H.
+  const double lateral = tools.load(parts_.wall).normal_force / std::numbers::pi;
+  return {lateral, lateral, lateral, lateral, -tools.load(parts_.lower).force.z, tools.load(parts_.upper).force.z};
+}
+
+} // namespace mpfem

@@ -1,0 +1,124 @@
+#pragma once
+// Rigid tools: surfaces that stages move, with friction, and what they bear.
+
+#include <array>
+#include <optional>
+#include <span>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "solver/boundary/cell.hpp"
+#include "solver/boundary/surface_friction.hpp"
+#include "solver/boundary/tool_surfaces.hpp"
+#include "solver/model/model.hpp"
+
+namespace mpfem {
+
+using ToolSurface = std::variant<OrientedPlane, CylinderSurface, SphereSurface, ConeSurface, BodySurface>;
+
+/// What a tool bears of grains.
+struct ToolLoad {
+  Vector3<double> force{0, 0, 0};  ///< N, of the grains on the tool
+  Vector3<double> moment{0, 0, 0}; ///< N mm, of these forces about the tool's reference point
+  double normal_force = 0;         ///< N, sum of the magnitudes of normal forces
+  double energy = 0;               ///< mJ, in the penalty
+  double friction_energy = 0;      ///< mJ, in stick springs
+  double friction_dissipation = 0; ///< mJ, since the time level before
+  double penetration = 0;          ///< largest over the element size
+
+  void add(const ToolLoad& other);
+};
+
+/// One tool at a time level.
+struct Tool {
+  std::string name;
+  ToolSurface surface;              ///< in its starting position
+  double friction = 0;              ///< mu
+  bool away = false;                ///< it touches nothing
+  std::array<double, 3> moved{};    ///< mm, since the start of the run
+  std::array<double, 3> movement{}; ///< mm, in the step that led to the present
+  std::array<double, 3> force{};    ///< N, of the grains on it at the last time level
+  double friction_dissipation = 0;  ///< mJ, so far
+
+  template <class Self, class Visitor>
+  static void for_each_field(Self& s, Visitor&& visit) {
+    visit("tool.away", s.away), visit("tool.moved", s.moved), visit("tool.movement", s.movement);
+    visit("tool.force", s.force), visit("tool.friction_dissipation", s.friction_dissipation);
+  }
+};
+
+class Tools {
+public:
+  Tools(std::vector<Tool> tools, int grains);
+
+  bool present() const { return !tools_.empty(); }
+  std::size_t size() const { return tools_.size(); }
+  const Tool& operator[](std::size_t tool) const { return tools_[tool]; }
+
+  // ---- a step
+  /// Adds the tools' forces on a grain to model.force. `bounds`: the present bounding box of the grain's surface;
+  /// `last_step` in s. Different grains may be at work at once.
+  void add_forces(Model& model, const Bounds& bounds, double last_step, int grain);
+  /// Adds up what the tools bear at this time level, in the order of grains. Returns their work (mJ) on the grains
+  /// since the level before, by the trapezoidal rule.
+  double take_loads();
+  /// What a tool bears, as last added up.
+  const ToolLoad& load(std::size_t tool) const { return load_[tool]; }
+  /// Of all tools.
+  ToolLoad total() const;
+  /// Moves every tool by one step; `velocity` (mm/s) of each, or none where all are at rest.
+  void move(std::span<const std::array<double, 3>> velocity, double step);
+  /// Adds K A/m (1/s^2) of the tools that each node touches to `rate` [nodes].
+  void add_stiffness_rate(const Model& model, const Bounds& bounds, int grain, std::span<double> rate) const;
+  /// N, the normal pushes of all tools on the contact point of a surface node.
+  double push_on_node(const Model& model, std::size_t node, int grain) const;
+
+  // ---- tools that go and come
+  /// From now on these tools and no others are away. Returns the energy (mJ) that those which leave take along. Planes
+  /// that come back stand where they touch no grain. Throws SimulationError where another tool comes back into grains.
+  double set_away(std::span<const std::size_t> away, const Model& model);
+  /// Name and depth (mm) of the tool that a surface node is deepest behind; none where it is behind none.
+  std::optional<std::pair<std::string, double>> behind(const Model& model, std::size_t node) const;
+
+  // ---- checkpoints
+  template <class Self, class Visitor>
+  static void for_each_field(Self& s, Visitor&& visit) {
+    for (auto& tool : s.tools_) Tool::for_each_field(tool, visit);
+  }
+  int grains() const { return grains_; }
+  /// By ascending node.
+  std::vector<SurfaceAnchor>& anchors(int grain, std::size_t tool) { return anchors_[slot(grain, tool)]; }
+  const std::vector<SurfaceAnchor>& anchors(int grain, std::size_t tool) const { return anchors_[slot(grain, tool)]; }
+
+private:
+  std::size_t slot(int grain, std::size_t tool) const { return static_cast<std::size_t>(grain) * size() + tool; }
+  ToolLoad add_tool(Model& model, std::size_t tool, const Bounds& bounds, double last_step, int grain);
+  void come_back(Tool& tool, const Model& model) const;
+
+  int grains_ = 0;
+  std::vector<Tool> tools_;
+  std::vector<ToolLoad> of_grain_;                  ///< [grains * tools]
+  std::vector<ToolLoad> load_;                      ///< [tools]
+  std::vector<std::vector<SurfaceAnchor>> anchors_; ///< [grains * tools]
+};
+
+/// The container that tools form: the cell between two punches, across it the bore of a die.
+class Container {
+public:
+  /// Indices of tools.
+  struct Parts {
+    std::size_t wall, lower, upper;
+  };
+  explicit Container(const Parts& parts) : parts_(parts) {}
+  /// The cell as the tools stand now; where a punch is away, the last one's height stays.
+  Cell cell(const Tools& tools, const Cell& last) const;
+  /// N of each face, -x, +x, …: of the punches, and of the bore the force that drives its halves apart, over the four
+  /// lateral faces.
+  std::array<double, 6> face_forces(const Tools& tools) const;
+
+private:
+  Parts parts_;
+};
+
+} // namespace mpfem

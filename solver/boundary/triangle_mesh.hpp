@@ -1,0 +1,76 @@
+#pragma once
+// A surface of triangles: which of them share an edge or a corner, and what the surface encloses.
+//
+// Edge 3 t + k of triangle t goes from its corner k to the corner after it. Two triangles of a closed and oriented
+// surface share each edge and run along it in opposite directions.
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "solver/model/surface_view.hpp"
+#include "solver/physics/tensor.hpp"
+
+namespace mpfem {
+
+struct TriangleMesh {
+  std::vector<Vector3<double>> vertex;               ///< mm
+  std::vector<std::array<std::int32_t, 3>> triangle; ///< vertices, counter-clockwise as seen from outside of the body
+
+  const Vector3<double>& corner(std::size_t t, std::size_t k) const {
+    return vertex[static_cast<std::size_t>(triangle[t][k])];
+  }
+};
+
+/// The edge after, and the edge before, an edge of the same triangle.
+constexpr std::int32_t next_edge(std::int32_t edge) {
+  return edge % 3 == 2 ? edge - 2 : edge + 1;
+}
+constexpr std::int32_t edge_before(std::int32_t edge) {
+  return edge % 3 == 0 ? edge + 2 : edge - 1;
+}
+
+/// Edges that break the rule of a closed and oriented surface: how many, and one of them (-1: none).
+struct EdgeFault {
+  std::size_t count = 0;
+  std::int32_t example = -1;
+};
+
+struct EdgePairs {
+  std::vector<std::int32_t> partner; ///< [triangles * 3]: the edge of the other triangle; -1 where there is not one
+  EdgeFault open;                    ///< edges of one triangle only
+  EdgeFault misoriented;             ///< edges along which two triangles run in the same direction
+  EdgeFault crowded;                 ///< edges of more than two triangles
+  bool closed() const { return open.count + misoriented.count + crowded.count == 0; }
+};
+EdgePairs pair_edges(const TriangleMesh& mesh);
+
+/// [triangles]: the shell of each, shells being the parts that no edge connects, numbered by their first triangle.
+/// `partner` of a closed surface.
+std::vector<std::int32_t> shells(const std::vector<std::int32_t>& partner);
+
+/// [triangles * 3]: for each corner the number of its fan, the triangles around it that follow each other across edges.
+/// Two bodies that touch at a vertex have a fan each there. `partner` of a closed surface.
+std::vector<std::int32_t> corner_fans(const std::vector<std::int32_t>& partner);
+
+/// mm, of all vertices; there is one at least.
+Bounds bounds_of(const TriangleMesh& mesh);
+
+/// mm, diagonal of the bounding box.
+double diagonal(const Bounds& bounds);
+
+/// mm^2, normal times area, by the two edges that start at the corner in front of the longest edge: rounding is least.
+Vector3<double> area_vector(const Vector3<double>& a, const Vector3<double>& b, const Vector3<double>& c);
+inline Vector3<double> area_vector(const TriangleMesh& mesh, std::size_t t) {
+  return area_vector(mesh.corner(t, 0), mesh.corner(t, 1), mesh.corner(t, 2));
+}
+
+/// mm^3, share of a triangle in the volume that its closed surface encloses: the tetrahedron that it has with `apex`,
+/// which may lie anywhere but is the same for all.
+double volume_share(const TriangleMesh& mesh, std::size_t t, const Vector3<double>& apex);
+
+/// Share of a triangle in the winding number at a point: its solid angle over 4 pi (van Oosterom and Strackee, IEEE
+/// Trans. Biomed. Eng. 30, 125, 1983). The sum over a closed and oriented surface is 1 inside and 0 outside.
+double winding_share(const TriangleMesh& mesh, std::size_t t, const Vector3<double>& point);
+
+} // namespace mpfem

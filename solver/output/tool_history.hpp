@@ -1,0 +1,30 @@
+#pragma once
+// What the history keeps of rigid tools: /history/tools of a run file.
+
+#include <array>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "results-schema/file.hpp"
+
+namespace mpfem {
+
+/// One tool in one row of the history.
+struct ToolRow {
+  std::array<double, 3> displacement; ///< mm, since the start of the run
+  std::array<double, 3> force;        ///< N, of the grains on the tool
+  std::array<double, 3> moment;       ///< N mm, of that about the tool's reference point
+  double normal_force;                ///< N, sum of the magnitudes of normal forces
+  double friction_dissipation;        ///< mJ, so far
+};
+
+/// Writes /history/tools/NAME; `rows` holds those of all tools at a time level, one level after the other.
+void write_tool_history(schema::FileWriter& file, std::span<const std::string> tools, std::span<const ToolRow> rows);
+
+/// Rows as plain numbers, one after another, and back (for checkpoints). tool_rows_of throws std::length_error where
+/// the numbers are not whole rows.
+std::vector<double> flatten(const std::vector<ToolRow>& rows);
+std::vector<ToolRow> tool_rows_of(const std::vector<double>& values);
+
+} // namespace mpfem

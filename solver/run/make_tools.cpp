@@ -1,0 +1,78 @@
+#include "solver/run/make_tools.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "solver/boundary/stl.hpp"
+
+namespace mpfem {
+
+namespace {
+
+Vector3<double> vector_of(const std::array<double, 3>& v) {
+  return {v[0], v[1], v[2]};
+}
+
+OrientedPlane plane_of(const PlaneShape& shape, const std::array<double, 3>& low, const std::array<double, 3>& high) {
+  const std::array<double, 3> direction = *direction_of(shape);
+  std::array<double, 3> point = shape.point;
+  if (shape.face) {
+    for (std::size_t axis = 0; axis < 3; ++axis) point[axis] = 0.5 * (low[axis] + high[axis]);
+    const std::size_t axis = *shape.face / 2;
+    point[axis] = *shape.face % 2 == 0 ? low[axis] : high[axis];
+  }
+  return {vector_of(point), vector_of(direction)};
+}
+
+CylinderSurface cylinder_of(const CylinderShape& shape, const std::array<double, 3>& low,
+                            const std::array<double, 3>& high) {
+  std::array<double, 3> centre{};
+  for (std::size_t axis = 0; axis < 3; ++axis) centre[axis] = 0.5 * (low[axis] + high[axis]);
+  if (shape.centre) centre = *shape.centre;
+  double half_length = std::numeric_limits<double>::infinity();
+  if (shape.extent) {
+    half_length = 0.5 * ((*shape.extent)[1] - (*shape.extent)[0]);
+    centre[shape.axis] = 0.5 * ((*shape.extent)[0] + (*shape.extent)[1]);
+  }
+  const std::size_t across[2] = {(shape.axis + 1) % 3, (shape.axis + 2) % 3};
+  const double half_box = 0.5 * std::min(high[across[0]] - low[across[0]], high[across[1]] - low[across[1]]);
+  return {shape.axis, vector_of(centre), shape.radius.value_or(half_box), shape.inside, half_length, shape.rounding};
+}
+
+BodySurface body_of(const StlShape& shape) {
+  const StlBody body = read_stl(shape.file, shape.scale);
+  const Bounds& b = body.findings.bounds;
+  // A node that has left the surface is this near to it one step later.
+  constexpr double near = 1e-4; // of the body's diagonal
+  const double diagonal = std::hypot(b.high[0] - b.low[0], b.high[1] - b.low[1], b.high[2] - b.low[2]);
+  const Vector3<double> centre{0.5 * (b.low[0] + b.high[0]), 0.5 * (b.low[1] + b.high[1]),
+                               0.5 * (b.low[2] + b.high[2])};
+  const GrainSide side = shape.inside ? GrainSide::inside : GrainSide::outside;
+  return {std::make_shared<const TriangulatedSurface>(body.mesh, side), centre, near * diagonal};
+}
+
+} // namespace
+
+ToolSurface make_surface(const ToolShape& shape, const std::array<double, 3>& low, const std::array<double, 3>& high) {
+  if (const auto* plane = std::get_if<PlaneShape>(&shape)) return plane_of(*plane, low, high);
+  if (const auto* cylinder = std::get_if<CylinderShape>(&shape)) return cylinder_of(*cylinder, low, high);
+  if (const auto* sphere = std::get_if<SphereShape>(&shape))
+    return SphereSurface{vector_of(sphere->centre), sphere->radius, sphere->inside};
+  if (const auto* stl = std::get_if<StlShape>(&shape)) return body_of(*stl);
+  const auto& cone = std::get<ConeShape>(shape);
+  return ConeSurface{
+      cone.axis,  cone.direction, vector_of(cone.apex), std::sin(cone.half_angle), std::cos(cone.half_angle),
+      cone.inside};
+}
+
+Tools make_tools(std::span<const ToolParameters> parameters, const Model& model) {
+  std::vector<Tool> tools;
+  for (const ToolParameters& tool : parameters)
+    tools.push_back({.name = tool.name,
+                     .surface = make_surface(tool.shape, model.box_low, model.box_high),
+                     .friction = tool.friction});
+  return {std::move(tools), model.grains};
+}
+
+} // namespace mpfem

@@ -1,0 +1,19 @@
+#pragma once
+// The tools of a scenario in the box of its packing.
+
+#include <span>
+#include <vector>
+
+#include "solver/boundary/tools.hpp"
+#include "solver/scenario/tools.hpp"
+
+namespace mpfem {
+
+/// The surface of a tool in the packing's box, `low` to `high` (mm), in its starting position. Throws InputError where
+/// an STL file cannot be used.
+ToolSurface make_surface(const ToolShape& shape, const std::array<double, 3>& low, const std::array<double, 3>& high);
+
+/// All tools of a scenario, as they stand at the start.
+Tools make_tools(std::span<const ToolParameters> parameters, const Model& model);
+
+} // namespace mpfem

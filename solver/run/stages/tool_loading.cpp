@@ -1,0 +1,262 @@
+#include "solver/run/stages/tool_loading.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include <fmt/format.h>
+
+#include "common/errors.hpp"
+
+namespace mpfem {
+
+namespace {
+
+/// Part of the cell's length along z over which a stage is expected to last where its ends do not tell.
+constexpr double expected_strain = 0.05;
+/// Travel and density are met when they are so near: tools arrive but for rounding.
+constexpr double arrived = 1e-9;
+/// No stage may last longer, over what is expected.
+constexpr double longest_time = 50;
+
+/// Whether a quantity that began at `start` has come to its target, from either side.
+bool has_passed(double target, double start, double now) {
+  return start < target ? now >= target : now <= target;
+}
+
+} // namespace
+
+ToolLoadingControl::ToolLoadingControl(const ToolLoading& stage, const StageLabel& label, const StageStart& start)
+    : stage_(stage), name_(label.name), start_(start), transit_(wave_transit(start.sample, start.cell)),
+      servo_(stage.drives.size()) {
+  const ToolEnds& ends = stage.ends;
+  double travel = expected_strain * start.cell.length(2);
+  if (ends.travel) travel = *ends.travel;
+  if (ends.relative_density && closing_speed() != 0) {
+    const double height = start.sample.solid_volume / (start.cell.area(2) * *ends.relative_density);
+    travel = stage.speed * std::abs((start.cell.length(2) - height) / closing_speed());
+  }
+  constexpr double instant = 1e-12; // s
+  if (stage.speed > 0) {
+    ramp_ = stage.ramp_fraction * travel / stage.speed;
+    // A fraction of the travel is done at half of the speed, at both ends.
+    expected_duration_ = std::max(travel / stage.speed * (1 + 1.5 * stage.ramp_fraction), instant);
+  }
+  const bool ends_otherwise = ends.travel || ends.relative_density;
+  if (ends.duration)
+    expected_duration_ = ends_otherwise ? std::min(expected_duration_, *ends.duration) : *ends.duration;
+  std::size_t moved = 0;
+  for (const ToolDrive& drive : stage.drives) moved = std::max(moved, drive.tool + 1);
+  velocity_.resize(moved);
+}
+
+std::string ToolLoadingControl::describe() const {
+  if (stage_.drives.empty()) return "tools at rest, for a time";
+  return fmt::format("{} {} driven", stage_.drives.size(), stage_.drives.size() == 1 ? "tool" : "tools");
+}
+
+const ToolDrive* ToolLoadingControl::drive_of(std::size_t tool) const {
+  const auto found = std::find_if(stage_.drives.begin(), stage_.drives.end(),
+                                  [&](const ToolDrive& drive) { return drive.tool == tool; });
+  return found != stage_.drives.end() ? &*found : nullptr;
+}
+
+/// mm/s, by which the container's height shrinks at full speed.
+double ToolLoadingControl::closing_speed() const {
+  if (!stage_.container) return 0;
+  const auto upwards = [&](std::size_t tool) {
+    const ToolDrive* drive = drive_of(tool);
+    return drive != nullptr ? drive->velocity[2] : 0.0;
+  };
+  return upwards(stage_.container->lower) - upwards(stage_.container->upper);
+}
+
+void ToolLoadingControl::expect_end(Cell& cell) const {
+  if (!stage_.ends.relative_density) return;
+  cell.high[2] = cell.low[2] + start_.sample.solid_volume / (cell.area(2) * *stage_.ends.relative_density);
+}
+
+double ToolLoadingControl::push_of(const Tools& tools, std::size_t tool) const {
+  const ToolDrive* drive = drive_of(tool);
+  const Vector3<double>& force = tools.load(tool).force;
+  if (drive == nullptr) return norm(force);
+  return -(force.x * drive->direction[0] + force.y * drive->direction[1] + force.z * drive->direction[2]);
+}
+
+ToolLoadingControl::Seen ToolLoadingControl::see(const StageObservation& observation) const {
+  Seen seen{.time = observation.time, .step = observation.step};
+  seen.height = observation.cell.length(2);
+  seen.area = observation.cell.area(2);
+  seen.density = start_.sample.solid_volume / observation.cell.volume();
+  seen.axial_stress = observation.force[2] / seen.area;
+  if (stage_.ends.force || stage_.ends.force_drop) seen.push = push_of(*observation.tools, stage_.ends.watched);
+  return seen;
+}
+
+void ToolLoadingControl::begin(const Seen& seen) {
+  state_.begun = true;
+  state_.start_stress = seen.axial_stress;
+  state_.start_push = seen.push;
+  state_.start_density = seen.density;
+}
+
+/// Part of the full speed that is wanted now; `left` (mm) to travel, of the fastest tool.
+double ToolLoadingControl::wanted_speed(const Seen& seen, double& left) const {
+  const ToolEnds& ends = stage_.ends;
+  double part = 1;
+  left = std::numeric_limits<double>::infinity();
+  if (ends.travel) left = std::min(left, std::max(*ends.travel - state_.travelled, 0.0));
+  if (ends.relative_density && closing_speed() != 0) {
+    const double height = start_.sample.solid_volume / (seen.area * *ends.relative_density);
+    left = std::min(left, std::max((seen.height - height) / closing_speed(), 0.0) * stage_.speed);
+  }
+  // A travel that is known ends at rest, by constant deceleration.
+  const double stopping = 0.5 * stage_.speed * ramp_;
+  if (stopping > 0 && std::isfinite(left)) part = std::clamp(std::sqrt(left / stopping), slowest_approach, 1.0);
+  const auto slow_near = [&](const std::optional<double>& target, double start, double now) {
+    if (target && *target != start) part = std::min(part, slowed_near_target((*target - now) / (*target - start)));
+  };
+  slow_near(ends.axial_stress, state_.start_stress, seen.axial_stress);
+  slow_near(ends.force, state_.start_push, seen.push);
+  return part;
+}
+
+void ToolLoadingControl::set_velocities(const StageObservation& observation, double part) {
+  for (std::size_t i = 0; i < stage_.drives.size(); ++i) {
+    const ToolDrive& drive = stage_.drives[i];
+    for (std::size_t axis = 0; axis < 3; ++axis) velocity_[drive.tool][axis] = part * drive.velocity[axis];
+    if (!drive.force) continue;
+    // The law of held walls, whose stress is a force over the section.
+    const double area = start_.cell.area(2);
+    ObservedSample as_wall;
+    as_wall.step = observation.step;
+    as_wall.rate_factor = 1;
+    as_wall.stress[2] = push_of(*observation.tools, drive.tool) / area;
+    HoldQuality quality;
+    const double speed =
+        StressServo(start_, drive.servo_speed).hold(servo_[i], quality, as_wall, 2, *drive.force / area);
+    for (std::size_t axis = 0; axis < 3; ++axis) velocity_[drive.tool][axis] = speed * drive.direction[axis];
+  }
+}
+
+void ToolLoadingControl::observe(const StageObservation& observation) {
+  const Seen seen = see(observation);
+  if (!state_.begun) begin(seen);
+  state_.travelled += part_.speed * stage_.speed * seen.step;
+  state_.watched += (seen.push - state_.watched) * seen.step / (transit_ + seen.step);
+  if (seen.time > ramp_) state_.peak = std::max(state_.peak, state_.watched);
+  double left = 0;
+  const double wanted = wanted_speed(seen, left);
+  double part = part_.approach(wanted, 1.0, ramp_, seen.step);
+  // The last step goes to the target and not past it.
+  if (seen.step > 0 && stage_.speed > 0) part = std::min(part, left / (stage_.speed * seen.step));
+  part_.speed = part;
+  set_velocities(observation, part);
+  state_.fraction_done = std::max(state_.fraction_done, find_fraction_done(seen));
+  state_.ended_by = find_end(seen);
+  if (state_.ended_by == ToolEnd::none && seen.time > longest_time * expected_duration_)
+    throw SimulationError(
+        fmt::format("stage '{}': its end was not reached: D_r = {:.4f}, axial stress {:.4g} MPa, push "
+                    "of the watched tool {:.4g} N after {:g} times the time expected",
+                    name_, seen.density, seen.axial_stress, seen.push, longest_time));
+}
+
+void ToolLoadingControl::move(Cell& cell, double /*time*/, double /*clock_step*/, double step) const {
+  if (!stage_.container) return;
+  const auto velocity_of = [&](std::size_t tool, std::size_t axis) {
+    return tool < velocity_.size() ? velocity_[tool][axis] : 0.0;
+  };
+  const auto is_away = [&](std::size_t tool) {
+    return std::find(stage_.away.begin(), stage_.away.end(), tool) != stage_.away.end();
+  };
+  const ContainerParameters& parts = *stage_.container;
+  for (std::size_t axis = 0; axis < 2; ++axis) {
+    const double shift = velocity_of(parts.wall, axis) * step;
+    cell.low[axis] += shift, cell.high[axis] += shift;
+  }
+  // Where one punch is away, the cell keeps its height and goes with the other.
+  const std::size_t lower = is_away(parts.lower) ? parts.upper : parts.lower;
+  const std::size_t upper = is_away(parts.upper) ? parts.lower : parts.upper;
+  if (is_away(lower)) return;
+  cell.low[2] += velocity_of(lower, 2) * step;
+  cell.high[2] += velocity_of(upper, 2) * step;
+}
+
+ToolEnd ToolLoadingControl::find_end(const Seen& seen) const {
+  const ToolEnds& ends = stage_.ends;
+  if (ends.travel && state_.travelled >= *ends.travel * (1 - arrived)) return ToolEnd::travel;
+  if (ends.relative_density) {
+    const double change = *ends.relative_density - state_.start_density;
+    if ((change < 0 ? -1 : 1) * (seen.density - *ends.relative_density) >= -arrived) return ToolEnd::relative_density;
+  }
+  if (ends.axial_stress && has_passed(*ends.axial_stress, state_.start_stress, seen.axial_stress))
+    return ToolEnd::axial_stress;
+  if (ends.force && has_passed(*ends.force, state_.start_push, seen.push)) return ToolEnd::force;
+  if (ends.force_drop && state_.peak > ends.smallest_peak && state_.watched <= (1 - *ends.force_drop) * state_.peak)
+    return ToolEnd::force_drop;
+  if (ends.duration && seen.time >= *ends.duration) return ToolEnd::duration;
+  return ToolEnd::none;
+}
+
+double ToolLoadingControl::find_fraction_done(const Seen& seen) const {
+  const ToolEnds& ends = stage_.ends;
+  const auto part = [](double start, double now, double end) {
+    return end != start ? std::clamp((now - start) / (end - start), 0.0, 1.0) : 1.0;
+  };
+  double done = 0;
+  if (ends.travel) done = std::max(done, state_.travelled / *ends.travel);
+  if (ends.relative_density) done = std::max(done, part(state_.start_density, seen.density, *ends.relative_density));
+  if (ends.axial_stress) done = std::max(done, part(state_.start_stress, seen.axial_stress, *ends.axial_stress));
+  if (ends.force) done = std::max(done, part(state_.start_push, seen.push, *ends.force));
+  if (ends.duration) done = std::max(done, seen.time / *ends.duration);
+  if (done == 0) done = seen.time / expected_duration_;
+  return std::clamp(done, 0.0, 1.0);
+}
+
+double ToolLoadingControl::fraction_done(double /*time*/, double /*mean_stress*/) const {
+  return state_.fraction_done;
+}
+
+StageResult ToolLoadingControl::result(const StageObservation& last) const {
+  const ToolEnds& ends = stage_.ends;
+  StageResult result;
+  switch (state_.ended_by) {
+  case ToolEnd::none:
+    result.ended_by = "not ended";
+    break;
+  case ToolEnd::relative_density:
+    result.ended_by = fmt::format("relative density {:g}", *ends.relative_density);
+    break;
+  case ToolEnd::axial_stress:
+    result.ended_by = fmt::format("axial stress {:g} MPa", *ends.axial_stress);
+    result.overshoot = std::abs(see(last).axial_stress - *ends.axial_stress);
+    break;
+  case ToolEnd::travel:
+    result.ended_by = fmt::format("travel {:g} mm", *ends.travel);
+    break;
+  case ToolEnd::force:
+    result.ended_by = fmt::format("force {:g} N", *ends.force);
+    break;
+  case ToolEnd::force_drop:
+    result.ended_by = fmt::format("force drop of {:g} from a peak of {:.4g} N", *ends.force_drop, state_.peak);
+    break;
+  case ToolEnd::duration:
+    result.ended_by = fmt::format("duration {:g} s", *ends.duration);
+    break;
+  }
+  return result;
+}
+
+void ToolLoadingControl::write(FieldWriter& to) const {
+  State::for_each_field(state_, to);
+  to("tools.part", part_.speed);
+  for (const ServoState& servo : servo_) ServoState::for_each_field(servo, to);
+}
+
+void ToolLoadingControl::read(FieldReader& from) {
+  State::for_each_field(state_, from);
+  from("tools.part", part_.speed);
+  for (ServoState& servo : servo_) ServoState::for_each_field(servo, from);
+}
+
+} // namespace mpfem

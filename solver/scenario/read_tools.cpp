@@ -1,0 +1,250 @@
+#include "solver/scenario/read_tools.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <numbers>
+#include <set>
+
+#include <fmt/format.h>
+
+#include "solver/scenario/ranges.hpp"
+
+namespace mpfem {
+
+namespace {
+
+using Vector = std::array<double, 3>;
+
+std::size_t read_axis(TableReader& table) {
+  return static_cast<std::size_t>(table.choice_or("axis", "z", {"x", "y", "z"})[0] - 'x');
+}
+
+bool read_inside(TableReader& table, const char* usual) {
+  return table.choice_or("grains", usual, {"inside", "outside"}) == "inside";
+}
+
+ToolShape read_plane(TableReader& table) {
+  PlaneShape plane;
+  if (table.has("face")) {
+    static const std::vector<std::string> faces{"-x", "+x", "-y", "+y", "-z", "+z"};
+    const std::string face = table.choice("face", faces);
+    for (const char* key : {"point", "normal"})
+      if (table.has(key)) table.fail(key, "has no meaning with 'face'");
+    plane.face = static_cast<std::size_t>(std::find(faces.begin(), faces.end(), face) - faces.begin());
+    plane.normal = {};
+    plane.normal[*plane.face / 2] = *plane.face % 2 == 0 ? 1.0 : -1.0;
+    return plane;
+  }
+  plane.point = table.vector3("point", any_length);
+  plane.normal = table.vector3("normal", Range::between(-1e9, 1e9));
+  if (const auto& n = plane.normal; !(std::hypot(n[0], n[1], n[2]) > 1e-9))
+    table.fail("normal", "found a vector of length 0, expected the direction towards the grains");
+  return plane;
+}
+
+ToolShape read_cylinder(TableReader& table) {
+  CylinderShape cylinder;
+  cylinder.axis = read_axis(table);
+  if (table.has("centre")) cylinder.centre = table.vector3("centre", any_length);
+  cylinder.radius = table.optional_number("radius", positive_length);
+  cylinder.inside = read_inside(table, "inside");
+  if (table.has("extent")) {
+    const std::vector<double> extent = table.numbers("extent", any_length);
+    if (extent.size() != 2 || !(extent[0] < extent[1]))
+      table.fail("extent", "expected two numbers, [low, high] with low < high (mm along the axis)");
+    cylinder.extent = {extent[0], extent[1]};
+  }
+  cylinder.rounding = table.number_or("rounding", 0, Range::between(0, 1e9));
+  if (cylinder.rounding > 0 && !cylinder.extent) table.fail("rounding", "has no meaning without 'extent'");
+  const double most = cylinder.extent ? 0.5 * ((*cylinder.extent)[1] - (*cylinder.extent)[0]) : 0;
+  if (cylinder.rounding > most && cylinder.extent)
+    table.fail("rounding",
+               fmt::format("found {:g} mm, allowed up to half of the extent, {:g} mm", cylinder.rounding, most));
+  return cylinder;
+}
+
+ToolShape read_sphere(TableReader& table) {
+  return SphereShape{.centre = table.vector3("centre", any_length),
+                     .radius = table.number("radius", positive_length),
+                     .inside = read_inside(table, "outside")};
+}
+
+ToolShape read_cone(TableReader& table) {
+  constexpr double degree = std::numbers::pi / 180;
+  ConeShape cone;
+  cone.axis = read_axis(table);
+  cone.direction = table.choice_or("opens", "up", {"up", "down"}) == "up" ? 1.0 : -1.0;
+  cone.apex = table.vector3("apex", any_length);
+  cone.half_angle = degree * table.number("half_angle", Range::between(1, 89));
+  cone.inside = read_inside(table, "inside");
+  return cone;
+}
+
+ToolShape read_stl_shape(TableReader& table) {
+  StlShape stl;
+  stl.file = table.string("file");
+  if (stl.file.empty() || stl.file.find('\0') != std::string::npos)
+    table.fail("file", "found an empty or unusable path, expected an STL file");
+  stl.scale = table.number("scale", Range::between(1e-9, 1e9)); // no default: STL files do not tell their unit
+  stl.inside = read_inside(table, "outside");
+  return stl;
+}
+
+struct ShapeKeyword {
+  std::string name;
+  std::vector<std::string> keys;
+  ToolShape (*read)(TableReader&);
+};
+
+/// In the order of ToolShape.
+const std::vector<ShapeKeyword>& shape_keywords() {
+  static const std::vector<ShapeKeyword> keywords = {
+      {"plane", {"face", "point", "normal"}, read_plane},
+      {"cylinder", {"axis", "centre", "radius", "grains", "extent", "rounding"}, read_cylinder},
+      {"sphere", {"centre", "radius", "grains"}, read_sphere},
+      {"cone", {"axis", "opens", "apex", "half_angle", "grains"}, read_cone},
+      {"stl", {"file", "scale", "grains"}, read_stl_shape},
+  };
+  return keywords;
+}
+
+/// The name stands in names of datasets.
+void check_tool_name(const TableReader& table, const std::string& name) {
+  constexpr std::size_t longest = 32;
+  const bool plain = std::all_of(name.begin(), name.end(), [](char c) {
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '-' || c == '_';
+  });
+  if (name.empty() || name.size() > longest || !plain)
+    table.fail("name", fmt::format("found '{}', allowed 1 … {} letters (a … z), digits, '-' and '_'",
+                                   name.size() > longest ? "a longer text" : name, longest));
+}
+
+ToolParameters read_tool(TableReader& table) {
+  std::vector<std::string> types, all_keys;
+  for (const ShapeKeyword& keyword : shape_keywords()) {
+    types.push_back(keyword.name);
+    all_keys.insert(all_keys.end(), keyword.keys.begin(), keyword.keys.end());
+  }
+  ToolParameters tool;
+  tool.name = table.string("name");
+  check_tool_name(table, tool.name);
+  const std::string type = table.choice("type", types);
+  const auto keyword = std::find_if(shape_keywords().begin(), shape_keywords().end(),
+                                    [&](const ShapeKeyword& known) { return known.name == type; });
+  refuse_foreign_keys(table, all_keys, keyword->keys, fmt::format("type = '{}'", type));
+  tool.shape = keyword->read(table);
+  tool.friction = table.number_or("friction", 0, friction_or_zero);
+  table.finish();
+  return tool;
+}
+
+/// What one tool does; `name` of the tool.
+ToolDrive read_drive(TableReader table, std::size_t tool, const ToolShape& shape) {
+  ToolDrive drive{.tool = tool};
+  const auto direction = direction_of(shape);
+  drive.direction = direction.value_or(Vector{});
+  const auto given = static_cast<int>(table.has("speed")) + static_cast<int>(table.has("velocity")) +
+                     static_cast<int>(table.has("force"));
+  if (given != 1)
+    table.fail("speed", fmt::format("found {} of the keys speed, velocity and force, expected one of them", given));
+  if (!direction && !table.has("velocity"))
+    table.fail("velocity", "missing, expected a vector: this tool has no direction of its own");
+  if (table.has("velocity")) drive.velocity = table.vector3("velocity", any_speed);
+  if (table.has("speed")) {
+    const double speed = table.number("speed", any_speed);
+    for (std::size_t axis = 0; axis < 3; ++axis) drive.velocity[axis] = speed * drive.direction[axis];
+  }
+  if (table.has("force")) {
+    constexpr double largest_force = 1e15; // N
+    drive.force = table.number("force", Range::between(-largest_force, largest_force));
+    drive.servo_speed = table.number("servo_speed", positive_speed);
+  } else if (table.has("servo_speed")) {
+    table.fail("servo_speed", "has no meaning without 'force'");
+  }
+  table.finish();
+  return drive;
+}
+
+} // namespace
+
+const char* shape_name(const ToolShape& shape) {
+  return shape_keywords()[shape.index()].name.c_str(); // in the order of the variant
+}
+
+std::optional<std::array<double, 3>> direction_of(const ToolShape& shape) {
+  Vector direction{};
+  if (const auto* plane = std::get_if<PlaneShape>(&shape)) {
+    const Vector& n = plane->normal;
+    const double length = std::hypot(n[0], n[1], n[2]);
+    return Vector{n[0] / length, n[1] / length, n[2] / length};
+  }
+  if (const auto* cylinder = std::get_if<CylinderShape>(&shape))
+    direction[cylinder->axis] = 1;
+  else if (const auto* cone = std::get_if<ConeShape>(&shape))
+    direction[cone->axis] = 1;
+  else
+    return std::nullopt;
+  return direction;
+}
+
+std::vector<ToolParameters> read_tools(TableReader& root, const std::string& scenario_file) {
+  std::vector<ToolParameters> tools;
+  std::set<std::string> names;
+  for (TableReader& table : root.tables("tools")) {
+    tools.push_back(read_tool(table));
+    if (auto* stl = std::get_if<StlShape>(&tools.back().shape))
+      stl->file = (std::filesystem::path(scenario_file).parent_path() / stl->file).lexically_normal().string();
+    const std::string& name = tools.back().name;
+    if (!names.insert(name).second)
+      table.fail("name", fmt::format("found '{}', which an earlier tool has, expected different names", name));
+  }
+  return tools;
+}
+
+std::size_t tool_named(const TableReader& table, std::string_view key, const std::string& name,
+                       std::span<const ToolParameters> tools) {
+  const auto found =
+      std::find_if(tools.begin(), tools.end(), [&](const ToolParameters& tool) { return tool.name == name; });
+  if (found != tools.end()) return static_cast<std::size_t>(found - tools.begin());
+  std::string known;
+  for (const ToolParameters& tool : tools) known += (known.empty() ? "" : ", ") + tool.name;
+  table.fail(key, tools.empty() ? fmt::format("found the tool '{}', but the scenario has no [[tools]]", name)
+                                : fmt::format("found the tool '{}', expected one of {}", name, known));
+}
+
+std::optional<ContainerParameters> read_container(TableReader& root, std::span<const ToolParameters> tools) {
+  auto table = root.optional_table("container");
+  if (!table) return std::nullopt;
+  const auto tool = [&](const char* key) { return tool_named(*table, key, table->string(key), tools); };
+  const ContainerParameters container{.wall = tool("wall"), .lower = tool("lower"), .upper = tool("upper")};
+  const auto* wall = std::get_if<CylinderShape>(&tools[container.wall].shape);
+  if (wall == nullptr || wall->axis != 2 || !wall->inside)
+    table->fail("wall", fmt::format("found '{}', expected a cylinder along z with the grains inside",
+                                    tools[container.wall].name));
+  const auto check_punch = [&](const char* key, std::size_t index, double sign) {
+    if (!std::holds_alternative<PlaneShape>(tools[index].shape) ||
+        *direction_of(tools[index].shape) != Vector{0, 0, sign})
+      table->fail(key,
+                  fmt::format("found '{}', expected a plane whose normal is [0, 0, {:g}]", tools[index].name, sign));
+  };
+  check_punch("lower", container.lower, 1);
+  check_punch("upper", container.upper, -1);
+  table->finish();
+  return container;
+}
+
+std::vector<ToolDrive> read_drives(TableReader& stage, std::span<const ToolParameters> tools) {
+  std::vector<ToolDrive> drives;
+  auto table = stage.optional_table("drive");
+  if (!table) return drives;
+  for (const std::string& name : table->keys()) {
+    const std::size_t tool = tool_named(*table, name, name, tools);
+    drives.push_back(read_drive(table->table(name), tool, tools[tool].shape));
+  }
+  table->finish();
+  std::sort(drives.begin(), drives.end(), [](const ToolDrive& a, const ToolDrive& b) { return a.tool < b.tool; });
+  return drives;
+}
+
+} // namespace mpfem

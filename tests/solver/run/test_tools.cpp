@@ -1,0 +1,419 @@
+// Rigid tools and gravity: known motions and forces, what a press does to the ledger, and that runs with tools are the
+// same on any threads and when resumed. Their surfaces alone: test_tool_surfaces.cpp.
+
+#include <array>
+#include <cmath>
+#include <string>
+
+#include <Eigen/Geometry>
+#include <catch2/catch.hpp>
+#include <fmt/format.h>
+
+#include "results-schema/file.hpp"
+#include "tests/support/bonded_pair.hpp"
+#include "tests/support/small_runs.hpp"
+#include "tests/support/tolerances.hpp"
+
+using namespace mpfem;
+using namespace mpfem::test;
+
+namespace {
+
+using Vector = Eigen::Vector3d;
+
+/// Momentum (tonne mm/s) and mass (tonne) of all grains.
+struct Motion {
+  double mass = 0;
+  Vector momentum = Vector::Zero(), centre = Vector::Zero();
+};
+Motion motion_of(const Model& m) {
+  Motion motion;
+  for (std::size_t n = 0; n < static_cast<std::size_t>(m.nodes()); ++n) {
+    const double mass = 1 / m.inverse_mass[n];
+    motion.mass += mass;
+    for (std::size_t a = 0; a < 3; ++a) {
+      motion.momentum[static_cast<Eigen::Index>(a)] += mass * m.velocity[4 * n + a];
+      motion.centre[static_cast<Eigen::Index>(a)] += mass * m.position[4 * n + a];
+    }
+  }
+  motion.centre /= motion.mass;
+  return motion;
+}
+
+ToolParameters plane(const std::string& name, const std::array<double, 3>& point, const std::array<double, 3>& normal,
+                     double friction = 0) {
+  return {name, PlaneShape{{}, point, normal}, friction};
+}
+
+/// A stage in which tools move for a time, damped at a rate (1/s).
+Stage driven(std::vector<ToolDrive> drives, double duration, double damping = 0) {
+  ToolLoading loading;
+  for (const ToolDrive& drive : drives)
+    loading.speed = std::max(loading.speed,
+                             std::hypot(drive.velocity[0], drive.velocity[1], drive.velocity[2]) + drive.servo_speed);
+  loading.drives = std::move(drives);
+  loading.ends.duration = duration;
+  Stage stage;
+  stage.name = "driven";
+  stage.type = loading;
+  if (damping > 0) stage.damping = {damping, 1e9};
+  return stage;
+}
+
+/// A quarter of a cylinder about z, x > 0 and y > 0, of n cells along radius and axis: the square's shells mapped to
+/// circles.
+GrainMesh quarter_cylinder(int n, double radius, double height) {
+  GrainMesh mesh = cube_mesh(n);
+  for (auto& x : mesh.node) {
+    const double u = 0.5 * (x[0] + 1), v = 0.5 * (x[1] + 1), shell = std::max(u, v);
+    const double angle = shell > 0 ? M_PI / 4 * (v > u ? 2 - u / v : v / u) : 0;
+    x = {radius * shell * std::cos(angle), radius * shell * std::sin(angle), 0.5 * height * x[2]};
+  }
+  return mesh;
+}
+
+} // namespace
+
+// ------------------------------------------------------------------------------------------------------ gravity
+
+TEST_CASE("a ball that falls gains the speed g t and loses as much potential as it gains kinetic energy") {
+  constexpr double gravity = 1e9; // mm/s^2
+  Scenario scenario = holding_scenario(1);
+  scenario.gravity = {0, 0.6 * gravity, -0.8 * gravity};
+  for (const double mass_scaling : {1.0, 4.0}) { // weights stay as they are
+    scenario.numerics.mass_scaling = mass_scaling;
+    GrainMesh ball = ball_mesh(4, 0.1);
+    move(ball, {0.5, 0.5, 0.5});
+    ThreadTeam team(1);
+    Simulation simulation(build_model(pack({ball}, {1, 1, 1}), scenario, "test"), scenario, team);
+    const Vector start = motion_of(simulation.model()).centre;
+    for (int i = 0; i < 1000; ++i) {
+      simulation.evaluate_forces();
+      simulation.advance();
+    }
+    simulation.evaluate_forces();
+    const double t = simulation.state().time, step = simulation.state().last_step;
+    const Motion motion = motion_of(simulation.model());
+    // The velocity is that of half a step before; the first step of central differences begins with half a step.
+    CHECK(within(motion.momentum.norm() / motion.mass, gravity / mass_scaling * (t - 0.5 * step), 2e-3));
+    CHECK(within((motion.centre - start).norm(), 0.5 * gravity / mass_scaling * t * t, 2e-3));
+    const HistoryRow row = simulation.observe();
+    REQUIRE(row.kinetic_energy > 0);
+    CHECK(std::abs(row.energy_residual) < 1e-6 * row.kinetic_energy);
+  }
+}
+
+TEST_CASE("a block on an inclined plane rests below the angle of friction and slides above it as it must") {
+  constexpr double edge = 0.2, gravity = 3e9, mu = 0.3; // mm, mm/s^2: a pressure of 1 MPa
+  for (const double steepness : {0.9, 1.5}) {           // tan(angle)/mu
+    const double angle = std::atan(steepness * mu), s = std::sin(angle), c = std::cos(angle);
+    Scenario scenario = holding_scenario(1);
+    scenario.gravity = {0, 0, -gravity};
+    scenario.tools = {plane("incline", {1, 1, 1}, {s, 0, c}, mu)};
+    scenario.stages = {driven({}, 4e-5, 1e6), driven({}, 1)};
+    scenario.stages[1].name = "free";
+    GrainMesh slab = cube_mesh(2);
+    for (auto& x : slab.node) x = {0.5 * edge * x[0], 0.5 * edge * x[1], 0.25 * edge * x[2]};
+    rotate(slab, {0, 1, 0}, angle); // z of the slab to the normal
+    move(slab, {1 + 0.25 * edge * s, 1, 1 + 0.25 * edge * c});
+    ThreadTeam team(1);
+    Simulation simulation(build_model(pack({slab}, {4, 2, 2}), scenario, "test"), scenario, team);
+    const auto advance = [&] {
+      simulation.evaluate_forces();
+      if (simulation.stage_complete()) simulation.begin_next_stage();
+      simulation.advance();
+    };
+    while (simulation.state().stage == 0) advance();
+    const Motion before = motion_of(simulation.model());
+    const double start = simulation.state().time;
+    for (int i = 0; i < (steepness < 1 ? 20000 : 4000); ++i) advance();
+    const Motion after = motion_of(simulation.model());
+    const Vector down(c, 0, -s);
+    if (steepness < 1) {
+      CHECK((after.centre - before.centre).norm() < 1e-5 * simulation.model().element_size[0]);
+      const Tool& incline = simulation.tools()[0];
+      const double weight = after.mass * gravity;
+      CHECK(within(-incline.force[2], weight, 0.01)); // which still swings a little
+    } else {
+      const double acceleration =
+          (after.momentum - before.momentum).dot(down) / (after.mass * (simulation.state().time - start));
+      CHECK(within(gravity * s - acceleration, mu * gravity * c, 0.02)); // nodes chatter, as on the floor of the box
+    }
+  }
+}
+
+// -------------------------------------------------------------------------------------------------------- tools
+
+TEST_CASE("a stage of tools in a scene without tools lets its time pass") {
+  Scenario scenario = holding_scenario(1);
+  scenario.stages = {driven({}, 1e-7)};
+  ThreadTeam team(1);
+  GrainMesh ball = ball_mesh(3, 0.1);
+  move(ball, {0.5, 0.5, 0.5});
+  Simulation simulation(build_model(pack({ball}, {1, 1, 1}), scenario, "test"), scenario, team);
+  for (simulation.evaluate_forces(); !simulation.stage_complete(); simulation.evaluate_forces()) simulation.advance();
+  CHECK(simulation.state().time >= 1e-7);
+  CHECK(simulation.stage_result().ended_by == "duration 1e-07 s");
+}
+
+TEST_CASE("a tool that holds its push comes to rest where it bears it") {
+  constexpr double force = 0.4; // N, on a block of 0.04 mm^2
+  Scenario scenario = holding_scenario(1);
+  scenario.tools = {plane("floor", {0.5, 0.5, 0.4}, {0, 0, 1}), plane("ram", {0.5, 0.5, 0.6001}, {0, 0, -1})};
+  ToolDrive ram{.tool = 1, .direction = {0, 0, -1}, .force = force, .servo_speed = 500};
+  scenario.stages = {driven({ram}, 4e-5, 1e6)};
+  GrainMesh block = cube_mesh(3);
+  scale(block, 0.1);
+  move(block, {0.5, 0.5, 0.5});
+  ThreadTeam team(1);
+  Simulation simulation(build_model(pack({block}, {1, 1, 1}), scenario, "test"), scenario, team);
+  for (simulation.evaluate_forces(); !simulation.stage_complete(); simulation.evaluate_forces()) simulation.advance();
+  CHECK(within(simulation.tools()[1].force[2], force, 0.02));
+  CHECK(within(-simulation.tools()[0].force[2], force, 0.02));
+  CHECK(simulation.tools()[1].moved[2] < -1e-4); // it closed its gap of 1e-4 mm first
+}
+
+/// A slab in ASCII STL, in metres.
+std::string slab_stl(const std::array<double, 3>& low, const std::array<double, 3>& high) {
+  // Corners by bits: x, y, z; faces counter-clockwise from outside.
+  constexpr int quads[6][4] = {{0, 2, 3, 1}, {4, 5, 7, 6}, {0, 1, 5, 4}, {2, 6, 7, 3}, {0, 4, 6, 2}, {1, 3, 7, 5}};
+  std::string text = "solid slab\n";
+  const auto corner = [&](int bits) {
+    std::string line = "vertex";
+    for (std::size_t axis = 0; axis < 3; ++axis)
+      line += fmt::format(" {}", 1e-3 * ((bits >> axis & 1) != 0 ? high[axis] : low[axis]));
+    return line + "\n";
+  };
+  for (const auto& quad : quads)
+    for (const auto& triangle : {std::array{quad[0], quad[1], quad[2]}, std::array{quad[0], quad[2], quad[3]}})
+      text += "facet normal 0 0 0\nouter loop\n" + corner(triangle[0]) + corner(triangle[1]) + corner(triangle[2]) +
+              "endloop\nendfacet\n";
+  return text + "endsolid slab\n";
+}
+
+TEST_CASE("the flat face of a body in an STL file pushes and rubs as a plane does") {
+  const Folder folder;
+  write_text(folder / "slab.stl", slab_stl({0, 0, 0.1}, {1, 1, 0.4}));
+  std::vector<ToolLoad> loads;
+  for (const bool triangles : {false, true}) {
+    Scenario scenario = holding_scenario(1);
+    scenario.gravity = {1e9, 0, -4e9};
+    scenario.tools = {plane("floor", {0.5, 0.5, 0.4}, {0, 0, 1}, 0.2)};
+    if (triangles) scenario.tools[0].shape = StlShape{folder / "slab.stl", 1000, false};
+    scenario.stages = {driven({}, 1)};
+    GrainMesh ball = ball_mesh(4, 0.1);
+    move(ball, {0.5, 0.5, 0.5001});
+    ThreadTeam team(1);
+    Simulation simulation(build_model(pack({ball}, {1, 1, 1}), scenario, "test"), scenario, team);
+    double peak = 0;
+    ToolLoad at_peak;
+    for (int i = 0; i < 400; ++i) {
+      simulation.evaluate_forces();
+      if (const ToolLoad& load = simulation.tools().load(0); load.normal_force > peak)
+        peak = load.normal_force, at_peak = load;
+      simulation.advance();
+    }
+    loads.push_back(at_peak);
+  }
+  REQUIRE(loads[0].normal_force > 0.01); // N
+  CHECK(loads[0].force.x != 0);          // it rubs
+  CHECK(within(loads[1].normal_force, loads[0].normal_force, 1e-9));
+  CHECK(within(loads[1].force.x, loads[0].force.x, 1e-6));
+  CHECK(within(loads[1].force.z, loads[0].force.z, 1e-9));
+}
+
+/// A column of elastic matter that a punch presses against another in a rigid die, all of whose wall slides: from the
+/// upper to the lower punch the stress falls by exp(-4 mu K H/D), K = nu/(1 - nu) (Janssen 1895). Reference: finite
+/// elements with smooth punches, tests/reference/die_transmission.csv.
+TEST_CASE("friction of a die takes what Janssen's law says of the force on its way from punch to punch") {
+  constexpr double radius = 0.5, height = 1, strain = 2e-3;
+  for (const auto& [nu, mu, reference] : {std::array{0.3, 0.1, 0.8453}, std::array{0.4, 0.3, 0.4497}}) {
+    Scenario scenario = holding_scenario(1);
+    scenario.numerics.element = ElementType::tet4;
+    scenario.material.poissons_ratio = nu;
+    scenario.contact.stiffness_factor = 30; // the wall gives by 1/300 of an element under the column's own stress
+    scenario.contact.surface = ContactSurface::facets;
+    scenario.tools = {{"die", CylinderShape{2, std::array{0.0, 0.0, 0.5}, radius * (1 + 1e-9), true, {}, 0}, mu},
+                      plane("lower", {0, 0, 0}, {0, 0, 1}),
+                      plane("upper", {0, 0, height}, {0, 0, -1}),
+                      plane("symmetry-x", {0, 0, 0}, {1, 0, 0}),
+                      plane("symmetry-y", {0, 0, 0}, {0, 1, 0})};
+    const double transit = height * std::sqrt(1.55e-9 / 5000);
+    const ToolDrive upper{.tool = 2, .velocity = {0, 0, -strain * height / (30 * transit)}, .direction = {0, 0, -1}};
+    scenario.stages = {driven({upper}, 33 * transit)};
+    GrainMesh column = quarter_cylinder(12, radius, height);
+    move(column, {0, 0, 0.5 * height});
+    ThreadTeam team(1);
+    Simulation simulation(build_model(pack({column}, {radius, radius, height}), scenario, "test"), scenario, team);
+    double low = 0, high = 0, lost = 0;
+    for (simulation.evaluate_forces(); !simulation.stage_complete(); simulation.evaluate_forces()) {
+      if (simulation.state().time > 25 * transit)
+        low -= simulation.tools()[1].force[2], high += simulation.tools()[2].force[2];
+      simulation.advance();
+    }
+    const HistoryRow row = simulation.observe();
+    for (std::size_t tool = 0; tool < simulation.tools().size(); ++tool)
+      lost += simulation.tools()[tool].friction_dissipation;
+    INFO("nu " << nu << ", mu " << mu << ": " << low / high);
+    CHECK(within(low / high, reference, 0.02));
+    CHECK(within(lost, row.friction_dissipation, 1e-9));
+    CHECK(std::abs(row.energy_residual) < 0.01 * row.external_work);
+  }
+}
+
+// --------------------------------------------------------------------------------------------------------- runs
+
+namespace {
+
+/// Eight grains in a round die: pressed from both sides, unloaded, ejected, crushed between plates.
+const std::string tablet_text = material_text + R"([contact]
+friction = 0.3
+[bond]
+tensile_strength = 25
+shear_strength = 18
+fracture_energy = 0.05
+[gravity]
+acceleration = [0, 0, -1e6]
+[output]
+history_rows = 20
+[[tools]]
+name = "die"
+type = "cylinder"
+radius = 0.29
+extent = [-0.1, 0.4]
+rounding = 0.03
+friction = 0.1
+[[tools]]
+name = "lower"
+type = "plane"
+face = "-z"
+friction = 0.2
+[[tools]]
+name = "upper"
+type = "plane"
+face = "+z"
+[[tools]]
+name = "plate"
+type = "plane"
+face = "+x"
+[container]
+wall = "die"
+lower = "lower"
+upper = "upper"
+[[stages]]
+name = "compaction"
+type = "tools"
+away = ["plate"]
+relative_density = 0.45
+drive.upper.speed = 20000
+drive.lower.speed = 20000
+[[stages]]
+name = "hold"
+type = "tools"
+away = ["plate"]
+duration = 1e-6
+[[stages]]
+name = "unload"
+type = "tools"
+away = ["plate"]
+force = 0
+watch = "upper"
+drive.upper.speed = -10000
+[[stages]]
+name = "eject"
+type = "tools"
+away = ["plate", "upper"]
+travel = 0.05
+drive.lower.velocity = [0, 0, 20000]
+[[stages]]
+name = "crush"
+type = "tools"
+away = ["die", "upper"]
+travel = 0.02
+drive.plate.speed = 10000
+)";
+
+} // namespace
+
+TEST_CASE("a run with tools is bitwise the same on one, two and four threads, and when it is resumed") {
+  check_threads(tablet_text, 4);
+  check_resuming(tablet_text, 4);
+}
+
+TEST_CASE("a press keeps the ledger, and its forces balance") {
+  const Folder folder;
+  prepare(folder, 4, tablet_text);
+  REQUIRE(mpfem_command(fmt::format("run {} -o {} --quiet", folder / "scenario.toml", folder / "run.h5")).exit_code ==
+          0);
+  CHECK(schema::validate(folder / "run.h5").empty());
+  const schema::FileReader file(folder / "run.h5", schema::FileKind::run);
+  CHECK(file.tools() == std::vector<std::string>{"die", "lower", "plate", "upper"});
+  const auto work = file.read(schema::run::history_external_work),
+             residual = file.read(schema::run::history_energy_residual);
+  const double most = *std::max_element(work.begin(), work.end());
+  for (const double r : residual) CHECK(std::abs(r) < 0.01 * most);
+  const auto stage = file.read(schema::run::history_stage);
+  const auto force = [&](const char* tool, std::size_t row) {
+    return file.read(schema::run::history_tools_force, tool)[3 * row + 2];
+  };
+  // At the end of the hold: what the upper punch presses down, the lower and the die bear; the weight is nothing.
+  const auto row = static_cast<std::size_t>(std::upper_bound(stage.begin(), stage.end(), 1) - stage.begin()) - 1;
+  REQUIRE(force("upper", row) > 0.5);
+  const double sum = force("upper", row) + force("lower", row) + force("die", row);
+  INFO(sum << " N of " << force("upper", row));
+  CHECK(std::abs(sum) < 0.02 * force("upper", row)); // what still swings
+  const double wall = file.read(schema::run::history_tools_normal_force, "die")[row];
+  CHECK(std::abs(force("die", row)) <= 0.1 * wall * (1 + 1e-9));
+  // The container's stresses are those of its tools.
+  const auto lengths = file.read(schema::run::history_box_lengths),
+             stress = file.read(schema::run::history_wall_stress);
+  CHECK(within(lengths[3 * row], 0.58, 1e-12));
+  CHECK(within(stress[6 * row + 5], force("upper", row) / (M_PI * 0.29 * 0.29), 1e-12));
+  CHECK(within(stress[6 * row], wall / (M_PI * 0.58 * lengths[3 * row + 2]), 1e-12));
+  // Of eight grains of ball_mesh(4, 0.1).
+  CHECK(within(file.read(schema::run::history_relative_density)[row], 0.45, 1e-6));
+}
+
+TEST_CASE("a branch goes on with the tools where they stand, and refuses others") {
+  const Folder folder;
+  prepare(folder, 3, tablet_text);
+  REQUIRE(mpfem_command(fmt::format("run {} -o {} --quiet", folder / "scenario.toml", folder / "run.h5")).exit_code ==
+          0);
+  const std::string from = folder / "run.hold.checkpoint.h5";
+  const auto branch = [&](const std::string& text) {
+    write_text(folder / "branch.toml", text);
+    return mpfem_command(
+        fmt::format("run {} -o {} --quiet --from {}", folder / "branch.toml", folder / "branch.h5", from));
+  };
+  const std::string unloading = tablet_text.substr(0, tablet_text.find("[[stages]]")) +
+                                tablet_text.substr(tablet_text.find("[[stages]]\nname = \"unload\""));
+  const Outcome good = branch(replaced(unloading, "friction = 0.2", "friction = 0.4"));
+  INFO(good.messages);
+  CHECK(good.exit_code == 0);
+  const Outcome bad = branch(replaced(unloading, "radius = 0.29", "radius = 0.3"));
+  CHECK(bad.exit_code == 2);
+  CHECK_THAT(bad.messages, Catch::Contains("tools differ"));
+}
+
+TEST_CASE("mistakes in tools are refused with the key and what is allowed") {
+  const Folder folder;
+  const auto refusal = [&](const std::string& from, const std::string& to) {
+    prepare(folder, 3, replaced(tablet_text, from, to));
+    const Outcome outcome =
+        mpfem_command(fmt::format("run {} -o {} --quiet", folder / "scenario.toml", folder / "run.h5"));
+    CHECK(outcome.exit_code == 2);
+    return outcome.messages;
+  };
+  CHECK_THAT(refusal("name = \"lower\"", "name = \"die\""), Catch::Contains("an earlier tool has"));
+  CHECK_THAT(refusal("wall = \"die\"", "wall = \"lower\""), Catch::Contains("expected a cylinder along z"));
+  CHECK_THAT(refusal("upper = \"upper\"", "upper = \"lower\""), Catch::Contains("normal is [0, 0, -1]"));
+  CHECK_THAT(refusal("watch = \"upper\"", "watch = \"uper\""), Catch::Contains("one of die, lower, upper, plate"));
+  CHECK_THAT(refusal("drive.plate.speed = 10000", "drive.plate.velocity = [1, 2]"), Catch::Contains("velocity"));
+  CHECK_THAT(refusal("away = [\"plate\"]\nrelative", "away = [\"plate\", \"upper\"]\nrelative"),
+             Catch::Contains("which the stage also drives"));
+  CHECK_THAT(refusal("radius = 0.29", "radius = 0.2"), Catch::Contains("into the tool 'die'"));
+  CHECK_THAT(refusal("rounding = 0.03", "rounding = 0.3"), Catch::Contains("half of the extent"));
+  CHECK_THAT(refusal("travel = 0.05\n", ""), Catch::Contains("without an end"));
+  CHECK_THAT(refusal("[gravity]\nacceleration = [0, 0, -1e6]", "walls = true\n[gravity]\nacceleration = [0, 0, -1]"),
+             Catch::Contains("walls"));
+}
