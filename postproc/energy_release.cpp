@@ -29,7 +29,7 @@ Unloading find_unloading(const HistoryTable& history, const std::vector<StageRow
     if (number) throw;
   }
   const std::size_t end = history.rows() - 1;
-  return {{stages.back().number, stages.back().type, end, end}, stages.back().rows(), false};
+  return {{stages.back().number, stages.back().type, end, end, stages.back().name}, stages.back().rows(), false};
 }
 
 struct Energy {

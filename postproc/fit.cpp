@@ -147,6 +147,78 @@ Fit fit_surface(const FitProblem& problem) {
   return result;
 }
 
+void need_density(const FitProblem& problem, double largest) {
+  for (const double density : problem.points.y)
+    if (!(density > 0 && density <= largest))
+      throw InputError(fmt::format("{}: model '{}': found y = {:g}, allowed: above 0, up to {:g}",
+                                   one_line(problem.points.path), problem.model, density, largest));
+}
+
+/// 1/slope of a line with its interval. Throws InputError where the slope is not positive.
+Coefficient inverse_slope(const FitProblem& problem, const std::string& name, const Coefficient& slope) {
+  if (!(slope.value > 0)) undetermined(problem, "y does not grow with x as the model has it");
+  const double half = 0.5 * (slope.high - slope.low) / (slope.value * slope.value);
+  return symmetric(name, 1 / slope.value, half);
+}
+
+/// Beyond this relative density the logarithm takes small errors of it for large ones of the pressure.
+constexpr double largest_heckel_density = 0.98;
+
+Fit fit_heckel(const FitProblem& problem) {
+  need_density(problem, largest_heckel_density);
+  const VectorXd y = -(-as_vector(problem.points.y).array()).log1p();
+  Fit result = linear_fit(problem, line_basis(as_vector(problem.points.x)), y, {"A", "P_y"});
+  result.fitted_in = "ln 1/(1 - y)";
+  result.coefficients[1] = inverse_slope(problem, "P_y", result.coefficients[1]);
+  result.at = [a = result.coefficients[0].value, p = result.coefficients[1].value](double at, double) {
+    return -std::expm1(-(at / p + a));
+  };
+  return result;
+}
+
+Fit fit_kawakita(const FitProblem& problem) {
+  need_positive(problem, problem.points.x, "x");
+  need_density(problem, 1);
+  const VectorXd x = as_vector(problem.points.x), y = x.array() / as_vector(problem.points.y).array();
+  Fit result = linear_fit(problem, line_basis(x), y, {"1/(ab)", "a"});
+  const double slope = result.coefficients[1].value;
+  const Coefficient a = inverse_slope(problem, "a", result.coefficients[1]);
+  const double inverse_b = result.coefficients[0].value / slope;
+  if (!(inverse_b > 0)) undetermined(problem, "x/y does not begin above 0, so that b is not positive");
+  // The line is 0 at x = -1/b: how far it may be off 0 there, over its slope, is how far 1/b may be off.
+  const Fit at_root = linear_fit(problem, line_basis(x.array() + inverse_b), y, {"root", "slope"});
+  const double half = 0.5 * (at_root.coefficients[0].high - at_root.coefficients[0].low) / slope;
+  result.fitted_in = "x/y";
+  result.coefficients = {a, symmetric("b", 1 / inverse_b, half / (inverse_b * inverse_b))};
+  result.derived.push_back(symmetric("inverse_b", inverse_b, half));
+  result.at = [a = a.value, b = 1 / inverse_b](double at, double) { return a * b * at / (1 + b * at); };
+  return result;
+}
+
+Fit fit_walker(const FitProblem& problem) {
+  need_positive(problem, problem.points.x, "x");
+  need_density(problem, 1);
+  const VectorXd y = 100 / as_vector(problem.points.y).array();
+  Fit result = linear_fit(problem, line_basis(-as_vector(problem.points.x).array().log10()), y, {"c", "W"});
+  result.fitted_in = "100/y";
+  result.at = [c = result.coefficients[0].value, w = result.coefficients[1].value](double at, double) {
+    return 100 / (c - w * std::log10(at));
+  };
+  return result;
+}
+
+Fit fit_gurnham(const FitProblem& problem) {
+  need_positive(problem, problem.points.x, "x");
+  need_density(problem, 1);
+  const VectorXd y = 1 - as_vector(problem.points.y).array();
+  Fit result = linear_fit(problem, line_basis(-as_vector(problem.points.x).array().log()), y, {"d", "c"});
+  result.fitted_in = "1 - y";
+  result.at = [d = result.coefficients[0].value, c = result.coefficients[1].value](double at, double) {
+    return 1 - d + c * std::log(at);
+  };
+  return result;
+}
+
 enum class Takes { x, porosity, x_and_z };
 
 struct Model {
@@ -167,6 +239,10 @@ const std::vector<Model>& models() {
       {"spriggs", "ln y = b - a P", 2, 2, Takes::porosity, fit_spriggs},
       {"ryshkewitch-duckworth", "y = sigma_0 exp(-B P)", 2, 2, Takes::porosity, fit_ryshkewitch_duckworth},
       {"rumpf", "y = c (1 - P) / P", 1, 1, Takes::porosity, fit_rumpf},
+      {"heckel", "ln 1/(1 - y) = x / P_y + A", 2, 2, Takes::x, fit_heckel},
+      {"kawakita", "y = a b x / (1 + b x)", 2, 2, Takes::x, fit_kawakita},
+      {"walker", "100/y = c - W log10 x", 2, 2, Takes::x, fit_walker},
+      {"gurnham", "1 - y = d - c ln x", 2, 2, Takes::x, fit_gurnham},
       {"pc-gc-surface", "y = A - B exp(-x / C) exp(-z / D)", 4, 0, Takes::x_and_z, fit_surface}};
   return list;
 }

@@ -22,11 +22,11 @@ struct Coefficient {
 
 struct Fit {
   std::string model, formula;
-  std::string fitted_in = "y"; ///< "y" or "ln y": where squares are summed, and what r_squared is of
+  std::string fitted_in = "y"; ///< "y", "ln y", "x/y" …: where squares are summed, and what r_squared is of
   std::vector<Coefficient> coefficients;
   std::vector<Coefficient> derived; ///< what follows from them: of spriggs E_p / E "at_zero_porosity"
   double r_squared = 0;
-  double r_squared_of_y = 0; ///< of y itself, where ln y is fitted
+  double r_squared_of_y = 0; ///< of y itself, where something else is fitted
   double scatter = 0;        ///< standard deviation of the residuals, in `fitted_in`
   std::size_t points = 0;
   std::vector<std::string> notes;
@@ -48,6 +48,10 @@ std::string fit_help();
 ///   spriggs               ln y = b - a P, y = E_p / E (Eq. 10 with the paper's offset b)
 ///   ryshkewitch-duckworth y = sigma_0 exp(-B P) (Eq. 11)
 ///   rumpf                 y = c (1 - P) / P, c = F / d^2 (Eq. 12)
+///   heckel                ln 1/(1 - y) = x / P_y + A, x pressure, y relative density up to 0.98 (Heckel 1961)
+///   kawakita              x/y = x/a + 1/(a b), y = (V_0 - V)/V_0 the loss of volume (Kawakita and Luedde 1971)
+///   walker                100/y = c - W log10 x, y relative density (Walker 1923)
+///   gurnham               1 - y = d - c ln x, y relative density (Gurnham and Masson 1946)
 ///   pc-gc-surface         y = A - B exp(-x / C) exp(-z / D), x = p_c, z = G^c (Eq. 13 with the sign of p_c mended)
 /// Models that are not linear in their coefficients are searched on a grid of those that enter otherwise, the rest
 /// solved linearly, then refined by Levenberg and Marquardt from the best grid points: no start values are needed.

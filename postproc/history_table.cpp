@@ -14,22 +14,25 @@ namespace mpfem {
 
 namespace {
 
-template <class T, int Rank>
-std::vector<double> as_double(const schema::FileReader& file, const schema::DatasetDescription& line) {
-  const auto values = file.read(schema::Dataset<T, Rank>{line});
+template <class T>
+std::vector<double> as_double(const schema::FileReader& file, const schema::DatasetDescription& line,
+                              const std::string& tool) {
+  const auto values =
+      line.rank == 1 ? file.read(schema::Dataset<T, 1>{line}, tool) : file.read(schema::Dataset<T, 2>{line}, tool);
   return {values.begin(), values.end()};
 }
 
-std::vector<double> read_numbers(const schema::FileReader& file, const schema::DatasetDescription& line) {
+std::vector<double> read_numbers(const schema::FileReader& file, const schema::DatasetDescription& line,
+                                 const std::string& tool) {
   switch (line.type) {
   case schema::ElementType::float64:
-    return line.rank == 1 ? as_double<double, 1>(file, line) : as_double<double, 2>(file, line);
+    return as_double<double>(file, line, tool);
   case schema::ElementType::float32:
-    return line.rank == 1 ? as_double<float, 1>(file, line) : as_double<float, 2>(file, line);
+    return as_double<float>(file, line, tool);
   case schema::ElementType::int32:
-    return line.rank == 1 ? as_double<std::int32_t, 1>(file, line) : as_double<std::int32_t, 2>(file, line);
+    return as_double<std::int32_t>(file, line, tool);
   case schema::ElementType::int64:
-    return line.rank == 1 ? as_double<std::int64_t, 1>(file, line) : as_double<std::int64_t, 2>(file, line);
+    return as_double<std::int64_t>(file, line, tool);
   case schema::ElementType::string:
     break;
   }
@@ -41,17 +44,36 @@ std::vector<double> read_numbers(const schema::FileReader& file, const schema::D
 HistoryTable::HistoryTable(const schema::FileReader& file) : path_(one_line(file.path())) {
   constexpr std::string_view group = "/history/";
   for (const schema::DatasetDescription& line : schema::run::all) {
-    if (!line.path.starts_with(group) || (!line.required && !file.has(line))) continue;
-    const std::string name(line.path.substr(group.size()));
-    const std::vector<double> values = read_numbers(file, line);
-    const std::size_t width = line.rank == 1 ? 1 : line.extent[1].fixed;
-    for (std::size_t c = 0; c < width; ++c) {
-      Column column{width == 1 ? name : fmt::format("{}_{}", name, c), std::string(line.unit), {}};
-      for (std::size_t i = c; i < values.size(); i += width) column.values.push_back(values[i]);
-      columns_.push_back(std::move(column));
-    }
+    if (!line.path.starts_with(group)) continue;
+    for (const std::string& tool : file.members(line)) add_columns(file, line, tool);
   }
   if (rows() == 0) throw InputError(fmt::format("{}: the history has no rows", path_));
+}
+
+void HistoryTable::add_columns(const schema::FileReader& file, const schema::DatasetDescription& line,
+                               const std::string& tool) {
+  if (!line.required && !file.has(line, tool)) return;
+  std::string name(line.path.substr(line.path.find('/', 1) + 1));
+  if (line.of_member()) name.replace(name.find('*'), 1, tool);
+  const std::vector<double> values = read_numbers(file, line, tool);
+  const std::size_t width = line.rank == 1 ? 1 : line.extent[1].fixed;
+  if (!columns_.empty() && values.size() != width * rows())
+    throw InputError(fmt::format("{}: dataset /history/{}: found {} rows, allowed: {}, as many as the history has",
+                                 path_, one_line(name), values.size() / width, rows()));
+  for (std::size_t c = 0; c < width; ++c) {
+    Column column{width == 1 ? name : fmt::format("{}_{}", name, c), std::string(line.unit), {}};
+    for (std::size_t i = c; i < values.size(); i += width) column.values.push_back(values[i]);
+    columns_.push_back(std::move(column));
+  }
+}
+
+double HistoryTable::section(std::size_t row) const {
+  const double share = has("section_share") ? (*this)["section_share"][row] : 1.0;
+  return (*this)["box_lengths_0"][row] * (*this)["box_lengths_1"][row] * share;
+}
+
+double HistoryTable::container_volume(std::size_t row) const {
+  return section(row) * (*this)["box_lengths_2"][row];
 }
 
 bool HistoryTable::has(std::string_view name) const {

@@ -10,15 +10,15 @@
 namespace mpfem {
 
 struct Column {
-  std::string name; ///< as in /history, with _0, _1 … for the components of a row
+  std::string name; ///< as in /history ("tools/upper/force_2"), with _0, _1 … for the components of a row
   std::string unit;
   std::vector<double> values;
 };
 
-/// All columns of /history, in the schema's order.
+/// All columns of /history, in the schema's order; those of rigid tools last.
 class HistoryTable {
 public:
-  /// Throws InputError where the file is no run file or has no rows.
+  /// Throws InputError where the file is no run file or has no rows, or a column has more or fewer than the others.
   explicit HistoryTable(const schema::FileReader& file);
 
   const std::vector<Column>& columns() const { return columns_; }
@@ -30,7 +30,14 @@ public:
   /// Columns by name, where "wall_stress" stands for all of its components. Throws InputError.
   std::vector<const Column*> select(const std::vector<std::string>& names) const;
 
+  /// mm^3, of the box or of the container that tools form.
+  double container_volume(std::size_t row) const;
+  /// mm^2, its cross-section along z.
+  double section(std::size_t row) const;
+
 private:
+  void add_columns(const schema::FileReader& file, const schema::DatasetDescription& line, const std::string& tool);
+
   std::string path_;
   std::vector<Column> columns_;
 };

@@ -211,7 +211,7 @@ namespace {
 StageRows choose_cycles(const HistoryTable& history, const schema::FileReader& file, std::optional<int> number) {
   const auto stages = stages_of(history, scenario_facts(file));
   const StageRows& stage = choose_stage(stages, number, {"stress_cycles"}, file.path());
-  if (!number && stage.type != "stress_cycles") return {-1, "", 0, history.rows() - 1};
+  if (!number && stage.type != "stress_cycles") return {-1, "", 0, history.rows() - 1, ""};
   return stage;
 }
 

@@ -26,8 +26,7 @@ double strain_rate(const HistoryTable& history, std::size_t row) {
 std::optional<GrainInertia> grain_inertia(const schema::FileReader& file, const HistoryTable& history) {
   const ScenarioFacts facts = scenario_facts(file);
   const auto grains = static_cast<double>(file.rows(schema::run::mesh_grain_tet_offset)) - 1;
-  double volume = history["relative_density"].front();
-  for (const char* length : {"box_lengths_0", "box_lengths_1", "box_lengths_2"}) volume *= history[length].front();
+  const double volume = history["relative_density"].front() * history.container_volume(0);
   if (!facts.density || !(grains > 0) || !(volume > 0)) return {};
   return GrainInertia{*facts.density, std::cbrt(6 * volume / (grains * std::numbers::pi))};
 }

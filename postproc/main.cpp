@@ -20,9 +20,11 @@ constexpr const char* help =
     "  postproc section run.h5 --field damage -o damage.png\n"
     "  postproc picture run.h5 --color von-mises -o run.png      (in three dimensions, cut open)\n"
     "  postproc view run.h5 -o view.html                         (a page to turn the grains in)\n"
+    "  postproc watch run.h5                                     (a run that is at work, in the terminal)\n"
     "  postproc contact run.h5 --pair 3,17 --view contact.png\n"
     "  postproc elastic-recovery run.h5 -o recovery.json   (and modulus, strength, yield, hysteresis, energy)\n"
     "  postproc damage run.h5 --snapshot -1 -o damage.json\n"
+    "  postproc tablet run.h5 -o tablet.json               (and heckel, diametral)\n"
     "  postproc fit points.csv --x relative_density --y strength --model exponential -o fits.json\n"
     "  postproc vtk run.h5 -o vtk        (open vtk/run.pvd in ParaView)\n"
     "  postproc validate run.h5\n"
@@ -36,6 +38,7 @@ constexpr MakeCommand* before_figures[] = {summary_command,
                                            vtk_command,
                                            section_command,
                                            view_command,
+                                           watch_command,
                                            elastic_recovery_command,
                                            modulus_command,
                                            strength_command,
@@ -55,7 +58,10 @@ constexpr MakeCommand* before_figures[] = {summary_command,
                                            offset_yield_command,
                                            coordination_command,
                                            inner_stress_command,
-                                           damage_of_test_command};
+                                           damage_of_test_command,
+                                           tablet_command,
+                                           heckel_command,
+                                           diametral_command};
 constexpr MakeCommand* after_figures[] = {validate_command, cost_command};
 
 int body(int argc, char** argv) {

@@ -34,6 +34,7 @@ std::optional<double> mean_radius_of_run(const schema::FileReader& file) {
     total += v;
   }
   double reference = state.relative_density;
+  if (file.has(schema::run::history_section_share)) reference *= file.read(schema::run::history_section_share).front();
   for (std::size_t axis = 0; axis < 3; ++axis) reference *= state.box_high[axis] - state.box_low[axis];
   if (!(total > 0) || !(reference > 0)) return {};
   double sum = 0;

@@ -37,7 +37,10 @@ ScenarioFacts scenario_facts(const schema::FileReader& file) {
     if (const toml::array* stages = document.root()["stages"].as_array())
       for (const toml::node& stage : *stages) {
         const toml::table* table = stage.as_table();
-        facts.stage_types.push_back(table ? (*table)["type"].value_or(std::string()) : std::string());
+        const std::string type = table ? (*table)["type"].value_or(std::string()) : std::string();
+        const std::string unnamed = fmt::format("{}-{}", type, facts.stage_types.size() + 1);
+        facts.stage_names.push_back(table ? (*table)["name"].value_or(unnamed) : unnamed);
+        facts.stage_types.push_back(type);
       }
   } catch (const InputError&) { // a scenario of another make: its metrics need more options, and no more than that
     return {};
@@ -56,8 +59,9 @@ std::vector<StageRows> stages_of(const HistoryTable& history, const ScenarioFact
     const int stage = static_cast<int>(number[row]);
     if (stages.empty() || stages.back().number != stage) {
       const auto index = static_cast<std::size_t>(stage);
-      stages.push_back({stage, stage >= 0 && index < facts.stage_types.size() ? facts.stage_types[index] : "",
-                        row > 0 ? row - 1 : 0, row});
+      const bool known = stage >= 0 && index < facts.stage_types.size();
+      stages.push_back({stage, known ? facts.stage_types[index] : "", row > 0 ? row - 1 : 0, row,
+                        known ? facts.stage_names[index] : ""});
     }
     stages.back().last = row;
   }
@@ -81,6 +85,20 @@ const StageRows& stage_by_number(const std::vector<StageRows>& stages, int numbe
   for (const StageRows& stage : stages) numbers.push_back(stage.number);
   throw InputError(fmt::format("{}: --stage: found {}, allowed: {} (or from the end, -1 … -{})", one_line(path), number,
                                fmt::join(numbers, ", "), stages.size()));
+}
+
+std::optional<StageRows> stage_by_name(const std::vector<StageRows>& stages, std::string_view name) {
+  const auto found = std::find_if(stages.begin(), stages.end(), [&](const StageRows& s) { return s.name == name; });
+  return found != stages.end() ? std::optional(*found) : std::nullopt;
+}
+
+StageRows need_stage(const std::vector<StageRows>& stages, std::string_view name, std::string_view option,
+                     std::string_view path) {
+  if (const auto stage = stage_by_name(stages, name)) return *stage;
+  std::vector<std::string> names;
+  for (const StageRows& stage : stages) names.push_back(one_line(stage.name));
+  throw InputError(fmt::format("{}: {}: found no stage '{}', allowed: {}", one_line(path), option, one_line(name),
+                               fmt::join(names, ", ")));
 }
 
 const StageRows& choose_stage(const std::vector<StageRows>& stages, std::optional<int> number,

@@ -25,12 +25,13 @@ struct StageRows {
   std::string type;      ///< as in the scenario ("isotropic_unloading"); empty where it is not known
   std::size_t first = 0; ///< row of the history
   std::size_t last = 0;  ///< row of the history, included
+  std::string name;      ///< as in the scenario; where it gives none, TYPE-NUMBER
   RowRange rows() const { return {first, last}; }
 };
 
 /// What a metric needs of the scenario that a run file carries; nothing of it must be there.
 struct ScenarioFacts {
-  std::vector<std::string> stage_types;
+  std::vector<std::string> stage_types, stage_names;
   std::optional<double> youngs_modulus;  ///< of the grains, MPa
   std::optional<double> fracture_energy; ///< N/mm, G^c of [bond]
   /// tonne/mm^3, by which all grains move: with numerics.mass_scaling. None where grains differ in it, or where masses
@@ -49,6 +50,13 @@ std::vector<std::size_t> own_rows(const HistoryTable& history, const StageRows& 
 
 /// Stage `number` as in the scenario; negative from the end (-1 the last). Throws InputError listing what there is.
 const StageRows& stage_by_number(const std::vector<StageRows>& stages, int number, std::string_view path);
+
+/// The stage of this name in the scenario that the run carries; nothing where none of the history has it.
+std::optional<StageRows> stage_by_name(const std::vector<StageRows>& stages, std::string_view name);
+
+/// The same, but throws InputError, naming `option` and the stages that there are.
+StageRows need_stage(const std::vector<StageRows>& stages, std::string_view name, std::string_view option,
+                     std::string_view path);
 
 /// The stage asked for, else the last of one of these types, else the last of all.
 const StageRows& choose_stage(const std::vector<StageRows>& stages, std::optional<int> number,

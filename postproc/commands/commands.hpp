@@ -13,7 +13,7 @@ class Command;
 using MakeCommand = std::unique_ptr<Command>(CLI::App&);
 
 // Of a run or its snapshots.
-MakeCommand summary_command, curve_command, contact_command, vtk_command, section_command, view_command;
+MakeCommand summary_command, curve_command, contact_command, vtk_command, section_command, view_command, watch_command;
 
 // One number off a stage of a run.
 MakeCommand elastic_recovery_command, modulus_command, strength_command, yield_command, hysteresis_command,
@@ -26,6 +26,9 @@ MakeCommand damage_command, stress_path_command, section_stress_command, section
 // One number that the paper does not have.
 MakeCommand unload_reload_modulus_command, offset_yield_command, coordination_command, inner_stress_command,
     damage_of_test_command;
+
+// What a tablet is judged by.
+MakeCommand tablet_command, heckel_command, diametral_command;
 
 // Of points, and of files of any kind.
 MakeCommand fit_command, validate_command, cost_command;

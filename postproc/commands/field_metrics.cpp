@@ -17,8 +17,8 @@ class UnloadReloadModulusCommand : public StageMetricCommand {
 public:
   explicit UnloadReloadModulusCommand(CLI::App& app)
       : StageMetricCommand(app, "unload-reload-modulus",
-                           "Young's modulus of a compact from a loop of unloading and reloading: the line through its "
-                           "turning points.\n"
+                           "Young's modulus of a compact from a loop of unloading and reloading: the mean slope of its "
+                           "two branches.\n"
                            "Example: postproc unload-reload-modulus run.h5 -o modulus.json",
                            "the last unconfined_compression; stages of its type beside it belong to the curve") {
     add_number(options(), "--loop", loop_, whole_numbers, "", "Number of the loop, from 0; -1 is the last")

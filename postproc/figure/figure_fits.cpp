@@ -93,6 +93,10 @@ model_with(const std::string& model, const std::map<std::string, double>& coeffi
   if (model == "ryshkewitch-duckworth")
     return [s = c("sigma_0"), b = c("B"), porosity](double x, double) { return s * std::exp(-b * porosity(x)); };
   if (model == "rumpf") return [f = c("c"), porosity](double x, double) { return f * (1 - porosity(x)) / porosity(x); };
+  if (model == "heckel") return [p = c("P_y"), a = c("A")](double x, double) { return -std::expm1(-(x / p + a)); };
+  if (model == "kawakita") return [a = c("a"), b = c("b")](double x, double) { return a * b * x / (1 + b * x); };
+  if (model == "walker") return [w = c("W"), d = c("c")](double x, double) { return 100 / (d - w * std::log10(x)); };
+  if (model == "gurnham") return [s = c("c"), d = c("d")](double x, double) { return 1 - d + s * std::log(x); };
   if (model == "pc-gc-surface")
     return [a = c("A"), b = c("B"), p = c("C"), g = c("D")](double x, double z) {
       return a - b * std::exp(-x / p) * std::exp(-z / g);

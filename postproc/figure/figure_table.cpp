@@ -88,10 +88,6 @@ double cycles_before(const HistoryTable& h, std::size_t begin, std::size_t row) 
   return cycles;
 }
 
-double volume(const HistoryTable& h, std::size_t row) {
-  return h["box_lengths_0"][row] * h["box_lengths_1"][row] * h["box_lengths_2"][row];
-}
-
 /// N, over the six walls.
 double mean_wall_force(const HistoryRow& r) {
   const double x = r("box_lengths_0"), y = r("box_lengths_1"), z = r("box_lengths_2");
@@ -109,14 +105,16 @@ const std::vector<CurveColumn>& curve_columns() {
          return (r("wall_stress_0") + r("wall_stress_1") + r("wall_stress_2") + r("wall_stress_3")) / 4;
        }},
       {"upper_plate_force", "force of the upper z wall, N",
-       [](const HistoryRow& r) { return r("wall_stress_5") * r("box_lengths_0") * r("box_lengths_1"); }},
+       [](const HistoryRow& r) { return r("wall_stress_5") * r.history.section(r.row); }},
       {"mean_wall_force", "of the six walls, N", mean_wall_force},
       {"displacement", "approach of the z walls since the stage began, mm",
        [](const HistoryRow& r) { return r.then("box_lengths_2") - r("box_lengths_2"); }},
       {"stage_axial_strain", "logarithmic, since the stage began; compression positive",
        [](const HistoryRow& r) { return std::log(r.then("box_lengths_2") / r("box_lengths_2")); }},
       {"stage_volumetric_strain", "likewise of the volume",
-       [](const HistoryRow& r) { return std::log(volume(r.history, r.begin) / volume(r.history, r.row)); }},
+       [](const HistoryRow& r) {
+         return std::log(r.history.container_volume(r.begin) / r.history.container_volume(r.row));
+       }},
       {"stage_plastic_dissipation", "since the stage began, mJ",
        [](const HistoryRow& r) { return r.since("plastic_dissipation"); }},
       {"stage_damage_dissipation", "since the stage began, mJ",

@@ -80,7 +80,7 @@ ColumnSpec read_column(const std::string& text, bool curves, const Place& place)
     return column;
   } else if (source.find('{') != std::string::npos) {
     column.pattern = source;
-  } else if (curves && source.find('/') == std::string::npos) {
+  } else if (curves && (source.find('/') == std::string::npos || source.starts_with("tools/"))) {
     const std::size_t colon = source.find(':');
     column.history = source.substr(0, colon);
     if (colon != std::string::npos) column.format = source.substr(colon + 1);

@@ -380,7 +380,7 @@ TEST_CASE("every model is drawn with the coefficients that its fit gives") {
     FitPoints points;
     points.x = x;
     for (std::size_t i = 0; i < x.size(); ++i)
-      points.y.push_back(5 - 3 * std::exp(-x[i] / 0.2) * std::exp(-z[i] / 0.2));
+      points.y.push_back(0.5 - 0.3 * std::exp(-x[i] / 0.2) * std::exp(-z[i] / 0.2));
     if (model == "pc-gc-surface") points.z = z;
     CAPTURE(model);
     const Fit fitted = fit(model, points);

@@ -1,0 +1,132 @@
+// What a tablet is judged by: pressing and ejection, yield pressure, strength of a disc.
+
+#include <fmt/format.h>
+
+#include "postproc/commands/commands.hpp"
+#include "postproc/commands/metric_command.hpp"
+#include "postproc/diametral.hpp"
+#include "postproc/heckel.hpp"
+#include "postproc/tablet.hpp"
+
+namespace mpfem {
+
+namespace {
+
+class TabletCommand : public MetricCommand {
+public:
+  explicit TabletCommand(CLI::App& app)
+      : MetricCommand(app, "tablet",
+                      "A tablet: forces at the peak, wall of the die, ejection, thickness, diameter and recovery.\n"
+                      "Example: postproc tablet run.h5 -o tablet.json\n"
+                      "Example: postproc tablet run.h5 --press compaction --eject push-out --snapshot -1") {
+    options().add_option("--press", rule_.stages.press, "Name of the stage that presses")->capture_default_str();
+    options().add_option("--hold", rule_.stages.hold, "Of the stage that holds (default: hold, where there is one)");
+    options().add_option("--unload", rule_.stages.unload,
+                         "Of the stage in which the upper punch leaves (default: unload)");
+    options().add_option("--eject", rule_.stages.eject, "Of the stage that ejects (default: eject)");
+    options().add_option("--upper", rule_.tools.upper, "Name of the upper punch")->capture_default_str();
+    options().add_option("--lower", rule_.tools.lower, "Name of the lower punch")->capture_default_str();
+    options().add_option("--die", rule_.tools.die, "Name of the die")->capture_default_str();
+    add_snapshot(options(), rule_.snapshot);
+    add_number(options(), "--face-distance", rule_.face_distance, lengths, "mm",
+               "Nodes so near to punches and die are those of the tablet's faces and band (default: a twentieth of the "
+               "mean grain's diameter)");
+  }
+
+private:
+  void execute() const override {
+    const schema::FileReader run = open_run();
+    const TabletMeasurement tablet = measure_tablet(run, rule_);
+    deliver_measurement(tablet.measurement, run);
+    if (!quiet()) fmt::print("{}", to_table(tablet.numbers));
+  }
+
+  Measurement measure(const schema::FileReader& run) const override { return measure_tablet(run, rule_).measurement; }
+
+  TabletRule rule_;
+};
+
+class HeckelCommand : public StageMetricCommand {
+public:
+  explicit HeckelCommand(CLI::App& app)
+      : StageMetricCommand(app, "heckel",
+                           "Mean yield pressure by Heckel, in-die: ln 1/(1 - D) = P/P_y + A over the longest straight "
+                           "window.\n"
+                           "Example: postproc heckel run.h5 --bulk-modulus 8000 -o heckel.json\n"
+                           "Out of the die, of a table of pressures and densities: postproc fit --model heckel",
+                           "the stage named press, else the first") {
+    add_number(options(), "--r-squared", rule_.r_squared, Range::between(0, 1), "", "Least R^2 of the window")
+        ->capture_default_str();
+    add_number(options(), "--bulk-modulus", bulk_modulus_, moduli, "MPa",
+               "Of the solid: also P_y without its elastic compression, of D / (1 + P/K)");
+  }
+
+private:
+  Measurement measure(const schema::FileReader& run) const override {
+    const HistoryTable history(run);
+    const auto stages = stages_of(history, scenario_facts(run));
+    const StageRows pressed = stage() ? stage_by_number(stages, *stage(), path_of_run())
+                                      : stage_by_name(stages, "press").value_or(stages.front());
+    return measure_heckel(run, pressed, history, rule_, bulk_modulus_);
+  }
+
+  HeckelRule rule_;
+  std::optional<double> bulk_modulus_; ///< MPa
+};
+
+class DiametralCommand : public StageMetricCommand {
+public:
+  explicit DiametralCommand(CLI::App& app)
+      : StageMetricCommand(app, "diametral",
+                           "Tensile strength of a disc between two plates (Brazilian test): 2 F / (pi D t), and that "
+                           "corrected for flats.\n"
+                           "Example: postproc diametral run.h5 --plates left,right -o strength.json\n"
+                           "Example: postproc diametral run.h5 --diameter 2 --thickness 1 --flat-angle 10",
+                           "the last") {
+    options()
+        .add_option("--plates", rule_.plates, "Names of both plates, by comma (default: the run's only two tools)")
+        ->delimiter(',');
+    add_number(options(), "--drop", rule_.drop, Range::between(1e-6, 1), "",
+               "Fall after the largest force that makes it a peak, share")
+        ->capture_default_str();
+    options()
+        .add_option("--disc-axis", disc_axis_, "Axis of the disc, along its thickness")
+        ->check(CLI::IsMember({"x", "y", "z"}))
+        ->capture_default_str();
+    add_number(options(), "--diameter", rule_.diameter, lengths, "mm",
+               "Of the disc (default: extent of the grains along the load before the test)");
+    add_number(options(), "--thickness", rule_.thickness, lengths, "mm",
+               "Of the disc (default: extent of the grains along its axis before the test)");
+    add_number(options(), "--flat-angle", rule_.flat_angle, Range::between(0, largest_flat_angle), "degrees",
+               "2 alpha under which a flat is seen from the axis (default: of the snapshot nearest to the peak)");
+    add_number(options(), "--face-distance", rule_.face_distance, lengths, "mm",
+               "Pressed nodes so near to the outermost one are those of a flat (default: a hundredth of the diameter)");
+  }
+
+private:
+  Measurement measure(const schema::FileReader& run) const override {
+    DiametralRule rule = rule_;
+    rule.stage = stage();
+    rule.disc_axis = axis_number(disc_axis_);
+    return measure_diametral(run, rule);
+  }
+
+  DiametralRule rule_;
+  std::string disc_axis_ = "z";
+};
+
+} // namespace
+
+std::unique_ptr<Command> tablet_command(CLI::App& app) {
+  return std::make_unique<TabletCommand>(app);
+}
+
+std::unique_ptr<Command> heckel_command(CLI::App& app) {
+  return std::make_unique<HeckelCommand>(app);
+}
+
+std::unique_ptr<Command> diametral_command(CLI::App& app) {
+  return std::make_unique<DiametralCommand>(app);
+}
+
+} // namespace mpfem

@@ -1,0 +1,80 @@
+// watch: a running simulation in the terminal.
+
+#include <chrono>
+#include <cstdio>
+#include <thread>
+
+#include <sys/ioctl.h>
+#include <unistd.h>
+
+#include <fmt/format.h>
+
+#include "common/errors.hpp"
+#include "postproc/commands/command.hpp"
+#include "postproc/commands/commands.hpp"
+#include "postproc/watch/watch_frame.hpp"
+
+namespace mpfem {
+
+namespace {
+
+/// s, of the system's clock, as files have it.
+double now() {
+  return std::chrono::duration<double>(std::chrono::system_clock::now().time_since_epoch()).count();
+}
+
+int terminal_width() {
+  winsize size{};
+  return ioctl(STDOUT_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 0 ? size.ws_col : 80;
+}
+
+class WatchCommand : public Command {
+public:
+  explicit WatchCommand(CLI::App& app)
+      : Command(app, "watch",
+                "A running simulation in the terminal: stage, density, stress, step, energies, ETA and the curve so "
+                "far,\nfrom the checkpoint that mpfem leaves every output.checkpoint_interval (60 s by default). Reads "
+                "only. Ends with the run, or with Ctrl-C.\n"
+                "Example: postproc watch run.h5\nExample: postproc watch run.h5 --once") {
+    add_input("run", run_, "Run file (HDF5) that mpfem will write: its --output")->required();
+    add_number(options(), "--interval", interval_, Range::between(0.1, 86400), "s", "Time between two looks")
+        ->capture_default_str();
+    options().add_flag("--once", once_, "One look, and no more");
+  }
+
+private:
+  void execute() const override {
+    RunProgress progress = read_progress(run_);
+    show(watch_frame(progress, now(), terminal_width()));
+    while (!once_ && !progress.ended()) {
+      std::this_thread::sleep_for(std::chrono::duration<double>(interval_));
+      std::string note;
+      try {
+        progress = read_progress(run_);
+      } catch (const InputError& error) { // what was seen stays; the next checkpoint may be good
+        note = fmt::format("\n{}\n", error.what());
+      }
+      show(watch_frame(progress, now(), terminal_width()) + note);
+    }
+  }
+
+  /// A terminal shows each frame in the place of the one before.
+  void show(const std::string& frame) const {
+    const bool in_place = !once_ && isatty(STDOUT_FILENO) == 1;
+    fmt::print("{}{}", in_place ? "\x1b[H\x1b[J" : "", frame);
+    std::fflush(stdout);
+    if (std::ferror(stdout) != 0) throw StorageError("standard output could not be written");
+  }
+
+  std::string run_;
+  double interval_ = 5; ///< s
+  bool once_ = false;
+};
+
+} // namespace
+
+std::unique_ptr<Command> watch_command(CLI::App& app) {
+  return std::make_unique<WatchCommand>(app);
+}
+
+} // namespace mpfem
