@@ -54,7 +54,7 @@ LoadingEnds read_ends(TableReader& table, std::string_view type) {
 
 StageType read_isotropic_compaction(TableReader& table) {
   if (table.has("mean_stress")) {
-    if (table.has("relative_density")) table.fail("mean_stress", "has no meaning with 'relative_density'");
+    if (table.has("relative_density")) table.fail("mean_stress", "cannot be used with 'relative_density'");
     return IsotropicLoading{.mean_stress = table.number("mean_stress", positive_stress),
                             .wall_speed = read_wall_speed(table),
                             .ramp_fraction = read_ramp_fraction(table)};
@@ -122,7 +122,7 @@ StageType read_hold(TableReader& table) {
                       .duration = duration,
                       .servo_speed = table.number_or("servo_speed", usual_servo_speed, positive_speed)};
   }
-  if (table.has("servo_speed")) table.fail("servo_speed", "has no meaning without 'mean_stress'");
+  if (table.has("servo_speed")) table.fail("servo_speed", "is used only with 'mean_stress'");
   return Rest{.duration = duration};
 }
 
@@ -135,7 +135,7 @@ StageType read_grip(TableReader& table) {
   grip.displacement = table.number_or("displacement", 0, any_length);
   grip.sliding = table.vector3_or("sliding", {0, 0, 0}, any_length);
   const bool slides = grip.sliding != std::array<double, 3>{};
-  if (slides && !grip.lateral_fixed) table.fail("sliding", "has no meaning with lateral = 'free'");
+  if (slides && !grip.lateral_fixed) table.fail("sliding", "cannot be used with lateral = 'free'");
   if (grip.sliding[static_cast<std::size_t>(grip.axis)] != 0)
     table.fail("sliding", fmt::format("found a part along the axis {}, allowed only across it", axis));
   if (grip.displacement == 0 && !slides)
@@ -157,13 +157,17 @@ ToolEnds read_tool_ends(TableReader& table, const StageContext& context) {
     table.fail("type", "found 'tools' without an end, expected at least one of relative_density, axial_stress, travel, "
                        "force, force_drop and duration");
   for (const char* key : {"relative_density", "axial_stress"})
-    if (table.has(key) && !context.container) table.fail(key, "has no meaning without a [container]");
-  if (table.has("smallest_peak") && !ends.force_drop)
-    table.fail("smallest_peak", "has no meaning without 'force_drop'");
+    if (table.has(key) && !context.container) table.fail(key, "is used only with a [container]");
+  if (table.has("smallest_peak") && !ends.force_drop) table.fail("smallest_peak", "is used only with 'force_drop'");
   ends.smallest_peak = table.number_or("smallest_peak", 0, stress_or_zero);
   const bool watches = ends.force || ends.force_drop;
-  if (!watches && table.has("watch")) table.fail("watch", "has no meaning without 'force' or 'force_drop'");
-  if (watches) ends.watched = tool_named(table, "watch", table.string("watch"), context.tools);
+  if (!watches && table.has("watch")) table.fail("watch", "is used only with 'force' or 'force_drop'");
+  if (!watches) return ends;
+  ends.watched = tool_named(table, "watch", table.string("watch"), context.tools);
+  const auto direction = direction_of(context.tools[ends.watched].shape);
+  if (!direction)
+    table.fail("watch", "found a sphere or an STL surface, whose push has no direction, expected another tool");
+  ends.watched_direction = *direction;
   return ends;
 }
 
@@ -183,9 +187,6 @@ StageType read_tool_loading(TableReader& table, const StageContext& context) {
   loading.ends = read_tool_ends(table, context);
   if (loading.speed == 0 && !loading.ends.duration)
     table.fail("duration", "missing, expected the time of a stage in which no tool moves");
-  if (loading.ends.force || loading.ends.force_drop)
-    if (!direction_of(context.tools[loading.ends.watched].shape))
-      table.fail("watch", "found a sphere or an STL surface, whose push has no direction, expected another tool");
   return loading;
 }
 
@@ -241,7 +242,7 @@ DampingParameters read_damping(TableReader& table) {
   DampingParameters damping;
   damping.rate = table.number_or("damping_rate", 0, rate_or_zero);
   if (table.has("damping_fade_stress") && !table.has("damping_rate"))
-    table.fail("damping_fade_stress", "has no meaning without 'damping_rate'");
+    table.fail("damping_fade_stress", "is used only with 'damping_rate'");
   const auto fade_stress = table.optional_number("damping_fade_stress", positive_stress);
   if (damping.rate > 0 && !fade_stress)
     table.fail("damping_fade_stress", "missing, expected a number > 0, since damping_rate > 0");
@@ -256,9 +257,9 @@ std::optional<QuasiStatic> read_quasi_static(TableReader& stage, double speed, d
   constexpr Range part = Range::between(1e-9, 1);
   std::optional<TableReader> table = stage.optional_table("quasi_static");
   if (!table) return std::nullopt;
-  if (!(speed > 0)) stage.fail("quasi_static", "has no meaning where nothing moves");
+  if (!(speed > 0)) stage.fail("quasi_static", "is used only where something moves");
   if (stage.has("duration"))
-    stage.fail("duration", "has no meaning with quasi_static, which stretches the stage's time");
+    stage.fail("duration", "cannot be used with quasi_static, which stretches the stage's time");
   QuasiStatic q;
   q.kinetic_tolerance = table->number_or("kinetic_tolerance", q.kinetic_tolerance, part);
   q.stress_tolerance = table->number_or("stress_tolerance", q.stress_tolerance, part);
@@ -295,7 +296,7 @@ Stage read_stage(TableReader table, std::size_t number, const StageContext& cont
   refuse_foreign_keys(table, all_keys, keyword->keys, fmt::format("type = '{}'", type));
   stage.type = keyword->read(table, context);
   if (std::holds_alternative<ToolLoading>(stage.type) && table.has("quasi_static"))
-    table.fail("quasi_static", "has no meaning with type = 'tools'");
+    table.fail("quasi_static", "cannot be used with type = 'tools'");
   stage.quasi_static = read_quasi_static(table, driven_speed(stage.type), context.youngs_modulus);
   stage.damping = read_damping(table);
   stage.places = table.places();

@@ -19,6 +19,11 @@ constexpr double arrived = 1e-9;
 /// No stage may last longer, over what is expected.
 constexpr double longest_time = 50;
 
+/// N, by which a tool pushes the grains along a unit direction: the grains' force on it, backwards.
+double push_along(const std::array<double, 3>& direction, const ToolLoad& load) {
+  return -(load.force.x * direction[0] + load.force.y * direction[1] + load.force.z * direction[2]);
+}
+
 /// Whether a quantity that began at `start` has come to its target, from either side.
 bool has_passed(double target, double start, double now) {
   return start < target ? now >= target : now <= target;
@@ -76,20 +81,15 @@ void ToolLoadingControl::expect_end(Cell& cell) const {
   cell.high[2] = cell.low[2] + start_.sample.solid_volume / (cell.area(2) * *stage_.ends.relative_density);
 }
 
-double ToolLoadingControl::push_of(const Tools& tools, std::size_t tool) const {
-  const ToolDrive* drive = drive_of(tool);
-  const Vector3<double>& force = tools.load(tool).force;
-  if (drive == nullptr) return norm(force);
-  return -(force.x * drive->direction[0] + force.y * drive->direction[1] + force.z * drive->direction[2]);
-}
-
 ToolLoadingControl::Seen ToolLoadingControl::see(const StageObservation& observation) const {
   Seen seen{.time = observation.time, .step = observation.step};
   seen.height = observation.cell.length(2);
   seen.area = observation.cell.area(2);
   seen.density = start_.sample.solid_volume / observation.cell.volume();
   seen.axial_stress = observation.force[2] / seen.area;
-  if (stage_.ends.force || stage_.ends.force_drop) seen.push = push_of(*observation.tools, stage_.ends.watched);
+  const ToolEnds& ends = stage_.ends;
+  if (ends.force || ends.force_drop)
+    seen.push = push_along(ends.watched_direction, observation.tools->load(ends.watched));
   return seen;
 }
 
@@ -131,7 +131,7 @@ void ToolLoadingControl::set_velocities(const StageObservation& observation, dou
     ObservedSample as_wall;
     as_wall.step = observation.step;
     as_wall.rate_factor = 1;
-    as_wall.stress[2] = push_of(*observation.tools, drive.tool) / area;
+    as_wall.stress[2] = push_along(drive.direction, observation.tools->load(drive.tool)) / area;
     HoldQuality quality;
     const double speed =
         StressServo(start_, drive.servo_speed).hold(servo_[i], quality, as_wall, 2, *drive.force / area);

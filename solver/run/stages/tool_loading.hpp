@@ -38,7 +38,6 @@ private:
     double push = 0;                      ///< N, of the watched tool
   };
   Seen see(const StageObservation& observation) const;
-  double push_of(const Tools& tools, std::size_t tool) const;
   void begin(const Seen& seen);
   double wanted_speed(const Seen& seen, double& left) const;
   void set_velocities(const StageObservation& observation, double part);

@@ -173,6 +173,31 @@ TEST_CASE("a tool that holds its push comes to rest where it bears it") {
   CHECK(simulation.tools()[1].moved[2] < -1e-4); // it closed its gap of 1e-4 mm first
 }
 
+TEST_CASE("the push of a tool that is watched and not driven is that along its normal, without its friction") {
+  constexpr double target = 0.05, mu = 0.8; // N, 1
+  Scenario scenario = holding_scenario(1);
+  scenario.gravity = {4e9, 0, -4e9};
+  scenario.tools = {plane("floor", {0.5, 0.5, 0.4}, {0, 0, 1}, mu)};
+  ToolLoading loading;
+  loading.ends.force = target;
+  loading.ends.watched_direction = {0, 0, 1};
+  loading.ends.duration = 1e-5;
+  Stage fall;
+  fall.name = "fall";
+  fall.type = loading;
+  scenario.stages = {fall};
+  GrainMesh ball = ball_mesh(4, 0.1);
+  move(ball, {0.5, 0.5, 0.5001});
+  ThreadTeam team(1);
+  Simulation simulation(build_model(pack({ball}, {1, 1, 1}), scenario, "test"), scenario, team);
+  for (simulation.evaluate_forces(); !simulation.stage_complete(); simulation.evaluate_forces()) simulation.advance();
+  CHECK(simulation.stage_result().ended_by == "force 0.05 N");
+  const ToolLoad& load = simulation.tools().load(0);
+  CHECK(std::abs(load.force.x) > 0.5 * mu * target); // it rubs: the force is larger than its push
+  CHECK(-load.force.z >= target);
+  CHECK(-load.force.z < 1.15 * target); // passed by what one step of the impact adds
+}
+
 /// A slab in ASCII STL, in metres.
 std::string slab_stl(const std::array<double, 3>& low, const std::array<double, 3>& high) {
   // Corners by bits: x, y, z; faces counter-clockwise from outside.
