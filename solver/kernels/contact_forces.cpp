@@ -25,6 +25,7 @@ struct PairOfGrains {
   double travel;            ///< mm, of both grains
   double limit;             ///< mm: travel up to which the candidates hold
   double stiffness;         ///< MPa/mm, share of this pass
+  double friction;          ///< mu
   std::int32_t first_point; ///< where the pair's records begin
   std::int32_t active = 0;  ///< records of forces so far
   std::int32_t pulling = 0; ///< records of bonds' forces so far
@@ -65,7 +66,12 @@ private:
             .travel = contact_.travel[g] + contact_.travel[other],
             .limit = contact_.travel_at_search[g] + contact_.travel_at_search[other] + contact_.margin,
             .stiffness = pass_stiffness(model_.penalty_stiffness[g], model_.penalty_stiffness[other]),
+            .friction = rubbing ? friction_of(g, other) : 0.0,
             .first_point = candidates.pair_point_offset[at(pair)]};
+  }
+
+  double friction_of(std::size_t grain, std::size_t other) const {
+    return contact_.friction.of(at(model_.grain_material[grain]), at(model_.grain_material[other]));
   }
 
   void evaluate_point(PairOfGrains& pair, std::int32_t point, ContactSums& sums) {
@@ -99,12 +105,14 @@ private:
     if constexpr (bonding)
       pushed *= evaluate_closed_bond(pair, contact_.bond[at(point)], node, x, facet, closest, distance);
     ContactForce& record = contact_.force[at(pair.first_point + pair.active++)];
-    if constexpr (rubbing)
+    if (rubbing && pair.friction > 0) {
       record = evaluate_friction({x, facet, geometry.x, closest, distance, motion(point, closest, geometry)}, geometry,
-                                 point, k, pushed, sums);
-    else
+                                 point, pair.friction, k, pushed, sums);
+    } else {
+      if constexpr (rubbing) contact_.rubbing[at(point)] = {}; // a branch may have taken the pair's friction away
       record = make_record(penalty_force(pushed, offset), closest.weight1, closest.weight2, std::abs(pushed), node,
                            geometry);
+    }
     add_to_node(model_, record);
     sums.energy += penalty_energy(k, distance);
     sums.penetration = std::max(sums.penetration, distance / model_.element_size[pair.grain]);
@@ -182,18 +190,17 @@ private:
     return penalty_left_by_bond(law, bond, penalty);
   }
 
-  /// The force of a closed point with friction: one spring between the node and its anchor. `penalty` k and `pushed`,
-  /// what a bond leaves of it, N/mm. A branch may find bonds of an earlier law that are stiffer than the penalty: until
-  /// they are damaged nothing rubs.
+  /// The force of a closed point with friction, Coulomb's `coefficient`: one spring between the node and its anchor.
+  /// `penalty` k and `pushed`, what a bond leaves of it, N/mm. A branch may find bonds of an earlier law that are
+  /// stiffer than the penalty: until they are damaged nothing rubs.
   ContactForce evaluate_friction(const ClosedPoint& closed, const Facet& closest_facet, std::int32_t point,
-                                 double penalty, double pushed, ContactSums& sums) {
+                                 double coefficient, double penalty, double pushed, ContactSums& sums) {
     PointFriction& friction = contact_.rubbing[at(point)];
     double share = 1.0; // of the point that rubs
     if constexpr (bonding) share -= contact_.bond[at(point)].remaining;
     const bool elsewhere = friction.exists() && friction.facet != closed.facet;
     const Facet anchor = elsewhere ? facet_geometry(model_, friction.facet) : closest_facet;
-    const FrictionStep step =
-        rub(friction, {share * contact_.friction, penalty, std::max(pushed, 0.0)}, closed, anchor.x);
+    const FrictionStep step = rub(friction, {share * coefficient, penalty, std::max(pushed, 0.0)}, closed, anchor.x);
     sums.friction_energy += step.stored;
     sums.friction_dissipation += step.dissipated;
     return make_record(-(pushed * step.reach), friction.weight1, friction.weight2, std::abs(pushed),

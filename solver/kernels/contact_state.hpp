@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "solver/kernels/contact_search.hpp"
+#include "solver/model/pair_friction.hpp"
 #include "solver/physics/bond_kinematics.hpp"
 #include "solver/physics/friction_kinematics.hpp"
 
@@ -47,14 +48,14 @@ struct Contact {
   std::vector<PointBond> bond;          ///< [points]
   std::vector<ContactForce> bond_force; ///< [points]: pulling bonds first within every pair's range
   std::vector<std::int32_t> pulling;    ///< [pairs]: number of pulling bonds
-  double friction = 0;                  ///< mu; 0: no friction, and the array below stays empty
+  PairFriction friction;                ///< without any, the array below stays empty
   std::vector<PointFriction> rubbing;   ///< [points]
   double last_step = 0;                 ///< s, that led to the present positions; friction asks where points came in
   std::vector<double> travel;           ///< [grains], mm: bound of any node's path length since the run began
   std::vector<double> travel_at_search; ///< [grains], mm
 
   bool bonding() const { return !bond_laws.empty(); }
-  bool has_friction() const { return friction > 0; }
+  bool has_friction() const { return friction.present(); }
   std::span<const ContactForce> active_points(std::int32_t pair) const {
     const auto p = static_cast<std::size_t>(pair);
     return {force.data() + candidates.pair_point_offset[p], static_cast<std::size_t>(active[p])};

@@ -55,7 +55,7 @@ double smallest_penalty(const Model& model) {
 std::vector<std::string> check_bonds(const Model& model, const Scenario& scenario) {
   std::vector<std::string> warnings;
   if (!scenario.bond) return warnings;
-  if (const auto stiffness = scenario.bond->stiffness; stiffness && scenario.contact.friction > 0)
+  if (const auto stiffness = scenario.bond->stiffness; stiffness && scenario.contact.has_friction())
     if (const double allowed = smallest_penalty(model); *stiffness > allowed)
       throw InputError(fmt::format("{}[bond] key 'stiffness': found {:g} MPa/mm, with contact.friction allowed up to "
                                    "{:.3g} MPa/mm, the smallest penalty of a contact point",

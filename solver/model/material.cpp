@@ -42,6 +42,12 @@ Material make_material(const MaterialParameters& parameters, double mass_scaling
   return {moduli, density, std::sqrt(moduli.dilatational() / density), make_flow_law(parameters)};
 }
 
+PairFriction friction_of_pairs(const ContactParameters& contact, std::size_t materials) {
+  PairFriction friction(materials, contact.friction);
+  for (const MaterialPair& pair : contact.pairs) friction.set(pair.materials[0], pair.materials[1], pair.friction);
+  return friction;
+}
+
 BondLaw law_of_bonds(const BondParameters& parameters, const ContactParameters& contact) {
   return {.stiffness = parameters.stiffness.value_or(0),
           .tensile_strength = parameters.tensile_strength,

@@ -3,6 +3,7 @@
 
 #include <variant>
 
+#include "solver/model/pair_friction.hpp"
 #include "solver/physics/bond.hpp"
 #include "solver/physics/elasticity.hpp"
 #include "solver/physics/hardening.hpp"
@@ -21,6 +22,9 @@ struct Material {
 
 /// Throws InputError where a table of the flow curve has too many points.
 Material make_material(const MaterialParameters& parameters, double mass_scaling);
+
+/// Coulomb's mu of every pair of `materials` (their number).
+PairFriction friction_of_pairs(const ContactParameters& contact, std::size_t materials);
 
 /// The law of bonds to form. Its stiffness is unset: it is that of the point.
 BondLaw law_of_bonds(const BondParameters& parameters, const ContactParameters& contact);

@@ -115,6 +115,9 @@ void print_model(const Scenario& scenario, const Simulation& simulation, const N
   if (scenario.has_friction())
     fmt::print("friction       {:g} between grains, {:g} at walls\n", scenario.contact.friction,
                scenario.wall_friction);
+  for (const MaterialPair& pair : scenario.contact.pairs)
+    fmt::print("               {:g} between materials {} and {}\n", pair.friction, pair.materials[0],
+               pair.materials[1]);
   for (const ToolParameters& tool : scenario.tools) print_tool(tool);
   fmt::print("relative density at the start  {:.4f}\n", simulation.relative_density());
   fmt::print(

@@ -50,7 +50,7 @@ double memory_of(const PackingCounts& packing, const Scenario& scenario) {
   const double tet = (numerics.precision == Precision::mixed ? bytes_of_tet<float>() : bytes_of_tet<double>()) +
                      sizeof(std::int32_t) + sizeof(double);
   const double facet = 3 * sizeof(std::int32_t) + of_contact + (scenario.bond ? of_bonds : 0.0) +
-                       (scenario.contact.friction > 0 ? of_friction : 0.0);
+                       (scenario.contact.has_friction() ? of_friction : 0.0);
   const double rows = scenario.output.history_rows * static_cast<double>(scenario.stages.size());
   return of_program + tet * number(packing.all_tets()) + node * number(packing.nodes) + facet * packing.facets() +
          2 * sizeof(HistoryRow) * rows;
@@ -62,7 +62,7 @@ double disk_of(const PackingCounts& packing, const Scenario& scenario) {
   const auto stages = static_cast<double>(scenario.stages.size());
   // Eight numbers of a tet, thirteen of a node, and contact points; measured, since most points have few candidates.
   const double checkpoint = 64 * tets + 104 * nodes + (scenario.bond ? 43.0 : 20.0) * facets +
-                            (scenario.contact.friction > 0 ? 24.0 * facets : 0.0);
+                            (scenario.contact.has_friction() ? 24.0 * facets : 0.0);
   // Those that stay, the rolling one, and the one that is being written.
   const double checkpoints = stages + 2 + static_cast<double>(output.checkpoint_relative_densities.size());
   // Snapshots stand beside the run file until it holds them all.

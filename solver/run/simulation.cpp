@@ -50,7 +50,7 @@ Simulation::Simulation(Model model, const Scenario& scenario, ThreadTeam& team, 
     contact_.bond_laws = {law_of_bonds(*scenario.bond, scenario.contact)};
     contact_.rebond_on_contact = scenario.bond->rebond_on_contact;
   }
-  contact_.friction = scenario.contact.friction;
+  contact_.friction = friction_of_pairs(scenario.contact, model_.material.size());
   margin_ = scenario.contact.search_margin * *std::max_element(model_.element_size.begin(), model_.element_size.end());
 
   update_surfaces();

@@ -47,14 +47,35 @@ std::vector<GrainMaterial> read_grain_materials(TableReader& root) {
   return materials;
 }
 
-ContactParameters read_contact(TableReader& table) {
+/// [[contact.pair]]: each pair of materials once.
+std::vector<MaterialPair> read_material_pairs(TableReader& contact, std::size_t materials) {
+  std::vector<MaterialPair> pairs;
+  std::set<std::array<std::size_t, 2>> seen;
+  const auto last = static_cast<double>(materials) - 1;
+  for (TableReader& table : contact.tables("pair")) {
+    const std::vector<std::int64_t> both = table.integers("materials", Range::between(0, last));
+    if (both.size() != 2) table.fail("materials", fmt::format("found {} numbers, expected two", both.size()));
+    MaterialPair pair;
+    pair.materials = {static_cast<std::size_t>(std::min(both[0], both[1])),
+                      static_cast<std::size_t>(std::max(both[0], both[1]))};
+    if (!seen.insert(pair.materials).second)
+      table.fail("materials", fmt::format("found {} and {} twice, allowed once", both[0], both[1]));
+    pair.friction = table.number("friction", friction_or_zero);
+    table.finish();
+    pairs.push_back(pair);
+  }
+  return pairs;
+}
+
+ContactParameters read_contact(TableReader& table, std::size_t materials) {
   ContactParameters contact;
   contact.stiffness_factor = table.number_or("stiffness_factor", contact.stiffness_factor, stiffness_factors);
   if (table.has("stiffness")) {
-    if (table.has("stiffness_factor")) table.fail("stiffness", "has no meaning with 'stiffness_factor'");
+    if (table.has("stiffness_factor")) table.fail("stiffness", "cannot be used with 'stiffness_factor'");
     contact.stiffness = table.number("stiffness", positive_stiffness);
   }
   contact.friction = table.number_or("friction", contact.friction, friction_or_zero);
+  contact.pairs = read_material_pairs(table, materials);
   contact.search_margin = table.number_or("search_margin", contact.search_margin, Range::between(0.05, 2));
   const std::string surface = table.choice_or("surface", "automatic", {"automatic", "facets", "smooth"});
   contact.surface = surface == "smooth"   ? ContactSurface::smooth
@@ -96,7 +117,7 @@ NumericsParameters read_numerics(TableReader table) {
   if (table.has("mass_scaling_step")) numerics.mass_scaling_step = table.number("mass_scaling_step", positive_time);
   numerics.mass_scaling_lighten = table.boolean_or("mass_scaling_lighten", numerics.mass_scaling_lighten);
   if (numerics.mass_scaling_lighten && numerics.mass_scaling_step == 0)
-    table.fail("mass_scaling_lighten", "has no meaning without 'mass_scaling_step'");
+    table.fail("mass_scaling_lighten", "is used only with 'mass_scaling_step'");
   table.finish();
   return numerics;
 }
@@ -136,7 +157,7 @@ void read_walls(TableReader& root, Scenario& scenario) {
     if (scenario.walls && scenario.container) root.fail("walls", "found true, expected false with a [container]");
     return;
   }
-  if (scenario.container) root.fail("walls", "has no meaning with a [container], whose tools have their own friction");
+  if (scenario.container) root.fail("walls", "cannot be used with a [container], whose tools have their own friction");
   TableReader table = root.table("walls");
   scenario.wall_friction = table.number_or("friction", scenario.wall_friction, friction_or_zero);
   table.finish();
@@ -145,15 +166,15 @@ void read_walls(TableReader& root, Scenario& scenario) {
 void read_gravity(TableReader table, Scenario& scenario) {
   scenario.gravity = table.vector3("acceleration", Range::between(-1e12, 1e12)); // mm/s^2
   if (scenario.has_gravity() && scenario.numerics.mass_scaling_step > 0)
-    table.fail("acceleration", "has no meaning with 'numerics.mass_scaling_step', which makes single nodes heavier; "
+    table.fail("acceleration", "cannot be used with 'numerics.mass_scaling_step', which makes single nodes heavier; "
                                "allowed is 'numerics.mass_scaling'");
   table.finish();
 }
 
 /// The damaged share of a bond rubs with the stiffness that the bond leaves of the penalty.
 void check_friction(const TableReader& contact, const Scenario& scenario) {
-  if (scenario.contact.friction == 0 || !scenario.bond) return;
-  if (scenario.bond->normal_only) contact.fail("friction", "has no meaning with 'bond.normal_only'");
+  if (!scenario.contact.has_friction() || !scenario.bond) return;
+  if (scenario.bond->normal_only) contact.fail("friction", "cannot be used with 'bond.normal_only'");
   if (scenario.bond->stiffness_factor && *scenario.bond->stiffness_factor > scenario.contact.stiffness_factor)
     contact.fail("friction", fmt::format("found bonds stiffer than the penalty (bond.stiffness_factor = {:g}), allowed "
                                          "up to contact.stiffness_factor = {:g}",
@@ -199,7 +220,7 @@ const char* precision_name(Precision precision) {
 }
 
 bool Scenario::has_friction() const {
-  return contact.friction > 0 || wall_friction > 0 ||
+  return contact.has_friction() || wall_friction > 0 ||
          std::any_of(tools.begin(), tools.end(), [](const ToolParameters& tool) { return tool.friction > 0; });
 }
 
@@ -212,7 +233,7 @@ BondParameters read_bond(TableReader table) {
     bond.softening = SofteningLaw::energy;
   bond.stiffness = table.optional_number("stiffness", positive_stiffness);
   bond.stiffness_factor = table.optional_number("stiffness_factor", stiffness_factors);
-  if (bond.stiffness && bond.stiffness_factor) table.fail("stiffness", "has no meaning with 'stiffness_factor'");
+  if (bond.stiffness && bond.stiffness_factor) table.fail("stiffness", "cannot be used with 'stiffness_factor'");
   bond.rebond_on_contact = table.choice_or("rebond", "never", {"never", "on_contact"}) == "on_contact";
   bond.normal_only = table.boolean_or("normal_only", bond.normal_only);
   table.finish();
@@ -232,12 +253,12 @@ Scenario read_scenario(const TomlDocument& document) {
   material.finish();
   scenario.grain_materials = read_grain_materials(root);
   auto contact = root.optional_table("contact");
-  if (contact) scenario.contact = read_contact(*contact);
+  if (contact) scenario.contact = read_contact(*contact, 1 + scenario.grain_materials.size());
   if (auto table = root.optional_table("bond")) {
     scenario.bond_places = table->places();
     scenario.bond = read_bond(*table);
     if (scenario.bond->stiffness_factor && scenario.contact.stiffness)
-      table->fail("stiffness_factor", "has no meaning with 'contact.stiffness'; allowed is 'stiffness' (MPa/mm)");
+      table->fail("stiffness_factor", "cannot be used with 'contact.stiffness'; allowed is 'stiffness' (MPa/mm)");
   }
   if (contact) check_friction(*contact, scenario);
   if (auto table = root.optional_table("numerics")) scenario.numerics = read_numerics(*table);

@@ -2,6 +2,7 @@
 // A scenario as plain structs, units beside every field. Keywords and defaults of the TOML file stand in scenario.cpp
 // only.
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <optional>
@@ -58,14 +59,26 @@ enum class ContactSurface {
   smooth,    ///< the curved surface of the same volume (solver/model/smooth_surface.hpp)
 };
 
+/// Two materials whose grains rub with a coefficient of their own.
+struct MaterialPair {
+  std::array<std::size_t, 2> materials{}; ///< 0: [material]; 1, 2, …: the grain materials in their order
+  double friction = 0;                    ///< Coulomb's mu
+};
+
 struct ContactParameters {
   double stiffness_factor = 10;    ///< penalty K = factor * E / h, h the mean facet edge of the grain
   std::optional<double> stiffness; ///< K itself, MPa/mm, where it is given instead (locally refined meshes)
-  double friction = 0;             ///< Coulomb's mu between grains
-  double search_margin = 0.3;      ///< candidates are kept for gaps up to this multiple of h
+  double friction = 0;             ///< Coulomb's mu between grains, where no pair of materials has its own
+  std::vector<MaterialPair> pairs;
+  double search_margin = 0.3; ///< candidates are kept for gaps up to this multiple of h
   ContactSurface surface = ContactSurface::automatic;
   bool penalty_differs(const ContactParameters& other) const {
     return stiffness_factor != other.stiffness_factor || stiffness != other.stiffness;
+  }
+  /// Whether grains of any two materials rub.
+  bool has_friction() const {
+    const auto rubs = [](const MaterialPair& pair) { return pair.friction > 0; };
+    return friction > 0 || std::any_of(pairs.begin(), pairs.end(), rubs);
   }
 };
 

@@ -146,6 +146,31 @@ TEST_CASE("cubes that are pressed together stick until their shear comes to mu N
   }
 }
 
+TEST_CASE("a pair of materials rubs with its own coefficient, all other pairs with the common one") {
+  // Pressed and dragged until they slide; the second cube is of a material of its own with the same constants.
+  const auto drag = [](double common, std::vector<MaterialPair> pairs) {
+    Scenario scenario = rubbing_scenario({grip("press", -6e-4, 500), grip("slide", 0, 500, {1e-3, 0, 0})});
+    scenario.walls = false;
+    scenario.contact.friction = common;
+    scenario.contact.pairs = std::move(pairs);
+    scenario.grain_materials = {{{1}, scenario.material}};
+    ThreadTeam team(1);
+    Simulation simulation(build_model(two_cubes(2), scenario, "test"), scenario, team);
+    for (const int stage : {0, 1}) {
+      if (stage == 1) simulation.begin_next_stage();
+      for (simulation.evaluate_forces(); !simulation.stage_complete(); simulation.evaluate_forces())
+        simulation.advance();
+    }
+    return simulation.observe().friction_dissipation;
+  };
+  const double lost = drag(mu, {});
+  REQUIRE(lost > 0);
+  CHECK(drag(0.7, {{{0, 1}, mu}}) == lost);
+  CHECK(drag(0, {{{0, 1}, mu}}) == lost);
+  CHECK(drag(mu, {{{0, 0}, 0.7}, {{1, 1}, 0.7}}) == lost);
+  CHECK(drag(mu, {{{0, 1}, 0}}) == 0);
+}
+
 TEST_CASE("shear far below mu N leaves every anchor of pressed cubes where it was") {
   Scenario scenario = rubbing_scenario({grip("press", -6e-4, 500), grip("shear", 0, 500, {2e-5, 0, 0})});
   scenario.walls = false;
