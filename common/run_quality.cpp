@@ -26,29 +26,25 @@ std::vector<std::string> quality_warnings(std::span<const QualityRow> rows) {
 
   std::vector<std::string> warnings;
   if (work > 0 && residual > doubtful_residual * work)
-    warnings.push_back(fmt::format("the energy balance is off by up to {:.2g} % of the largest work (noteworthy beyond "
+    warnings.push_back(fmt::format("the energy balance is off by up to {:.2g} % of the largest work (warning above "
                                    "{:g} %): lower numerics.time_step_factor",
                                    100 * residual / work, 100 * doubtful_residual));
   if (kinetic > doubtful_kinetic)
-    warnings.push_back(
-        fmt::format("kinetic energy is up to {:.2g} of the internal energy under load (noteworthy beyond "
-                    "{:g}): inertia bears a part of the stresses; lower the speeds",
-                    kinetic, doubtful_kinetic));
+    warnings.push_back(fmt::format("kinetic energy is up to {:.2g} of the internal energy under load (warning above "
+                                   "{:g}): inertia carries part of the stress; reduce the speeds",
+                                   kinetic, doubtful_kinetic));
   if (penetration > doubtful_penetration)
-    warnings.push_back(
-        fmt::format("nodes penetrate by up to {:.2g} of the element size (noteworthy beyond {:g}): raise "
-                    "contact.stiffness_factor",
-                    penetration, doubtful_penetration));
+    warnings.push_back(fmt::format("nodes penetrate by up to {:.2g} of the element size (warning above {:g}): raise "
+                                   "contact.stiffness_factor",
+                                   penetration, doubtful_penetration));
   if (density > doubtful_density)
-    warnings.push_back(
-        fmt::format("the grains' present volume is up to {:.4g} of the box's (noteworthy beyond {:g}): no "
-                    "pores are left, or grains overlap",
-                    density, doubtful_density));
+    warnings.push_back(fmt::format("the grains' present volume is up to {:.4g} of the box's (warning above {:g}): no "
+                                   "pores are left, or grains overlap",
+                                   density, doubtful_density));
   if (shortest_step < doubtful_step_share * first_step)
-    warnings.push_back(
-        fmt::format("the time step fell to {:.2g} of the first one (noteworthy below {:g}): elements are "
-                    "nearly flat",
-                    shortest_step / first_step, doubtful_step_share));
+    warnings.push_back(fmt::format("the time step fell to {:.2g} of the first one (warning below {:g}): elements are "
+                                   "nearly flat",
+                                   shortest_step / first_step, doubtful_step_share));
   return warnings;
 }
 

@@ -88,7 +88,7 @@ toml::table parse_toml(std::string_view text, const std::string& name) {
         fmt::format("tables and arrays nest deeper than {} levels, which is the most that is read", deepest_toml));
   if (const auto line = line_beyond_ascii(text))
     throw_input_error(fmt::format("{}:{}", shown_path(name), *line),
-                      "not valid TOML: a letter beyond ASCII outside quotes and comments");
+                      "not valid TOML: a non-ASCII letter outside quotes and comments");
   try {
     return toml::parse(text, name);
   } catch (const toml::parse_error& error) {
@@ -112,7 +112,7 @@ toml::table parse_assigned_value(std::string_view value, const std::string& sour
   };
   try {
     if (!line_beyond_ascii(value)) return toml::parse(fmt::format("value = {}", value), source);
-    refuse_where_quoted("a letter beyond ASCII outside quotes");
+    refuse_where_quoted("a non-ASCII letter outside quotes");
   } catch (const toml::parse_error& error) {
     refuse_where_quoted(error.description());
   }

@@ -230,7 +230,7 @@ private:
   int rounds_;    ///< of smoothing
   double factor_; ///< of the edge, for the count that smoothing leads to
   int failures_ = 0;
-  std::string last_defect_ = "none of the candidates met the wanted number of tetrahedra";
+  std::string last_defect_ = "no candidate has the requested number of tetrahedra";
 };
 
 } // namespace

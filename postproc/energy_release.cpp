@@ -19,7 +19,7 @@ struct Unloading {
   bool found = true;
 };
 
-/// Throws InputError where there is no stage `number`, or it is no unloading.
+/// Throws InputError where there is no stage `number`, or it is not an unloading.
 Unloading find_unloading(const HistoryTable& history, const std::vector<StageRows>& stages, std::optional<int> number,
                          const std::string& path) {
   try {
@@ -126,8 +126,8 @@ Measurement measure_energy(const schema::FileReader& file, std::optional<int> nu
   m.details["energy_residual_in_unloading_mJ"] = residual[stage.last] - residual[stage.first];
   m.details.update(energies_over_scale_json(energies, scale));
   if (!unloading.found)
-    m.notes.emplace_back("the run has no unloading: nothing is released, and energies are those of its end");
-  if (m.value < 0) m.notes.emplace_back("the elastic energy grows in this stage: it is no unloading");
+    m.notes.emplace_back("the run has no unloading: nothing is released; energies are those at its end");
+  if (m.value < 0) m.notes.emplace_back("the elastic energy grows in this stage: it is not an unloading");
   note_short_stage(m, unloading.scatter_rows);
   return m;
 }

@@ -184,7 +184,7 @@ Fit fit_kawakita(const FitProblem& problem) {
   const double slope = result.coefficients[1].value;
   const Coefficient a = inverse_slope(problem, "a", result.coefficients[1]);
   const double inverse_b = result.coefficients[0].value / slope;
-  if (!(inverse_b > 0)) undetermined(problem, "x/y does not begin above 0, so that b is not positive");
+  if (!(inverse_b > 0)) undetermined(problem, "x/y does not begin above 0, so b is not positive");
   // The line is 0 at x = -1/b: how far it may be off 0 there, over its slope, is how far 1/b may be off.
   const Fit at_root = linear_fit(problem, line_basis(x.array() + inverse_b), y, {"root", "slope"});
   const double half = 0.5 * (at_root.coefficients[0].high - at_root.coefficients[0].low) / slope;
@@ -282,11 +282,11 @@ void check_points(const Model& model, const FitPoints& points, bool x_is_relativ
                                  one_line(points.path), model.name, model.coefficients, n, model.coefficients + 1));
   if (x_is_relative_density && model.takes != Takes::porosity)
     throw InputError(
-        fmt::format("--relative-density has no meaning with model '{}', which is not one of porosity", model.name));
+        fmt::format("--relative-density cannot be used with model '{}', which is not one of porosity", model.name));
   const bool surface = model.takes == Takes::x_and_z;
   if (surface && points.z.size() != n)
     throw InputError(fmt::format("model '{}': found no --z, allowed: the column that holds G^c", model.name));
-  if (!surface && !points.z.empty()) throw InputError(fmt::format("--z has no meaning with model '{}'", model.name));
+  if (!surface && !points.z.empty()) throw InputError(fmt::format("--z cannot be used with model '{}'", model.name));
   check_different_values(model, points);
 }
 

@@ -20,7 +20,7 @@ constexpr const char* help =
     "  postproc section run.h5 --field damage -o damage.png\n"
     "  postproc picture run.h5 --color von-mises -o run.png      (in three dimensions, cut open)\n"
     "  postproc view run.h5 -o view.html                         (a page to turn the grains in)\n"
-    "  postproc watch run.h5                                     (a run that is at work, in the terminal)\n"
+    "  postproc watch run.h5                                     (a run in progress, in the terminal)\n"
     "  postproc contact run.h5 --pair 3,17 --view contact.png\n"
     "  postproc elastic-recovery run.h5 -o recovery.json   (and modulus, strength, yield, hysteresis, energy)\n"
     "  postproc damage run.h5 --snapshot -1 -o damage.json\n"
@@ -71,7 +71,7 @@ int body(int argc, char** argv) {
   app.require_subcommand(1);
   std::vector<std::unique_ptr<Command>> commands;
   for (MakeCommand* make : before_figures) commands.push_back(make(app));
-  app.add_subcommand("picture", "A snapshot in three dimensions, cut open, as a picture.\n"
+  app.add_subcommand("picture", "Draw a snapshot in three dimensions, cut open.\n"
                                 "Needs the executable postproc-picture, which ./bootstrap pictures builds.");
   const FigureCommands figures(app);
   for (MakeCommand* make : after_figures) commands.push_back(make(app));

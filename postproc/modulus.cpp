@@ -75,7 +75,7 @@ struct Rise {
   double over(Rows part) const { return smooth[part.end] - smooth[part.begin]; }
 };
 
-/// Throws InputError where the stage is no axial loading.
+/// Throws InputError where the stage is not an axial loading.
 Rise find_rise(const StageCurve& c) {
   if (c.rows() < shortest_window)
     throw InputError(
@@ -86,7 +86,7 @@ Rise find_rise(const StageCurve& c) {
       std::min_element(smooth.begin(), smooth.begin() + static_cast<std::ptrdiff_t>(peak) + 1) - smooth.begin());
   if (peak + 1 < begin + shortest_window || !strain_rises(c, {begin, peak}))
     throw InputError(
-        fmt::format("{}: stage {} is no axial loading: {} rows from its lowest axial stress to the highest, "
+        fmt::format("{}: stage {} is not an axial loading: {} rows from its lowest axial stress to the highest, "
                     "needed: {} with rising axial strain",
                     c.path, c.stage, peak - begin + 1, shortest_window));
   return {{begin, peak}, std::move(smooth)};
@@ -204,7 +204,7 @@ Measurement modulus(const StageCurve& c, const ModulusRule& rule) {
   if (!choice.note.empty()) m.notes.push_back(choice.note);
   if (!c.unconfined)
     m.notes.emplace_back(
-        "the lateral walls carry load: the slope is no Young's modulus unless their stress is constant");
+        "the lateral walls carry load: the slope is a Young's modulus only if their stress is constant");
   return m;
 }
 

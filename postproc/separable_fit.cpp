@@ -94,8 +94,8 @@ std::optional<LeastSquares> best_refined(const std::vector<Start>& starts, const
 void need_saturation(const FitProblem& problem, const std::string& name, double value,
                      const std::vector<double>& grid) {
   if (value < grid.front() || value > grid.back())
-    undetermined(problem, fmt::format("{} = {:.3g} lies beyond {:.3g} … {:.3g}, so that the points show no saturation",
-                                      name, value, grid.front(), grid.back()));
+    undetermined(problem, fmt::format("{} = {:.3g} lies beyond {:.3g} … {:.3g}, so the points show no saturation", name,
+                                      value, grid.front(), grid.back()));
 }
 
 } // namespace

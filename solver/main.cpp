@@ -72,17 +72,18 @@ CLI::App* add_bond(CLI::App& app, BondProgrammeOptions& options) {
       "                   shear_strength = 18.0\n"
       "                   fracture_energy = 0.5\n"
       "  programme.csv    opening,shear1,shear2,increments\n"
-      "                   2e-5,0,0,1000        # separations in mm to walk to, one after the other, from 0,0,0\n"
+      "                   2e-5,0,0,1000        # separations (mm) to reach in turn, from 0,0,0\n"
       "                   -1e-6,0,0,           # closed: the undamaged penalty; increments as --increments\n"
       "Tractions in the result are positive in tension and along the shear separation; negative normal traction is\n"
       "compression.");
   bond->add_option("law", options.law, "Law (TOML): stiffness and [bond]")->required();
-  bond->add_option("programme", options.programme, "Way points (CSV): opening,shear1,shear2[,increments], mm")
+  bond->add_option("programme", options.programme,
+                   "Separations to reach in turn (CSV): opening,shear1,shear2[,increments], mm")
       ->required();
   bond->add_option("-o,--output", options.output, "Table to write (CSV)")->required();
   bond->add_option("--set", options.assignments, "Override a value of the law: KEY=VALUE")->take_all();
   add_number(*bond, "--increments", options.increments, Range::between(1, 1e7), "",
-             "Increments of way points whose row gives none")
+             "Increments where a row of the programme gives none")
       ->capture_default_str();
   bond->add_flag("--quiet", options.quiet, "No summary");
   return bond;
@@ -91,7 +92,7 @@ CLI::App* add_bond(CLI::App& app, BondProgrammeOptions& options) {
 CLI::App* add_bench(CLI::App& app, Arguments& arguments, BenchOptions& options) {
   CLI::App* bench = app.add_subcommand(
       "bench",
-      "Measure what a step costs here, part by part, beside what the machine can do.\n"
+      "Measure the cost of a step on this machine, part by part, beside the machine's limits.\n"
       "Examples:\n"
       "  mpfem bench                                    # 329 dense, bonded grains of 600 tets each\n"
       "  mpfem bench --tets 1600000 --threads 1 --json\n"
@@ -140,20 +141,21 @@ CLI::App* add_run(CLI::App& app, Arguments& arguments) {
                                             "  mpfem run compaction.toml -o rough.h5 --set contact.friction=0.3");
   add_common(*run, arguments);
   run->add_option("-o,--output", arguments.run.output, "Run file to write (HDF5)")->required();
-  run->add_flag("--resume", arguments.run.resume, "Go on from the run's checkpoint if there is one");
-  run->add_option("--from", arguments.from, "Begin at the state of this checkpoint")->check(CLI::ExistingFile);
+  run->add_flag("--resume", arguments.run.resume, "Continue from the run's checkpoint if there is one");
+  run->add_option("--from", arguments.from, "Start from the state in this checkpoint")->check(CLI::ExistingFile);
   add_number(*run, "--time-limit", arguments.run.time_limit, Range::between(1e-9, 1e9), "s",
-             "Stop resumably after so much wall-clock time");
+             "Stop after this wall-clock time; --resume continues");
   return run;
 }
 
 CLI::App* add_check(CLI::App& app, Arguments& arguments) {
-  CLI::App* check = app.add_subcommand("check", "Validate a scenario, print its plan and how long it takes here.\n"
-                                                "Examples:\n"
-                                                "  mpfem check compaction.toml\n"
-                                                "  mpfem check unloading.toml --from run.D0.850.checkpoint.h5");
+  CLI::App* check =
+      app.add_subcommand("check", "Validate a scenario; print its plan and an estimate of its time on this machine.\n"
+                                  "Examples:\n"
+                                  "  mpfem check compaction.toml\n"
+                                  "  mpfem check unloading.toml --from run.D0.850.checkpoint.h5");
   add_common(*check, arguments);
-  check->add_option("--from", arguments.from, "Of a branch that begins at the state of this checkpoint")
+  check->add_option("--from", arguments.from, "Check a branch that starts from this checkpoint")
       ->check(CLI::ExistingFile);
   return check;
 }

@@ -36,7 +36,7 @@ void Command::check_outputs() const {
 ResultCommand::ResultCommand(CLI::App& app, const std::string& name, const std::string& help,
                              const std::string& output_help, OutputKind kind)
     : Command(app, name, help), output_option_(add_output("-o,--output", output_, output_help, kind)) {
-  options().add_flag("--quiet", quiet_, "Nothing but the result");
+  options().add_flag("--quiet", quiet_, "Print only the result");
 }
 
 void ResultCommand::deliver(const std::string& text) const {

@@ -58,7 +58,7 @@ private:
   }
 
   void execute_through_run() const {
-    if (!pair_.empty()) throw InputError("found both of --pair and --history, allowed: one of them");
+    if (!pair_.empty()) throw InputError("give either --pair or --history, not both");
     const schema::FileReader file = open_run();
     Measurement end = measure_contact(file, stage_); // also refuses a stage that is not there
     note_unfinished(end, file);

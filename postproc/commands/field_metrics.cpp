@@ -37,7 +37,7 @@ class OffsetYieldCommand : public StageMetricCommand {
 public:
   explicit OffsetYieldCommand(CLI::App& app)
       : StageMetricCommand(app, "offset-yield",
-                           "Yield by plastic strain: where a loading has left an offset beside its elastic line.\n"
+                           "Yield by plastic strain: where a loading curve leaves its elastic line by a given offset.\n"
                            "Example: postproc offset-yield run.h5 --offset 0.002 -o yield.json",
                            "the last probe, unconfined or triaxial compression, else the last") {
     add_number(options(), "--offset", rule_.offset, Range::between(1e-9, 1), "", "Plastic strain at yield")
@@ -100,7 +100,7 @@ class DamageOfTestCommand : public MetricCommand {
 public:
   explicit DamageOfTestCommand(CLI::App& app)
       : MetricCommand(app, "damage-of-test",
-                      "What a test did to the bonds that it found, apart from those that formed in it.\n"
+                      "Damage that a test did to existing bonds, apart from bonds formed during the test.\n"
                       "Example: postproc damage-of-test test.h5 --before compact.h5 -o damage.json\n"
                       "Example: postproc damage-of-test run.h5 --snapshot-before 1") {
     add_snapshot(options(), snapshot_);

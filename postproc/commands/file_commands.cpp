@@ -15,9 +15,10 @@ namespace {
 class ValidateCommand : public Command {
 public:
   explicit ValidateCommand(CLI::App& app)
-      : Command(app, "validate", "Hold files to the results schema.\nExample: postproc validate run.h5 packing.h5") {
+      : Command(app, "validate",
+                "Check files against the results schema.\nExample: postproc validate run.h5 packing.h5") {
     options().add_option("files", files_, "Files of any kind (HDF5)")->required();
-    options().add_flag("--quiet", quiet_, "Nothing but findings");
+    options().add_flag("--quiet", quiet_, "Print only what is wrong");
   }
 
 private:
@@ -39,7 +40,7 @@ class CostCommand : public Command {
 public:
   explicit CostCommand(CLI::App& app)
       : Command(app, "cost",
-                "What runs took together: runs,tet_steps,wall_time_s,core_time_s.\nExample: postproc cost a.h5 b.h5") {
+                "Total cost of runs: runs,tet_steps,wall_time_s,core_time_s.\nExample: postproc cost a.h5 b.h5") {
     options().add_option("files", files_, "Run files (HDF5); none: zeros");
   }
 

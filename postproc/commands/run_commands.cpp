@@ -19,7 +19,7 @@ namespace {
 class SummaryCommand : public RunCommand {
 public:
   explicit SummaryCommand(CLI::App& app)
-      : RunCommand(app, "summary", "What a run came to.\nExample: postproc summary run.h5 -o summary.json",
+      : RunCommand(app, "summary", "Summarise a run.\nExample: postproc summary run.h5 -o summary.json",
                    "JSON file to write, or CSV of its numbers (.csv)") {}
 
 private:
@@ -34,12 +34,14 @@ private:
 class CurveCommand : public RunCommand {
 public:
   explicit CurveCommand(CLI::App& app)
-      : RunCommand(app, "curve",
-                   "History columns as CSV.\nExample: postproc curve run.h5 --columns relative_density,mean_stress -o "
-                   "curve.csv",
-                   "CSV file to write (default: standard output)") {
+      : RunCommand(
+            app, "curve",
+            "Write history columns as CSV.\nExample: postproc curve run.h5 --columns relative_density,mean_stress -o "
+            "curve.csv",
+            "CSV file to write (default: standard output)") {
     options()
-        .add_option("--columns", columns_, "Columns, by comma (default: all); wall_stress stands for its six")
+        .add_option("--columns", columns_,
+                    "Columns, separated by commas (default: all); wall_stress stands for its six")
         ->delimiter(',');
   }
 
@@ -57,7 +59,7 @@ class VtkCommand : public StateCommand {
 public:
   explicit VtkCommand(CLI::App& app)
       : StateCommand(app, "vtk",
-                     "Snapshots for ParaView.\nExample: postproc vtk run.h5 -o vtk\nExample: postproc vtk "
+                     "Write snapshots for ParaView.\nExample: postproc vtk run.h5 -o vtk\nExample: postproc vtk "
                      "--packing packing.h5 -o packing.vtu",
                      "Folder to write, or with --packing a .vtu file", OutputKind::text) {
     output_option()->required();
@@ -80,8 +82,7 @@ private:
       write_file(output(), vtu_text(read_state(-1)));
       return;
     }
-    if (path_of_run().empty())
-      throw InputError("found neither of RUN.h5 and --packing, allowed: one of them; postproc --help says more");
+    if (path_of_run().empty()) throw InputError("give either RUN.h5 or --packing; postproc --help says more");
     write_run_as_vtk({path_of_run(), schema::FileKind::run}, output(), quiet());
   }
 };

@@ -26,7 +26,7 @@ public:
   explicit SectionCommand(CLI::App& app)
       : StateCommand(
             app, "section",
-            "A plane cut through the grains, as a picture.\n"
+            "Draw a plane section through the grains.\n"
             "Example: postproc section run.h5 --axis z --position 0.5 --relative --field von_mises -o section.png\n"
             "Example: postproc section run.h5 --axis x --field damage -o damage.png --data boundaries.csv",
             "PNG file to write", OutputKind::binary) {
@@ -87,8 +87,7 @@ private:
   }
 
   void execute() const override {
-    if (output().empty() && data_.empty())
-      throw InputError("found neither of -o and --data, allowed: one of them, or both; postproc --help says more");
+    if (output().empty() && data_.empty()) throw InputError("give -o, --data or both; postproc --help says more");
     const Snapshot state = read_state(snapshot_);
     PictureRequest request = picture_;
     request.plane = plane_in(state);

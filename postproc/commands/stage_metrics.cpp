@@ -31,7 +31,7 @@ class ElasticRecoveryCommand : public StageMetricCommand {
 public:
   explicit ElasticRecoveryCommand(CLI::App& app)
       : StageMetricCommand(app, "elastic-recovery",
-                           "How far a compact springs back: (D_max - D_min) / D_max (paper, Eq. 9).\n"
+                           "Elastic recovery of a compact: (D_max - D_min) / D_max (paper, Eq. 9).\n"
                            "Example: postproc elastic-recovery run.h5 -o recovery.json",
                            "the last isotropic_unloading, else the first after the densest row that unloads") {}
 
@@ -44,7 +44,7 @@ public:
   explicit ModulusCommand(CLI::App& app)
       : StageMetricCommand(
             app, "modulus",
-            "Young's modulus of a compact: slope of axial stress at the beginning of an axial reloading.\n"
+            "Young's modulus of a compact: slope of the axial stress at the start of an axial reloading.\n"
             "Example: postproc modulus run.h5 --stage -1 -o modulus.json\n"
             "Example: postproc modulus run.h5 --strain-range 0,0.002",
             "the last unconfined_compression, else the last") {
@@ -55,7 +55,7 @@ public:
                "low,high: axial strain since the stage began, in place of the rule")
         ->delimiter(',')
         ->expected(2);
-    options().add_flag("--need-window", need_window_, "Refuse a stage in which no window meets the rule");
+    options().add_flag("--need-window", need_window_, "Fail where no window meets the rule");
     add_number(options(), "--youngs-modulus", youngs_modulus_, moduli, "MPa",
                "Of the grains (default: the scenario's)");
   }
@@ -172,7 +172,7 @@ public:
   explicit QuasiStaticCommand(CLI::App& app)
       : StageMetricCommand(
             app, "quasi-static",
-            "How quasi-static a loading was: kinetic over internal energy, balance of opposite walls and of energy.\n"
+            "Check how quasi-static a loading was: kinetic over internal energy, opposite walls, energy balance.\n"
             "Example: postproc quasi-static run.h5 -o quality.json",
             "the last") {}
 

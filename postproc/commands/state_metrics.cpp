@@ -42,7 +42,7 @@ class StressPathCommand : public MetricCommand {
 public:
   explicit StressPathCommand(CLI::App& app)
       : MetricCommand(app, "stress-path",
-                      "Where a run ends in the plane of p and q, its largest stresses and what it dissipates.\n"
+                      "End point of a run in the plane of p and q, largest stresses and dissipation.\n"
                       "Example: postproc stress-path run.h5 -o path.json") {}
 
 private:
@@ -78,9 +78,10 @@ public:
   explicit StressAtDensitiesCommand(CLI::App& app)
       : MetricCommand(
             app, "stress-at-densities",
-            "Mean stress where a compaction passes given relative densities, between the rows beside each.\n"
+            "Mean stress of a compaction at given relative densities, interpolated between rows.\n"
             "Example: postproc stress-at-densities run.h5 --densities 0.8,0.92 -o stress.json --data stress.csv") {
-    add_number(options(), "--densities", densities_, relative_densities, "", "Relative densities, by comma, ascending")
+    add_number(options(), "--densities", densities_, relative_densities, "",
+               "Relative densities, separated by commas, ascending")
         ->required()
         ->delimiter(',');
     add_output("--data", data_, "CSV file to write: a row a density");

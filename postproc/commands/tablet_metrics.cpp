@@ -16,7 +16,7 @@ class TabletCommand : public MetricCommand {
 public:
   explicit TabletCommand(CLI::App& app)
       : MetricCommand(app, "tablet",
-                      "A tablet: forces at the peak, wall of the die, ejection, thickness, diameter and recovery.\n"
+                      "Tablet: forces at the peak, die wall, ejection, thickness, diameter and recovery.\n"
                       "Example: postproc tablet run.h5 -o tablet.json\n"
                       "Example: postproc tablet run.h5 --press compaction --eject push-out --snapshot -1") {
     options().add_option("--press", rule_.stages.press, "Name of the stage that presses")->capture_default_str();

@@ -14,7 +14,7 @@ class ViewCommand : public RunCommand {
 public:
   explicit ViewCommand(CLI::App& app)
       : RunCommand(app, "view",
-                   "The grains as one page for a browser: turn, zoom, cut, colour, step through snapshots.\n"
+                   "Write one page for a browser: turn, zoom, cut and colour the grains, step through snapshots.\n"
                    "Example: postproc view run.h5 -o view.html",
                    "HTML file to write") {
     output_option()->required();

@@ -149,7 +149,7 @@ struct FigureCommands::State {
 FigureCommands::FigureCommands(CLI::App& app) : state_(std::make_unique<State>()) {
   State& s = *state_;
   CLI::App& depends = s.add(app, "depends",
-                            "What make needs to know of figures: files, what they are made from, settings of runs.\n"
+                            "Dependencies of figures for make: files, their inputs, settings of runs.\n"
                             "Example: postproc depends studies/fig12/figure.toml --results out/smoke --mesh smoke",
                             [&s] { s.depends(); });
   depends.add_option("figures", s.files, "Figures' files (TOML)")->required();
@@ -158,11 +158,11 @@ FigureCommands::FigureCommands(CLI::App& app) : state_(std::make_unique<State>()
   depends.add_option("--description", s.description, "The file that the packing was made from, for metrics");
   depends.add_option("--set", s.settings, "Setting of every run that does not decline it, KEY=VALUE")
       ->allow_extra_args(false);
-  s.add_on_figure(app, "powder", "The packing that a study has of its own, as pack-gen takes it; else nothing.",
+  s.add_on_figure(app, "powder", "Print the packing of a study as input for pack-gen; nothing if the study has none.",
                   [&s] { s.powder(); });
   CLI::App& table =
       s.add_on_figure(app, "table",
-                      "A table of a figure, from the numbers of its runs.\nColumns of curves beside those of the "
+                      "Make a table of a figure from its runs.\nColumns of curves beside those of the "
                       "history:\n" +
                           curve_help() +
                           "Example: postproc table studies/fig12/figure.toml modulus --results out/smoke --mesh smoke "
@@ -171,24 +171,26 @@ FigureCommands::FigureCommands(CLI::App& app) : state_(std::make_unique<State>()
   table.add_option("name", s.name, "Name of the table")->required();
   table.add_option("--spread", s.files,
                    "Instead mean and deviation over these tables of several packings, that of this one first");
-  s.add_on_figure(app, "fits", "All fits of a figure, from its tables, as JSON.", [&s] { s.fits(); });
-  CLI::App& plot = s.add_on_figure(app, "plot",
-                                   "A plot of a figure, from its tables and fits; -o says whether PNG or SVG.\n"
-                                   "Example: postproc plot studies/fig12/figure.toml modulus --results out/smoke -o "
-                                   "modulus.png",
-                                   [&s] { s.plot(); });
+  s.add_on_figure(app, "fits", "Make all fits of a figure from its tables, as JSON.", [&s] { s.fits(); });
+  CLI::App& plot =
+      s.add_on_figure(app, "plot",
+                      "Draw a plot of a figure from its tables and fits; the ending of -o chooses PNG or SVG.\n"
+                      "Example: postproc plot studies/fig12/figure.toml modulus --results out/smoke -o "
+                      "modulus.png",
+                      [&s] { s.plot(); });
   plot.add_option("name", s.name, "Name of the plot")->required();
   add_number(plot, "--packings", s.packings, Range::between(0, 1e6), "", "Draw the spread over so many packings");
   plot.get_option("--output")->required();
-  s.add_on_figure(app, "verdict", "What a figure states, what was found, and whether they agree, as JSON.",
+  s.add_on_figure(app, "verdict", "Compare the statements of a figure with the results, as JSON.",
                   [&s] { s.verdict(); });
   s.add(app, "verdicts",
-        "Verdicts as Markdown: of one mesh figure by figure, or of several side by side.\n"
+        "Write verdicts as Markdown: one mesh figure by figure, or several meshes side by side.\n"
         "Example: postproc verdicts coarse=studies/results/coarse smoke=studies/results/smoke -o verdicts.md",
         [&s] { s.verdicts(); })
       .add_option("folders", s.files, "MESH=FOLDER: where its figures have their verdict.json")
       ->required();
-  CLI::App& report = s.add(app, "report", "Pictures and verdicts of figures as one HTML page.", [&s] { s.report(); });
+  CLI::App& report =
+      s.add(app, "report", "Write pictures and verdicts of figures as one HTML page.", [&s] { s.report(); });
   report.add_option("figures", s.files, "Figures' files (TOML)")->required();
   s.add_common(report);
   report.add_option("--title", s.title, "Title of the page")->required();

@@ -49,7 +49,7 @@ std::vector<std::filesystem::path> files_with(const std::filesystem::path& folde
 nlohmann::json statements_in(const std::filesystem::path& folder) {
   const std::filesystem::path path = folder / "verdict.json";
   auto list = nlohmann::json::parse(content_of(path), nullptr, false);
-  if (!list.is_array()) throw InputError(fmt::format("{}: is no list of statements", one_line(path.string())));
+  if (!list.is_array()) throw InputError(fmt::format("{}: is not a list of statements", one_line(path.string())));
   return list;
 }
 

@@ -201,7 +201,7 @@ const Json& FigureData::fit(const std::string& name) {
     std::ifstream file(path);
     if (!file) throw InputError(fmt::format("{}: no such file", one_line(path)));
     fits_ = Json::parse(file, nullptr, false);
-    if (!fits_->is_array()) throw InputError(fmt::format("{}: is no list of fits", one_line(path)));
+    if (!fits_->is_array()) throw InputError(fmt::format("{}: is not a list of fits", one_line(path)));
   }
   return fit_by_name(*fits_, name);
 }
@@ -232,7 +232,8 @@ std::optional<bool> holds(const ConditionSpec& c, const StatementSpec& statement
   }
   if (c.predicate == "rises" || c.predicate == "falls") {
     const QuantitySpec& q = spec_of(statement, c);
-    if (q.table.empty()) c.place.fail(fmt::format("'{}' is no column of a table, which {} needs", q.name, c.predicate));
+    if (q.table.empty())
+      c.place.fail(fmt::format("'{}' is not a column of a table, and {} needs one", q.name, c.predicate));
     return monotonic(q, data.table(q.table), c, c.predicate == "rises" ? 1 : -1);
   }
   std::vector<double> operands;
@@ -247,7 +248,7 @@ std::optional<bool> holds(const ConditionSpec& c, const StatementSpec& statement
   if (!value) return {};
   if (c.predicate.starts_with("interval")) {
     if (!quantity.interval)
-      c.place.fail(fmt::format("'{}' is no coefficient of a fit and has no interval", c.quantity));
+      c.place.fail(fmt::format("'{}' is not a coefficient of a fit, so it has no interval", c.quantity));
     const auto [low, high] = *quantity.interval;
     if (c.predicate == "interval_width_at_most") return high - low <= operands[0];
     const bool includes = low <= operands[0] && operands[0] <= high;

@@ -29,7 +29,9 @@ using Verdicts = std::map<std::string, std::vector<Statement>>; ///< by figure
 std::vector<Statement> read_statements(const filesystem::path& path) {
   std::ifstream file(path);
   const auto list = nlohmann::json::parse(file, nullptr, false);
-  const auto refuse = [&] { throw InputError(fmt::format("{}: is no list of statements", one_line(path.string()))); };
+  const auto refuse = [&] {
+    throw InputError(fmt::format("{}: is not a list of statements", one_line(path.string())));
+  };
   if (!list.is_array()) refuse();
   std::vector<Statement> statements;
   for (const auto& s : list) {

@@ -12,7 +12,7 @@ struct MeshVerdicts {
 };
 
 /// A heading and a table for each figure of one mesh. The column of the reference is "paper" for figNN, else
-/// "expected". Throws InputError where a verdict.json is no list of statements.
+/// "expected". Throws InputError where a verdict.json is not a list of statements.
 std::string verdicts_of_mesh(const MeshVerdicts& mesh);
 
 /// How many statements of each figNN agree, differ or could not be judged, mesh by mesh, then all statements with what

@@ -39,7 +39,7 @@ public:
   explicit PictureCommand(CLI::App& app)
       : StateCommand(
             app, "picture",
-            "A snapshot in three dimensions, cut open, as a picture.\n"
+            "Draw a snapshot in three dimensions, cut open.\n"
             "Example: postproc picture run.h5 -o run.png\n"
             "Example: postproc picture run.h5 --snapshot 3 --color plastic-strain --cut z --cut-at 0.6 -o z.png\n"
             "Example: postproc picture run.h5 --frames film\n"

@@ -25,13 +25,13 @@ double internal_energy_at_end(const std::vector<ProgressRow>& rows) {
 std::string_view words_of(AtWork at_work) {
   switch (at_work) {
   case AtWork::yes:
-    return "mpfem is at work";
+    return "mpfem is running";
   case AtWork::unknown:
-    return "mpfem is at work on another machine, or was killed";
+    return "mpfem is running on another machine, or was killed";
   case AtWork::no:
     break;
   }
-  return "no mpfem is at work (--resume goes on)";
+  return "no mpfem is running (--resume continues)";
 }
 
 std::string heading(const RunProgress& progress, double now) {
@@ -100,7 +100,8 @@ std::string curve(const std::vector<ProgressRow>& rows, int width) {
 
 std::string watch_frame(const RunProgress& progress, double now, int width) {
   if (progress.rows.empty())
-    return "mpfem has begun this run; its first checkpoint comes after output.checkpoint_interval (60 s by default)\n";
+    return "mpfem has started this run; its first checkpoint comes after output.checkpoint_interval (60 s by "
+           "default)\n";
   std::string text = heading(progress, now);
   for (std::size_t i = 0; i < progress.stage_ends.size(); ++i)
     text +=

@@ -144,7 +144,7 @@ bool begins_with_solid(std::string_view bytes) {
                                  : fmt::format("{} for the {} triangles that it counts",
                                                head_bytes + facet_bytes * binary_count(bytes), binary_count(bytes));
   throw InputError(
-      fmt::format("{}: is no STL file: found {} bytes, a binary one has {}; one of text begins with 'solid'",
+      fmt::format("{}: is not an STL file: found {} bytes, a binary one has {}; one of text begins with 'solid'",
                   shown_path(name), bytes.size(), binary));
 }
 

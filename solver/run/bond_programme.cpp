@@ -94,7 +94,7 @@ BondedPointLaw read_bonded_point_law(const TomlDocument& document) {
   const BondParameters bond = read_bond(table);
   root.finish();
   if (bond.stiffness_factor)
-    table.fail("stiffness_factor", "has no meaning without a mesh; allowed is 'stiffness' (MPa/mm)");
+    table.fail("stiffness_factor", "is used only with a mesh; allowed is 'stiffness' (MPa/mm)");
   const double stiffness = bond.stiffness.value_or(penalty);
   const double strength =
       bond.normal_only ? bond.tensile_strength : std::max(bond.tensile_strength, bond.shear_strength);

@@ -48,8 +48,8 @@ bool interrupt_requested() {
 void stop_before_first_step(const std::string& checkpoint) {
   if (!interrupt_requested()) return;
   if (std::filesystem::exists(checkpoint))
-    throw Interrupted(
-        fmt::format("interrupted before the first step; {} is as it was, go on with --resume", one_line(checkpoint)));
+    throw Interrupted(fmt::format("interrupted before the first step; {} is as it was, continue with --resume",
+                                  one_line(checkpoint)));
   throw Interrupted("interrupted before the first step; nothing to resume");
 }
 

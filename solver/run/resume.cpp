@@ -35,7 +35,7 @@ void check_branch(const CheckpointReader& checkpoint, bool bonded, const Scenari
     refuse("the checkpoint's material differs from the scenario's, allowed the same [material]");
   if (now.initial_velocity != std::array<double, 3>{} || !now.grain_velocity.empty() ||
       !now.grain_angular_velocity.empty())
-    refuse("[initial] has no meaning in a run that begins at a checkpoint: its grains move as they moved there");
+    refuse("[initial] cannot be used in a run that begins at a checkpoint: grains keep the velocities they had there");
   if (tools_differ(before.tools, now.tools) || before.container != now.container)
     refuse("the checkpoint's tools differ from the scenario's, allowed the same [[tools]] and [container] (another "
            "friction is allowed)");
@@ -89,9 +89,9 @@ void resume(const std::string& path, Simulation& simulation, RunRecord& record) 
   const CheckpointReader checkpoint(path);
   checkpoint.check_model(simulation.model());
   if (checkpoint.scenario_text() != simulation.scenario().text)
-    throw InputError(fmt::format("{}: the checkpoint belongs to another scenario{}; run without --resume to begin anew",
-                                 one_line(path),
-                                 scenario_difference(checkpoint.scenario_text(), simulation.scenario().text)));
+    throw InputError(
+        fmt::format("{}: the checkpoint belongs to another scenario{}; run without --resume to start again",
+                    one_line(path), scenario_difference(checkpoint.scenario_text(), simulation.scenario().text)));
   record = checkpoint.record();
   restore(checkpoint, checkpoint.has_bonds(), simulation.scenario(), simulation, record, false);
 }

@@ -137,7 +137,7 @@ private:
     RunIdentity itself = identity_;
     itself.from = record_.from;
     const auto checkpoints = resumable_checkpoints(scenario_, itself);
-    return checkpoints.empty() ? "; there is no checkpoint before"
+    return checkpoints.empty() ? "; there is no earlier checkpoint"
                                : fmt::format("; the last checkpoint before is {}", checkpoints.front());
   }
 
@@ -177,15 +177,15 @@ private:
       if (path == previous_checkpoint_path(options_.output)) // whatever stands in the rolling one's place is worse
         std::filesystem::rename(path, checkpoint_path(options_.output));
       if (!lost.empty())
-        fmt::print(stderr, "mpfem: warning: {} is missing; the run goes on from {} to write it again\n", lost.front(),
+        fmt::print(stderr, "mpfem: warning: {} is missing; the run continues from {} to write it\n", lost.front(),
                    path);
       if (!options_.quiet) fmt::print(stderr, "mpfem: resumed {} at step {}\n", path, simulation_.state().step);
       return true;
     }
     if (!lost.empty())
-      fmt::print(stderr, "mpfem: warning: {} is missing; the run begins anew to write it again\n", lost.front());
+      fmt::print(stderr, "mpfem: warning: {} is missing; the run starts again to write it\n", lost.front());
     else if (!damage.empty())
-      throw InputError(fmt::format("{}; no earlier one can be used: run without --resume to begin anew", damage));
+      throw InputError(fmt::format("{}; no earlier one can be used: run without --resume to start again", damage));
     must_begin_anew_ = taken_up_;
     return false;
   }
@@ -198,7 +198,7 @@ private:
     record_ = {};
     mpfem::resume(path, simulation_, record_);
     if (options_.from && !record_.from.empty() && record_.from != identity_.from)
-      throw InputError(fmt::format("{}: the run did not begin at {}; run without --resume to begin anew", path,
+      throw InputError(fmt::format("{}: the run did not begin at {}; run without --resume to start again", path,
                                    one_line(*options_.from)));
     RunIdentity itself = identity_;
     itself.from = record_.from;
@@ -209,7 +209,7 @@ private:
       if (const std::string part = snapshot_path(name); !std::filesystem::exists(part)) {
         if (!rolling || !lost.empty()) return false;
         throw InputError(fmt::format(
-            "{}: the snapshot {} that was taken before the checkpoint is missing; run without --resume to begin anew",
+            "{}: the snapshot {} that was taken before the checkpoint is missing; run without --resume to start again",
             path, part));
       }
     if (!record_.history.empty()) first_step_ = static_cast<std::int64_t>(record_.history.front().step);
@@ -242,9 +242,10 @@ private:
   void drop_unfinished_run() const {
     const std::string rolling = checkpoint_path(options_.output);
     if (!options_.quiet && std::filesystem::exists(rolling))
-      fmt::print(stderr,
-                 "mpfem: {} of an unfinished run is dropped: this run begins anew (--resume would have gone on)\n",
-                 rolling);
+      fmt::print(
+          stderr,
+          "mpfem: {} of an unfinished run is discarded: this run starts again (--resume would have continued it)\n",
+          rolling);
     remove_unfinished(options_.output);
   }
 
@@ -404,7 +405,7 @@ private:
     simulation_.profile().add_serial(Part::output, Profile::since(start));
     if (interrupted || out_of_time) {
       write_result("interrupted");
-      throw Interrupted(fmt::format("{} at step {}, D_r = {:.4f}; go on with --resume",
+      throw Interrupted(fmt::format("{} at step {}, D_r = {:.4f}; continue with --resume",
                                     interrupted ? "interrupted" : "out of time", simulation_.state().step,
                                     simulation_.relative_density()));
     }

@@ -11,7 +11,7 @@ void refuse_foreign_keys(const TableReader& table, const std::vector<std::string
                          const std::vector<std::string>& meaningful, std::string_view choice) {
   for (const std::string& key : all)
     if (table.has(key) && std::find(meaningful.begin(), meaningful.end(), key) == meaningful.end())
-      table.fail(key, fmt::format("has no meaning with {}", choice));
+      table.fail(key, fmt::format("cannot be used with {}", choice));
 }
 
 } // namespace mpfem

@@ -30,7 +30,7 @@ ToolShape read_plane(TableReader& table) {
     static const std::vector<std::string> faces{"-x", "+x", "-y", "+y", "-z", "+z"};
     const std::string face = table.choice("face", faces);
     for (const char* key : {"point", "normal"})
-      if (table.has(key)) table.fail(key, "has no meaning with 'face'");
+      if (table.has(key)) table.fail(key, "cannot be used with 'face'");
     plane.face = static_cast<std::size_t>(std::find(faces.begin(), faces.end(), face) - faces.begin());
     plane.normal = {};
     plane.normal[*plane.face / 2] = *plane.face % 2 == 0 ? 1.0 : -1.0;
@@ -56,7 +56,7 @@ ToolShape read_cylinder(TableReader& table) {
     cylinder.extent = {extent[0], extent[1]};
   }
   cylinder.rounding = table.number_or("rounding", 0, Range::between(0, 1e9));
-  if (cylinder.rounding > 0 && !cylinder.extent) table.fail("rounding", "has no meaning without 'extent'");
+  if (cylinder.rounding > 0 && !cylinder.extent) table.fail("rounding", "is used only with 'extent'");
   const double most = cylinder.extent ? 0.5 * ((*cylinder.extent)[1] - (*cylinder.extent)[0]) : 0;
   if (cylinder.rounding > most && cylinder.extent)
     table.fail("rounding",
@@ -160,7 +160,7 @@ ToolDrive read_drive(TableReader table, std::size_t tool, const ToolShape& shape
     drive.force = table.number("force", Range::between(-largest_force, largest_force));
     drive.servo_speed = table.number("servo_speed", positive_speed);
   } else if (table.has("servo_speed")) {
-    table.fail("servo_speed", "has no meaning without 'force'");
+    table.fail("servo_speed", "is used only with 'force'");
   }
   table.finish();
   return drive;

@@ -363,7 +363,7 @@ TEST_CASE("verdicts of meshes stand side by side, counted, and what a mesh did n
   CHECK_THAT(mesh, Contains("## fig03\n\n| statement | paper | here | verdict |") && Contains("## other") &&
                        Contains("| expected | here |") && Contains("| s | p | o | not judged |"));
   write_text(studies.path("c/fig03/verdict.json"), "{}");
-  CHECK_THROWS_WITH(verdicts_of_mesh({"coarse", studies.path("c")}), Contains("is no list of statements"));
+  CHECK_THROWS_WITH(verdicts_of_mesh({"coarse", studies.path("c")}), Contains("is not a list of statements"));
   CHECK_THROWS_WITH(verdicts_of_mesh({"coarse", studies.path("nothing")}), Contains("nothing: "));
 }
 

@@ -100,7 +100,7 @@ TEST_CASE("points that are not finite are left out of a curve, and no point give
 TEST_CASE("a frame says stage, state, energies over those of the stage, and when the stage may end") {
   const std::string frame = watch_frame(halfway(), 1100);
   INFO(frame);
-  CHECK(contains(frame, "run.checkpoint.h5: mpfem is at work, written 1:40 ago\n"));
+  CHECK(contains(frame, "run.checkpoint.h5: mpfem is running, written 1:40 ago\n"));
   CHECK(contains(frame, "done      first: ended by relative density 0.62\n"));
   CHECK(contains(frame, "stage     2 of 3: second (isotropic_unloading), 45 % of its expected time\n"));
   CHECK(contains(frame, "step      109, t 1.0000 us, dt 0.2000 ns\n"));
@@ -127,7 +127,7 @@ TEST_CASE("a run that is watched ends as one that is not, and the watch with it"
   INFO(both.output + both.messages);
   CHECK(both.exit_code == 0);
   CHECK(both.messages.empty());
-  CHECK(contains(both.output, "run.checkpoint.h5: mpfem is at work"));
+  CHECK(contains(both.output, "run.checkpoint.h5: mpfem is running"));
   CHECK(contains(both.output, "stage     1 of 2: first (isotropic_compaction)"));
   CHECK(contains(both.output, "run.h5: complete"));
   CHECK(contains(both.output, "stage     2 of 2: isotropic_unloading-2 (isotropic_unloading)\n"));
@@ -145,14 +145,14 @@ TEST_CASE("what a killed run has left is shown, also between the renames of its 
   const Outcome killed = watch((folder / "run.h5") + " --once");
   INFO(killed.output);
   CHECK(killed.exit_code == 0);
-  CHECK(contains(killed.output, "run.checkpoint.h5: no mpfem is at work (--resume goes on)"));
+  CHECK(contains(killed.output, "run.checkpoint.h5: no mpfem is running (--resume continues)"));
   CHECK(contains(killed.output, "p / MPa"));
   CHECK_FALSE(contains(killed.output, "ETA       not known"));
   write_text(folder / "run.lock", "");
-  CHECK(contains(watch((folder / "run.h5") + " --once").output, "at work on another machine, or was killed, written"));
+  CHECK(contains(watch((folder / "run.h5") + " --once").output, "running on another machine, or was killed, written"));
   fs::remove(folder / "run.lock");
   fs::remove(folder / "run.checkpoint.h5");
-  CHECK(contains(watch((folder / "run.h5") + " --once").output, "run.checkpoint.previous.h5: no mpfem is at work"));
+  CHECK(contains(watch((folder / "run.h5") + " --once").output, "run.checkpoint.previous.h5: no mpfem is running"));
 }
 
 TEST_CASE("rows of a checkpoint are those of the run file that is written with it") {

@@ -135,5 +135,5 @@ TEST_CASE("a run that is asked to stop while its packing loads ends with exit co
   const Outcome resumed = stop("--resume");
   INFO(resumed.messages);
   CHECK(resumed.exit_code == 5);
-  CHECK_THAT(resumed.messages, Catch::Contains("run.checkpoint.h5 is as it was, go on with --resume"));
+  CHECK_THAT(resumed.messages, Catch::Contains("run.checkpoint.h5 is as it was, continue with --resume"));
 }

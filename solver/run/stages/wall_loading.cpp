@@ -51,10 +51,10 @@ void WallLoading::observe(const StageObservation& observation) {
     s.start_dissipation = s.dissipation = seen.plastic_dissipation + s.damage_dissipation;
     begin(seen);
     if (ends_.dissipation_ratio && !(s.start_dissipation > 0))
-      throw SimulationError(fmt::format(
-          "stage '{}': dissipation_ratio: nothing was dissipated before the stage, so that there is nothing "
-          "to compare with",
-          name_));
+      throw SimulationError(
+          fmt::format("stage '{}': dissipation_ratio: nothing was dissipated before the stage, so there is nothing "
+                      "to compare with",
+                      name_));
   }
   // Damage is a small part and observed now and then, plastic dissipation every time.
   s.damage_dissipation = observation.damage_dissipation.value_or(s.damage_dissipation);

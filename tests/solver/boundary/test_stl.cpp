@@ -160,10 +160,10 @@ TEST_CASE("stored normals are counted where they point away from the triangle's 
   CHECK(stl_body(replaced(text, "normal 0 0 1", "normal 0 0 0"), "test.stl", 1).findings.other_normals == 0);
 }
 
-TEST_CASE("what is no STL file is refused with what was found and what is allowed") {
+TEST_CASE("what is not an STL file is refused with what was found and what is allowed") {
   const std::string binary = binary_stl(unit_cube()), text = text_stl(unit_cube());
   contains(refusal(binary.substr(0, binary.size() - 1)),
-           "test.stl: is no STL file: found 683 bytes, a binary one has 684");
+           "test.stl: is not an STL file: found 683 bytes, a binary one has 684");
   contains(refusal(""), "found 0 bytes");
   contains(refusal(std::string(1000, '\0')), "a binary one has 84 for the 0 triangles");
   contains(refusal("solid nothing\nendsolid\n"), "found no triangle");

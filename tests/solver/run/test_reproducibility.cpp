@@ -94,7 +94,7 @@ TEST_CASE("a run that is asked several times at once to stop, as batch systems d
                                                   command, folder / "run.D0.440.checkpoint.h5"));
   INFO(outcome.messages);
   CHECK(outcome.exit_code == 5);
-  CHECK_THAT(outcome.messages, Catch::Contains("go on with --resume"));
+  CHECK_THAT(outcome.messages, Catch::Contains("continue with --resume"));
   CHECK(schema::validate(folder / "run.checkpoint.h5").empty());
 }
 
@@ -115,7 +115,7 @@ TEST_CASE("resuming a complete run leaves it as it is, and a fresh run does not 
   const Outcome anew =
       run_command(fmt::format("'{}' run {} -o {}", MPFEM_EXECUTABLE, folder / "scenario.toml", folder / "run.h5"));
   CHECK(anew.exit_code == 0);
-  CHECK_THAT(anew.messages, Catch::Contains("begins anew"));
+  CHECK_THAT(anew.messages, Catch::Contains("starts again"));
 }
 
 TEST_CASE("a run may be resumed from another working folder") {

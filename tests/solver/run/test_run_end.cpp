@@ -80,7 +80,7 @@ TEST_CASE("one process at a time works on a run, and what a killed one left stop
     const Outcome second = mpfem_command(command);
     CHECK(second.exit_code == 2);
     CHECK(second.one_error_line("mpfem"));
-    CHECK_THAT(second.messages, Catch::Contains("another mpfem is at work") && Catch::Contains("run.lock"));
+    CHECK_THAT(second.messages, Catch::Contains("another mpfem is writing") && Catch::Contains("run.lock"));
     CHECK_FALSE(fs::exists(folder / "run.h5"));
     CHECK(mpfem_command(replaced(command, "run.h5", "other.h5")).exit_code == 0);
   }
