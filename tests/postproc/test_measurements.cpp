@@ -319,7 +319,7 @@ TEST_CASE("pulling is no compression: it has no strength and no modulus here") {
   for (Row& row : rows) row.axial_strain *= -1;
   rows[60].axial_stress = 50; // a knock
   CHECK_THROWS_WITH(strength(curve_of(folder, rows), {}), Catch::Contains("axial compression"));
-  CHECK_THROWS_WITH(modulus(curve_of(folder, rows), {}), Catch::Contains("no axial loading"));
+  CHECK_THROWS_WITH(modulus(curve_of(folder, rows), {}), Catch::Contains("not an axial loading"));
 }
 
 TEST_CASE("triaxial strength is the peak of q, else q at 15 % axial strain") {
@@ -674,7 +674,7 @@ TEST_CASE("metric commands refuse what they cannot use with one line and exit co
            {"energy " + run + " --packing " + run + " -o " + (folder / "x.json"), "run"},
            {"contact --history " + run + " --stage 7", "found 7"},
            {"contact " + run + " --stage 0", "--history"},
-           {"contact --history " + run + " --pair 0,1", "one of them"},
+           {"contact --history " + run + " --pair 0,1", "not both"},
            {"elastic-recovery " + (folder / "absent.h5"), "no such file"},
            {"strength " + run + " -o " + run, "is the input"}}) {
     const Outcome outcome = postproc(arguments);

@@ -181,9 +181,9 @@ TEST_CASE("postproc refuses what it cannot use with one line and exit code 2") {
            {"section " + run + " --packing " + run + " -o " + (folder / "x.png"), "one of them"},
            {"section --packing " + run + " -o " + (folder / "x.png"), "expected a packing file"},
            {"section " + run + " --view 5,6,5,6 -o " + (folder / "x.png"), "no grain is cut in the view"},
-           {"section " + run, "-o and --data"},
+           {"section " + run, "-o, --data or both"},
            {"summary " + run + " -o " + run, "is the input"},
-           {"vtk -o " + (folder / "x"), "one of them"}}) {
+           {"vtk -o " + (folder / "x"), "either RUN.h5 or --packing"}}) {
     const Outcome outcome = postproc(arguments);
     INFO(arguments << ": " << outcome.messages);
     CHECK(outcome.exit_code == 2);

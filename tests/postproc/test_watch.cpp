@@ -179,7 +179,7 @@ TEST_CASE("a run that has begun over an older run file shows nothing of that one
   fs::remove(folder / "run.checkpoint.previous.h5");
   write_text(folder / "run.lock", "");
   fs::last_write_time(folder / "run.lock", fs::last_write_time(folder / "run.h5") + std::chrono::seconds(1));
-  CHECK(contains(watch((folder / "run.h5") + " --once").output, "mpfem has begun this run"));
+  CHECK(contains(watch((folder / "run.h5") + " --once").output, "mpfem has started this run"));
 }
 
 TEST_CASE("without any file of a run, and with a damaged checkpoint, watch says so in one line") {
