@@ -63,7 +63,7 @@ TEST_CASE("an unfinished run whose stage checkpoint was lost goes on from before
   const Outcome outcome = run_stages(folder, "run.h5", "--resume");
   INFO(outcome.messages);
   CHECK(outcome.exit_code == 0);
-  CHECK_THAT(outcome.messages, Catch::Contains("run.first.checkpoint.h5 is missing; the run goes on from"));
+  CHECK_THAT(outcome.messages, Catch::Contains("run.first.checkpoint.h5 is missing; the run continues from"));
   CHECK(fs::exists(folder / "run.first.checkpoint.h5"));
   CHECK(numbers_of_run(folder / "run.h5") == numbers_of_run(folder / "whole.h5"));
 }
