@@ -172,8 +172,9 @@ struct ConeSurface {
 struct BodySurface {
   static constexpr bool curved = true;
   std::shared_ptr<const TriangulatedSurface> triangles;
-  Vector3<double> centre; ///< mm, the middle of its bounds
-  double reach;           ///< mm in front of it, up to where distances and normals are exact
+  Vector3<double> centre;                     ///< mm, the middle of its bounds
+  double reach;                               ///< mm in front of it, up to where distances and normals are exact
+  std::shared_ptr<const TriangleMesh> mesh{}; ///< what the triangles were made of, for who draws them
 
   bool may_touch(const Bounds& b) const { return triangles->may_touch(b); }
   template <class Point>

@@ -45,6 +45,7 @@ public:
   bool may_touch(const Bounds& bounds) const;
   /// mm, of the triangles.
   const Bounds& bounds() const { return bounds_; }
+  GrainSide side() const { return sign_ < 0 ? GrainSide::inside : GrainSide::outside; }
 
 private:
   /// What is known of all points in a block of space.

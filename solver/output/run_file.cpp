@@ -13,6 +13,7 @@
 #include "results-schema/descriptors.hpp"
 #include "solver/kernels/grain_state.hpp"
 #include "solver/output/bond_laws.hpp"
+#include "solver/output/tool_geometry.hpp"
 
 namespace mpfem {
 
@@ -197,6 +198,12 @@ void write_provenance(schema::FileWriter& file, const Model& model, const Proven
   if (!provenance.from.empty()) file.write_scalar(run::provenance_from, provenance.from);
 }
 
+std::vector<std::string> names_of(const Tools& tools) {
+  std::vector<std::string> names;
+  for (std::size_t i = 0; i < tools.size(); ++i) names.push_back(tools[i].name);
+  return names;
+}
+
 } // namespace
 
 void write_snapshot_file(const std::string& path, const SnapshotState& state) {
@@ -232,6 +239,7 @@ void write_snapshot_file(const std::string& path, const SnapshotState& state) {
   file.write(run::snapshots_pair_area, std::span<const double>(area), area.size(), name);
   write_wall_forces(file, name, model, state.box);
   if (state.wall_friction.present()) write_wall_friction(file, name, state.wall_friction);
+  write_placed_tools(file, name, state.tools);
   if (state.contact.bonding()) {
     write_bonds_of_pairs(file, name, pairs);
     write_bonds(file, name, model, state.contact);
@@ -243,7 +251,8 @@ void write_run_file(const std::string& path, const Model& model, const RunHistor
                     const std::vector<std::string>& snapshot_files, const Provenance& provenance) {
   schema::FileWriter file(path, schema::FileKind::run, fmt::format("mpfem {}", version_and_commit()));
   write_history(file, history.rows, provenance.columns);
-  write_tool_history(file, history.tools, history.tool_rows);
+  write_tool_history(file, names_of(history.tools), history.tool_rows);
+  write_tool_geometry(file, history.tools);
 
   write_mesh(file, model);
   for (std::size_t i = 0; i < snapshot_files.size(); ++i) {

@@ -48,7 +48,7 @@ struct Provenance {
 /// What a run recorded row by row.
 struct RunHistory {
   const std::vector<HistoryRow>& rows;
-  std::vector<std::string> tools;        ///< names
+  const Tools& tools;
   const std::vector<ToolRow>& tool_rows; ///< of all tools for each row
 };
 

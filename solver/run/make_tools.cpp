@@ -49,7 +49,8 @@ BodySurface body_of(const StlShape& shape) {
   const Vector3<double> centre{0.5 * (b.low[0] + b.high[0]), 0.5 * (b.low[1] + b.high[1]),
                                0.5 * (b.low[2] + b.high[2])};
   const GrainSide side = shape.inside ? GrainSide::inside : GrainSide::outside;
-  return {std::make_shared<const TriangulatedSurface>(body.mesh, side), centre, near * diagonal};
+  return {std::make_shared<const TriangulatedSurface>(body.mesh, side), centre, near * diagonal,
+          std::make_shared<const TriangleMesh>(body.mesh)};
 }
 
 } // namespace

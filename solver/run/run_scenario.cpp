@@ -457,8 +457,7 @@ private:
     provenance.profile_seconds.push_back(record.wall_time - accounted);
     std::vector<std::string> snapshots;
     for (const std::string& name : record_.snapshot_files) snapshots.push_back(snapshot_path(name));
-    RunHistory history{record_.history, {}, record_.tool_history};
-    for (const ToolParameters& tool : scenario_.tools) history.tools.push_back(tool.name);
+    const RunHistory history{record_.history, simulation_.tools(), record_.tool_history};
     write_run_file(options_.output, simulation_.model(), history, snapshots, provenance);
   }
 

@@ -10,6 +10,8 @@
 #include <fmt/format.h>
 
 #include "results-schema/file.hpp"
+#include "solver/output/tool_geometry.hpp"
+#include "solver/run/make_tools.hpp"
 #include "tests/support/bonded_pair.hpp"
 #include "tests/support/small_runs.hpp"
 #include "tests/support/tolerances.hpp"
@@ -397,6 +399,66 @@ TEST_CASE("a press keeps the ledger, and its forces balance") {
   CHECK(within(stress[6 * row], wall / (M_PI * 0.58 * lengths[3 * row + 2]), 1e-12));
   // Of eight grains of ball_mesh(4, 0.1).
   CHECK(within(file.read(schema::run::history_relative_density)[row], 0.45, 1e-6));
+}
+
+TEST_CASE("a run file has the surfaces of its tools as the scenario has them, and where they stand in each snapshot") {
+  namespace run = schema::run;
+  const Folder folder;
+  prepare(folder, 3, tablet_text);
+  REQUIRE(mpfem_command(fmt::format("run {} -o {} --quiet", folder / "scenario.toml", folder / "run.h5")).exit_code ==
+          0);
+  const schema::FileReader file(folder / "run.h5", schema::FileKind::run);
+  CHECK(file.members(run::tools_shape) == std::vector<std::string>{"die", "lower", "plate", "upper"});
+  CHECK(file.read_scalar(run::tools_shape, "die") == "cylinder");
+  CHECK(file.read_scalar(run::tools_inside, "die") == 1);
+  CHECK(file.read_scalar(run::tools_radius, "die") == 0.29);
+  CHECK(file.read_scalar(run::tools_half_length, "die") == 0.25);
+  CHECK(file.read_scalar(run::tools_rounding, "die") == 0.03);
+  CHECK(file.read(run::tools_direction, "die") == std::vector<double>{0, 0, 1});
+  CHECK(within(file.read(run::tools_point, "die")[2], 0.15, 1e-12));
+  CHECK(file.read_scalar(run::tools_shape, "plate") == "plane");
+  CHECK(file.read(run::tools_direction, "plate") == std::vector<double>{-1, 0, 0});
+  // Each stage ends with a snapshot and a row; whatever is withdrawn then is not in place.
+  using Names = std::vector<std::string>;
+  const Names last = file.read(run::snapshots_tool_name, file.snapshots().back());
+  CHECK(last == Names{"lower", "plate"});
+  CHECK(file.read(run::snapshots_tool_name, file.snapshots().front()) == Names{"die", "lower", "upper"});
+  const auto displacement = file.read(run::snapshots_tool_displacement, file.snapshots().back());
+  const auto lower = file.read(run::history_tools_displacement, "lower");
+  const auto plate = file.read(run::history_tools_displacement, "plate");
+  CHECK(std::vector(displacement.begin(), displacement.begin() + 3) == std::vector(lower.end() - 3, lower.end()));
+  CHECK(std::vector(displacement.begin() + 3, displacement.end()) == std::vector(plate.end() - 3, plate.end()));
+}
+
+TEST_CASE("spheres, cones, endless cylinders and triangles are written with all that makes them") {
+  namespace run = schema::run;
+  const Folder folder;
+  write_text(folder / "slab.stl", slab_stl({0, 0, 0.1}, {1, 1, 0.4}));
+  Scenario scenario = holding_scenario(1);
+  scenario.tools = {{"ball", SphereShape{{0.1, 0.2, 0.3}, 0.05, true}, 0},
+                    {"funnel", ConeShape{1, -1, {0.5, 0.9, 0.5}, 0.4, true}, 0},
+                    {"roller", CylinderShape{0, std::array{0.5, 0.5, 2.0}, 0.7, false, {}, 0}, 0},
+                    {"slab", StlShape{folder / "slab.stl", 1000, false}, 0}};
+  GrainMesh ball = ball_mesh(4, 0.1);
+  move(ball, {0.5, 0.5, 0.6});
+  const Model model = build_model(pack({ball}, {1, 1, 1}), scenario, "test");
+  {
+    schema::FileWriter writer(folder / "tools.h5", schema::FileKind::run, "mpfem tests");
+    write_tool_geometry(writer, make_tools(scenario.tools, model));
+    writer.commit();
+  }
+  const schema::FileReader file(folder / "tools.h5", schema::FileKind::run);
+  CHECK(file.read_scalar(run::tools_inside, "ball") == 1);
+  CHECK(file.read_scalar(run::tools_radius, "ball") == 0.05);
+  CHECK(file.read(run::tools_point, "ball") == std::vector<double>{0.1, 0.2, 0.3});
+  CHECK(within(file.read_scalar(run::tools_half_angle, "funnel"), 0.4, 1e-14));
+  CHECK(file.read(run::tools_direction, "funnel") == std::vector<double>{0, -1, 0});
+  CHECK(file.read_scalar(run::tools_inside, "roller") == 0);
+  CHECK_FALSE(file.has(run::tools_half_length, "roller"));
+  CHECK(file.rows(run::tools_vertex, "slab") == 8);
+  CHECK(file.rows(run::tools_triangle, "slab") == 12);
+  const auto vertex = file.read(run::tools_vertex, "slab");
+  CHECK(*std::max_element(vertex.begin(), vertex.end()) == Approx(1).epsilon(1e-12)); // mm, of a file in metres
 }
 
 TEST_CASE("a branch goes on with the tools where they stand, and refuses others") {
