@@ -24,7 +24,7 @@ target_link_libraries(gmsh_api INTERFACE ${GMSH_LIBRARY})
 
 # Pictures in three dimensions (postproc picture) are built where VTK is there; ./bootstrap pictures installs it.
 find_package(VTK 9 QUIET COMPONENTS CommonCore CommonDataModel FiltersCore FiltersSources IOImage RenderingCore
-             RenderingFreeType RenderingOpenGL2)
+             RenderingFreeType RenderingOpenGL2 OPTIONAL_COMPONENTS IOXML)
 find_package(OpenGL QUIET COMPONENTS EGL)
 find_package(GLEW QUIET)
 set(MPFEM_PICTURES OFF)

@@ -93,19 +93,52 @@ BandRaster paint_bands(const Lines& lines, const TetRaster& fine, const std::vec
   return raster;
 }
 
-/// The colours of fine pixels, `fineness` along a side of a pixel: bands over outlines over the mesh over the tets.
+/// The number of the tool at every fine pixel, counted from 1; 0 where there is none.
+std::vector<std::uint16_t> rasterise_tools(const std::vector<std::vector<OutlinePiece>>& tools, const View& view,
+                                           int width, int height) {
+  std::vector<std::uint16_t> number;
+  if (tools.empty()) return number;
+  number.resize(static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
+  const double sx = width / (view.high[0] - view.low[0]), sy = height / (view.high[1] - view.low[1]);
+  for (std::size_t tool = 0; tool < tools.size(); ++tool) {
+    std::vector<std::vector<double>> crossings(static_cast<std::size_t>(height)); // of the rows' middles
+    for (const OutlinePiece& piece : tools[tool]) {
+      const double x0 = (piece.from[0] - view.low[0]) * sx, y0 = (view.high[1] - piece.from[1]) * sy;
+      const double x1 = (piece.to[0] - view.low[0]) * sx, y1 = (view.high[1] - piece.to[1]) * sy;
+      const auto row_at = [&](double y) { return static_cast<int>(std::clamp(std::ceil(y - 0.5), 0.0, height * 1.0)); };
+      const int first = row_at(std::min(y0, y1)), end = row_at(std::max(y0, y1));
+      for (int row = first; row < end; ++row)
+        crossings[static_cast<std::size_t>(row)].push_back(x0 + (row + 0.5 - y0) / (y1 - y0) * (x1 - x0));
+    }
+    for (std::size_t row = 0; row < crossings.size(); ++row) {
+      std::vector<double>& x = crossings[row];
+      std::sort(x.begin(), x.end());
+      for (std::size_t i = 0; i + 1 < x.size(); i += 2) {
+        const auto column_at = [&](double at) {
+          return static_cast<std::ptrdiff_t>(std::clamp(std::ceil(at - 0.5), 0.0, width * 1.0));
+        };
+        const auto begin = number.begin() + static_cast<std::ptrdiff_t>(row) * width;
+        std::fill(begin + column_at(x[i]), begin + column_at(x[i + 1]), static_cast<std::uint16_t>(tool + 1));
+      }
+    }
+  }
+  return number;
+}
+
+/// The colours of fine pixels, `fineness` along a side of a pixel: bands over outlines over the mesh over the tets,
+/// and tools where there are none.
 class FinePicture {
 public:
-  FinePicture(const TetRaster& fine, const BandRaster& bands, const std::vector<Colour>& tet_colour,
-              const std::vector<std::int32_t>& tet_grain, const Lines& lines)
-      : fine_(fine), bands_(bands), tet_colour_(tet_colour), tet_grain_(tet_grain), lines_(lines) {}
+  FinePicture(const TetRaster& fine, const BandRaster& bands, const std::vector<std::uint16_t>& tools,
+              const std::vector<Colour>& tet_colour, const std::vector<std::int32_t>& tet_grain, const Lines& lines)
+      : fine_(fine), bands_(bands), tools_(tools), tet_colour_(tet_colour), tet_grain_(tet_grain), lines_(lines) {}
 
   const Colour& colour_at(int x, int y) const {
-    static constexpr Colour mesh_line{90, 90, 90}, empty{255, 255, 255};
+    static constexpr Colour mesh_line{90, 90, 90};
     const std::size_t at = index(x, y);
     if (!bands_.painted.empty() && bands_.painted[at]) return bands_.colour[at];
     const std::int32_t tet = fine_.tet[at];
-    if (tet < 0) return empty;
+    if (tet < 0) return colour_beside(x, y);
     if (on_outline(x, y)) return lines_.outline;
     if (lines_.mesh && (tet_at(x + 1, y) != tet || tet_at(x, y + 1) != tet)) return mesh_line;
     return tet_colour_[static_cast<std::size_t>(tet)];
@@ -115,6 +148,20 @@ private:
   std::size_t index(int x, int y) const {
     return static_cast<std::size_t>(y) * static_cast<std::size_t>(fine_.width) + static_cast<std::size_t>(x);
   }
+  const Colour& colour_beside(int x, int y) const {
+    static constexpr Colour empty{255, 255, 255}, tool{205, 208, 212}, rim{70, 74, 80};
+    const int number = tool_at(x, y);
+    if (number == 0) return empty;
+    for (const auto& [dx, dy] : {std::pair{reach(), 0}, {-reach(), 0}, {0, reach()}, {0, -reach()}})
+      if (const int other = tool_at(x + dx, y + dy); other >= 0 && other != number) return rim;
+    return tool;
+  }
+  /// -1 beyond the picture.
+  int tool_at(int x, int y) const {
+    if (tools_.empty()) return 0;
+    return x < 0 || y < 0 || x >= fine_.width || y >= fine_.height ? -1 : tools_[index(x, y)];
+  }
+  static int reach() { return std::max(1, static_cast<int>(std::lround(line_pixels * fineness))); }
   std::int32_t tet_at(int x, int y) const {
     return x < 0 || y < 0 || x >= fine_.width || y >= fine_.height ? -1 : fine_.tet[index(x, y)];
   }
@@ -124,16 +171,16 @@ private:
   }
   /// Where another grain, or none, lies within the line's half width.
   bool on_outline(int x, int y) const {
-    static const int reach = std::max(1, static_cast<int>(std::lround(line_pixels * fineness)));
     const std::int32_t grain = grain_at(x, y);
     for (const auto& [dx, dy] :
-         {std::pair{reach, 0}, {-reach, 0}, {0, reach}, {0, -reach}, {1, 0}, {-1, 0}, {0, 1}, {0, -1}})
+         {std::pair{reach(), 0}, {-reach(), 0}, {0, reach()}, {0, -reach()}, {1, 0}, {-1, 0}, {0, 1}, {0, -1}})
       if (grain_at(x + dx, y + dy) != grain) return true;
     return false;
   }
 
   const TetRaster& fine_;
   const BandRaster& bands_;
+  const std::vector<std::uint16_t>& tools_;
   const std::vector<Colour>& tet_colour_;
   const std::vector<std::int32_t>& tet_grain_;
   const Lines& lines_;
@@ -163,7 +210,8 @@ Raster draw_section(const std::vector<SectionPolygon>& polygons, const std::vect
   raster.height = std::max(1, static_cast<int>(std::lround(extent[1] / size)));
   const TetRaster tets = rasterise(polygons, view, fineness * raster.width, fineness * raster.height);
   const BandRaster bands = paint_bands(lines, tets, tet_grain, view);
-  const FinePicture fine(tets, bands, tet_colour, tet_grain, lines);
+  const std::vector<std::uint16_t> tools = rasterise_tools(lines.tools, view, tets.width, tets.height);
+  const FinePicture fine(tets, bands, tools, tet_colour, tet_grain, lines);
   for (int row = 0; row < raster.height; ++row)
     for (int column = 0; column < raster.width; ++column) raster.pixel.push_back(mean_colour(fine, row, column));
   return raster;

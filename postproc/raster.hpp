@@ -7,6 +7,7 @@
 
 #include "postproc/colour_scale.hpp"
 #include "postproc/section.hpp"
+#include "postproc/tool_outline.hpp"
 
 namespace mpfem {
 
@@ -28,12 +29,14 @@ struct Band {
   std::int32_t grain = 0;
 };
 
-/// What is drawn over the polygons.
+/// What is drawn over the polygons, and beside them.
 struct Lines {
   bool mesh = false;          ///< thin ones between tets
   Colour outline{25, 25, 25}; ///< between different grains and around them
   std::vector<Band> bands;    ///< over the outlines
   double band_pixels = 5;     ///< width of a band
+  /// Of rigid tools, filled with grey where no grain is.
+  std::vector<std::vector<OutlinePiece>> tools;
 };
 
 /// Fills the polygons with their tets' colours (one a tet) and draws lines over them. `pixels` along the longer side;

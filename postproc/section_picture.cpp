@@ -40,6 +40,10 @@ struct VisibleSection {
   std::vector<SectionPolygon> polygons;
 };
 
+bool draws_tools(const Snapshot& snapshot, const PictureRequest& request) {
+  return request.tools && !snapshot.tools.empty();
+}
+
 /// Throws InputError where there are none.
 VisibleSection visible_section(const Snapshot& snapshot, const PictureRequest& request) {
   std::vector<SectionPolygon> polygons = cut(snapshot, request.plane);
@@ -48,7 +52,12 @@ VisibleSection visible_section(const Snapshot& snapshot, const PictureRequest& r
   if (polygons.empty())
     throw InputError(fmt::format("the plane at {:g} mm cuts no grain; the box spans {:g} … {:g} mm along this axis",
                                  request.plane.position, low[axis], high[axis]));
-  const View view = request.view.value_or(View{{low[u], low[v]}, {high[u], high[v]}});
+  View view{{low[u], low[v]}, {high[u], high[v]}};
+  if (draws_tools(snapshot, request)) {
+    const DrawnExtent extent = drawn_extent(snapshot);
+    view = {{extent.low[u], extent.low[v]}, {extent.high[u], extent.high[v]}};
+  }
+  view = request.view.value_or(view);
   std::erase_if(polygons, [&](const SectionPolygon& polygon) { return !overlaps(polygon, view); });
   if (polygons.empty())
     throw InputError(fmt::format(
@@ -96,10 +105,14 @@ std::vector<Colour> tet_colours(const Snapshot& snapshot, const Shown& shown, co
   return colour;
 }
 
-/// The tets' edges where the request has them, and of damage a band along each boundary that has been bonded.
+/// The tools, the tets' edges where the request has them, and of damage a band along each boundary that has been
+/// bonded.
 Lines lines_over(const Snapshot& snapshot, const Shown& shown, const Scale& scale, const PictureRequest& request) {
   Lines lines;
   lines.mesh = request.mesh_lines;
+  if (draws_tools(snapshot, request))
+    for (const ToolBody& body : tool_bodies(snapshot, drawn_extent(snapshot)))
+      lines.tools.push_back(section_outline(body, request.plane));
   if (!shown.damage) return lines;
   lines.outline = {140, 140, 140};
   lines.band_pixels = std::max(1.0, 5 * request.pixels / 900.0);

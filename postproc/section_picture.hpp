@@ -19,7 +19,8 @@ struct PictureRequest {
   std::string title; ///< default: the relative density
   int pixels = 900;
   bool mesh_lines = false;
-  std::optional<View> view; ///< default: the box
+  bool tools = true;        ///< draw rigid tools that are in place
+  std::optional<View> view; ///< default: the box, or what is drawn of tools around it
 };
 
 /// The field "damage" is drawn along the grains' boundaries, on a scale from 0 to 1 where no range is given: a coloured

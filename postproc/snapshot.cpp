@@ -109,6 +109,7 @@ Snapshot read_snapshot(const schema::FileReader& file, int number) {
     s.node_fields.push_back(field(run::snapshots_damage, "damage", s.nodes()));
   check_size(s.velocity, 3 * s.nodes(), run::snapshots_velocity.path, path);
   s.tet_fields.push_back({"grain", "1", {s.tet_grain.begin(), s.tet_grain.end()}});
+  s.tools = placed_tools(file, s.name);
   return s;
 }
 

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "postproc/tool_geometry.hpp"
 #include "results-schema/file.hpp"
 
 namespace mpfem {
@@ -24,7 +25,8 @@ struct Snapshot {
   std::vector<std::int32_t> tet;                          ///< [tets * 4]
   std::vector<std::int32_t> tet_grain;                    ///< [tets]
   std::vector<Field> tet_fields, node_fields;
-  std::vector<float> velocity; ///< [nodes * 3], mm/s; empty for a packing
+  std::vector<float> velocity;     ///< [nodes * 3], mm/s; empty for a packing
+  std::vector<ToolGeometry> tools; ///< rigid ones in place
 
   std::size_t nodes() const { return node.size() / 3; }
   std::size_t tets() const { return tet.size() / 4; }

@@ -1,5 +1,6 @@
 #include "postproc/vtk.hpp"
 
+#include <algorithm>
 #include <cstring>
 #include <filesystem>
 #include <span>
@@ -9,6 +10,7 @@
 #include "common/errors.hpp"
 #include "common/progress.hpp"
 #include "postproc/text_file.hpp"
+#include "postproc/tool_surface.hpp"
 
 namespace mpfem {
 
@@ -88,6 +90,44 @@ std::string vtu_text(const Snapshot& s) {
   return xml.append(appended.bytes()).append(end);
 }
 
+std::string tools_vtp_text(const Snapshot& s, const std::vector<std::string>& names) {
+  const DrawnExtent extent = drawn_extent(s);
+  const std::vector<ToolBody> bodies = tool_bodies(s, extent);
+  std::vector<float> position, normal;
+  std::vector<std::int32_t> connectivity, ends, tool;
+  for (const SolidTriangle& t : tool_surface(bodies, extent, {})) {
+    for (const SolidVertex& vertex : t.corner) {
+      connectivity.push_back(static_cast<std::int32_t>(connectivity.size()));
+      for (const double x : vertex.position) position.push_back(static_cast<float>(x));
+      for (const double x : vertex.normal) normal.push_back(static_cast<float>(x));
+    }
+    ends.push_back(static_cast<std::int32_t>(connectivity.size()));
+    const auto found = std::find(names.begin(), names.end(), bodies[static_cast<std::size_t>(t.grain)].name);
+    tool.push_back(static_cast<std::int32_t>(found - names.begin()));
+  }
+  using Floats = std::span<const float>;
+  using Integers = std::span<const std::int32_t>;
+  Appended appended(8 * sizeof(float) * position.size() + 1024);
+  std::string xml = "<?xml version=\"1.0\"?>\n"
+                    "<VTKFile type=\"PolyData\" version=\"1.0\" byte_order=\"LittleEndian\" header_type=\"UInt64\">\n"
+                    "  <!-- mm; tools by number: ";
+  for (std::size_t i = 0; i < names.size(); ++i) xml += fmt::format("{}{} {}", i > 0 ? ", " : "", i, names[i]);
+  xml += fmt::format(" -->\n  <PolyData>\n    <FieldData>\n      <DataArray type=\"Float64\" Name=\"TimeValue\" "
+                     "NumberOfTuples=\"1\" format=\"ascii\">{}</DataArray>\n    </FieldData>\n"
+                     "    <Piece NumberOfPoints=\"{}\" NumberOfPolys=\"{}\">\n      <Points>\n",
+                     s.time, connectivity.size(), tool.size());
+  xml += appended.array("position [mm]", "Float32", 3, Floats(position));
+  xml += "      </Points>\n      <Polys>\n";
+  xml += appended.array("connectivity", "Int32", 1, Integers(connectivity));
+  xml += appended.array("offsets", "Int32", 1, Integers(ends));
+  xml += "      </Polys>\n      <PointData Normals=\"normal\">\n";
+  xml += appended.array("normal", "Float32", 3, Floats(normal));
+  xml += "      </PointData>\n      <CellData>\n";
+  xml += appended.array("tool", "Int32", 1, Integers(tool));
+  xml += "      </CellData>\n    </Piece>\n  </PolyData>\n  <AppendedData encoding=\"raw\">\n_";
+  return xml.append(appended.bytes()).append("\n  </AppendedData>\n</VTKFile>\n");
+}
+
 std::string pvd_text(const std::vector<Frame>& frames) {
   std::string xml = "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"1.0\" "
                     "byte_order=\"LittleEndian\">\n  <Collection>\n";
@@ -106,17 +146,25 @@ std::vector<std::string> write_run_as_vtk(const schema::FileReader& file, const 
   if (error) throw StorageError(fmt::format("{}: cannot be made: {}", folder, error.message()));
   Progress progress("postproc", quiet);
   std::vector<std::string> files;
-  std::vector<Frame> frames;
+  const auto write = [&](const std::string& name, const std::string& text) {
+    files.push_back((std::filesystem::path(folder) / name).string());
+    write_file(files.back(), text);
+  };
+  // Where all tools are withdrawn their file is empty: without one, ParaView would go on showing the last.
+  const std::vector<std::string> tools = file.members(schema::run::tools_shape);
+  std::vector<Frame> frames, tool_frames;
   for (int i = 0; i < count; ++i) {
     const Snapshot snapshot = read_snapshot(file, i);
-    const std::string name = snapshot.name + ".vtu";
-    files.push_back((std::filesystem::path(folder) / name).string());
-    write_file(files.back(), vtu_text(snapshot));
-    frames.push_back({name, snapshot.time});
-    progress.update((i + 1.0) / count, name);
+    frames.push_back({snapshot.name + ".vtu", snapshot.time});
+    write(frames.back().file, vtu_text(snapshot));
+    if (!tools.empty()) {
+      tool_frames.push_back({snapshot.name + "-tools.vtp", snapshot.time});
+      write(tool_frames.back().file, tools_vtp_text(snapshot, tools));
+    }
+    progress.update((i + 1.0) / count, frames.back().file);
   }
-  files.push_back((std::filesystem::path(folder) / "run.pvd").string());
-  write_file(files.back(), pvd_text(frames));
+  if (!tools.empty()) write("tools.pvd", pvd_text(tool_frames));
+  write("run.pvd", pvd_text(frames));
   progress.finish(files.back());
   return files;
 }

@@ -56,11 +56,14 @@ private:
                "low,high of the colour scale (default: from the data; of damage 0,1)")
         ->delimiter(',')
         ->expected(2);
-    add_number(options(), "--view", view_, coordinates, "mm",
-               "Part of the plane to show: low,high of its first and of its second coordinate (default: the box)")
+    add_number(
+        options(), "--view", view_, coordinates, "mm",
+        "Part of the plane to show: low,high of its first and of its second coordinate (default: the box, or what "
+        "is drawn of tools around it)")
         ->delimiter(',')
         ->expected(4);
     add_drawing(options(), picture_, "", "the relative density", "the elements");
+    options().add_flag("!--without-tools", picture_.tools, "Leave out rigid tools");
   }
 
   /// Without --position the plane halves the box.

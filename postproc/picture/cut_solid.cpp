@@ -62,13 +62,14 @@ void add_triangles(std::vector<SolidTriangle>& triangles, const Polygon& polygon
 
 /// What the half-spaces leave of a polygon of a grain's surface: in turn the part outside each, of what is inside all
 /// before it.
-void add_surface(std::vector<SolidTriangle>& triangles, Polygon polygon, std::int32_t grain, const CutAway& away) {
+void add_surface(std::vector<SolidTriangle>& triangles, Polygon polygon, std::int32_t grain, std::int32_t face,
+                 const CutAway& away) {
   for (const HalfSpace& half_space : away) {
     Parts parts = split(polygon, half_space);
-    add_triangles(triangles, parts.outside, grain, 0);
+    add_triangles(triangles, parts.outside, grain, face);
     polygon = std::move(parts.inside);
   }
-  if (away.empty()) add_triangles(triangles, polygon, grain, 0);
+  if (away.empty()) add_triangles(triangles, polygon, grain, face);
 }
 
 /// The section of a tet with the plane that bounds a half-space: a triangle, a quadrilateral, or nothing. It faces the
@@ -188,7 +189,7 @@ std::vector<SolidTriangle> cut_solid(const Snapshot& snapshot, const ShownField&
       polygon.push_back(
           {position_of(snapshot, node), smooth_normal(around, area_vector, n, area_vector[f]), field.value[n]});
     }
-    add_surface(triangles, std::move(polygon), facets[f].grain, away);
+    add_surface(triangles, std::move(polygon), facets[f].grain, 0, away);
   }
   for (std::size_t cut = 0; cut < away.size(); ++cut)
     for (std::size_t t = 0; t < snapshot.tets(); ++t) {
@@ -201,6 +202,13 @@ std::vector<SolidTriangle> cut_solid(const Snapshot& snapshot, const ShownField&
       add_cut(triangles, corner, snapshot.tet_grain[t], away, cut);
     }
   return triangles;
+}
+
+std::vector<SolidTriangle> cut_surface(const std::vector<SolidTriangle>& triangles, const CutAway& away) {
+  std::vector<SolidTriangle> left;
+  for (const SolidTriangle& t : triangles)
+    add_surface(left, {t.corner[0], t.corner[1], t.corner[2]}, t.grain, t.face, away);
+  return left;
 }
 
 } // namespace mpfem

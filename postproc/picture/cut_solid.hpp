@@ -48,4 +48,7 @@ ShownField shown_field(const Snapshot& snapshot, const std::string& name);
 /// ordered by grain, then the cuts, face by face.
 std::vector<SolidTriangle> cut_solid(const Snapshot& snapshot, const ShownField& field, const CutAway& away);
 
+/// What is left of triangles that bound nothing; no faces close them.
+std::vector<SolidTriangle> cut_surface(const std::vector<SolidTriangle>& triangles, const CutAway& away);
+
 } // namespace mpfem

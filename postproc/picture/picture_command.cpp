@@ -64,6 +64,7 @@ public:
     options().add_flag("--bonds", request_.bonds,
                        "Draw bonds from grain to grain in the part that is cut away: whole ones blue, as thick as "
                        "their area is large, broken ones orange");
+    options().add_flag("!--without-tools", request_.tools, "Leave out rigid tools");
   }
 
 private:

@@ -12,6 +12,7 @@
 #include "common/one_line.hpp"
 #include "postproc/field_display.hpp"
 #include "postproc/tet_geometry.hpp"
+#include "postproc/tool_surface.hpp"
 
 namespace mpfem {
 
@@ -98,6 +99,18 @@ CutAway cut_away(const Snapshot& snapshot, const SceneRequest& request) {
   return away;
 }
 
+CutAway tool_cut_away(const Snapshot& snapshot, const SceneRequest& request) {
+  const Eigen::Vector3d camera = towards_camera(request.camera);
+  SceneRequest of_tools = request;
+  if (request.cut == "none") of_tools.cut = std::abs(camera[0]) > std::abs(camera[1]) ? "x" : "y";
+  CutAway away = cut_away(snapshot, of_tools);
+  if (request.cut == "octant") away.pop_back(); // that of z
+  // A little more of tools than of grains: where both overlap, as penalty contact lets them, the grains are seen.
+  const Eigen::Vector3d box = vector_of(snapshot.box_high) - vector_of(snapshot.box_low);
+  for (HalfSpace& half_space : away) half_space.offset += 1e-3 * box.maxCoeff();
+  return away;
+}
+
 std::vector<BondRod> bond_rods(const schema::FileReader& file, const Snapshot& snapshot, const CutAway& away) {
   namespace run = schema::run;
   if (!file.has(run::snapshots_pair_damage, snapshot.name))
@@ -126,6 +139,28 @@ std::pair<double, double> range_of(const std::vector<SolidTriangle>& triangles, 
   return colour_range(std::move(value_and_area));
 }
 
+namespace {
+
+/// Light steel, cut faces a little darker.
+CornerColours tool_colours(const SolidTriangle& triangle) {
+  constexpr Colour surface{222, 226, 231}, cut{186, 192, 199};
+  const Colour& colour = triangle.face == 0 ? surface : cut;
+  return {colour, colour, colour};
+}
+
+void add_tools(PictureScene& scene, const Snapshot& snapshot, const SceneRequest& request) {
+  if (!request.tools || snapshot.tools.empty()) return;
+  const DrawnExtent extent = drawn_extent(snapshot);
+  const std::int32_t first = 1 + *std::max_element(snapshot.tet_grain.begin(), snapshot.tet_grain.end());
+  for (SolidTriangle t : tool_surface(tool_bodies(snapshot, extent), extent, tool_cut_away(snapshot, request))) {
+    t.grain += first;
+    scene.triangles.push_back(t);
+    scene.colours.push_back(tool_colours(t));
+  }
+}
+
+} // namespace
+
 PictureScene make_scene(const Snapshot& snapshot, const SceneRequest& request) {
   const ShownField field = shown_field(snapshot, field_of(request.colour));
   PictureScene scene;
@@ -137,6 +172,8 @@ PictureScene make_scene(const Snapshot& snapshot, const SceneRequest& request) {
   scene.colours.reserve(scene.triangles.size());
   for (const SolidTriangle& t : scene.triangles)
     scene.colours.push_back(colours_of(t, request.colour == "grain", range));
+  scene.first_of_tools = scene.triangles.size();
+  add_tools(scene, snapshot, request);
   scene.box_low = vector_of(snapshot.box_low);
   scene.box_high = vector_of(snapshot.box_high);
   scene.towards_camera = towards_camera(request.camera);
@@ -153,10 +190,11 @@ ShownBox bounds_of(const PictureScene& scene) {
   const Eigen::Vector3d beyond = 0.3 * (scene.box_high - scene.box_low);
   const Eigen::Vector3d lowest = scene.box_low - beyond, highest = scene.box_high + beyond;
   ShownBox bounds{scene.box_low, scene.box_high};
-  for (const SolidTriangle& t : scene.triangles)
-    for (const SolidVertex& vertex : t.corner) {
-      bounds.low = bounds.low.cwiseMin(vertex.position.cwiseMax(lowest));
-      bounds.high = bounds.high.cwiseMax(vertex.position.cwiseMin(highest));
+  for (std::size_t t = 0; t < scene.triangles.size(); ++t)
+    for (const SolidVertex& vertex : scene.triangles[t].corner) {
+      const bool all = t >= scene.first_of_tools;
+      bounds.low = bounds.low.cwiseMin(all ? vertex.position : vertex.position.cwiseMax(lowest));
+      bounds.high = bounds.high.cwiseMax(all ? vertex.position : vertex.position.cwiseMin(highest));
     }
   return bounds;
 }

@@ -22,6 +22,7 @@ struct SceneRequest {
   std::optional<std::pair<double, double>> range;
   std::string title; ///< default: relative density and mean stress
   bool bonds = false;
+  bool tools = true; ///< draw rigid tools that are in place
 };
 
 const std::vector<std::string>& colour_names();
@@ -32,6 +33,10 @@ Eigen::Vector3d towards_camera(const std::array<double, 2>& angles);
 
 /// What is cut away: of an axis the camera's side of the plane, of the octant that of all three planes.
 CutAway cut_away(const Snapshot& snapshot, const SceneRequest& request);
+
+/// What is cut away of tools, so that grains are seen: with an octant of the grains the whole quarter above and below
+/// it, with nothing of them the half towards the camera; else the same.
+CutAway tool_cut_away(const Snapshot& snapshot, const SceneRequest& request);
 
 /// Two grains that are bonded or have been, drawn as a rod from centre to centre.
 struct BondRod {
@@ -47,8 +52,9 @@ std::vector<BondRod> bond_rods(const schema::FileReader& file, const Snapshot& s
 using CornerColours = std::array<Colour, 3>;
 
 struct PictureScene {
-  std::vector<SolidTriangle> triangles;
-  std::vector<CornerColours> colours; ///< of the triangles
+  std::vector<SolidTriangle> triangles; ///< of grains, then of tools, whose numbers follow those of the grains
+  std::vector<CornerColours> colours;   ///< of the triangles
+  std::size_t first_of_tools = 0;       ///< where the tools' triangles begin
   std::vector<BondRod> rods;
   Eigen::Vector3d box_low, box_high; ///< mm
   Eigen::Vector3d towards_camera;
@@ -68,7 +74,7 @@ struct ShownBox {
 };
 
 /// Around the scene's box and its grains, as far as these lie within 0.3 of the box's lengths: grains of a sample that
-/// fails fly off.
+/// fails fly off. Around all that is drawn of tools.
 ShownBox bounds_of(const PictureScene& scene);
 ShownBox united(const ShownBox& a, const ShownBox& b);
 

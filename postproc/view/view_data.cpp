@@ -8,6 +8,7 @@
 #include "common/errors.hpp"
 #include "postproc/picture/cut_solid.hpp"
 #include "postproc/surface_facets.hpp"
+#include "postproc/tool_surface.hpp"
 
 namespace mpfem {
 
@@ -55,6 +56,32 @@ void add_bounds(ViewData& data, const std::vector<Snapshot>& snapshots) {
     }
 }
 
+/// The surfaces of the tools of all snapshots.
+void add_tools(ViewData& data, const std::vector<Snapshot>& snapshots) {
+  std::vector<std::vector<SolidTriangle>> surfaces;
+  Eigen::Vector3d low = Eigen::Vector3d::Constant(std::numeric_limits<double>::max()), high = -low;
+  for (const Snapshot& snapshot : snapshots) {
+    const DrawnExtent extent = drawn_extent(snapshot);
+    surfaces.push_back(tool_surface(tool_bodies(snapshot, extent), extent, {}));
+    for (const SolidTriangle& t : surfaces.back())
+      for (const SolidVertex& vertex : t.corner)
+        low = low.cwiseMin(vertex.position), high = high.cwiseMax(vertex.position);
+  }
+  if (!(low[0] <= high[0])) return;
+  high = high.cwiseMax(low + Eigen::Vector3d::Constant(1e-9));
+  for (int k = 0; k < 3; ++k) {
+    data.tool_low[static_cast<std::size_t>(k)] = low[k];
+    data.tool_high[static_cast<std::size_t>(k)] = high[k];
+  }
+  for (std::size_t s = 0; s < snapshots.size(); ++s)
+    for (const SolidTriangle& t : surfaces[s])
+      for (const SolidVertex& vertex : t.corner)
+        for (int k = 0; k < 3; ++k) {
+          data.states[s].tool_position.push_back(quantised<std::uint16_t>(vertex.position[k], low[k], high[k]));
+          data.states[s].tool_normal.push_back(static_cast<std::int8_t>(std::lround(127 * vertex.normal[k])));
+        }
+}
+
 /// One field of all snapshots, on the scale that holds them all.
 void add_field(ViewData& data, const std::vector<Snapshot>& snapshots, const char* name) {
   std::vector<std::vector<double>> values;
@@ -81,7 +108,8 @@ ViewData view_data(const std::vector<Snapshot>& snapshots) {
   add_mesh(data, snapshots.front());
   add_bounds(data, snapshots);
   for (const Snapshot& snapshot : snapshots) {
-    ViewState state{snapshot.relative_density, snapshot.mean_stress, snapshot.box_low, snapshot.box_high, {}, {}};
+    ViewState state{
+        snapshot.relative_density, snapshot.mean_stress, snapshot.box_low, snapshot.box_high, {}, {}, {}, {}};
     state.position.reserve(snapshot.node.size());
     for (std::size_t i = 0; i < snapshot.node.size(); ++i)
       state.position.push_back(
@@ -89,6 +117,7 @@ ViewData view_data(const std::vector<Snapshot>& snapshots) {
     data.states.push_back(std::move(state));
   }
   for (const char* name : shown_names) add_field(data, snapshots, name);
+  add_tools(data, snapshots);
   return data;
 }
 

@@ -31,6 +31,8 @@ std::string binary_part(const ViewData& data) {
   for (const ViewState& state : data.states) {
     append(bytes, state.position);
     for (const auto& values : state.value) append(bytes, values);
+    append(bytes, state.tool_position);
+    append(bytes, state.tool_normal);
   }
   return bytes;
 }
@@ -52,6 +54,8 @@ nlohmann::json head_of(const ViewData& data) {
                       {"tets", data.tet.size() / 4},
                       {"low", data.low},
                       {"high", data.high},
+                      {"tool_low", data.tool_low},
+                      {"tool_high", data.tool_high},
                       {"fields", nlohmann::json::array()},
                       {"states", nlohmann::json::array()}};
   for (const QuantisedField& field : data.fields)
@@ -60,6 +64,7 @@ nlohmann::json head_of(const ViewData& data) {
   for (const ViewState& state : data.states)
     head["states"].push_back({{"relative_density", state.relative_density},
                               {"mean_stress", state.mean_stress},
+                              {"tool_corners", state.tool_position.size() / 3},
                               {"box_low", state.box_low},
                               {"box_high", state.box_high}});
   const auto densest = std::max_element(data.states.begin(), data.states.end(),
