@@ -268,8 +268,11 @@ vtkNew<vtkImageData> draw_keys(vtkRenderWindow* window, const PictureScene& scen
                                const ShownBox& shown) {
   vtkNew<vtkRenderer> renderer;
   renderer->SetBackground(0, 0, 0);
-  renderer->AddActor(actor_of(
-      mesh_of(scene.triangles, [&](std::size_t t, std::size_t) { return outline_key(scene.triangles[t]); }), false));
+  const vtkNew<vtkActor> faces = actor_of(
+      mesh_of(scene.triangles, [&](std::size_t t, std::size_t) { return outline_key(scene.triangles[t]); }), false);
+  faces->GetProperty()->SetAmbient(0); // ambient and diffuse shares add up: beyond 1 high keys would all become 255
+  faces->GetProperty()->SetDiffuse(1);
+  renderer->AddActor(faces);
   for (const bool whole : {true, false}) {
     vtkNew<vtkActor> rods = rods_of(scene.rods, whole);
     rods->GetProperty()->SetLighting(false);

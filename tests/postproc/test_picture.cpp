@@ -5,9 +5,9 @@
 #include <catch2/catch.hpp>
 #include <fmt/format.h>
 
-#include "small_run.hpp"
 #include "tests/support/folder.hpp"
 #include "tests/support/png_image.hpp"
+#include "tool_run.hpp"
 
 using namespace mpfem;
 using namespace mpfem::test;
@@ -54,6 +54,38 @@ TEST_CASE("a cut takes away what stands before it, and its face shows the inside
   CHECK(whole > 0.1);
   CHECK(half < 0.85 * whole);                     // half of the cube is gone; its outline shrinks by less than half
   CHECK(std::abs(octant - whole) < 0.05 * whole); // an open corner is seen against the faces behind it
+}
+
+TEST_CASE("grains are outlined whatever their numbers") {
+  const Folder folder;
+  RunContents run = small_run();
+  const auto share_of_black = [&](const std::string& name) {
+    run.numbers["/snapshots/*/von_mises"].assign(48, 1.0);
+    write_run(folder / (name + ".h5"), run);
+    const std::string path = folder / (name + ".png");
+    REQUIRE(picture(fmt::format("{} --size 400x400 --color von-mises --range 0,1 -o {}", folder / (name + ".h5"), path))
+                .exit_code == 0);
+    return read_png(path).share([](const auto& c) { return c[0] < 100 && c[1] < 100 && c[2] < 100; });
+  };
+  const double first = share_of_black("first");
+  CHECK(first > 0.01);
+  // The same two grains as numbers 60 and 61, after sixty without elements.
+  run.extents["grains"] = 62;
+  for (const char* offset : {"/mesh/grain_tet_offset", "/mesh/grain_node_offset"})
+    run.numbers[offset].insert(run.numbers[offset].begin(), 60, 0.0);
+  CHECK(share_of_black("late") == first);
+}
+
+TEST_CASE("rigid tools are drawn, unless they are not wanted") {
+  const Folder folder;
+  write_run(folder / "die.h5", die_run());
+  const auto share_of_white = [&](const std::string& options) {
+    const std::string path = folder / "p.png";
+    REQUIRE(picture(fmt::format("{} --size 400x400 {} -o {}", folder / "die.h5", options, path)).exit_code == 0);
+    return read_png(path).share(is_white);
+  };
+  CHECK(share_of_white("") < 0.7);
+  CHECK(share_of_white("--without-tools") > 0.7);
 }
 
 TEST_CASE("without -o the picture is named after the run, and is not written over") {
