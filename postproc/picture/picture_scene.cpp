@@ -102,7 +102,7 @@ CutAway cut_away(const Snapshot& snapshot, const SceneRequest& request) {
 CutAway tool_cut_away(const Snapshot& snapshot, const SceneRequest& request) {
   const Eigen::Vector3d camera = towards_camera(request.camera);
   SceneRequest of_tools = request;
-  if (request.cut == "none") of_tools.cut = std::abs(camera[0]) > std::abs(camera[1]) ? "x" : "y";
+  if (request.cut == "none") of_tools.cut = std::string(1, std::abs(camera[0]) > std::abs(camera[1]) ? 'x' : 'y');
   CutAway away = cut_away(snapshot, of_tools);
   if (request.cut == "octant") away.pop_back(); // that of z
   // A little more of tools than of grains: where both overlap, as penalty contact lets them, the grains are seen.
