@@ -87,6 +87,15 @@ void add_surface_forces(Model& model, const Surface& surface, const Bounds& boun
   });
 }
 
+/// Adds to `rate` (1/s^2) [nodes] what a spring of `stiffness` (N/mm) at a node's contact point adds to the frequency
+/// squared.
+inline void add_node_stiffness_rate(const Model& model, std::size_t node, double stiffness, std::span<double> rate) {
+  rate[node] += stiffness * model.inverse_mass[node];
+  if (model.inner_node.empty()) return;
+  const auto inner = static_cast<std::size_t>(model.inner_node[node]);
+  rate[inner] += model.inward[node] * stiffness * model.inverse_mass[inner];
+}
+
 /// Adds K A/m (1/s^2) of a surface to `rate` [nodes] of the nodes that it touches: what it adds to the frequency
 /// squared.
 template <RigidSurface Surface>
@@ -94,11 +103,7 @@ void add_surface_stiffness_rate(const Model& model, const Surface& surface, cons
                                 std::span<double> rate) {
   const double penalty = model.penalty_stiffness[static_cast<std::size_t>(grain)];
   for_each_node_behind(model, surface, bounds, grain, [&](std::size_t node, const auto&) {
-    const double stiffness = penalty * model.local_stiffness(node) * model.reference_area[node];
-    rate[node] += stiffness * model.inverse_mass[node];
-    if (model.inner_node.empty()) return;
-    const auto inner = static_cast<std::size_t>(model.inner_node[node]);
-    rate[inner] += model.inward[node] * stiffness * model.inverse_mass[inner];
+    add_node_stiffness_rate(model, node, penalty * model.local_stiffness(node) * model.reference_area[node], rate);
   });
 }
 

@@ -4,6 +4,7 @@
 // A node behind the surface has an anchor in it: a point of the surface, in the surface's own frame, to which a stick
 // spring with the stiffness of the penalty is tied. It is forgotten when the node comes in front of the surface.
 
+#include <algorithm>
 #include <cstdint>
 #include <limits>
 #include <utility>
@@ -28,6 +29,13 @@ struct SurfaceMotion {
   double step = 0;                   ///< s
 };
 
+/// What a bond leaves of a point to friction (solver/physics/friction_kinematics.hpp).
+struct RubbingShare {
+  double share = 1;          ///< D, of the point
+  double penalty = 1;        ///< part of the penalty's stiffness
+  double penalty_before = 1; ///< the same at the time level before
+};
+
 /// The friction of one surface on one grain at one time level.
 template <RigidSurface Surface>
 class SurfaceRubbing {
@@ -40,10 +48,10 @@ public:
     anchors_.reserve(before.size());
   }
 
-  /// A node behind the surface, which pushes it with `push` (N). By ascending node. Returns the friction force (N) on
-  /// the node.
+  /// A node behind the surface, whose penalty and bond together push it with `push` (N). By ascending node. Returns the
+  /// friction force (N) on the node.
   template <class Gap>
-  Vector3<double> rub(std::size_t node, const Gap& gap, double push) {
+  Vector3<double> rub(std::size_t node, const Gap& gap, double push, const RubbingShare& of_point = {}) {
     const auto number = static_cast<std::int32_t>(node);
     release_before(number);
     const double depth = -gap.distance;
@@ -51,13 +59,18 @@ public:
     const bool known = next_ != end_ && next_->node == number;
     const Entry entry = known ? Entry{} : entry_of(node, depth, normal);
     SurfaceAnchor anchor = known ? *next_++ : SurfaceAnchor{number, closest - entry.inside, {0, 0, 0}};
-    const double stiffness = push / depth;
+    const double penalty = push / depth, stiffness = std::max(of_point.penalty, 0.0) * penalty;
     const Vector3<double> drift = closest - anchor.place;
-    const double left = share_left_by_slip(norm(drift), longest_drift(friction_, stiffness, stiffness, depth));
+    // 1. Area that has begun to rub is unloaded. 2. Slip.
+    const double before = std::max(of_point.penalty_before, 0.0) * penalty;
+    const double kept = known ? share_left_by_new_area(before, stiffness) : 1.0;
+    const double longest = stiffness > 0 ? longest_drift(of_point.share * friction_, penalty, stiffness, depth) : 0.0;
+    const double left = kept * share_left_by_slip(kept * norm(drift), longest);
     const Vector3<double> slip = (1.0 - left) * drift, force = (left * stiffness) * drift;
-    const Vector3<double> from_anchor = left * drift - depth * normal;
+    const Vector3<double> from_anchor = left * drift - depth * normal, unloaded = (1.0 - kept) * drift;
     energy += stick_energy(stiffness, dot(from_anchor, from_anchor), depth);
-    dissipation += slip_dissipation(anchor.force, force, slip + entry.before);
+    dissipation +=
+        0.5 * before * dot(drift, unloaded) + slip_dissipation(anchor.force, force, slip - unloaded + entry.before);
     if (left < 1) anchor.place = on_surface(anchor.place + slip);
     anchor.force = force;
     model_.push_contact_point(node, 0, -force.x);

@@ -53,39 +53,61 @@ void ToolLoad::add(const ToolLoad& other) {
   energy += other.energy;
   friction_energy += other.friction_energy;
   friction_dissipation += other.friction_dissipation;
+  adhesion_energy += other.adhesion_energy;
+  adhesion_dissipation += other.adhesion_dissipation;
+  bonded_area += other.bonded_area;
   penetration = std::max(penetration, other.penetration);
 }
 
 Tools::Tools(std::vector<Tool> tools, int grains) : grains_(grains), tools_(std::move(tools)) {
   of_grain_.resize(tools_.size() * static_cast<std::size_t>(grains_));
   anchors_.resize(of_grain_.size());
+  bonds_.resize(of_grain_.size());
   load_.resize(tools_.size());
 }
 
 ToolLoad Tools::add_tool(Model& model, std::size_t index, const Bounds& bounds, double last_step, int grain) {
+  static const Adhesion nothing_sticks;
   const Tool& tool = tools_[index];
+  const bool sticky = tool.adhesion.has_value();
+  const Adhesion& adhesion = sticky ? *tool.adhesion : nothing_sticks;
   std::vector<SurfaceAnchor>& anchors = anchors_[slot(grain, index)];
+  std::vector<SurfaceBond>& bonds = bonds_[slot(grain, index)];
   return with_surface(tool, [&](const auto& surface) {
     ToolLoad load;
-    if (!surface.may_touch(bounds) && anchors.empty()) return load;
-    const Vector3<double> about = reference_of(tool.surface) + vector_of(tool.moved);
-    const SurfaceMotion motion{vector_of(tool.moved), vector_of(tool.movement), last_step};
-    SurfaceRubbing rubbing(model, tool.friction, surface, motion, anchors);
-    const double size = model.element_size[static_cast<std::size_t>(grain)];
-    for_each_node_behind(model, surface, bounds, grain, [&](std::size_t node, const auto& gap) {
-      const double push = surface_force(model, node, grain, gap.distance);
-      gap.normal.push(model, node, push);
-      Vector3<double> on_node = push * gap.normal.vector();
-      if (tool.friction > 0) on_node = on_node + rubbing.rub(node, gap, push);
+    if (!surface.may_touch(bounds) && anchors.empty() && !any_to_follow(adhesion, bonds)) return load;
+    const Vector3<double> moved = vector_of(tool.moved), about = reference_of(tool.surface) + moved;
+    const auto bear = [&](std::size_t node, const Vector3<double>& on_node) {
       load.force = load.force - on_node;
       load.moment = load.moment - cross(model.contact_point(node) - about, on_node);
+    };
+    const auto bear_bond = [&](std::size_t node, const Vector3<double>& on_node, const Vector3<double>& normal) {
+      bear(node, on_node);
+      load.normal_force += dot(on_node, normal);
+    };
+    SurfaceRubbing rubbing(model, tool.friction, surface, {moved, vector_of(tool.movement), last_step}, anchors);
+    SurfaceAdhesion sticking(model, adhesion, surface, moved, grain, bonds, bear_bond);
+    const double size = model.element_size[static_cast<std::size_t>(grain)];
+    for_each_node_behind(model, surface, bounds, grain, [&](std::size_t node, const auto& gap) {
+      const HeldNode held = sticky ? sticking.hold(node, gap) : HeldNode{};
+      const double full = surface_force(model, node, grain, gap.distance), push = held.penalty_left * full;
+      gap.normal.push(model, node, push);
+      Vector3<double> on_node = push * gap.normal.vector();
+      if (tool.friction > 0)
+        on_node =
+            on_node + rubbing.rub(node, gap, full, {held.rubbing_share, held.penalty_left, held.penalty_left_before});
+      bear(node, on_node);
       load.normal_force += push;
-      load.energy += wall_energy(push, gap.distance);
+      load.energy += wall_energy(full, gap.distance);
       load.penetration = std::max(load.penetration, -gap.distance / size);
     });
     if (tool.friction > 0) anchors = rubbing.finish();
+    if (sticky) bonds = sticking.finish();
     load.friction_energy = rubbing.energy;
     load.friction_dissipation = rubbing.dissipation;
+    load.adhesion_energy = sticking.energy;
+    load.adhesion_dissipation = sticking.dissipation;
+    load.bonded_area = sticking.bonded_area;
     return load;
   });
 }
@@ -105,6 +127,7 @@ double Tools::take_loads() {
     tool.force = array_of(sum.force);
     tool.movement = {};
     tool.friction_dissipation += sum.friction_dissipation;
+    tool.adhesion_dissipation += sum.adhesion_dissipation;
     load_[index] = sum;
   }
   return work;
@@ -116,6 +139,16 @@ ToolLoad Tools::total() const {
   return sum;
 }
 
+double Tools::adhesion_dissipation() const {
+  double sum = 0;
+  for (const Tool& tool : tools_) sum += tool.adhesion_dissipation;
+  return sum;
+}
+
+bool Tools::adhere() const {
+  return std::any_of(tools_.begin(), tools_.end(), [](const Tool& tool) { return tool.adhesion.has_value(); });
+}
+
 void Tools::move(std::span<const std::array<double, 3>> velocity, double step) {
   for (std::size_t index = 0; index < velocity.size(); ++index)
     for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -125,9 +158,14 @@ void Tools::move(std::span<const std::array<double, 3>> velocity, double step) {
 }
 
 void Tools::add_stiffness_rate(const Model& model, const Bounds& bounds, int grain, std::span<double> rate) const {
-  for (const Tool& tool : tools_)
-    if (!tool.away)
-      with_surface(tool, [&](const auto& surface) { add_surface_stiffness_rate(model, surface, bounds, grain, rate); });
+  for (std::size_t index = 0; index < size(); ++index) {
+    const Tool& tool = tools_[index];
+    if (tool.away) continue;
+    with_surface(tool, [&](const auto& surface) {
+      add_surface_stiffness_rate(model, surface, bounds, grain, rate);
+      if (tool.adhesion) add_adhesion_stiffness_rate(model, *tool.adhesion, surface, grain, bonds(grain, index), rate);
+    });
+  }
 }
 
 double Tools::push_on_node(const Model& model, std::size_t node, int grain) const {
@@ -148,12 +186,13 @@ double Tools::set_away(std::span<const std::size_t> away, const Model& model) {
     Tool& tool = tools_[index];
     const bool leaves = std::find(away.begin(), away.end(), index) != away.end();
     if (leaves && !tool.away) {
-      taken += load_[index].energy + load_[index].friction_energy;
+      taken += load_[index].energy + load_[index].friction_energy + load_[index].adhesion_energy;
       load_[index] = {};
       tool.force = tool.movement = {};
       for (int grain = 0; grain < grains_; ++grain) {
         of_grain_[slot(grain, index)] = {};
         anchors_[slot(grain, index)].clear();
+        bonds_[slot(grain, index)].clear();
       }
     }
     if (!leaves && tool.away) come_back(tool, model);

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "solver/boundary/cell.hpp"
+#include "solver/boundary/surface_adhesion.hpp"
 #include "solver/boundary/surface_friction.hpp"
 #include "solver/boundary/tool_surfaces.hpp"
 #include "solver/model/model.hpp"
@@ -21,10 +22,13 @@ using ToolSurface = std::variant<OrientedPlane, CylinderSurface, SphereSurface, 
 struct ToolLoad {
   Vector3<double> force{0, 0, 0};  ///< N, of the grains on the tool
   Vector3<double> moment{0, 0, 0}; ///< N mm, of these forces about the tool's reference point
-  double normal_force = 0;         ///< N, sum of the magnitudes of normal forces
+  double normal_force = 0;         ///< N, sum of the normal forces, pulls of bonds negative
   double energy = 0;               ///< mJ, in the penalty
   double friction_energy = 0;      ///< mJ, in stick springs
   double friction_dissipation = 0; ///< mJ, since the time level before
+  double adhesion_energy = 0;      ///< mJ, in bonds to the tool
+  double adhesion_dissipation = 0; ///< mJ, by damage of these bonds since the time level before
+  double bonded_area = 0;          ///< mm^2, of bonds that are not broken
   double penetration = 0;          ///< largest over the element size
 
   void add(const ToolLoad& other);
@@ -33,18 +37,21 @@ struct ToolLoad {
 /// One tool at a time level.
 struct Tool {
   std::string name;
-  ToolSurface surface;              ///< in its starting position
-  double friction = 0;              ///< mu
-  bool away = false;                ///< it touches nothing
-  std::array<double, 3> moved{};    ///< mm, since the start of the run
-  std::array<double, 3> movement{}; ///< mm, in the step that led to the present
-  std::array<double, 3> force{};    ///< N, of the grains on it at the last time level
-  double friction_dissipation = 0;  ///< mJ, so far
+  ToolSurface surface;                ///< in its starting position
+  double friction = 0;                ///< mu
+  std::optional<Adhesion> adhesion{}; ///< none: nothing sticks to it
+  bool away = false;                  ///< it touches nothing
+  std::array<double, 3> moved{};      ///< mm, since the start of the run
+  std::array<double, 3> movement{};   ///< mm, in the step that led to the present
+  std::array<double, 3> force{};      ///< N, of the grains on it at the last time level
+  double friction_dissipation = 0;    ///< mJ, so far
+  double adhesion_dissipation = 0;    ///< mJ, so far
 
   template <class Self, class Visitor>
   static void for_each_field(Self& s, Visitor&& visit) {
     visit("tool.away", s.away), visit("tool.moved", s.moved), visit("tool.movement", s.movement);
     visit("tool.force", s.force), visit("tool.friction_dissipation", s.friction_dissipation);
+    visit("tool.adhesion_dissipation", s.adhesion_dissipation);
   }
 };
 
@@ -67,6 +74,8 @@ public:
   const ToolLoad& load(std::size_t tool) const { return load_[tool]; }
   /// Of all tools.
   ToolLoad total() const;
+  /// mJ, lost so far by damage of bonds to tools.
+  double adhesion_dissipation() const;
   /// Moves every tool by one step; `velocity` (mm/s) of each, or none where all are at rest.
   void move(std::span<const std::array<double, 3>> velocity, double step);
   /// Adds K A/m (1/s^2) of the tools that each node touches to `rate` [nodes].
@@ -75,8 +84,9 @@ public:
   double push_on_node(const Model& model, std::size_t node, int grain) const;
 
   // ---- tools that go and come
-  /// From now on these tools and no others are away. Returns the energy (mJ) that those which leave take along. Planes
-  /// that come back stand where they touch no grain. Throws SimulationError where another tool comes back into grains.
+  /// From now on these tools and no others are away, and bonds to them are cut. Returns the energy (mJ) that those
+  /// which leave take along. Planes that come back stand where they touch no grain. Throws SimulationError where
+  /// another tool comes back into grains.
   double set_away(std::span<const std::size_t> away, const Model& model);
   /// Name and depth (mm) of the tool that a surface node is deepest behind; none where it is behind none.
   std::optional<std::pair<std::string, double>> behind(const Model& model, std::size_t node) const;
@@ -90,6 +100,10 @@ public:
   /// By ascending node.
   std::vector<SurfaceAnchor>& anchors(int grain, std::size_t tool) { return anchors_[slot(grain, tool)]; }
   const std::vector<SurfaceAnchor>& anchors(int grain, std::size_t tool) const { return anchors_[slot(grain, tool)]; }
+  /// Whether anything may stick to any tool.
+  bool adhere() const;
+  std::vector<SurfaceBond>& bonds(int grain, std::size_t tool) { return bonds_[slot(grain, tool)]; }
+  const std::vector<SurfaceBond>& bonds(int grain, std::size_t tool) const { return bonds_[slot(grain, tool)]; }
 
 private:
   std::size_t slot(int grain, std::size_t tool) const { return static_cast<std::size_t>(grain) * size() + tool; }
@@ -101,6 +115,7 @@ private:
   std::vector<ToolLoad> of_grain_;                  ///< [grains * tools]
   std::vector<ToolLoad> load_;                      ///< [tools]
   std::vector<std::vector<SurfaceAnchor>> anchors_; ///< [grains * tools]
+  std::vector<std::vector<SurfaceBond>> bonds_;     ///< [grains * tools]
 };
 
 /// The container that tools form: the cell between two punches, across it the bore of a die.

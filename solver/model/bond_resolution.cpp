@@ -9,18 +9,18 @@
 
 namespace mpfem {
 
-BondResolution bond_resolution(const Model& model, const Scenario& scenario) {
-  const BondParameters& bond = *scenario.bond;
+BondResolution bond_resolution(const Model& model, const BondParameters& bond, const ContactParameters& contact,
+                               BondPartner partner) {
   // The softest grains: cohesive zones are shortest there.
   const auto softest = std::min_element(model.material.begin(), model.material.end(), [](const auto& a, const auto& b) {
     return a.moduli.youngs() < b.moduli.youngs();
   });
   const double youngs = softest->moduli.youngs(), poissons = youngs / (2 * softest->moduli.shear) - 1;
-  const double reduced = youngs / (2 * (1 - poissons * poissons));
+  const double reduced = youngs / ((partner == BondPartner::grain ? 2 : 1) * (1 - poissons * poissons));
   const double strength =
       bond.normal_only ? bond.tensile_strength : std::max(bond.tensile_strength, bond.shear_strength);
-  // Two grains' penalties act as their harmonic mean, at least the softest's.
-  const BondLaw law = law_of_bonds(bond, scenario.contact);
+  // Two grains' penalties act as their harmonic mean, at least the softest's; a tool's is that of the grain.
+  const BondLaw law = law_of_bonds(bond, contact);
   double stiffness = std::numeric_limits<double>::infinity();
   for (std::size_t g = 0; g < model.penalty_stiffness.size(); ++g) {
     const auto first = static_cast<std::size_t>(model.node_offset[g]);
@@ -50,33 +50,61 @@ double smallest_penalty(const Model& model) {
   return smallest;
 }
 
+/// Bonds of one kind in a scenario.
+struct BondsOfScenario {
+  const BondParameters& bond;
+  const KeyPlaces& places;
+  BondPartner partner;
+  std::string table;   ///< for refusals
+  std::string subject; ///< for warnings
+  bool rub;            ///< points with damaged bonds have friction
+
+  [[noreturn]] void refuse(const char* key, const std::string& what) const {
+    throw InputError(fmt::format("{}{} key '{}': {}", places.prefix(key), table, key, what));
+  }
+};
+
+void check(const Model& model, const ContactParameters& contact, const BondsOfScenario& bonds,
+           std::vector<std::string>& warnings) {
+  if (const auto stiffness = bonds.bond.stiffness; stiffness && bonds.rub)
+    if (const double allowed = smallest_penalty(model); *stiffness > allowed)
+      bonds.refuse("stiffness",
+                   fmt::format("found {:g} MPa/mm, with friction allowed up to {:.3g} MPa/mm, the smallest "
+                               "penalty of a contact point",
+                               *stiffness, allowed));
+  const BondResolution r = bond_resolution(model, bonds.bond, contact, bonds.partner);
+  const double energy = bonds.bond.fracture_energy;
+  if (!(energy > 1.01 * r.smallest_fracture_energy))
+    bonds.refuse("fracture_energy",
+                 fmt::format("found {:g} N/mm, allowed > {:.3g} N/mm with bonds of this stiffness (strength^2/(2 K)): "
+                             "raise it or the stiffness, or lower the strength",
+                             energy, 1.01 * r.smallest_fracture_energy));
+  if (energy < r.steep_fracture_energy)
+    warnings.push_back(fmt::format("{} soften more steeply than elements of {:.3g} mm can unload: fracture_energy "
+                                   "{:g} N/mm is below strength^2 h/E = {:.3g} N/mm; breaking bonds will shake the "
+                                   "grains",
+                                   bonds.subject, r.element_size, energy, r.steep_fracture_energy));
+  if (r.cohesive_zone < 3 * r.element_size)
+    warnings.push_back(fmt::format("the cohesive zone of {} ({:.3g} mm) has fewer than three elements of {:.3g} mm: "
+                                   "strengths of contacts depend on the mesh",
+                                   bonds.subject, r.cohesive_zone, r.element_size));
+}
+
 } // namespace
 
 std::vector<std::string> check_bonds(const Model& model, const Scenario& scenario) {
   std::vector<std::string> warnings;
-  if (!scenario.bond) return warnings;
-  if (const auto stiffness = scenario.bond->stiffness; stiffness && scenario.contact.has_friction())
-    if (const double allowed = smallest_penalty(model); *stiffness > allowed)
-      throw InputError(fmt::format("{}[bond] key 'stiffness': found {:g} MPa/mm, with contact.friction allowed up to "
-                                   "{:.3g} MPa/mm, the smallest penalty of a contact point",
-                                   scenario.bond_places.prefix("stiffness"), *stiffness, allowed));
-  const BondResolution r = bond_resolution(model, scenario);
-  const double energy = scenario.bond->fracture_energy;
-  if (!(energy > 1.01 * r.smallest_fracture_energy))
-    throw InputError(
-        fmt::format("{}[bond] key 'fracture_energy': found {:g} N/mm, allowed > {:.3g} N/mm with bonds of this "
-                    "stiffness (strength^2/(2 K)): raise it or the stiffness, or lower the strength",
-                    scenario.bond_places.prefix("fracture_energy"), energy, 1.01 * r.smallest_fracture_energy));
-  if (energy < r.steep_fracture_energy)
-    warnings.push_back(
-        fmt::format("bonds soften more steeply than elements of {:.3g} mm can unload: fracture_energy "
-                    "{:g} N/mm is below strength^2 h/E = {:.3g} N/mm; breaking bonds will shake the grains",
-                    r.element_size, energy, r.steep_fracture_energy));
-  if (r.cohesive_zone < 3 * r.element_size)
-    warnings.push_back(
-        fmt::format("the cohesive zone ({:.3g} mm) has fewer than three elements of {:.3g} mm: strengths of "
-                    "contacts depend on the mesh",
-                    r.cohesive_zone, r.element_size));
+  if (scenario.bond)
+    check(
+        model, scenario.contact,
+        {*scenario.bond, scenario.bond_places, BondPartner::grain, "[bond]", "bonds", scenario.contact.has_friction()},
+        warnings);
+  for (const ToolParameters& tool : scenario.tools)
+    if (tool.adhesion)
+      check(model, scenario.contact,
+            {*tool.adhesion, tool.adhesion_places, BondPartner::tool, fmt::format("tool '{}': adhesion", tool.name),
+             fmt::format("bonds to tool '{}'", tool.name), tool.friction > 0},
+            warnings);
   return warnings;
 }
 

@@ -16,14 +16,21 @@ struct BondResolution {
   double steep_fracture_energy = 0;    ///< N/mm; below it softening is steeper than the element beneath can unload
 };
 
-/// With E* = E/(2(1 - nu^2)) of two like grains, strength t and bond stiffness K: the zone of the exponential law to
+/// What grains are bonded to.
+enum class BondPartner {
+  grain, ///< of the same stiffness: E* = E/(2(1 - nu^2))
+  tool,  ///< rigid: E* = E/(1 - nu^2)
+};
+
+/// With E* of a grain and its partner, strength t and bond stiffness K: the zone of the exponential law to
 /// half the strength is 0.34 . 2 E* G^c/t^2 (that of the energy law is taken alike); the area under the branch before
 /// damage is t^2/(2K); the exponential law's steepest slope t^2/(G^c - t^2/2K) meets the stiffness E/h of the element
 /// at G^c = t^2 h/E + t^2/(2K).
-BondResolution bond_resolution(const Model& model, const Scenario& scenario);
+BondResolution bond_resolution(const Model& model, const BondParameters& bond, const ContactParameters& contact,
+                               BondPartner partner = BondPartner::grain);
 
-/// Throws InputError where the bonds' stiffness leaves no softening branch; gives warnings, one a line, where the
-/// cohesive zone has fewer than three elements or the softening is steeper than the elements.
+/// Bonds between grains and to tools. Throws InputError where their stiffness leaves no softening branch; warns, one
+/// line each, where the cohesive zone has fewer than three elements or the softening is steeper than the elements.
 std::vector<std::string> check_bonds(const Model& model, const Scenario& scenario);
 
 } // namespace mpfem

@@ -82,16 +82,17 @@ std::uint64_t numbering_hash(const Model& model) {
 
 constexpr std::size_t anchor_values = 6, walls = 6;
 
-/// Where the anchors of friction at rigid surfaces stand.
-struct AnchorDatasets {
+/// Where what rigid surfaces and nodes have between them stands.
+struct SurfaceDatasets {
   const decltype(check::wall_friction_node)& node;
   const decltype(check::wall_friction_side)& surface;
   const decltype(check::wall_friction_values)& values;
 };
-constexpr AnchorDatasets wall_anchors{check::wall_friction_node, check::wall_friction_side,
-                                      check::wall_friction_values};
-constexpr AnchorDatasets tool_anchors{check::tool_friction_node, check::tool_friction_tool,
-                                      check::tool_friction_values};
+constexpr SurfaceDatasets wall_anchors{check::wall_friction_node, check::wall_friction_side,
+                                       check::wall_friction_values};
+constexpr SurfaceDatasets tool_anchors{check::tool_friction_node, check::tool_friction_tool,
+                                       check::tool_friction_values};
+constexpr SurfaceDatasets tool_bonds{check::tool_adhesion_node, check::tool_adhesion_tool, check::tool_adhesion_values};
 
 void append_anchor(std::vector<double>& values, const SurfaceAnchor& anchor) {
   for (const Vector3<double>& v : {anchor.place, anchor.force}) values.insert(values.end(), {v.x, v.y, v.z});
@@ -99,6 +100,22 @@ void append_anchor(std::vector<double>& values, const SurfaceAnchor& anchor) {
 
 SurfaceAnchor anchor_of(std::int32_t node, const double* v) {
   return {node, {v[0], v[1], v[2]}, {v[3], v[4], v[5]}};
+}
+
+constexpr std::size_t tool_bond_values = 6;
+
+void append_tool_bond(std::vector<double>& values, const SurfaceBond& bond) {
+  values.insert(values.end(),
+                {bond.place.x, bond.place.y, bond.place.z, bond.state.initiation, bond.state.largest, bond.remaining});
+}
+
+SurfaceBond tool_bond_of(std::int32_t node, const double* v) {
+  SurfaceBond bond;
+  bond.node = node;
+  bond.place = {v[0], v[1], v[2]};
+  bond.state = {v[3], v[4]};
+  bond.remaining = v[5];
+  return bond;
 }
 
 /// One file while it is written.
@@ -123,7 +140,8 @@ public:
   void write_bonds(const Contact& contact);
   void write_friction(const Contact& contact);
   template <class Friction>
-  void write_anchors(const AnchorDatasets& datasets, const Friction& friction, std::size_t surfaces);
+  void write_anchors(const SurfaceDatasets& datasets, const Friction& friction, std::size_t surfaces);
+  void write_tool_bonds(const Tools& tools);
   void write_grips(const Grips& grips);
   void commit() { file_.commit(); }
 
@@ -200,7 +218,7 @@ void Writer::write_friction(const Contact& contact) {
 }
 
 template <class Friction>
-void Writer::write_anchors(const AnchorDatasets& datasets, const Friction& friction, std::size_t surfaces) {
+void Writer::write_anchors(const SurfaceDatasets& datasets, const Friction& friction, std::size_t surfaces) {
   std::vector<std::int32_t> node, surface_of_node;
   std::vector<double> values;
   for (int grain = 0; grain < friction.grains(); ++grain)
@@ -213,6 +231,21 @@ void Writer::write_anchors(const AnchorDatasets& datasets, const Friction& frict
   write(datasets.node, node);
   write(datasets.surface, surface_of_node);
   write(datasets.values, values, node.size());
+}
+
+void Writer::write_tool_bonds(const Tools& tools) {
+  std::vector<std::int32_t> node, tool_of_node;
+  std::vector<double> values;
+  for (int grain = 0; grain < tools.grains(); ++grain)
+    for (std::size_t tool = 0; tool < tools.size(); ++tool)
+      for (const SurfaceBond& bond : tools.bonds(grain, tool)) {
+        node.push_back(bond.node);
+        tool_of_node.push_back(static_cast<std::int32_t>(tool));
+        append_tool_bond(values, bond);
+      }
+  write(tool_bonds.node, node);
+  write(tool_bonds.surface, tool_of_node);
+  write(tool_bonds.values, values, node.size());
 }
 
 void Writer::write_grips(const Grips& grips) {
@@ -247,6 +280,7 @@ void write_checkpoint(const std::string& path, const CheckpointState& state, con
   if (state.contact.has_friction()) file.write_friction(state.contact);
   if (state.wall_friction.present()) file.write_anchors(wall_anchors, state.wall_friction, walls);
   if (state.tools.present()) file.write_anchors(tool_anchors, state.tools, state.tools.size());
+  if (state.tools.adhere()) file.write_tool_bonds(state.tools);
   if (state.grips.present()) file.write_grips(state.grips);
   file.commit();
 }
@@ -370,6 +404,7 @@ void CheckpointReader::take_arrays(Model& model, Contact& contact, WallFriction&
     take_anchors(model, tool_anchors, tools.size(), [&](int grain, std::size_t tool) {
       return tools[tool].friction > 0 ? &tools.anchors(grain, tool) : nullptr;
     });
+  if (tools.adhere() && file_.has(check::tool_adhesion_node)) take_tool_bonds(model, tools);
   if (grips && file_.has(check::grip_node)) take_grips(model, *grips);
 }
 
@@ -409,15 +444,13 @@ void CheckpointReader::take_bonds(const Model& model, Contact& contact, const Bo
     const double* v = &values[6 * i];
     if (law[i] < 0 || static_cast<std::size_t>(law[i]) >= laws || facet[i] < -1 || facet[i] >= model.facets())
       fail_damaged();
-    contact.bond[i] = {.facet = facet[i],
-                       .law = law[i],
-                       .weight1 = v[0],
-                       .weight2 = v[1],
-                       .state = {v[2], v[3]},
-                       .remaining = v[4],
-                       .spent = v[5],
-                       .opening = 0,
-                       .separation = 0};
+    PointBond& bond = contact.bond[i];
+    bond.facet = facet[i];
+    bond.law = law[i];
+    bond.weight1 = v[0], bond.weight2 = v[1];
+    bond.state = {v[2], v[3]};
+    bond.remaining = v[4];
+    bond.spent = v[5];
   }
   if (contact.bond_laws.back() != coming) contact.bond_laws.push_back(coming);
 }
@@ -436,23 +469,37 @@ void CheckpointReader::take_friction(const Model& model, Contact& contact) const
   }
 }
 
-/// `anchors_of(grain, surface)`: where they are to stand, or null where they are left out.
-template <class Datasets, class Anchors>
-void CheckpointReader::take_anchors(const Model& model, const Datasets& datasets, std::size_t surfaces,
-                                    Anchors&& anchors_of) const {
+/// What stands by grain, surface and node: calls `make(node, values)` for each and puts what it gives into
+/// `list_of(grain, surface)`, a pointer, or null where it is left out.
+template <class Datasets, class Lists, class Make>
+void CheckpointReader::take_by_surface(const Model& model, const Datasets& datasets, std::size_t surfaces,
+                                       std::size_t width, Lists&& list_of, Make&& make) const {
   const auto node = file_.read(datasets.node), surface = file_.read(datasets.surface);
   const auto values = file_.read(datasets.values);
-  if (surface.size() != node.size() || values.size() != anchor_values * node.size()) fail_damaged();
+  if (surface.size() != node.size() || values.size() != width * node.size()) fail_damaged();
   const auto& first = model.node_offset;
   for (std::size_t i = 0; i < node.size(); ++i) {
     if (node[i] < 0 || node[i] >= model.nodes() || surface[i] < 0 || static_cast<std::size_t>(surface[i]) >= surfaces)
       fail_damaged();
     const auto grain = static_cast<int>(std::upper_bound(first.begin(), first.end(), node[i]) - first.begin()) - 1;
-    std::vector<SurfaceAnchor>* anchors = anchors_of(grain, static_cast<std::size_t>(surface[i]));
-    if (anchors == nullptr) continue;
-    if (!anchors->empty() && anchors->back().node >= node[i]) fail_damaged();
-    anchors->push_back(anchor_of(node[i], &values[anchor_values * i]));
+    auto* list = list_of(grain, static_cast<std::size_t>(surface[i]));
+    if (list == nullptr) continue;
+    if (!list->empty() && list->back().node >= node[i]) fail_damaged();
+    list->push_back(make(node[i], &values[width * i]));
   }
+}
+
+template <class Datasets, class Anchors>
+void CheckpointReader::take_anchors(const Model& model, const Datasets& datasets, std::size_t surfaces,
+                                    Anchors&& anchors_of) const {
+  take_by_surface(model, datasets, surfaces, anchor_values, anchors_of, anchor_of);
+}
+
+void CheckpointReader::take_tool_bonds(const Model& model, Tools& tools) const {
+  take_by_surface(
+      model, tool_bonds, tools.size(), tool_bond_values,
+      [&](int grain, std::size_t tool) { return tools[tool].adhesion ? &tools.bonds(grain, tool) : nullptr; },
+      tool_bond_of);
 }
 
 void CheckpointReader::take_grips(const Model& model, Grips& grips) const {

@@ -92,8 +92,12 @@ private:
   void take_candidates(const Model& model, Contact& contact) const;
   void take_bonds(const Model& model, Contact& contact, const BondParameters& parameters) const;
   void take_friction(const Model& model, Contact& contact) const;
+  template <class Datasets, class Lists, class Make>
+  void take_by_surface(const Model& model, const Datasets& datasets, std::size_t surfaces, std::size_t width,
+                       Lists&& list_of, Make&& make) const;
   template <class Datasets, class Anchors>
   void take_anchors(const Model& model, const Datasets& datasets, std::size_t surfaces, Anchors&& anchors_of) const;
+  void take_tool_bonds(const Model& model, Tools& tools) const;
   void take_grips(const Model& model, Grips& grips) const;
   [[noreturn]] void fail_damaged() const;
 

@@ -198,9 +198,9 @@ void write_provenance(schema::FileWriter& file, const Model& model, const Proven
   if (!provenance.from.empty()) file.write_scalar(run::provenance_from, provenance.from);
 }
 
-std::vector<std::string> names_of(const Tools& tools) {
-  std::vector<std::string> names;
-  for (std::size_t i = 0; i < tools.size(); ++i) names.push_back(tools[i].name);
+std::vector<NamedTool> names_of(const Tools& tools) {
+  std::vector<NamedTool> names;
+  for (std::size_t i = 0; i < tools.size(); ++i) names.push_back({tools[i].name, tools[i].adhesion.has_value()});
   return names;
 }
 

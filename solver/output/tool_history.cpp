@@ -23,24 +23,28 @@ std::vector<ToolRow> rows_of(std::span<const ToolRow> rows, std::size_t tool, st
 
 } // namespace
 
-void write_tool_history(schema::FileWriter& file, std::span<const std::string> tools, std::span<const ToolRow> rows) {
+void write_tool_history(schema::FileWriter& file, std::span<const NamedTool> tools, std::span<const ToolRow> rows) {
   for (std::size_t tool = 0; tool < tools.size(); ++tool) {
     const std::vector<ToolRow> own = rows_of(rows, tool, tools.size());
     const auto write_vectors = [&](const auto& dataset, std::array<double, 3> ToolRow::*member) {
       std::vector<double> values;
       for (const ToolRow& row : own) values.insert(values.end(), (row.*member).begin(), (row.*member).end());
-      file.write(dataset, std::span<const double>(values), own.size(), tools[tool]);
+      file.write(dataset, std::span<const double>(values), own.size(), tools[tool].name);
     };
     const auto write_numbers = [&](const auto& dataset, double ToolRow::*member) {
       std::vector<double> values;
       for (const ToolRow& row : own) values.push_back(row.*member);
-      file.write(dataset, std::span<const double>(values), own.size(), tools[tool]);
+      file.write(dataset, std::span<const double>(values), own.size(), tools[tool].name);
     };
     write_vectors(run::history_tools_displacement, &ToolRow::displacement);
     write_vectors(run::history_tools_force, &ToolRow::force);
     write_vectors(run::history_tools_moment, &ToolRow::moment);
     write_numbers(run::history_tools_normal_force, &ToolRow::normal_force);
     write_numbers(run::history_tools_friction_dissipation, &ToolRow::friction_dissipation);
+    if (!tools[tool].adheres) continue;
+    write_numbers(run::history_tools_adhesion_energy, &ToolRow::adhesion_energy);
+    write_numbers(run::history_tools_adhesion_dissipation, &ToolRow::adhesion_dissipation);
+    write_numbers(run::history_tools_bonded_area, &ToolRow::bonded_area);
   }
 }
 

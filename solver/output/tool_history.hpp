@@ -15,12 +15,21 @@ struct ToolRow {
   std::array<double, 3> displacement; ///< mm, since the start of the run
   std::array<double, 3> force;        ///< N, of the grains on the tool
   std::array<double, 3> moment;       ///< N mm, of that about the tool's reference point
-  double normal_force;                ///< N, sum of the magnitudes of normal forces
+  double normal_force;                ///< N, sum of the normal forces, pulls of bonds negative
   double friction_dissipation;        ///< mJ, so far
+  double adhesion_energy;             ///< mJ, stored in bonds to the tool
+  double adhesion_dissipation;        ///< mJ, by damage of these bonds so far
+  double bonded_area;                 ///< mm^2, of bonds that are not broken
+};
+
+/// A tool of the history.
+struct NamedTool {
+  std::string name;
+  bool adheres; ///< grains may stick to it
 };
 
 /// Writes /history/tools/NAME; `rows` holds those of all tools at a time level, one level after the other.
-void write_tool_history(schema::FileWriter& file, std::span<const std::string> tools, std::span<const ToolRow> rows);
+void write_tool_history(schema::FileWriter& file, std::span<const NamedTool> tools, std::span<const ToolRow> rows);
 
 /// Rows as plain numbers, one after another, and back (for checkpoints). tool_rows_of throws std::length_error where
 /// the numbers are not whole rows.

@@ -23,21 +23,25 @@
 
 namespace mpfem {
 
-/// The bond of one contact point.
-struct PointBond {
-  std::int32_t facet = -1;            ///< where it is attached, -1: none
-  std::int32_t law = 0;               ///< number of the law by which it, or the one before it, formed
-  double weight1 = 0, weight2 = 0;    ///< shape functions of the facet's second and third node
+/// How far a bond is separated and damaged, whatever it is attached to.
+struct BondDamage {
   BondState state;                    ///< separations at first damage and largest, mm
   double remaining = 1;               ///< 1 - D
-  double spent = 0;                   ///< N/mm, dissipated by the bonds that this point had before
   double opening = 0, separation = 0; ///< mm, at the present time level
+};
+
+/// The bond of one contact point, attached to a facet of the other grain.
+struct PointBond : BondDamage {
+  std::int32_t facet = -1;         ///< where it is attached, -1: none
+  std::int32_t law = 0;            ///< number of the law by which it, or the one before it, formed
+  double weight1 = 0, weight2 = 0; ///< shape functions of the facet's second and third node
+  double spent = 0;                ///< N/mm, dissipated by the bonds that this point had before
   bool exists() const { return facet >= 0; }
   bool intact() const { return facet >= 0 && remaining > 0; }
 };
 
 /// Takes the bond to a new separation, and its damage with it. `open` and `effective` (separation) in mm, both >= 0.
-inline void update_bond(const BondLaw& law, PointBond& bond, double open, double effective) {
+inline void update_bond(const BondLaw& law, BondDamage& bond, double open, double effective) {
   bond.opening = open;
   bond.separation = effective;
   if (advance_damage(law, bond.state, open, effective)) bond.remaining = remaining_stiffness(law, bond.state);
@@ -46,8 +50,21 @@ inline void update_bond(const BondLaw& law, PointBond& bond, double open, double
 
 /// Part of the penalty that a bond leaves to its closed point, which the bond's own pull makes up for: 1 - (1 - D) b/k.
 /// `law` at the point, `penalty` K of the point (MPa/mm).
-inline double penalty_left_by_bond(const BondLaw& law, const PointBond& bond, double penalty) {
+inline double penalty_left_by_bond(const BondLaw& law, const BondDamage& bond, double penalty) {
   return 1.0 - bond.remaining * (law.stiffness / penalty);
+}
+
+/// Pull (mm) of a bond that holds in all directions: times its stiffness b (N/mm) the force (N) on its node. `reach`
+/// (mm) from the attachment to the node. `gap` is the distance (mm) of the node from the other surface, negative
+/// inside. Where the node is too far for its gap to be known, pass any larger number: the opening is at most the
+/// distance to the attachment.
+inline Vector3<double> pull_along(const BondLaw& law, BondDamage& bond, const Vector3<double>& reach, double gap) {
+  const double square = dot(reach, reach);
+  if (gap < 0)
+    update_bond(law, bond, 0.0, std::sqrt(std::max(square - gap * gap, 0.0)));
+  else
+    update_bond(law, bond, std::min(gap, std::sqrt(square)), std::sqrt(square));
+  return -bond.remaining * reach;
 }
 
 /// Force of a bond on its node per unit of the bond's stiffness, and where the reaction acts on the facet.
@@ -56,18 +73,11 @@ struct BondPull {
   double weight1, weight2; ///< shape functions of the attachment facet's second and third node
 };
 
-/// Pull of a bond that holds in all directions. `x` are the corners of its facet, mm. `gap` is the distance (mm) of the
-/// node from the other surface, negative inside. Where the node is too far for its gap to be known, pass any larger
-/// number: the opening is at most the distance to the attachment.
+/// Pull of a bond that holds in all directions. `x` are the corners of its facet, mm; `gap` as of pull_along.
 inline BondPull pull_of_bond(const BondLaw& law, PointBond& bond, const Vector3<double>& node,
                              const Vector3<double> (&x)[3], double gap) {
-  const Vector3<double> d = node - (x[0] + bond.weight1 * (x[1] - x[0]) + bond.weight2 * (x[2] - x[0]));
-  const double square = dot(d, d);
-  if (gap < 0)
-    update_bond(law, bond, 0.0, std::sqrt(std::max(square - gap * gap, 0.0)));
-  else
-    update_bond(law, bond, std::min(gap, std::sqrt(square)), std::sqrt(square));
-  return {-bond.remaining * d, bond.weight1, bond.weight2};
+  const Vector3<double> attachment = x[0] + bond.weight1 * (x[1] - x[0]) + bond.weight2 * (x[2] - x[0]);
+  return {pull_along(law, bond, node - attachment, gap), bond.weight1, bond.weight2};
 }
 
 /// Pull of an open bond that does not resist sliding: along the normal of the facet where it was last closed, between

@@ -136,7 +136,7 @@ void print_bonds(const Scenario& scenario, const Simulation& simulation) {
   const Model& model = simulation.model();
   const auto warnings = check_bonds(model, scenario);
   if (scenario.bond) {
-    const BondResolution r = bond_resolution(model, scenario);
+    const BondResolution r = bond_resolution(model, *scenario.bond, scenario.contact);
     fmt::print(
         "bonds          cohesive zone {:.3g} mm, {:.2g} elements of {:.3g} mm; fracture energy {:g} N/mm, softening "
         "as steep as the elements at {:.3g}, none left at {:.3g} N/mm\n",

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "solver/boundary/stl.hpp"
+#include "solver/model/material.hpp"
 
 namespace mpfem {
 
@@ -67,12 +68,16 @@ ToolSurface make_surface(const ToolShape& shape, const std::array<double, 3>& lo
       cone.inside};
 }
 
-Tools make_tools(std::span<const ToolParameters> parameters, const Model& model) {
+Tools make_tools(const Scenario& scenario, const Model& model) {
   std::vector<Tool> tools;
-  for (const ToolParameters& tool : parameters)
-    tools.push_back({.name = tool.name,
-                     .surface = make_surface(tool.shape, model.box_low, model.box_high),
-                     .friction = tool.friction});
+  for (const ToolParameters& parameters : scenario.tools) {
+    Tool tool{.name = parameters.name,
+              .surface = make_surface(parameters.shape, model.box_low, model.box_high),
+              .friction = parameters.friction};
+    if (const auto& adhesion = parameters.adhesion)
+      tool.adhesion = {law_of_bonds(*adhesion, scenario.contact), adhesion->rebond_on_contact};
+    tools.push_back(std::move(tool));
+  }
   return {std::move(tools), model.grains};
 }
 

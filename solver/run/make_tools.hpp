@@ -1,11 +1,10 @@
 #pragma once
 // The tools of a scenario in the box of its packing.
 
-#include <span>
-#include <vector>
+#include <array>
 
 #include "solver/boundary/tools.hpp"
-#include "solver/scenario/tools.hpp"
+#include "solver/scenario/scenario.hpp"
 
 namespace mpfem {
 
@@ -14,6 +13,6 @@ namespace mpfem {
 ToolSurface make_surface(const ToolShape& shape, const std::array<double, 3>& low, const std::array<double, 3>& high);
 
 /// All tools of a scenario, as they stand at the start.
-Tools make_tools(std::span<const ToolParameters> parameters, const Model& model);
+Tools make_tools(const Scenario& scenario, const Model& model);
 
 } // namespace mpfem

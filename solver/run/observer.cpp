@@ -135,6 +135,8 @@ HistoryRow observe_row(const Simulation& simulation, std::span<const GrainSums> 
   row.relative_density = model.total_reference_volume() / cell_volume;
   row.relative_density_current = total_volume / cell_volume;
   observe_bonds(row, total_bonds(model, simulation.contact(), team));
+  row.bond_energy += of_tools.adhesion_energy;
+  row.damage_dissipation += simulation.tools().adhesion_dissipation();
   take_over_sums(row, simulation.energies());
   row.energy_residual = simulation.energies().residual({.kinetic = row.kinetic_energy,
                                                         .elastic = row.elastic_energy,
@@ -158,7 +160,10 @@ std::vector<ToolRow> observe_tools(const Tools& tools) {
                     .force = array_of(load.force),
                     .moment = array_of(load.moment),
                     .normal_force = load.normal_force,
-                    .friction_dissipation = tools[i].friction_dissipation});
+                    .friction_dissipation = tools[i].friction_dissipation,
+                    .adhesion_energy = load.adhesion_energy,
+                    .adhesion_dissipation = tools[i].adhesion_dissipation,
+                    .bonded_area = load.bonded_area});
   }
   return rows;
 }

@@ -21,7 +21,7 @@ Scenario scenario_of(const CheckpointReader& checkpoint) {
 
 bool tools_differ(const std::vector<ToolParameters>& a, const std::vector<ToolParameters>& b) {
   return !std::equal(a.begin(), a.end(), b.begin(), b.end(), [](const ToolParameters& x, const ToolParameters& y) {
-    return x.name == y.name && x.shape == y.shape;
+    return x.name == y.name && x.shape == y.shape && x.adhesion == y.adhesion;
   });
 }
 

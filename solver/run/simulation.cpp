@@ -36,7 +36,7 @@ std::array<double, 3> gravity_of_scaled_mass(const Scenario& scenario) {
 Simulation::Simulation(Model model, const Scenario& scenario, ThreadTeam& team, bool branch)
     : scenario_(&scenario), team_(&team), profile_(team.size()), model_(std::move(model)),
       box_({model_.box_low, model_.box_high}, scenario.walls ? Axes{} : all_axes),
-      wall_friction_(scenario.wall_friction, model_.grains), tools_(make_tools(scenario.tools, model_)),
+      wall_friction_(scenario.wall_friction, model_.grains), tools_(make_tools(scenario, model_)),
       step_estimate_(model_, scenario.numerics), bounds_(static_cast<std::size_t>(model_.grains)),
       sums_(static_cast<std::size_t>(model_.grains)) {
   energies_.initial = set_initial_velocities(model_, scenario);
@@ -192,7 +192,7 @@ StageObservation Simulation::observation() const {
                         .damage_dissipation = {},
                         .tools = &tools_};
   if (!stage_complete() && stage_run_->needs_damage(state_.step))
-    seen.damage_dissipation = total_bonds(model_, contact_, *team_).dissipated;
+    seen.damage_dissipation = total_bonds(model_, contact_, *team_).dissipated + tools_.adhesion_dissipation();
   return seen;
 }
 

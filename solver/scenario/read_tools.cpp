@@ -135,6 +135,11 @@ ToolParameters read_tool(TableReader& table) {
   refuse_foreign_keys(table, all_keys, keyword->keys, fmt::format("type = '{}'", type));
   tool.shape = keyword->read(table);
   tool.friction = table.number_or("friction", 0, friction_or_zero);
+  if (auto adhesion = table.optional_table("adhesion")) {
+    tool.adhesion_places = adhesion->places();
+    tool.adhesion = read_bond(*adhesion);
+    if (tool.adhesion->normal_only) adhesion->fail("normal_only", "found true, allowed for a tool: false");
+  }
   table.finish();
   return tool;
 }

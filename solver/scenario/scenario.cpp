@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "common/errors.hpp"
 #include "common/table_reader.hpp"
 #include "solver/scenario/ranges.hpp"
 #include "solver/scenario/read_hardening.hpp"
@@ -181,6 +182,22 @@ void check_friction(const TableReader& contact, const Scenario& scenario) {
                                          *scenario.bond->stiffness_factor, scenario.contact.stiffness_factor));
 }
 
+/// The same of tools: their adhesion is read before the contact.
+void check_adhesion(const Scenario& scenario) {
+  for (const ToolParameters& tool : scenario.tools) {
+    if (!tool.adhesion || !tool.adhesion->stiffness_factor) continue;
+    const double factor = *tool.adhesion->stiffness_factor;
+    const auto fail = [&](const std::string& what) {
+      throw InputError(fmt::format("{}tool '{}': adhesion key 'stiffness_factor': {}",
+                                   tool.adhesion_places.prefix("stiffness_factor"), tool.name, what));
+    };
+    if (scenario.contact.stiffness) fail("cannot be used with 'contact.stiffness'; allowed is 'stiffness' (MPa/mm)");
+    if (tool.friction > 0 && factor > scenario.contact.stiffness_factor)
+      fail(fmt::format("found {:g}, with friction allowed up to contact.stiffness_factor = {:g}", factor,
+                       scenario.contact.stiffness_factor));
+  }
+}
+
 void check_walls(const TableReader& root, const Scenario& scenario) {
   if (scenario.walls) return;
   for (const Stage& stage : scenario.stages)
@@ -224,22 +241,6 @@ bool Scenario::has_friction() const {
          std::any_of(tools.begin(), tools.end(), [](const ToolParameters& tool) { return tool.friction > 0; });
 }
 
-BondParameters read_bond(TableReader table) {
-  BondParameters bond;
-  bond.tensile_strength = table.number("tensile_strength", positive_modulus);
-  bond.shear_strength = table.number("shear_strength", positive_modulus);
-  bond.fracture_energy = table.number("fracture_energy", positive_energy);
-  if (table.choice_or("softening", "exponential", {"exponential", "energy"}) == "energy")
-    bond.softening = SofteningLaw::energy;
-  bond.stiffness = table.optional_number("stiffness", positive_stiffness);
-  bond.stiffness_factor = table.optional_number("stiffness_factor", stiffness_factors);
-  if (bond.stiffness && bond.stiffness_factor) table.fail("stiffness", "cannot be used with 'stiffness_factor'");
-  bond.rebond_on_contact = table.choice_or("rebond", "never", {"never", "on_contact"}) == "on_contact";
-  bond.normal_only = table.boolean_or("normal_only", bond.normal_only);
-  table.finish();
-  return bond;
-}
-
 Scenario read_scenario(const TomlDocument& document) {
   Scenario scenario;
   TableReader root(document);
@@ -260,6 +261,7 @@ Scenario read_scenario(const TomlDocument& document) {
     if (scenario.bond->stiffness_factor && scenario.contact.stiffness)
       table->fail("stiffness_factor", "cannot be used with 'contact.stiffness'; allowed is 'stiffness' (MPa/mm)");
   }
+  check_adhesion(scenario);
   if (contact) check_friction(*contact, scenario);
   if (auto table = root.optional_table("numerics")) scenario.numerics = read_numerics(*table);
   scenario.numerics.element = default_element;

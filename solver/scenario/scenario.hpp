@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "common/key_places.hpp"
-#include "solver/physics/bond.hpp"
+#include "solver/scenario/bond_parameters.hpp"
 #include "solver/scenario/stages.hpp"
 #include "solver/scenario/tools.hpp"
 
@@ -80,19 +80,6 @@ struct ContactParameters {
     const auto rubs = [](const MaterialPair& pair) { return pair.friction > 0; };
     return friction > 0 || std::any_of(pairs.begin(), pairs.end(), rubs);
   }
-};
-
-/// Cohesive bonds that form where grains touch (paper Eqs. 2-7, Table 1).
-struct BondParameters {
-  double tensile_strength = 0; ///< MPa
-  double shear_strength = 0;   ///< MPa, in both tangential directions
-  double fracture_energy = 0;  ///< G^c, N/mm, in every mode
-  SofteningLaw softening = SofteningLaw::exponential;
-  bool rebond_on_contact = false;    ///< a broken bond's point bonds anew when it has opened and closes again
-  bool normal_only = false;          ///< no resistance against sliding (for comparison with theories of adhesion)
-  std::optional<double> stiffness{}; ///< K, MPa/mm; none, and no factor: the contact's penalty
-  std::optional<double> stiffness_factor{}; ///< K h/E
-  bool operator==(const BondParameters&) const = default;
 };
 
 /// Linear tetrahedra with one Gauss point.
@@ -167,9 +154,6 @@ struct Scenario {
   bool has_friction() const;
   bool has_gravity() const { return gravity != std::array<double, 3>{}; }
 };
-
-/// Reads the keys of a [bond] table. Throws InputError.
-BondParameters read_bond(TableReader table);
 
 /// Reads a scenario. Throws InputError with file, line and column for any mistake.
 Scenario read_scenario(const TomlDocument& document);

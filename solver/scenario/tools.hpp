@@ -9,6 +9,9 @@
 #include <variant>
 #include <vector>
 
+#include "common/key_places.hpp"
+#include "solver/scenario/bond_parameters.hpp"
+
 namespace mpfem {
 
 /// A plane; the grains are where its normal points.
@@ -60,7 +63,9 @@ using ToolShape = std::variant<PlaneShape, CylinderShape, SphereShape, ConeShape
 struct ToolParameters {
   std::string name;
   ToolShape shape;
-  double friction = 0; ///< Coulomb's mu between grains and the tool
+  double friction = 0;                      ///< Coulomb's mu between grains and the tool
+  std::optional<BondParameters> adhesion{}; ///< bonds of grains to the tool; none: nothing sticks to it
+  KeyPlaces adhesion_places{};
 };
 
 /// The tools between which relative density and stresses are taken: a die along z and two punches across z. Indices

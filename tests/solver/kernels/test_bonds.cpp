@@ -158,7 +158,7 @@ TEST_CASE("a fracture energy that leaves no softening branch is refused, one sof
   Scenario scenario = bonded_scenario(table_1(0.5), {grip("press", -6e-4, 500)});
   const MeshedPacking packing = two_cubes(4);
   const Model model = build_model(packing, scenario, "test");
-  const BondResolution r = bond_resolution(model, scenario);
+  const BondResolution r = bond_resolution(model, *scenario.bond, scenario.contact);
   scenario.bond->fracture_energy = r.smallest_fracture_energy;
   CHECK_THROWS_AS(check_bonds(model, scenario), InputError);
   scenario.bond->fracture_energy = 0.9 * r.steep_fracture_energy;

@@ -13,6 +13,7 @@
 #include "solver/output/tool_geometry.hpp"
 #include "solver/run/make_tools.hpp"
 #include "tests/support/bonded_pair.hpp"
+#include "tests/support/driven_tools.hpp"
 #include "tests/support/small_runs.hpp"
 #include "tests/support/tolerances.hpp"
 
@@ -40,26 +41,6 @@ Motion motion_of(const Model& m) {
   }
   motion.centre /= motion.mass;
   return motion;
-}
-
-ToolParameters plane(const std::string& name, const std::array<double, 3>& point, const std::array<double, 3>& normal,
-                     double friction = 0) {
-  return {name, PlaneShape{{}, point, normal}, friction};
-}
-
-/// A stage in which tools move for a time, damped at a rate (1/s).
-Stage driven(std::vector<ToolDrive> drives, double duration, double damping = 0) {
-  ToolLoading loading;
-  for (const ToolDrive& drive : drives)
-    loading.speed = std::max(loading.speed,
-                             std::hypot(drive.velocity[0], drive.velocity[1], drive.velocity[2]) + drive.servo_speed);
-  loading.drives = std::move(drives);
-  loading.ends.duration = duration;
-  Stage stage;
-  stage.name = "driven";
-  stage.type = loading;
-  if (damping > 0) stage.damping = {damping, 1e9};
-  return stage;
 }
 
 /// A quarter of a cylinder about z, x > 0 and y > 0, of n cells along radius and axis: the square's shells mapped to
@@ -362,9 +343,47 @@ drive.plate.speed = 10000
 
 } // namespace
 
+/// The tablet sticks to the lower punch, which rubs, and for good to the plate.
+std::string sticky_text() {
+  const std::string weak = R"([tools.adhesion]
+tensile_strength = 5
+shear_strength = 4
+fracture_energy = 0.002
+rebond = "on_contact"
+)",
+                    strong = R"([tools.adhesion]
+tensile_strength = 50
+shear_strength = 50
+fracture_energy = 0.5
+)";
+  const std::string text = replaced(tablet_text, "friction = 0.2\n", "friction = 0.2\n" + weak);
+  return replaced(text, "face = \"+x\"\n", "face = \"+x\"\n" + strong);
+}
+
 TEST_CASE("a run with tools is bitwise the same on one, two and four threads, and when it is resumed") {
-  check_threads(tablet_text, 4);
-  check_resuming(tablet_text, 4);
+  for (const std::string& text : {tablet_text, sticky_text()}) {
+    check_threads(text, 4);
+    check_resuming(text, 4);
+  }
+}
+
+TEST_CASE("grains that stick to tools keep the ledger, and the history tells what holds them") {
+  const Folder folder;
+  prepare(folder, 4, sticky_text());
+  REQUIRE(mpfem_command(fmt::format("run {} -o {} --quiet", folder / "scenario.toml", folder / "run.h5")).exit_code ==
+          0);
+  CHECK(schema::validate(folder / "run.h5").empty());
+  const schema::FileReader file(folder / "run.h5", schema::FileKind::run);
+  const auto work = file.read(schema::run::history_external_work),
+             residual = file.read(schema::run::history_energy_residual);
+  const double most = *std::max_element(work.begin(), work.end());
+  for (const double r : residual) CHECK(std::abs(r) < 0.01 * most);
+  const auto lost = file.read(schema::run::history_tools_adhesion_dissipation, "lower"),
+             area = file.read(schema::run::history_tools_bonded_area, "lower");
+  CHECK(*std::max_element(area.begin(), area.end()) > 0);
+  CHECK(lost.back() > 0); // the ejected tablet jumps
+  CHECK(std::is_sorted(lost.begin(), lost.end()));
+  CHECK_FALSE(file.has(schema::run::history_tools_bonded_area, "upper"));
 }
 
 TEST_CASE("a press keeps the ledger, and its forces balance") {
@@ -444,7 +463,7 @@ TEST_CASE("spheres, cones, endless cylinders and triangles are written with all 
   const Model model = build_model(pack({ball}, {1, 1, 1}), scenario, "test");
   {
     schema::FileWriter writer(folder / "tools.h5", schema::FileKind::run, "mpfem tests");
-    write_tool_geometry(writer, make_tools(scenario.tools, model));
+    write_tool_geometry(writer, make_tools(scenario, model));
     writer.commit();
   }
   const schema::FileReader file(folder / "tools.h5", schema::FileKind::run);
@@ -480,6 +499,14 @@ TEST_CASE("a branch goes on with the tools where they stand, and refuses others"
   const Outcome bad = branch(replaced(unloading, "radius = 0.29", "radius = 0.3"));
   CHECK(bad.exit_code == 2);
   CHECK_THAT(bad.messages, Catch::Contains("tools differ"));
+  const Outcome sticky = branch(replaced(unloading, "face = \"-z\"\n", R"(face = "-z"
+[tools.adhesion]
+tensile_strength = 5
+shear_strength = 4
+fracture_energy = 0.01
+)"));
+  CHECK(sticky.exit_code == 2);
+  CHECK_THAT(sticky.messages, Catch::Contains("tools differ"));
 }
 
 TEST_CASE("mistakes in tools are refused with the key and what is allowed") {
@@ -501,6 +528,16 @@ TEST_CASE("mistakes in tools are refused with the key and what is allowed") {
   CHECK_THAT(refusal("radius = 0.29", "radius = 0.2"), Catch::Contains("into the tool 'die'"));
   CHECK_THAT(refusal("rounding = 0.03", "rounding = 0.3"), Catch::Contains("half of the extent"));
   CHECK_THAT(refusal("travel = 0.05\n", ""), Catch::Contains("without an end"));
+  const auto adhesion = [&](const std::string& keys) {
+    return refusal("friction = 0.2\n",
+                   "friction = 0.2\n[tools.adhesion]\ntensile_strength = 5\nshear_strength = 4\n" + keys);
+  };
+  CHECK_THAT(adhesion(""), Catch::Contains("fracture_energy"));
+  CHECK_THAT(adhesion("fracture_energy = 1e-9\n"), Catch::Contains("tool 'lower': adhesion key 'fracture_energy'"));
+  CHECK_THAT(adhesion("fracture_energy = 0.01\nnormal_only = true\n"), Catch::Contains("normal_only"));
+  CHECK_THAT(adhesion("fracture_energy = 0.01\nstiffness_factor = 20\n"),
+             Catch::Contains("with friction allowed up to"));
+  CHECK_THAT(adhesion("fracture_energy = 0.01\nstiffness = 1e9\n"), Catch::Contains("smallest penalty"));
   CHECK_THAT(refusal("[gravity]\nacceleration = [0, 0, -1e6]", "walls = true\n[gravity]\nacceleration = [0, 0, -1]"),
              Catch::Contains("walls"));
 }

@@ -1,0 +1,28 @@
+#pragma once
+// Cohesive bonds of a scenario: [bond], and the adhesion of tools.
+
+#include <optional>
+
+#include "solver/physics/bond.hpp"
+
+namespace mpfem {
+
+class TableReader;
+
+/// Cohesive bonds that form where grains touch each other or a tool (paper Eqs. 2-7, Table 1).
+struct BondParameters {
+  double tensile_strength = 0; ///< MPa
+  double shear_strength = 0;   ///< MPa, in both tangential directions
+  double fracture_energy = 0;  ///< G^c, N/mm, in every mode
+  SofteningLaw softening = SofteningLaw::exponential;
+  bool rebond_on_contact = false;    ///< a broken bond's point bonds anew when it has opened and closes again
+  bool normal_only = false;          ///< no resistance against sliding (for comparison with theories of adhesion)
+  std::optional<double> stiffness{}; ///< K, MPa/mm; none, and no factor: the contact's penalty
+  std::optional<double> stiffness_factor{}; ///< K h/E
+  bool operator==(const BondParameters&) const = default;
+};
+
+/// Reads the keys of such a table. Throws InputError.
+BondParameters read_bond(TableReader table);
+
+} // namespace mpfem
