@@ -13,7 +13,8 @@ class Command;
 using MakeCommand = std::unique_ptr<Command>(CLI::App&);
 
 // Of a run or its snapshots.
-MakeCommand summary_command, curve_command, contact_command, vtk_command, section_command, view_command, watch_command;
+MakeCommand summary_command, curve_command, contact_command, vtk_command, section_command, density_map_command,
+    view_command, watch_command;
 
 // One number off a stage of a run.
 MakeCommand elastic_recovery_command, modulus_command, strength_command, yield_command, hysteresis_command,
