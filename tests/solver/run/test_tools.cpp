@@ -13,6 +13,7 @@
 #include "solver/output/tool_geometry.hpp"
 #include "solver/run/make_tools.hpp"
 #include "tests/support/bonded_pair.hpp"
+#include "tests/support/die_column.hpp"
 #include "tests/support/driven_tools.hpp"
 #include "tests/support/small_runs.hpp"
 #include "tests/support/tolerances.hpp"
@@ -41,18 +42,6 @@ Motion motion_of(const Model& m) {
   }
   motion.centre /= motion.mass;
   return motion;
-}
-
-/// A quarter of a cylinder about z, x > 0 and y > 0, of n cells along radius and axis: the square's shells mapped to
-/// circles.
-GrainMesh quarter_cylinder(int n, double radius, double height) {
-  GrainMesh mesh = cube_mesh(n);
-  for (auto& x : mesh.node) {
-    const double u = 0.5 * (x[0] + 1), v = 0.5 * (x[1] + 1), shell = std::max(u, v);
-    const double angle = shell > 0 ? M_PI / 4 * (v > u ? 2 - u / v : v / u) : 0;
-    x = {radius * shell * std::cos(angle), radius * shell * std::sin(angle), 0.5 * height * x[2]};
-  }
-  return mesh;
 }
 
 } // namespace
@@ -181,6 +170,42 @@ TEST_CASE("the push of a tool that is watched and not driven is that along its n
   CHECK(-load.force.z < 1.15 * target); // passed by what one step of the impact adds
 }
 
+TEST_CASE("a ball comes to rest in a cone, in a bowl and on a plane that bear its weight where it touches them") {
+  constexpr double gravity = 4e9, radius = 0.1; // mm/s^2, mm
+  const auto at_rest = [&](const ToolParameters& tool, const std::array<double, 3>& centre) {
+    Scenario scenario = holding_scenario(1);
+    scenario.gravity = {0, 0, -gravity};
+    scenario.tools = {tool};
+    scenario.stages = {driven({}, 3e-5, 1e6)};
+    GrainMesh ball = ball_mesh(4, radius);
+    move(ball, centre);
+    ThreadTeam team(1);
+    Simulation simulation(build_model(pack({ball}, {1, 1, 1}), scenario, "test"), scenario, team);
+    for (simulation.evaluate_forces(); !simulation.stage_complete(); simulation.evaluate_forces()) simulation.advance();
+    const Motion motion = motion_of(simulation.model());
+    const ToolLoad load = simulation.tools().load(0);
+    const double weight = motion.mass * gravity;
+    CHECK(within(-load.force.z, weight, 0.02)); // which still swings a little
+    CHECK(std::hypot(load.force.x, load.force.y) < 0.02 * weight);
+    return std::pair(motion.centre, (1 / weight) * load.moment);
+  };
+  // In a cone of 45 degrees the centre is R/sin(45 degrees) above the apex. Facets and penalty take some 0.01 R.
+  const Vector in_cone =
+      at_rest({.name = "cone", .shape = ConeShape{.apex = {0.5, 0.5, 0.3}, .half_angle = M_PI / 4, .inside = true}},
+              {0.5, 0.5, 0.3 + 1.45 * radius})
+          .first;
+  CHECK(std::abs(in_cone[2] - 0.3 - std::sqrt(2.0) * radius) < 0.03 * radius);
+  const Vector in_bowl =
+      at_rest({.name = "bowl", .shape = SphereShape{{0.5, 0.5, 0.5}, 0.3, true}}, {0.5, 0.5, 0.3 + 0.01 * radius})
+          .first;
+  CHECK(std::abs(in_bowl[2] - 0.3) < 0.03 * radius);
+  // The weight acts 0.2 mm from the plane's point.
+  const auto moment = at_rest(plane("floor", {0.3, 0.5, 0.4}, {0, 0, 1}), {0.5, 0.5, 0.5 + 0.01 * radius}).second;
+  CHECK(within(moment.y, 0.2, 0.03));
+  CHECK(std::abs(moment.x) < 0.02 * radius);
+  CHECK(std::abs(moment.z) < 1e-6);
+}
+
 /// A slab in ASCII STL, in metres.
 std::string slab_stl(const std::array<double, 3>& low, const std::array<double, 3>& high) {
   // Corners by bits: x, y, z; faces counter-clockwise from outside.
@@ -230,42 +255,13 @@ TEST_CASE("the flat face of a body in an STL file pushes and rubs as a plane doe
   CHECK(within(loads[1].force.z, loads[0].force.z, 1e-9));
 }
 
-/// A column of elastic matter that a punch presses against another in a rigid die, all of whose wall slides: from the
-/// upper to the lower punch the stress falls by exp(-4 mu K H/D), K = nu/(1 - nu) (Janssen 1895). Reference: finite
-/// elements with smooth punches, tests/reference/die_transmission.csv.
 TEST_CASE("friction of a die takes what Janssen's law says of the force on its way from punch to punch") {
-  constexpr double radius = 0.5, height = 1, strain = 2e-3;
   for (const auto& [nu, mu, reference] : {std::array{0.3, 0.1, 0.8453}, std::array{0.4, 0.3, 0.4497}}) {
-    Scenario scenario = holding_scenario(1);
-    scenario.numerics.element = ElementType::tet4;
-    scenario.material.poissons_ratio = nu;
-    scenario.contact.stiffness_factor = 30; // the wall gives by 1/300 of an element under the column's own stress
-    scenario.contact.surface = ContactSurface::facets;
-    scenario.tools = {{"die", CylinderShape{2, std::array{0.0, 0.0, 0.5}, radius * (1 + 1e-9), true, {}, 0}, mu},
-                      plane("lower", {0, 0, 0}, {0, 0, 1}),
-                      plane("upper", {0, 0, height}, {0, 0, -1}),
-                      plane("symmetry-x", {0, 0, 0}, {1, 0, 0}),
-                      plane("symmetry-y", {0, 0, 0}, {0, 1, 0})};
-    const double transit = height * std::sqrt(1.55e-9 / 5000);
-    const ToolDrive upper{.tool = 2, .velocity = {0, 0, -strain * height / (30 * transit)}, .direction = {0, 0, -1}};
-    scenario.stages = {driven({upper}, 33 * transit)};
-    GrainMesh column = quarter_cylinder(12, radius, height);
-    move(column, {0, 0, 0.5 * height});
-    ThreadTeam team(1);
-    Simulation simulation(build_model(pack({column}, {radius, radius, height}), scenario, "test"), scenario, team);
-    double low = 0, high = 0, lost = 0;
-    for (simulation.evaluate_forces(); !simulation.stage_complete(); simulation.evaluate_forces()) {
-      if (simulation.state().time > 25 * transit)
-        low -= simulation.tools()[1].force[2], high += simulation.tools()[2].force[2];
-      simulation.advance();
-    }
-    const HistoryRow row = simulation.observe();
-    for (std::size_t tool = 0; tool < simulation.tools().size(); ++tool)
-      lost += simulation.tools()[tool].friction_dissipation;
-    INFO("nu " << nu << ", mu " << mu << ": " << low / high);
-    CHECK(within(low / high, reference, 0.02));
-    CHECK(within(lost, row.friction_dissipation, 1e-9));
-    CHECK(std::abs(row.energy_residual) < 0.01 * row.external_work);
+    const die_column::Pressed pressed = die_column::press({.n = 12}, nu, mu);
+    INFO("nu " << nu << ", mu " << mu << ": " << pressed.transmission);
+    CHECK(within(pressed.transmission, reference, 0.02));
+    CHECK(within(pressed.lost_at_tools, pressed.row.friction_dissipation, 1e-9));
+    CHECK(std::abs(pressed.row.energy_residual) < 0.01 * pressed.row.external_work);
   }
 }
 
@@ -499,7 +495,7 @@ TEST_CASE("a branch goes on with the tools where they stand, and refuses others"
   const Outcome bad = branch(replaced(unloading, "radius = 0.29", "radius = 0.3"));
   CHECK(bad.exit_code == 2);
   CHECK_THAT(bad.messages, Catch::Contains("tools differ"));
-  const Outcome sticky = branch(replaced(unloading, "face = \"-z\"\n", R"(face = "-z"
+  const Outcome sticky = branch(replaced(unloading, "friction = 0.2\n", R"(friction = 0.2
 [tools.adhesion]
 tensile_strength = 5
 shear_strength = 4

@@ -1,0 +1,78 @@
+#pragma once
+// A column of elastic matter that a punch presses against another in a rigid die, all of whose wall slides: from the
+// upper to the lower punch the stress falls by exp(-4 mu K H/D), K = nu/(1 - nu) (Janssen 1895). Reference: finite
+// elements with smooth punches, tests/reference/die_transmission.csv.
+
+#include <array>
+#include <cmath>
+
+#include "solver/run/simulation.hpp"
+#include "tests/support/driven_tools.hpp"
+#include "tests/support/meshes.hpp"
+
+namespace mpfem::test::die_column {
+
+constexpr double column_radius = 0.5, column_height = 1; // mm
+
+/// A quarter of a cylinder about z, x > 0 and y > 0, of n cells along radius and axis: the square's shells mapped to
+/// circles.
+inline GrainMesh quarter_cylinder(int n, double radius, double height) {
+  GrainMesh mesh = cube_mesh(n);
+  for (auto& x : mesh.node) {
+    const double u = 0.5 * (x[0] + 1), v = 0.5 * (x[1] + 1), shell = std::max(u, v);
+    const double angle = shell > 0 ? M_PI / 4 * (v > u ? 2 - u / v : v / u) : 0;
+    x = {radius * shell * std::cos(angle), radius * shell * std::sin(angle), 0.5 * height * x[2]};
+  }
+  return mesh;
+}
+
+/// What is varied.
+struct Settings {
+  int n = 12; ///< cells along the radius, and along the axis
+  ElementType element = ElementType::tet4;
+};
+
+struct Pressed {
+  double transmission = 0;  ///< force of the lower punch over that of the upper
+  double lost_at_tools = 0; ///< mJ, friction's dissipation, tool by tool
+  HistoryRow row{};         ///< the last
+};
+
+/// Presses by 0.2 % in 33 transits of waves; forces are means of the last eight.
+inline Pressed press(const Settings& settings, double nu, double mu) {
+  constexpr double strain = 2e-3;
+  Scenario scenario = holding_scenario(1);
+  scenario.numerics.element = settings.element;
+  scenario.material.poissons_ratio = nu;
+  scenario.contact.stiffness_factor = 30; // the wall gives by 1/300 of an element under the column's own stress
+  scenario.contact.surface = ContactSurface::facets;
+  const CylinderShape bore{2, std::array{0.0, 0.0, 0.5}, column_radius * (1 + 1e-9), true, {}, 0};
+  scenario.tools = {{.name = "die", .shape = bore, .friction = mu},
+                    plane("lower", {0, 0, 0}, {0, 0, 1}),
+                    plane("upper", {0, 0, column_height}, {0, 0, -1}),
+                    plane("symmetry-x", {0, 0, 0}, {1, 0, 0}),
+                    plane("symmetry-y", {0, 0, 0}, {0, 1, 0})};
+  const double transit = column_height * std::sqrt(1.55e-9 / 5000);
+  const ToolDrive upper{
+      .tool = 2, .velocity = {0, 0, -strain * column_height / (30 * transit)}, .direction = {0, 0, -1}};
+  scenario.stages = {driven({upper}, 33 * transit)};
+  GrainMesh column = quarter_cylinder(settings.n, column_radius, column_height);
+  move(column, {0, 0, 0.5 * column_height});
+  ThreadTeam team(1);
+  Simulation simulation(build_model(pack({column}, {column_radius, column_radius, column_height}), scenario, "test"),
+                        scenario, team);
+  Pressed pressed;
+  double low = 0, high = 0;
+  for (simulation.evaluate_forces(); !simulation.stage_complete(); simulation.evaluate_forces()) {
+    if (simulation.state().time > 25 * transit)
+      low -= simulation.tools()[1].force[2], high += simulation.tools()[2].force[2];
+    simulation.advance();
+  }
+  pressed.transmission = low / high;
+  pressed.row = simulation.observe();
+  for (std::size_t tool = 0; tool < simulation.tools().size(); ++tool)
+    pressed.lost_at_tools += simulation.tools()[tool].friction_dissipation;
+  return pressed;
+}
+
+} // namespace mpfem::test::die_column
