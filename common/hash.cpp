@@ -1,5 +1,6 @@
 #include "common/hash.hpp"
 
+#include <algorithm>
 #include <bit>
 #include <cstring>
 
@@ -40,29 +41,41 @@ std::uint64_t avalanche(std::uint64_t hash) {
 
 } // namespace
 
-std::uint64_t hash_bytes(std::span<const std::byte> bytes, std::uint64_t seed) {
-  const std::byte* at = bytes.data();
-  std::size_t left = bytes.size();
+StreamingHash::StreamingHash(std::uint64_t seed)
+    : seed_(seed), lane_{seed + prime_1 + prime_2, seed + prime_2, seed, seed - prime_1} {}
 
-  // 1. Stripes of four words, one accumulator each.
-  std::uint64_t hash = seed + prime_5;
-  if (left >= 32) {
-    std::uint64_t a = seed + prime_1 + prime_2;
-    std::uint64_t b = seed + prime_2;
-    std::uint64_t c = seed;
-    std::uint64_t d = seed - prime_1;
-    for (; left >= 32; left -= 32, at += 32) {
-      a = stir(a, read_word<std::uint64_t>(at));
-      b = stir(b, read_word<std::uint64_t>(at + 8));
-      c = stir(c, read_word<std::uint64_t>(at + 16));
-      d = stir(d, read_word<std::uint64_t>(at + 24));
-    }
-    hash = std::rotl(a, 1) + std::rotl(b, 7) + std::rotl(c, 12) + std::rotl(d, 18);
-    hash = merge(merge(merge(merge(hash, a), b), c), d);
+/// A stripe: four words, one accumulator each.
+void StreamingHash::take_stripe(const std::byte* at) {
+  for (std::size_t i = 0; i < 4; ++i) lane_[i] = stir(lane_[i], read_word<std::uint64_t>(at + 8 * i));
+}
+
+void StreamingHash::update(std::span<const std::byte> bytes) {
+  size_ += bytes.size();
+  if (left_ > 0) { // the stripe that was begun comes first
+    const std::size_t taken = std::min(rest_.size() - left_, bytes.size());
+    std::copy_n(bytes.begin(), taken, rest_.begin() + static_cast<std::ptrdiff_t>(left_));
+    bytes = bytes.subspan(taken);
+    left_ += taken;
+    if (left_ < rest_.size()) return;
+    take_stripe(rest_.data());
+    left_ = 0;
   }
-  hash += bytes.size();
+  for (; bytes.size() >= 32; bytes = bytes.subspan(32)) take_stripe(bytes.data());
+  std::copy(bytes.begin(), bytes.end(), rest_.begin());
+  left_ = bytes.size();
+}
 
-  // 2. The rest, by words, a half word and bytes.
+std::uint64_t StreamingHash::value() const {
+  std::uint64_t hash = seed_ + prime_5;
+  if (size_ >= 32) {
+    hash = std::rotl(lane_[0], 1) + std::rotl(lane_[1], 7) + std::rotl(lane_[2], 12) + std::rotl(lane_[3], 18);
+    for (const std::uint64_t accumulator : lane_) hash = merge(hash, accumulator);
+  }
+  hash += size_;
+
+  // The rest, by words, a half word and bytes.
+  const std::byte* at = rest_.data();
+  std::size_t left = left_;
   for (; left >= 8; left -= 8, at += 8)
     hash = std::rotl(hash ^ stir(0, read_word<std::uint64_t>(at)), 27) * prime_1 + prime_4;
   if (left >= 4) {
@@ -73,6 +86,12 @@ std::uint64_t hash_bytes(std::span<const std::byte> bytes, std::uint64_t seed) {
   for (; left > 0; --left, ++at) hash = std::rotl(hash ^ (read_word<std::uint8_t>(at) * prime_5), 11) * prime_1;
 
   return avalanche(hash);
+}
+
+std::uint64_t hash_bytes(std::span<const std::byte> bytes, std::uint64_t seed) {
+  StreamingHash hash(seed);
+  hash.update(bytes);
+  return hash.value();
 }
 
 std::uint64_t hash_string(std::string_view text, std::uint64_t seed) {

@@ -5,8 +5,6 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "common/hash.hpp"
-
 namespace mpfem::schema {
 
 namespace {
@@ -25,12 +23,21 @@ std::size_t size_of(ElementType type) {
   return 0;
 }
 
+/// Where the hash of a dataset's values begins.
+std::uint64_t hash_of_description(const DatasetDescription& dataset, std::string_view path, std::string_view unit,
+                                  const std::vector<std::size_t>& extents) {
+  return hash_string(fmt::format("{}|{}|{}|{}", path, type_name(dataset.type), fmt::join(extents, ","), unit));
+}
+
 } // namespace
+
+DatasetChecksum::DatasetChecksum(const DatasetDescription& dataset, std::string_view path, std::string_view unit,
+                                 const std::vector<std::size_t>& extents)
+    : hash_(hash_of_description(dataset, path, unit, extents)) {}
 
 std::string checksum_of_dataset(const DatasetDescription& dataset, std::string_view path, std::string_view unit,
                                 const std::vector<std::size_t>& extents, const void* values) {
-  std::uint64_t hash =
-      hash_string(fmt::format("{}|{}|{}|{}", path, type_name(dataset.type), fmt::join(extents, ","), unit));
+  std::uint64_t hash = hash_of_description(dataset, path, unit, extents);
   std::size_t count = 1;
   for (const auto extent : extents) count *= extent;
   if (dataset.type == ElementType::string)

@@ -1,10 +1,12 @@
 #pragma once
 // Typed writing and reading of the toolkit's HDF5 files. What may be written is what results-schema/schema.toml says.
 
+#include <functional>
 #include <memory>
 #include <span>
 #include <string>
 #include <string_view>
+#include <type_traits>
 #include <vector>
 
 #include "results-schema/descriptors.hpp"
@@ -33,6 +35,19 @@ public:
     static_assert(Rank > 0, "write_scalar writes scalars");
     write_values(dataset, values.data(), values.size(), rows, snapshot);
   }
+  /// Begins an array with `rows` rows of `columns` values that come piece by piece: append() until all are there,
+  /// before anything else is written.
+  template <class T, int Rank>
+  void begin(const Dataset<T, Rank>& dataset, std::size_t rows, std::size_t columns = 1,
+             std::string_view snapshot = {}) {
+    static_assert(Rank > 0 && std::is_arithmetic_v<T>, "numbers in rows come piece by piece");
+    begin_values(dataset, rows * columns, rows, snapshot);
+  }
+  /// The next whole rows of the array that begin() has begun.
+  template <class T>
+  void append(std::span<const T> values) {
+    append_values(values.data(), values.size(), sizeof(T));
+  }
   template <class T>
   void write_scalar(const Dataset<T, 0>& dataset, const T& value, std::string_view snapshot = {}) {
     write_values(dataset, &value, 1, 1, snapshot);
@@ -46,6 +61,9 @@ public:
 private:
   void write_values(const DatasetDescription& dataset, const void* values, std::size_t count, std::size_t rows,
                     std::string_view snapshot);
+  void begin_values(const DatasetDescription& dataset, std::size_t count, std::size_t rows, std::string_view snapshot);
+  void append_values(const void* values, std::size_t count, std::size_t size);
+  void end_values();
   struct State;
   std::unique_ptr<State> state_;
 };
@@ -75,6 +93,20 @@ public:
     static_assert(Rank > 0, "read_scalar reads scalars");
     return read_all<T>(dataset, snapshot);
   }
+  /// All values in pieces of some megabytes: calls take(first_row, values) with whole rows, one piece after another.
+  /// Damage is known at the end only: what was taken is to be thrown away then.
+  template <class T, int Rank, class Take>
+  void read_in_pieces(const Dataset<T, Rank>& dataset, Take&& take, std::string_view snapshot = {}) const {
+    static_assert(Rank > 0 && std::is_arithmetic_v<T>, "numbers in rows are read in pieces");
+    std::vector<T> piece;
+    read_piecewise(
+        dataset, snapshot,
+        [&piece](std::size_t values) {
+          piece.resize(values);
+          return static_cast<void*>(piece.data());
+        },
+        [&](std::size_t first_row) { take(first_row, std::span<const T>(piece)); });
+  }
   template <class T>
   T read_scalar(const Dataset<T, 0>& dataset, std::string_view snapshot = {}) const {
     return read_all<T>(dataset, snapshot).front();
@@ -102,6 +134,9 @@ private:
   }
   std::size_t count(const DatasetDescription& dataset, std::string_view snapshot) const;
   void read_values(const DatasetDescription& dataset, void* values, std::string_view snapshot) const;
+  void read_piecewise(const DatasetDescription& dataset, std::string_view snapshot,
+                      const std::function<void*(std::size_t)>& room,
+                      const std::function<void(std::size_t)>& take) const;
   std::unique_ptr<State> state_;
 };
 

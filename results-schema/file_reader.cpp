@@ -1,6 +1,7 @@
 #include "results-schema/file_reader.hpp"
 
 #include <algorithm>
+#include <array>
 #include <filesystem>
 #include <map>
 
@@ -194,6 +195,38 @@ void FileReader::read_values(const DatasetDescription& dataset, void* values, st
   const std::string path = path_of(dataset, snapshot);
   if (const std::string wrong = state_->read(dataset, path, values); !wrong.empty())
     throw InputError(fmt::format("{}: dataset {} {}", one_line(state_->path), path, wrong));
+}
+
+void FileReader::read_piecewise(const DatasetDescription& dataset, std::string_view snapshot,
+                                const std::function<void*(std::size_t)>& room,
+                                const std::function<void(std::size_t)>& take) const {
+  constexpr std::size_t piece_bytes = std::size_t{4} << 20;
+  const std::string path = path_of(dataset, snapshot);
+  const auto fail = [&](const char* what) {
+    throw InputError(fmt::format("{}: dataset {} {}", one_line(state_->path), path, what));
+  };
+  count(dataset, snapshot); // looks at type and shape
+  const Handle set(H5Dopen2(state_->file, path.c_str(), H5P_DEFAULT), H5Dclose);
+  const Handle type = memory_type(dataset.type), space(H5Dget_space(set), H5Sclose);
+  const auto extents = extents_of(set);
+  const hsize_t columns = extents.size() > 1 ? extents[1] : 1;
+  const std::size_t row_bytes = columns * H5Tget_size(type);
+  const hsize_t rows_of_piece = std::max<hsize_t>(1, piece_bytes / std::max<std::size_t>(row_bytes, 1));
+  DatasetChecksum found(dataset, path, read_text_attribute(set, attribute::unit), {extents.begin(), extents.end()});
+  for (hsize_t first = 0; first < extents[0]; first += rows_of_piece) {
+    const hsize_t rows = std::min(rows_of_piece, extents[0] - first);
+    const std::array<hsize_t, 2> from{first, 0}, block{rows, columns};
+    void* const values = room(rows * columns);
+    const Handle memory(H5Screate_simple(dataset.rank, block.data(), nullptr), H5Sclose);
+    if (H5Sselect_hyperslab(space, H5S_SELECT_SET, from.data(), nullptr, block.data(), nullptr) < 0 ||
+        H5Dread(set, type, memory, space, H5P_DEFAULT, values) < 0)
+      fail("is damaged: it cannot be read");
+    found.update({static_cast<const std::byte*>(values), rows * row_bytes});
+    take(first);
+  }
+  const std::string checksum = read_text_attribute(set, attribute::checksum);
+  if (checksum.empty() ? state_->checked() : checksum != found.text())
+    fail(checksum.empty() ? "is damaged: it has no checksum" : "is damaged: its values do not match its checksum");
 }
 
 std::size_t FileReader::rows(const DatasetDescription& dataset, std::string_view snapshot) const {

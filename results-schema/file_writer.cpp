@@ -1,6 +1,8 @@
 #include <algorithm>
 #include <map>
+#include <optional>
 #include <stdexcept>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -92,6 +94,16 @@ herr_t write_elements(hid_t set, ElementType type, const void* values, std::size
 
 } // namespace
 
+/// An array whose values come piece by piece.
+struct OpenArray {
+  Handle set;
+  std::string path;
+  ElementType type{};
+  Extents extent{};
+  hsize_t rows_written = 0;
+  DatasetChecksum checksum;
+};
+
 struct FileWriter::State {
   std::string path, target, partial; ///< as named, where links lead, and beside that
   FileKind kind;
@@ -101,6 +113,7 @@ struct FileWriter::State {
   std::map<std::string, std::size_t> extents;   ///< named extents seen so far; of a snapshot: its name before them
   std::map<std::string, std::string> checksums; ///< of all datasets so far, by path
   std::vector<std::string> large;               ///< paths of datasets whose values the seal leaves out
+  std::optional<OpenArray> open;                ///< begun and not yet complete
 
   [[noreturn]] void storage_failed(std::string_view what) const {
     throw StorageError(
@@ -116,6 +129,7 @@ struct FileWriter::State {
 void FileWriter::State::check_call(const DatasetDescription& dataset, const std::string& dataset_path,
                                    std::string_view snapshot) const {
   if (!file) misused(dataset_path, "written after commit()");
+  if (open) misused(dataset_path, "written before " + open->path + " is complete");
   const auto datasets = kinds[static_cast<std::size_t>(kind)].datasets;
   if (std::none_of(datasets.begin(), datasets.end(), [&](const auto& known) { return known.path == dataset.path; }))
     misused(dataset_path, "not a dataset of this kind of file");
@@ -194,6 +208,52 @@ void FileWriter::write_values(const DatasetDescription& dataset, const void* val
   if (count > 0 && write_elements(set, dataset.type, values, count) < 0) state_->storage_failed(path);
 }
 
+void FileWriter::begin_values(const DatasetDescription& dataset, std::size_t count, std::size_t rows,
+                              std::string_view snapshot) {
+  const std::string path = path_of(dataset, snapshot);
+  state_->check_call(dataset, path, snapshot);
+  const Extents extent = extents_for(dataset, path, count, rows);
+  state_->check_named_extents(dataset, path, extent, snapshot);
+  const std::size_t bytes = count * H5Tget_size(memory_type(dataset.type));
+  Handle set = create_dataset(state_->file, dataset, path, extent, bytes);
+  if (!set) state_->storage_failed(path);
+  if (write_text_attribute(set, attribute::unit, dataset.unit) < 0 ||
+      write_text_attribute(set, attribute::description, dataset.description) < 0)
+    state_->storage_failed(path);
+  if (bytes >= left_out_from) state_->large.push_back(path);
+  state_->open.emplace(
+      OpenArray{std::move(set), path, dataset.type, extent, 0,
+                DatasetChecksum(dataset, path, dataset.unit, {extent.begin(), extent.begin() + dataset.rank})});
+  if (count == 0) end_values();
+}
+
+void FileWriter::append_values(const void* values, std::size_t count, std::size_t size) {
+  if (!state_->open) misused(state_->path, "append() without begin()");
+  OpenArray& open = *state_->open;
+  const Handle memory = memory_type(open.type);
+  const hsize_t rows = count / open.extent[1];
+  if (H5Tget_size(memory) != size || rows * open.extent[1] != count || open.rows_written + rows > open.extent[0])
+    misused(open.path, fmt::format("{} values of {} bytes are no rows that are still to come", count, size));
+  if (count == 0) return;
+  open.checksum.update({static_cast<const std::byte*>(values), count * size});
+  const Handle place(H5Dget_space(open.set), H5Sclose);
+  const Extents first{open.rows_written, 0}, block{rows, open.extent[1]};
+  const Handle room(H5Screate_simple(H5Sget_simple_extent_ndims(place), block.data(), nullptr), H5Sclose);
+  if (H5Sselect_hyperslab(place, H5S_SELECT_SET, first.data(), nullptr, block.data(), nullptr) < 0 ||
+      H5Dwrite(open.set, memory, room, place, H5P_DEFAULT, values) < 0)
+    state_->storage_failed(open.path);
+  open.rows_written += rows;
+  if (open.rows_written == open.extent[0]) end_values();
+}
+
+void FileWriter::end_values() {
+  const OpenArray& open = *state_->open;
+  const std::string checksum = open.checksum.text();
+  if (write_text_attribute(open.set, attribute::checksum, checksum) < 0) state_->storage_failed(open.path);
+  state_->checksums.emplace(open.path, checksum);
+  state_->open.reset();
+}
+
 void FileWriter::copy_snapshot(const FileReader& from, std::string_view source, std::string_view target) {
   for (const DatasetDescription& dataset : kinds[static_cast<std::size_t>(state_->kind)].datasets) {
     if (!dataset.of_snapshot() || (!dataset.required && !from.has(dataset, source))) continue;
@@ -206,6 +266,7 @@ void FileWriter::copy_snapshot(const FileReader& from, std::string_view source, 
 
 void FileWriter::commit() {
   if (!state_->file) throw std::logic_error(state_->path + ": commit() called twice");
+  if (state_->open) misused(state_->open->path, "not complete at commit()");
   const std::string list = checksum_of_list(kinds[static_cast<std::size_t>(state_->kind)].name, schema_version,
                                             state_->creator, state_->checksums);
   if (write_text_attribute(state_->file, attribute::checksums, list) < 0) state_->storage_failed("the root attributes");

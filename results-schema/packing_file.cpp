@@ -122,13 +122,21 @@ PackingSpheres read_packing_spheres(const FileReader& file) {
   return spheres;
 }
 
+PackingOffsets read_packing_offsets(const FileReader& file, std::size_t spheres) {
+  PackingOffsets offsets{file.read(packing::mesh_grain_node_offset), file.read(packing::mesh_grain_tet_offset)};
+  refuse_wrong_offsets(offsets.node, spheres, file.rows(packing::mesh_node),
+                       {file, packing::mesh_grain_node_offset.path});
+  refuse_wrong_offsets(offsets.tet, spheres, file.rows(packing::mesh_tet), {file, packing::mesh_grain_tet_offset.path});
+  return offsets;
+}
+
 PackingTets read_packing_tets(const FileReader& file, std::size_t spheres) {
-  PackingTets mesh{file.read(packing::mesh_node), file.read(packing::mesh_tet),
-                   file.read(packing::mesh_grain_node_offset), file.read(packing::mesh_grain_tet_offset)};
+  PackingTets mesh{file.read(packing::mesh_node), file.read(packing::mesh_tet), {}, {}};
   const auto at = [&](const DatasetDescription& dataset) { return Place{file, dataset.path}; };
   refuse_not_finite(mesh.node, at(packing::mesh_node));
-  refuse_wrong_offsets(mesh.grain_node_offset, spheres, mesh.node.size() / 3, at(packing::mesh_grain_node_offset));
-  refuse_wrong_offsets(mesh.grain_tet_offset, spheres, mesh.tet.size() / 4, at(packing::mesh_grain_tet_offset));
+  PackingOffsets offsets = read_packing_offsets(file, spheres);
+  mesh.grain_node_offset = std::move(offsets.node);
+  mesh.grain_tet_offset = std::move(offsets.tet);
   refuse_foreign_nodes(mesh, at(packing::mesh_tet));
   return mesh;
 }

@@ -22,8 +22,16 @@ struct PackingTets {
   std::vector<std::int32_t> grain_node_offset, grain_tet_offset; ///< [spheres + 1]; every grain has nodes and tets
 };
 
+struct PackingOffsets {
+  std::vector<std::int32_t> node, tet; ///< [spheres + 1]; every grain has nodes and tets
+};
+
 /// Spheres of a packing file. Throws InputError "FILE: dataset /x …" with index, what was found and what is allowed.
 PackingSpheres read_packing_spheres(const FileReader& file);
+
+/// Where the nodes and tets of each grain begin, in a packing file with so many spheres; the same errors. To be called
+/// where the file has /mesh/tet.
+PackingOffsets read_packing_offsets(const FileReader& file, std::size_t spheres);
 
 /// Meshes of a packing file with so many spheres; the same errors. To be called where the file has /mesh/tet.
 PackingTets read_packing_tets(const FileReader& file, std::size_t spheres);

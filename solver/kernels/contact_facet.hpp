@@ -13,7 +13,7 @@
 namespace mpfem {
 
 /// The first three numbers of a node's row.
-inline Vector3<double> vector_of(const AlignedVector<double>& rows, std::int32_t node) {
+inline Vector3<double> vector_of(const LazyArray<double>& rows, std::int32_t node) {
   const double* r = rows.data() + 4 * at(node);
   return {r[0], r[1], r[2]};
 }

@@ -7,6 +7,7 @@
 #include <Eigen/Eigenvalues>
 
 #include "solver/kernels/rows.hpp"
+#include "solver/model/aligned.hpp"
 #include "solver/physics/kinematics.hpp"
 
 namespace mpfem {

@@ -22,15 +22,15 @@ struct Face {
   bool operator<(const Face& other) const { return sorted < other.sorted; }
 };
 
-/// All sides of the tets [begin, end), sorted so that the two of an inner face follow each other.
-std::vector<Face> sorted_faces(const std::vector<Index>& tet, Index begin, Index end) {
+/// All sides of the tets, sorted so that the two of an inner face follow each other.
+std::vector<Face> sorted_faces(std::span<const Index> tet) {
   static constexpr int corner[4][3] = {{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}};
   std::vector<Face> faces;
-  faces.reserve(4 * at(end - begin));
-  for (Index t = begin; t < end; ++t) {
+  faces.reserve(tet.size());
+  for (std::size_t t = 0; t < tet.size(); t += 4) {
     for (const auto& c : corner) {
       Face face;
-      for (std::size_t i = 0; i < 3; ++i) face.outward[i] = tet[4 * at(t) + static_cast<std::size_t>(c[i])];
+      for (std::size_t i = 0; i < 3; ++i) face.outward[i] = tet[t + static_cast<std::size_t>(c[i])];
       face.sorted = face.outward;
       std::sort(face.sorted.begin(), face.sorted.end());
       faces.push_back(face);
@@ -56,9 +56,8 @@ bool is_closed(const std::vector<Triangle>& boundary) {
 
 } // namespace
 
-std::vector<Triangle> boundary_faces(const std::vector<Index>& tet, Index begin, Index end,
-                                     const std::string& grain_name) {
-  const std::vector<Face> faces = sorted_faces(tet, begin, end);
+std::vector<Triangle> boundary_faces(std::span<const Index> tet, const std::string& grain_name) {
+  const std::vector<Face> faces = sorted_faces(tet);
   std::vector<Triangle> boundary;
   for (std::size_t i = 0; i < faces.size();) {
     std::size_t j = i + 1;

@@ -15,8 +15,9 @@
 #include "solver/model/check_packing.hpp"
 #include "solver/model/model.hpp"
 #include "solver/model/ordering.hpp"
-#include "solver/model/packing_geometry.hpp"
 #include "solver/model/smooth_surface.hpp"
+#include "solver/parallel/agree.hpp"
+#include "solver/parallel/grain_values.hpp"
 #include "solver/physics/penalty.hpp"
 #include "solver/physics/tet4_patch.hpp"
 
@@ -42,30 +43,34 @@ void choose_materials(const Scenario& scenario, const std::string& name, Model& 
 }
 
 /// Sets model.refinement where the facets of some grain differ much in size.
-void find_refinement(Model& model) {
+void find_refinement(Model& model, const Communicator& ranks) {
   constexpr double graded = 3; // largest over smallest h of one grain's nodes; unrefined balls have up to about 2
-  std::vector<double> size(static_cast<std::size_t>(model.nodes()), 0.0), edges(size.size(), 0.0);
-  for (std::size_t f = 0; f < model.facet.size(); f += 3)
-    for (std::size_t i = 0; i < 3; ++i) {
-      const auto a = at(model.facet[f + i]), b = at(model.facet[f + (i + 1) % 3]);
-      const double *x = &model.position[4 * a], *y = &model.position[4 * b];
-      const double length = std::hypot(x[0] - y[0], x[1] - y[1], x[2] - y[2]);
-      for (const std::size_t node : {a, b}) size[node] += length, edges[node] += 1;
-    }
-  bool refined = false;
-  for (std::size_t g = 0; g < static_cast<std::size_t>(model.grains); ++g) {
+  LazyArray<double> size(at(model.nodes()), model.pages()), edges(at(model.nodes()), model.pages());
+  double most_graded = 0;
+  for (const Index grain : model.own()) {
+    const std::size_t g = at(grain);
+    for (std::size_t f = 3 * at(model.facet_offset[g]); f < 3 * at(model.facet_offset[g + 1]); f += 3)
+      for (std::size_t i = 0; i < 3; ++i) {
+        const auto a = at(model.facet[f + i]), b = at(model.facet[f + (i + 1) % 3]);
+        const double *x = &model.position[4 * a], *y = &model.position[4 * b];
+        const double length = std::hypot(x[0] - y[0], x[1] - y[1], x[2] - y[2]);
+        for (const std::size_t node : {a, b}) size[node] += length, edges[node] += 1;
+      }
     double smallest = std::numeric_limits<double>::infinity(), largest = 0;
     for (auto n = at(model.node_offset[g]); n < at(model.node_offset[g] + model.surface_node_count[g]); ++n) {
       size[n] /= edges[n];
       smallest = std::min(smallest, size[n]), largest = std::max(largest, size[n]);
     }
-    refined = refined || largest > graded * smallest;
+    if (largest > graded * smallest) most_graded = 1;
   }
-  if (!refined) return;
-  model.refinement.assign(size.size(), 1.0);
-  for (std::size_t g = 0; g < static_cast<std::size_t>(model.grains); ++g)
-    for (auto n = at(model.node_offset[g]); n < at(model.node_offset[g] + model.surface_node_count[g]); ++n)
-      model.refinement[n] = model.element_size[g] / size[n];
+  if (ranks.largest(most_graded) == 0) return;
+  model.refinement = LazyArray<double>(size.size(), model.pages());
+  for (const Index grain : model.own()) {
+    const std::size_t g = at(grain);
+    const auto first = at(model.node_offset[g]), end = at(model.node_offset[g + 1]),
+               surface_end = first + at(model.surface_node_count[g]);
+    for (std::size_t n = first; n < end; ++n) model.refinement[n] = n < surface_end ? model.element_size[g] / size[n] : 1;
+  }
 }
 
 /// First block of each grain, and the number of all.
@@ -76,56 +81,39 @@ std::vector<Index> block_offsets(const Model& model, int lanes) {
   return offset;
 }
 
-/// The tets of all grains in the order of model.file_tet, and model.block_offset. `new_index` maps nodes of the file to
-/// the model's.
+/// The tets of a grain in the order of model.file_tet. `new_index` maps its nodes in the file, counted from its first,
+/// to the model's, counted likewise.
 template <class Real>
-std::vector<TetBlock<Real>> make_blocks(const MeshedPacking& packing, const std::vector<Index>& new_index,
-                                        Model& model) {
+void set_blocks(const GrainMesh& mesh, const std::vector<Index>& new_index, int grain, Model& model) {
   constexpr int lanes = TetBlock<Real>::lanes;
-  model.block_offset = block_offsets(model, lanes);
-  std::vector<TetBlock<Real>> blocks(at(model.block_offset.back()));
-  for (int g = 0; g < model.grains; ++g) {
-    const Index n0 = model.node_offset[at(g)], t0 = model.tet_offset[at(g)], t1 = model.tet_offset[at(g) + 1];
-    const double flow_stress =
-        std::visit([](const auto& law) { return law.initial_flow_stress(); }, model.material_of(g).flow);
-    for (Index b = model.block_offset[at(g)]; b < model.block_offset[at(g) + 1]; ++b)
-      for (int lane = 0; lane < lanes; ++lane) {
-        TetBlock<Real>& block = blocks[at(b)];
-        const Index t = model.file_tet[at(std::min(t0 + lanes * (b - model.block_offset[at(g)]) + lane, t1 - 1))];
-        for (int c = 0; c < 4; ++c)
-          block.node[c][lane] = new_index[at(packing.tet[4 * at(t) + static_cast<std::size_t>(c)])] - n0;
-        block.inverse_volume[lane] = static_cast<Real>(1.0 / tet_volume(packing, t));
-        block.flow_stress[lane] = static_cast<Real>(flow_stress);
-      }
-  }
-  return blocks;
-}
-
-/// Node and tet numbers of one grain, in the file as in the model.
-struct GrainRange {
-  Index first_node, end_node, first_tet, end_tet;
-  std::size_t nodes() const { return at(end_node - first_node); }
-  std::size_t tets() const { return at(end_tet - first_tet); }
-};
-
-GrainRange range_of(const Model& model, int grain) {
-  const auto g = static_cast<std::size_t>(grain);
-  return {model.node_offset[g], model.node_offset[g + 1], model.tet_offset[g], model.tet_offset[g + 1]};
+  const std::size_t g = at(grain);
+  const Index first_tet = model.tet_offset[g], end_tet = model.tet_offset[g + 1];
+  const double flow_stress =
+      std::visit([](const auto& law) { return law.initial_flow_stress(); }, model.material_of(grain).flow);
+  for (Index b = model.block_offset[g]; b < model.block_offset[g + 1]; ++b)
+    for (int lane = 0; lane < lanes; ++lane) {
+      TetBlock<Real>& block = model.block<Real>(b);
+      const Index t = model.file_tet[at(std::min(first_tet + lanes * (b - model.block_offset[g]) + lane, end_tet - 1))];
+      const auto corner = mesh.corners(t);
+      for (std::size_t c = 0; c < 4; ++c) block.node[c][lane] = new_index[at(corner[c] - mesh.first_node)];
+      block.inverse_volume[lane] = static_cast<Real>(1.0 / mesh.volume(t));
+      block.flow_stress[lane] = static_cast<Real>(flow_stress);
+    }
 }
 
 using Faces = std::vector<std::array<Index, 3>>;
 
 std::uint64_t hash_of_mesh(const MeshedPacking& packing) {
-  std::uint64_t hash = hash_values(std::span<const double>(packing.node));
-  hash = hash_values(std::span<const Index>(packing.tet), hash);
-  hash = hash_values(std::span<const Index>(packing.grain_node_offset), hash);
-  return hash_values(std::span<const double>(packing.box_lengths), hash);
+  if (packing.hash) return *packing.hash;
+  return hash_of_mesh(
+      hash_values(std::span<const Index>(packing.tet), hash_values(std::span<const double>(packing.node))), packing);
 }
 
 /// A model with the settings of the scenario and room for nodes and tets, but none of them set.
 Model empty_model(const MeshedPacking& packing, const Scenario& scenario, const std::string& name) {
   Model model;
-  model.grains = static_cast<int>(packing.grain_node_offset.size()) - 1;
+  model.grains = packing.grains();
+  model.ownership = packing.ownership ? *packing.ownership : sole_ownership(model.grains);
   choose_materials(scenario, name, model);
   model.element = scenario.numerics.element;
   model.own_pressure = scenario.numerics.own_pressure;
@@ -137,34 +125,35 @@ Model empty_model(const MeshedPacking& packing, const Scenario& scenario, const 
   model.mesh_hash = hash_of_mesh(packing);
   model.box_low = {0, 0, 0};
   model.box_high = packing.box_lengths;
-  const std::size_t nodes = packing.node.size() / 3;
-  model.file_node.resize(nodes);
-  model.file_tet.resize(packing.tet.size() / 4);
-  model.facet_offset.assign(1, 0);
-  model.position.assign(4 * nodes, 0.0);
-  model.velocity.assign(4 * nodes, 0.0);
-  model.force.assign(4 * nodes, 0.0);
-  model.normal.assign(4 * nodes, 0.0);
-  model.inverse_mass.assign(nodes, 0.0);
-  model.reference_area.assign(nodes, 0.0);
+  const std::size_t nodes = at(model.nodes()), tets = at(model.tets()), grains = at(model.grains);
+  const Pages pages = model.pages();
+  model.file_node = LazyArray<Index>(nodes, pages);
+  model.file_tet = LazyArray<Index>(tets, pages);
+  for (LazyArray<double>* rows : {&model.position, &model.velocity, &model.force, &model.normal})
+    *rows = LazyArray<double>(4 * nodes, pages);
+  model.inverse_mass = LazyArray<double>(nodes, pages);
+  model.reference_area = LazyArray<double>(nodes, pages);
+  model.surface_node_count.assign(grains, 0);
+  for (std::vector<double>* values :
+       {&model.reference_volume, &model.mass, &model.element_size, &model.penalty_stiffness})
+    values->assign(grains, 0.0);
   return model;
 }
 
 /// Nodes of a grain in the order of the model: surface nodes first, each group along a Morton curve through the grain's
 /// box.
-std::vector<Index> order_nodes(const MeshedPacking& packing, const GrainRange& range,
-                               const std::vector<char>& on_surface) {
-  Vector3<double> low = point(packing.node, range.first_node), high = low;
-  for (Index n = range.first_node; n < range.end_node; ++n) {
-    const auto x = point(packing.node, n);
+std::vector<Index> order_nodes(const GrainMesh& mesh, const std::vector<char>& on_surface) {
+  Vector3<double> low = mesh.point(mesh.first_node), high = low;
+  for (Index n = mesh.first_node; n < mesh.end_node(); ++n) {
+    const auto x = mesh.point(n);
     low = {std::min(low.x, x.x), std::min(low.y, x.y), std::min(low.z, x.z)};
     high = {std::max(high.x, x.x), std::max(high.y, x.y), std::max(high.z, x.z)};
   }
   const double size = std::max({high.x - low.x, high.y - low.y, high.z - low.z});
   std::vector<std::pair<std::uint64_t, Index>> keys;
-  for (Index n = range.first_node; n < range.end_node; ++n) {
-    const std::uint64_t interior = on_surface[at(n - range.first_node)] ? 0U : 1U;
-    keys.emplace_back((interior << 40U) | morton_key(point(packing.node, n), low, size), n);
+  for (Index n = mesh.first_node; n < mesh.end_node(); ++n) {
+    const std::uint64_t interior = on_surface[at(n - mesh.first_node)] ? 0U : 1U;
+    keys.emplace_back((interior << 40U) | morton_key(mesh.point(n), low, size), n);
   }
   std::sort(keys.begin(), keys.end());
   std::vector<Index> order;
@@ -172,129 +161,186 @@ std::vector<Index> order_nodes(const MeshedPacking& packing, const GrainRange& r
   return order;
 }
 
-/// Sets nodes and positions of a grain, and `new_index` from its nodes in the file to those of the model.
-void add_nodes(const MeshedPacking& packing, const GrainRange& range, const Faces& faces, Model& model,
-               std::vector<Index>& new_index) {
-  std::vector<char> on_surface(range.nodes(), 0);
+/// Sets nodes and positions of a grain. Returns the number in the model of each of its nodes in the file, both counted
+/// from the grain's first.
+std::vector<Index> add_nodes(const GrainMesh& mesh, const Faces& faces, std::size_t grain, Model& model) {
+  std::vector<char> on_surface(at(mesh.nodes()), 0);
   for (const auto& face : faces)
-    for (const Index n : face) on_surface[at(n - range.first_node)] = 1;
-  Index node = range.first_node;
-  for (const Index file_node : order_nodes(packing, range, on_surface)) {
-    new_index[at(file_node)] = node;
+    for (const Index n : face) on_surface[at(n - mesh.first_node)] = 1;
+  std::vector<Index> new_index(on_surface.size());
+  Index node = mesh.first_node;
+  for (const Index file_node : order_nodes(mesh, on_surface)) {
+    new_index[at(file_node - mesh.first_node)] = node - mesh.first_node;
     model.file_node[at(node)] = file_node;
-    for (std::size_t axis = 0; axis < 3; ++axis)
-      model.position[4 * at(node) + axis] = packing.node[3 * at(file_node) + axis];
+    const Vector3<double> x = mesh.point(file_node);
+    double* row = &model.position[4 * at(node)];
+    row[0] = x.x, row[1] = x.y, row[2] = x.z;
     ++node;
   }
-  model.surface_node_count.push_back(static_cast<Index>(std::count(on_surface.begin(), on_surface.end(), char{1})));
+  model.surface_node_count[grain] = static_cast<Index>(std::count(on_surface.begin(), on_surface.end(), char{1}));
+  return new_index;
 }
 
-/// Sets the facets of a grain, its element size, and the tributary areas of its surface nodes.
-void add_facets(const MeshedPacking& packing, const Faces& faces, const std::vector<Index>& new_index, Model& model) {
+/// Sets the element size of a grain, the tributary areas of its surface nodes, and turns its faces to facets: triples
+/// of the model's nodes.
+void measure_facets(const GrainMesh& mesh, const std::vector<Index>& new_index, std::size_t grain, Faces& faces,
+                    Model& model) {
   double edge_sum = 0;
-  for (const auto& face : faces) {
-    const auto x0 = point(packing.node, face[0]);
-    const double area = 0.5 * norm(cross(point(packing.node, face[1]) - x0, point(packing.node, face[2]) - x0));
-    for (std::size_t i = 0; i < 3; ++i) {
-      model.reference_area[at(new_index[at(face[i])])] += area / 3.0;
-      model.facet.push_back(new_index[at(face[i])]);
-      edge_sum += norm(point(packing.node, face[i]) - point(packing.node, face[(i + 1) % 3]));
+  for (auto& face : faces) {
+    const auto x0 = mesh.point(face[0]);
+    const double area = 0.5 * norm(cross(mesh.point(face[1]) - x0, mesh.point(face[2]) - x0));
+    for (std::size_t i = 0; i < 3; ++i) edge_sum += norm(mesh.point(face[i]) - mesh.point(face[(i + 1) % 3]));
+    for (Index& node : face) {
+      node = mesh.first_node + new_index[at(node - mesh.first_node)];
+      model.reference_area[at(node)] += area / 3.0;
     }
   }
-  model.facet_offset.push_back(static_cast<Index>(model.facet.size() / 3));
-  model.element_size.push_back(edge_sum / (3.0 * static_cast<double>(faces.size())));
+  model.element_size[grain] = edge_sum / (3.0 * static_cast<double>(faces.size()));
 }
 
 /// Sets the order of a grain's tets: in patches of eight that lie together.
-void add_tets(const MeshedPacking& packing, const GrainRange& range, Model& model) {
-  std::vector<Vector3<double>> centre(range.tets(), Vector3<double>{0, 0, 0});
-  const std::span<Index> order(model.file_tet.data() + range.first_tet, range.tets());
-  for (Index t = range.first_tet; t < range.end_tet; ++t) {
-    const auto i = at(t - range.first_tet);
-    for (std::size_t c = 0; c < 4; ++c) centre[i] = centre[i] + 0.25 * point(packing.node, packing.tet[4 * at(t) + c]);
+void add_tets(const GrainMesh& mesh, Model& model) {
+  std::vector<Vector3<double>> centre(at(mesh.tets()), Vector3<double>{0, 0, 0});
+  const std::span<Index> order(model.file_tet.data() + mesh.first_tet, at(mesh.tets()));
+  for (Index t = mesh.first_tet; t < mesh.end_tet(); ++t) {
+    const auto i = at(t - mesh.first_tet);
+    for (const Index corner : mesh.corners(t)) centre[i] = centre[i] + 0.25 * mesh.point(corner);
     order[i] = t;
   }
-  order_in_patches(order, [&](Index t) -> const Vector3<double>& { return centre[at(t - range.first_tet)]; });
+  order_in_patches(order, [&](Index t) -> const Vector3<double>& { return centre[at(t - mesh.first_tet)]; });
 }
 
 /// Lumps a quarter of every tet's mass at each of its nodes. Throws InputError where a node belongs to no tet.
-void lump_masses(const MeshedPacking& packing, const GrainRange& range, double density,
-                 const std::vector<Index>& new_index, const std::string& name, Model& model) {
+void lump_masses(const GrainMesh& mesh, double density, const std::vector<Index>& new_index, const std::string& name,
+                 std::size_t grain, Model& model) {
   double volume = 0;
-  for (Index i = range.first_tet; i < range.end_tet; ++i) {
+  for (Index i = mesh.first_tet; i < mesh.end_tet(); ++i) {
     const Index t = model.file_tet[at(i)];
-    const double tet_v = tet_volume(packing, t);
+    const double tet_v = mesh.volume(t);
     volume += tet_v;
-    for (std::size_t c = 0; c < 4; ++c) // mass here; inverted below
-      model.inverse_mass[at(new_index[at(packing.tet[4 * at(t) + c])])] += 0.25 * density * tet_v;
+    for (const Index corner : mesh.corners(t)) // mass here; inverted below
+      model.inverse_mass[at(mesh.first_node + new_index[at(corner - mesh.first_node)])] += 0.25 * density * tet_v;
   }
-  model.reference_volume.push_back(volume);
-  model.mass.push_back(volume * density);
-  for (Index n = range.first_node; n < range.end_node; ++n) {
+  model.reference_volume[grain] = volume;
+  model.mass[grain] = volume * density;
+  for (Index n = mesh.first_node; n < mesh.end_node(); ++n) {
     double& m = model.inverse_mass[at(n)];
     if (!(m > 0)) throw InputError(fmt::format("{}: node {} belongs to no tetrahedron", name, model.file_node[at(n)]));
     m = 1.0 / m;
   }
 }
 
+/// What is made of a grain before all ranks know how many facets each has.
+struct GrainParts {
+  Faces facets;
+  std::vector<Index> new_index; ///< node of the file -> node of the model, both counted from the grain's first
+};
+
+GrainParts add_grain(const MeshedPacking& packing, const Scenario& scenario, const std::string& name, Index grain,
+                     Model& model) {
+  const std::size_t g = at(grain);
+  const GrainMesh mesh = packing.mesh_of(grain);
+  GrainParts parts;
+  parts.facets = boundary_faces(mesh.tet, fmt::format("{}: grain {}", name, grain));
+  const Material& material = model.material_of(grain);
+  parts.new_index = add_nodes(mesh, parts.facets, g, model);
+  measure_facets(mesh, parts.new_index, g, parts.facets, model);
+  model.penalty_stiffness[g] = scenario.contact.stiffness.value_or(
+      penalty_stiffness(scenario.contact.stiffness_factor, material.moduli.youngs(), model.element_size[g]));
+  add_tets(mesh, model);
+  lump_masses(mesh, material.density, parts.new_index, name, g, model);
+  return parts;
+}
+
+/// Brings what was measured on every grain to all ranks, and sets facets and their offsets.
+void join_grains(const std::vector<GrainParts>& parts, Model& model, const Communicator& ranks) {
+  const auto share = [&](auto& values) { share_of_grains(ranks, model.ownership, std::span(values)); };
+  share(model.surface_node_count), share(model.element_size), share(model.penalty_stiffness);
+  share(model.reference_volume), share(model.mass);
+  std::vector<Index> facets(at(model.grains), 0);
+  for (std::size_t i = 0; i < parts.size(); ++i)
+    facets[at(model.own()[i])] = static_cast<Index>(parts[i].facets.size());
+  share(facets);
+  model.facet_offset.assign(1, 0);
+  for (const Index count : facets) model.facet_offset.push_back(model.facet_offset.back() + count);
+  model.facet = LazyArray<Index>(3 * at(model.facets()), model.pages());
+  for (std::size_t i = 0; i < parts.size(); ++i) {
+    Index* corner = model.facet.data() + 3 * at(model.facet_offset[at(model.own()[i])]);
+    for (const auto& facet : parts[i].facets) corner = std::copy(facet.begin(), facet.end(), corner);
+  }
+}
+
+/// Sets the blocks of all own grains.
+template <class Real>
+void make_blocks(const MeshedPacking& packing, const std::vector<GrainParts>& parts, Model& model) {
+  model.block_offset = block_offsets(model, TetBlock<Real>::lanes);
+  model.blocks = LazyArray<TetBlock<Real>>(at(model.block_offset.back()), model.pages());
+  for (std::size_t i = 0; i < parts.size(); ++i)
+    set_blocks<Real>(packing.mesh_of(model.own()[i]), parts[i].new_index, model.own()[i], model);
+}
+
 /// Sets the volumes around nodes, where pressures are averaged there. Masses must be as lumped: density times that
 /// volume.
 void set_nodal_volumes(Model& model) {
   if (model.element != ElementType::tet4_anp) return;
-  for (int g = 0; g < model.grains; ++g)
+  model.inverse_nodal_volume = LazyArray<double>(at(model.nodes()), model.pages());
+  for (const Index g : model.own())
     for (Index n = model.node_offset[at(g)]; n < model.node_offset[at(g) + 1]; ++n)
-      model.inverse_nodal_volume.push_back(model.inverse_mass[at(n)] * model.material_of(g).density);
-  model.nodal_mean.assign(at(model.nodes()), 0.0);
+      model.inverse_nodal_volume[at(n)] = model.inverse_mass[at(n)] * model.material_of(g).density;
+  model.nodal_mean = LazyArray<double>(at(model.nodes()), model.pages());
 }
 
 /// Sets the volumes of patches, where tets share the pressure of theirs.
 void set_patch_volumes(const MeshedPacking& packing, Model& model) {
   if (model.element != ElementType::tet4_patch) return;
   model.patch_offset.assign(1, 0);
-  for (int g = 0; g < model.grains; ++g) {
-    const Index first = model.tet_offset[at(g)], end = model.tet_offset[at(g) + 1];
-    for (Index t = first; t < end; t += patch_tets) {
+  for (std::size_t g = 0; g < at(model.grains); ++g)
+    model.patch_offset.push_back(model.patch_offset[g] +
+                                 (model.tet_offset[g + 1] - model.tet_offset[g] + patch_tets - 1) / patch_tets);
+  model.inverse_patch_volume = LazyArray<double>(at(model.patch_offset.back()), model.pages());
+  for (const Index g : model.own()) {
+    const GrainMesh mesh = packing.mesh_of(g);
+    Index patch = model.patch_offset[at(g)];
+    for (Index t = mesh.first_tet; t < mesh.end_tet(); t += patch_tets) {
       double volume = 0;
-      for (Index i = t; i < std::min(t + patch_tets, end); ++i) volume += tet_volume(packing, model.file_tet[at(i)]);
-      model.inverse_patch_volume.push_back(1.0 / volume);
+      for (Index i = t; i < std::min(t + patch_tets, mesh.end_tet()); ++i) volume += mesh.volume(model.file_tet[at(i)]);
+      model.inverse_patch_volume[at(patch++)] = 1.0 / volume;
     }
-    model.patch_offset.push_back(static_cast<Index>(model.inverse_patch_volume.size()));
   }
 }
 
 } // namespace
 
-Model build_model(const MeshedPacking& packing, const Scenario& scenario, const std::string& name) {
-  check_packing(packing, name);
+std::uint64_t hash_of_mesh(std::uint64_t of_nodes_and_tets, const MeshedPacking& packing) {
+  const std::uint64_t hash = hash_values(std::span<const Index>(packing.grain_node_offset), of_nodes_and_tets);
+  return hash_values(std::span<const double>(packing.box_lengths), hash);
+}
+
+Model build_model(const MeshedPacking& packing, const Scenario& scenario, const std::string& name,
+                  const Communicator& ranks) {
   const bool mixed = scenario.numerics.precision == Precision::mixed;
-  if (mixed) refuse_sizes_beyond_floats(packing, name);
-  Model model = empty_model(packing, scenario, name);
-  std::vector<Index> new_index(packing.node.size() / 3); // node of the file -> node of the model
-  for (int g = 0; g < model.grains; ++g) {
-    const GrainRange range = range_of(model, g);
-    const Faces faces =
-        boundary_faces(packing.tet, range.first_tet, range.end_tet, fmt::format("{}: grain {}", name, g));
-    const Material& material = model.material_of(g);
-    add_nodes(packing, range, faces, model, new_index);
-    add_facets(packing, faces, new_index, model);
-    model.penalty_stiffness.push_back(scenario.contact.stiffness.value_or(
-        penalty_stiffness(scenario.contact.stiffness_factor, material.moduli.youngs(), model.element_size.back())));
-    add_tets(packing, range, model);
-    lump_masses(packing, range, material.density, new_index, name, model);
-  }
+  Model model;
+  std::vector<GrainParts> parts; // of the own grains
+  agree(ranks, [&] {
+    check_packing(packing, name);
+    model = empty_model(packing, scenario, name);
+    if (mixed) refuse_sizes_beyond_floats(packing, model.own(), name);
+    for (const Index grain : model.own()) parts.push_back(add_grain(packing, scenario, name, grain, model));
+  });
+  join_grains(parts, model, ranks);
   if (mixed)
-    model.blocks = make_blocks<float>(packing, new_index, model);
+    make_blocks<float>(packing, parts, model);
   else
-    model.blocks = make_blocks<double>(packing, new_index, model);
-  model.spatial_order = spatial_order(model);
+    make_blocks<double>(packing, parts, model);
+  model.spatial_order = spatial_order(model, ranks);
   set_nodal_volumes(model);
   set_patch_volumes(packing, model);
-  refuse_shared_places(model, name);
-  find_refinement(model);
-  find_smooth_surface(model, smooth_grains(model, packing, scenario.contact.surface));
+  refuse_shared_places(model, name, ranks);
+  find_refinement(model, ranks);
+  find_smooth_surface(model, smooth_grains(model, packing, scenario.contact.surface, ranks));
   if (scenario.numerics.mass_scaling_step > 0)
     scale_masses(model, scenario.numerics.mass_scaling_step / scenario.numerics.time_step_factor,
-                 scenario.numerics.mass_scaling_lighten);
+                 scenario.numerics.mass_scaling_lighten, ranks);
   return model;
 }
 

@@ -9,7 +9,9 @@
 #include <fmt/format.h>
 
 #include "common/errors.hpp"
-#include "solver/model/packing_geometry.hpp"
+#include "common/hash.hpp"
+#include "common/index.hpp"
+#include "solver/parallel/agree.hpp"
 
 namespace mpfem {
 
@@ -38,15 +40,12 @@ void check_array_sizes(const MeshedPacking& packing, const std::string& name) {
                     name, packing.sphere_center.size(), packing.sphere_radius.size(), no.size() - 1));
 }
 
-void check_tet(const MeshedPacking& packing, Index tet, std::size_t grain, const std::string& name) {
-  const Index first = packing.grain_node_offset[grain], end = packing.grain_node_offset[grain + 1];
-  for (std::size_t i = 0; i < 4; ++i) {
-    const Index n = packing.tet[4 * at(tet) + i];
-    if (n < first || n >= end)
+void check_tet(const GrainMesh& mesh, Index tet, std::size_t grain, const std::string& name) {
+  for (const Index n : mesh.corners(tet))
+    if (n < mesh.first_node || n >= mesh.end_node())
       throw InputError(fmt::format("{}: /mesh/tet row {}: node {} is not one of grain {} (allowed {} … {})", name, tet,
-                                   n, grain, first, end - 1));
-  }
-  const double volume = tet_volume(packing, tet);
+                                   n, grain, mesh.first_node, mesh.end_node() - 1));
+  const double volume = mesh.volume(tet);
   if (!(volume > 0))
     throw InputError(fmt::format("{}: /mesh/tet row {} (grain {}) is inverted or degenerate: volume {:.3g} mm^3, "
                                  "allowed > 0",
@@ -56,53 +55,78 @@ void check_tet(const MeshedPacking& packing, Index tet, std::size_t grain, const
 } // namespace
 
 void check_packing(const MeshedPacking& packing, const std::string& name) {
-  check_array_sizes(packing, name);
-  const auto& offset = packing.grain_tet_offset;
-  for (std::size_t g = 0; g + 1 < offset.size(); ++g) {
-    if (offset[g + 1] == offset[g]) throw InputError(fmt::format("{}: grain {} has no tetrahedra", name, g));
-    for (Index t = offset[g]; t < offset[g + 1]; ++t) check_tet(packing, t, g, name);
+  if (!packing.ownership) check_array_sizes(packing, name); // else the reader of the file has done so
+  for (int grain = 0; grain < packing.grains(); ++grain) {
+    if (packing.ownership && !packing.ownership->owns(grain)) continue;
+    const auto g = static_cast<std::size_t>(grain);
+    const GrainMesh mesh = packing.mesh_of(grain);
+    if (mesh.tet.empty()) throw InputError(fmt::format("{}: grain {} has no tetrahedra", name, g));
+    for (Index t = mesh.first_tet; t < mesh.end_tet(); ++t) check_tet(mesh, t, g, name);
+    for (std::size_t i = 0; i < mesh.node.size(); ++i)
+      if (!std::isfinite(mesh.node[i]))
+        throw InputError(fmt::format("{}: /mesh/node row {} is not finite", name, at(mesh.first_node) + i / 3));
   }
-  const auto nodes = static_cast<Index>(packing.node.size() / 3);
-  for (Index i = 0; i < nodes; ++i)
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      const double x = packing.node[3 * at(i) + axis];
-      if (!std::isfinite(x)) throw InputError(fmt::format("{}: /mesh/node row {} is not finite", name, i));
-    }
 }
 
-void refuse_sizes_beyond_floats(const MeshedPacking& packing, const std::string& name) {
+void refuse_sizes_beyond_floats(const MeshedPacking& packing, std::span<const Index> grains, const std::string& name) {
   constexpr double least = 1e-4, most = 1e4; // mm
-  for (std::size_t t = 0; t < packing.tet.size() / 4; ++t) {
-    double longest = 0;
-    const auto x0 = point(packing.node, packing.tet[4 * t]);
-    for (std::size_t c = 1; c < 4; ++c)
-      longest = std::max(longest, norm(point(packing.node, packing.tet[4 * t + c]) - x0));
-    if (!(longest > least && longest < most))
-      throw InputError(
-          fmt::format("{}: tet {} has an edge of {:.3g} mm; element.precision = 'mixed' takes {:g} … {:g} mm, "
-                      "'double' any",
-                      name, t, longest, least, most));
+  for (const Index grain : grains) {
+    const GrainMesh mesh = packing.mesh_of(grain);
+    for (Index t = mesh.first_tet; t < mesh.end_tet(); ++t) {
+      const auto corner = mesh.corners(t);
+      double longest = 0;
+      for (std::size_t c = 1; c < 4; ++c)
+        longest = std::max(longest, norm(mesh.point(corner[c]) - mesh.point(corner[0])));
+      if (!(longest > least && longest < most))
+        throw InputError(
+            fmt::format("{}: tet {} has an edge of {:.3g} mm; element.precision = 'mixed' takes {:g} … {:g} mm, "
+                        "'double' any",
+                        name, t, longest, least, most));
+    }
   }
 }
 
-void refuse_shared_places(const Model& model, const std::string& name) {
-  struct Place {
-    std::array<double, 3> x;
-    int grain;
-    bool operator<(const Place& other) const { return std::tie(x, grain) < std::tie(other.x, other.grain); }
-  };
+namespace {
+
+/// A surface node of a grain.
+struct Place {
+  std::array<double, 3> x; ///< mm
+  std::int64_t grain;
+  bool operator<(const Place& other) const { return std::tie(x, grain) < std::tie(other.x, other.grain); }
+};
+
+/// The places of own surface nodes that this rank compares: with several ranks those of all ranks' nodes in its part of
+/// space, whatever part that is, as equal places come to the same rank.
+std::vector<Place> places_to_compare(const Model& model, const Communicator& ranks) {
+  std::vector<Bytes> to(static_cast<std::size_t>(ranks.size()));
   std::vector<Place> places;
-  for (int g = 0; g < model.grains; ++g) {
-    const auto gs = static_cast<std::size_t>(g);
-    for (Index n = model.node_offset[gs]; n < model.node_offset[gs] + model.surface_node_count[gs]; ++n)
-      places.push_back({{model.position[4 * at(n)], model.position[4 * at(n) + 1], model.position[4 * at(n) + 2]}, g});
-  }
+  for (const Index g : model.own())
+    for (Index n = model.node_offset[at(g)]; n < model.node_offset[at(g)] + model.surface_node_count[at(g)]; ++n) {
+      const double* x = &model.position[4 * at(n)];
+      const Place place{{x[0], x[1], x[2]}, g};
+      if (ranks.alone())
+        places.push_back(place);
+      else
+        append(to[hash_values(std::span<const double>(place.x)) % to.size()], place);
+    }
+  if (ranks.alone()) return places;
+  for (const Bytes& bytes : ranks.exchange(to))
+    for (MessageReader reader(bytes); !reader.done();) places.push_back(reader.take<Place>());
+  return places;
+}
+
+} // namespace
+
+void refuse_shared_places(const Model& model, const std::string& name, const Communicator& ranks) {
+  std::vector<Place> places = places_to_compare(model, ranks);
   std::sort(places.begin(), places.end());
-  for (std::size_t i = 1; i < places.size(); ++i)
-    if (places[i].x == places[i - 1].x && places[i].grain != places[i - 1].grain)
-      throw InputError(
-          fmt::format("{}: grains {} and {} have a node in the same place ({:g}, {:g}, {:g}), allowed grains apart",
-                      name, places[i - 1].grain, places[i].grain, places[i].x[0], places[i].x[1], places[i].x[2]));
+  agree(ranks, [&] {
+    for (std::size_t i = 1; i < places.size(); ++i)
+      if (places[i].x == places[i - 1].x && places[i].grain != places[i - 1].grain)
+        throw InputError(
+            fmt::format("{}: grains {} and {} have a node in the same place ({:g}, {:g}, {:g}), allowed grains apart",
+                        name, places[i - 1].grain, places[i].grain, places[i].x[0], places[i].x[1], places[i].x[2]));
+  });
 }
 
 } // namespace mpfem

@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "solver/model/model.hpp"
+#include "solver/parallel/grain_values.hpp"
 
 namespace mpfem {
 
@@ -14,13 +15,13 @@ Vector3<double> position(const Model& model, std::int32_t node) {
 
 } // namespace
 
-void scale_masses(Model& model, double step, bool lighten) {
-  const auto nodes = static_cast<std::size_t>(model.nodes());
-  model.mass_factor.assign(nodes, lighten ? 0.0 : 1.0);
-  model.largest_added_mass = -1;
-  double added = 0, total = 0;
-  for (int grain = 0; grain < model.grains; ++grain) {
+void scale_masses(Model& model, double step, bool lighten, const Communicator& ranks) {
+  const std::vector<double> own_mass = model.mass;
+  model.mass_factor = LazyArray<double>(static_cast<std::size_t>(model.nodes()), model.pages());
+  for (const std::int32_t grain : model.own()) {
     const auto g = static_cast<std::size_t>(grain);
+    std::fill(model.mass_factor.data() + model.node_offset[g], model.mass_factor.data() + model.node_offset[g + 1],
+              lighten ? 0.0 : 1.0);
     const std::int32_t first = model.node_offset[g], surface_end = first + model.surface_node_count[g];
     const Material& material = model.material_of(grain);
     const double damping = model.viscosity.linear * material.moduli.dilatational() / material.moduli.bulk;
@@ -55,10 +56,15 @@ void scale_masses(Model& model, double step, bool lighten) {
       mass += model.mass_factor[n] / model.inverse_mass[n];
       model.inverse_mass[n] /= model.mass_factor[n];
     }
-    added += mass - model.mass[g];
-    total += model.mass[g];
-    model.largest_added_mass = std::max(model.largest_added_mass, mass / model.mass[g] - 1.0);
     model.mass[g] = mass;
+  }
+  share_of_grains(ranks, model.ownership, std::span(model.mass));
+  model.largest_added_mass = -1;
+  double added = 0, total = 0;
+  for (std::size_t g = 0; g < own_mass.size(); ++g) {
+    added += model.mass[g] - own_mass[g];
+    total += own_mass[g];
+    model.largest_added_mass = std::max(model.largest_added_mass, model.mass[g] / own_mass[g] - 1.0);
   }
   model.added_mass = added / total;
 }

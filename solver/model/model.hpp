@@ -3,23 +3,30 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
+#include <span>
 #include <string>
 #include <variant>
 #include <vector>
 
-#include "solver/model/aligned.hpp"
+#include "solver/model/lazy_array.hpp"
 #include "solver/model/material.hpp"
 #include "solver/model/surface_view.hpp"
 #include "solver/model/tet_block.hpp"
+#include "solver/parallel/communicator.hpp"
+#include "solver/parallel/ownership.hpp"
 #include "solver/physics/stable_step.hpp"
 #include "solver/physics/tensor.hpp"
 #include "solver/scenario/scenario.hpp"
 
 namespace mpfem {
 
-/// Node arrays hold rows of four doubles (x, y, z, spare); the surface nodes of a grain are its first ones.
+/// Node arrays hold rows of four doubles (x, y, z, spare); the surface nodes of a grain are its first ones. With several
+/// ranks all number grains, nodes, tets and facets alike, and arrays of grains are the same on all. Arrays of nodes, tets
+/// and facets are set for the rank's own grains, and what contact needs of them for grains near these.
 struct Model {
   int grains = 0;
+  Ownership ownership;                      ///< the grains that this rank computes
   std::vector<Material> material;           ///< [materials]
   std::vector<std::int32_t> grain_material; ///< [grains], into `material`
   ElementType element = ElementType::tet4;
@@ -32,37 +39,35 @@ struct Model {
   std::vector<std::int32_t> block_offset;       ///< [grains + 1]
   std::vector<std::int32_t> facet_offset;       ///< [grains + 1]
   std::vector<std::int32_t> spatial_order;      ///< [grains]: all of them, neighbours in space near each other
-  std::vector<std::int32_t> facet;              ///< [facets * 3], outward counter-clockwise
-  std::vector<std::int32_t> file_node;          ///< [nodes]: index in the packing file
-  std::vector<std::int32_t> file_tet;           ///< [tets]: index in the packing file, in block order
+  LazyArray<std::int32_t> facet;                ///< [facets * 3], outward counter-clockwise
+  LazyArray<std::int32_t> file_node;            ///< [nodes]: index in the packing file
+  LazyArray<std::int32_t> file_tet;             ///< [tets]: index in the packing file, in block order
 
-  AlignedVector<double> position;     ///< mm
-  AlignedVector<double> velocity;     ///< mm/s, at the half step before the position
-  AlignedVector<double> force;        ///< N, internal and contact forces at the position
-  AlignedVector<double> normal;       ///< unit outward normal of surface nodes and, fourth, tributary area mm^2
-  std::vector<double> reference_area; ///< [nodes]: tributary area of surface nodes at the start, mm^2
-  AlignedVector<double> inverse_mass; ///< [nodes], 1/tonne
+  LazyArray<double> position;     ///< mm
+  LazyArray<double> velocity;     ///< mm/s, at the half step before the position
+  LazyArray<double> force;        ///< N, internal and contact forces at the position
+  LazyArray<double> normal;       ///< unit outward normal of surface nodes and, fourth, tributary area mm^2
+  LazyArray<double> reference_area; ///< [nodes]: tributary area of surface nodes at the start, mm^2
+  LazyArray<double> inverse_mass; ///< [nodes], 1/tonne
   TetBlocks blocks;
-  std::vector<double> inverse_nodal_volume; ///< [nodes], 1/mm^3, of the reference state; tet4_anp only
-  std::vector<double> nodal_mean;           ///< [nodes], MPa: scratch of the element pass; tet4_anp only
+  LazyArray<double> inverse_nodal_volume; ///< [nodes], 1/mm^3, of the reference state; tet4_anp only
+  LazyArray<double> nodal_mean;           ///< [nodes], MPa: scratch of the element pass; tet4_anp only
   std::vector<std::int32_t> patch_offset;   ///< [grains + 1]; tet4_patch only
-  std::vector<double>
-      inverse_patch_volume; ///< [patches], 1/mm^3, of the reference state: eight tets that follow each other
+  LazyArray<double> inverse_patch_volume; ///< [patches], 1/mm^3, of the reference state: eight tets that follow each other
 
   std::vector<double> reference_volume;  ///< [grains], mm^3
   std::vector<double> mass;              ///< [grains], tonne (scaled)
-  std::vector<double> mass_factor;       ///< [nodes]: scaled over own mass; empty where nothing was scaled to a step
+  LazyArray<double> mass_factor;         ///< [nodes]: scaled over own mass; empty where nothing was scaled to a step
   double added_mass = 0;                 ///< by scaling to a step, over the mass of the packing
   double largest_added_mass = 0;         ///< the same of the grain that it concerns most
   std::vector<double> element_size;      ///< [grains], h: mean edge length of the surface facets, mm
   std::vector<double> penalty_stiffness; ///< [grains], K = factor E / h, MPa/mm
   bool uniform_penalty = false;          ///< K was given, and is the same wherever the mesh is refined
-  std::vector<double> refinement; ///< [nodes]: h of the grain over that of the surface node's facets; empty where
+  LazyArray<double> refinement; ///< [nodes]: h of the grain over that of the surface node's facets; empty where
                                   ///< no grain is locally refined
-  std::vector<std::int32_t>
-      inner_node;             ///< [nodes]: towards which a surface node's contact point lies; empty where contact
+  LazyArray<std::int32_t> inner_node; ///< [nodes]: towards which a surface node's contact point lies; empty where contact
                               ///< takes the nodes themselves (solver/model/smooth_surface.hpp)
-  std::vector<double> inward; ///< [nodes]: the inner node's share in the contact point
+  LazyArray<double> inward; ///< [nodes]: the inner node's share in the contact point
   int smooth_grains = 0;      ///< number of grains that touch by their smooth surface
 
   std::array<double, 3> box_low{}; ///< mm, at the start
@@ -70,6 +75,10 @@ struct Model {
   std::int64_t seed = -1;      ///< of the packing, -1 where unknown
   std::uint64_t mesh_hash = 0; ///< of nodes and tets as read
 
+  /// Grains that this rank computes, ascending.
+  const std::vector<std::int32_t>& own() const { return ownership.own; }
+  /// How arrays of nodes, tets and facets are to be backed.
+  Pages pages() const { return own().size() == static_cast<std::size_t>(grains) ? Pages::any : Pages::small; }
   std::int32_t nodes() const { return node_offset.back(); }
   std::int32_t tets() const { return tet_offset.back(); }
   std::int32_t facets() const { return facet_offset.back(); }
@@ -77,11 +86,11 @@ struct Model {
   /// Block `index` of a model whose tets are in numbers of type Real.
   template <class Real>
   TetBlock<Real>& block(std::int32_t index) {
-    return (*std::get_if<std::vector<TetBlock<Real>>>(&blocks))[static_cast<std::size_t>(index)];
+    return (*std::get_if<LazyArray<TetBlock<Real>>>(&blocks))[static_cast<std::size_t>(index)];
   }
   template <class Real>
   const TetBlock<Real>& block(std::int32_t index) const {
-    return (*std::get_if<std::vector<TetBlock<Real>>>(&blocks))[static_cast<std::size_t>(index)];
+    return (*std::get_if<LazyArray<TetBlock<Real>>>(&blocks))[static_cast<std::size_t>(index)];
   }
   template <class Real>
   int tets_in_block(int grain, int block_index) const {
@@ -132,32 +141,71 @@ struct Model {
 /// f(double{}) or f(float{}), as the numbers of the model's tets are.
 template <class F>
 auto with_tet_numbers(const Model& model, F&& f) {
-  return std::holds_alternative<std::vector<TetBlock<double>>>(model.blocks) ? f(double{}) : f(float{});
+  return std::holds_alternative<LazyArray<TetBlock<double>>>(model.blocks) ? f(double{}) : f(float{});
 }
 
-/// A meshed packing, as read from its file.
+/// The mesh of one grain in a packing file.
+struct GrainMesh {
+  std::span<const double> node;      ///< [nodes * 3], mm
+  std::span<const std::int32_t> tet; ///< [tets * 4], numbers of nodes in the file
+  std::int32_t first_node = 0;       ///< in the file
+  std::int32_t first_tet = 0;
+
+  std::int32_t nodes() const { return static_cast<std::int32_t>(node.size() / 3); }
+  std::int32_t tets() const { return static_cast<std::int32_t>(tet.size() / 4); }
+  std::int32_t end_node() const { return first_node + nodes(); }
+  std::int32_t end_tet() const { return first_tet + tets(); }
+  /// Node of the file, mm.
+  Vector3<double> point(std::int32_t file_node) const {
+    const double* x = &node[3 * static_cast<std::size_t>(file_node - first_node)];
+    return {x[0], x[1], x[2]};
+  }
+  /// The four nodes of a tet of the file.
+  std::span<const std::int32_t, 4> corners(std::int32_t file_tet) const {
+    return std::span<const std::int32_t, 4>(&tet[4 * static_cast<std::size_t>(file_tet - first_tet)], 4);
+  }
+  /// mm^3; negative where the tetrahedron is inverted.
+  double volume(std::int32_t file_tet) const;
+};
+
+/// A meshed packing, as read from its file: all of it, or the meshes of one rank's grains.
 struct MeshedPacking {
   std::array<double, 3> box_lengths{};
-  std::vector<double> node;                    ///< [nodes * 3], mm
-  std::vector<std::int32_t> tet;               ///< [tets * 4]
-  std::vector<std::int32_t> grain_node_offset; ///< [grains + 1]
-  std::vector<std::int32_t> grain_tet_offset;  ///< [grains + 1]
+  std::vector<double> node;                    ///< [nodes * 3], mm, of the rank's grains one after another
+  std::vector<std::int32_t> tet;               ///< [tets * 4], numbers of nodes in the file
+  std::vector<std::int32_t> grain_node_offset; ///< [grains + 1], in the file
+  std::vector<std::int32_t> grain_tet_offset;  ///< [grains + 1], in the file
   std::vector<double> sphere_center; ///< [grains * 3], mm, of the spheres that were meshed; empty where unknown
   std::vector<double> sphere_radius; ///< [grains], mm
   std::int64_t seed = -1;
+  std::optional<Ownership> ownership{}; ///< none: all grains are here
+  std::vector<std::size_t> node_start;  ///< [grains], in `node`, where not all grains are here
+  std::vector<std::size_t> tet_start;   ///< [grains], in `tet`
+  std::optional<std::uint64_t> hash{};  ///< hash_of_mesh of the whole file, where not all grains are here
+
+  int grains() const { return static_cast<int>(grain_node_offset.size()) - 1; }
+  /// Of a grain that is here.
+  GrainMesh mesh_of(int grain) const;
 };
 
-/// Reads a meshed packing file. Throws InputError where it is missing, damaged or not meshed.
-MeshedPacking read_packing(const std::string& path);
+/// What tells a mesh from others, from the hash of its nodes and that of its tets chained to it (common/hash.hpp).
+std::uint64_t hash_of_mesh(std::uint64_t of_nodes_and_tets, const MeshedPacking& packing);
+
+/// Reads a meshed packing file; with several ranks each reads the meshes of its grains: those that `owner` ([grains],
+/// rank) gives it, or by the number of tets. Collective. Throws InputError where the file is missing, damaged or not
+/// meshed.
+MeshedPacking read_packing(const std::string& path, const Communicator& ranks = Communicator(),
+                           const std::optional<std::vector<std::int32_t>>& owner = std::nullopt);
 
 /// Makes nodes heavier until no tet, with the usual share of contact, requires a smaller step than `step` (s) in the
 /// reference state; with `lighten`, also lighter where the tets leave room: then every node is as heavy as the step
 /// needs, and no more. Sets mass_factor, added_mass and largest_added_mass.
-void scale_masses(Model& model, double step, bool lighten);
+void scale_masses(Model& model, double step, bool lighten, const Communicator& ranks = Communicator());
 
 /// Builds the model: surfaces found, nodes and tets renumbered for locality, masses lumped. `name` stands for the file
-/// in messages. Throws InputError: inverted or degenerate tetrahedron, nodes out of range, open surface, node outside
-/// the box.
-Model build_model(const MeshedPacking& packing, const Scenario& scenario, const std::string& name);
+/// in messages. Collective. Throws InputError: inverted or degenerate tetrahedron, nodes out of range, open surface,
+/// node outside the box.
+Model build_model(const MeshedPacking& packing, const Scenario& scenario, const std::string& name,
+                  const Communicator& ranks = Communicator());
 
 } // namespace mpfem

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "common/index.hpp"
+#include "solver/parallel/grain_values.hpp"
 #include "solver/physics/tet4_patch.hpp"
 
 namespace mpfem {
@@ -45,21 +46,24 @@ void order_in_patches(std::span<Index> tets, const std::function<const Vector3<d
   order_in_patches(tets.subspan(half), centre);
 }
 
-std::vector<Index> spatial_order(const Model& model) {
+std::vector<Index> spatial_order(const Model& model, const Communicator& ranks) {
   const double size = *std::max_element(model.box_high.begin(), model.box_high.end());
-  std::vector<std::pair<std::uint64_t, Index>> order;
-  for (Index g = 0; g < model.grains; ++g) {
+  std::vector<std::uint64_t> key(at(model.grains));
+  for (const Index g : model.own()) {
     const auto first = at(model.node_offset[at(g)]), count = at(model.surface_node_count[at(g)]);
     Vector3<double> centre{0, 0, 0};
     for (std::size_t n = first; n < first + count; ++n)
       centre =
           centre + (1.0 / static_cast<double>(count)) *
                        Vector3<double>{model.position[4 * n], model.position[4 * n + 1], model.position[4 * n + 2]};
-    order.emplace_back(morton_key(centre, {0, 0, 0}, size), g);
+    key[at(g)] = morton_key(centre, {0, 0, 0}, size);
   }
+  share_of_grains(ranks, model.ownership, std::span(key));
+  std::vector<std::pair<std::uint64_t, Index>> order;
+  for (Index g = 0; g < model.grains; ++g) order.emplace_back(key[at(g)], g);
   std::sort(order.begin(), order.end());
   std::vector<Index> grains;
-  for (const auto& [key, grain] : order) grains.push_back(grain);
+  for (const auto& [place, grain] : order) grains.push_back(grain);
   return grains;
 }
 

@@ -18,7 +18,7 @@ std::uint64_t morton_key(const Vector3<double>& x, const Vector3<double>& low, d
 void order_in_patches(std::span<std::int32_t> tets, const std::function<const Vector3<double>&(std::int32_t)>& centre);
 
 /// The grains along a Morton curve through the box. Contact, which reads every grain's neighbours, finds them in the
-/// cache when it takes the grains in this order.
-std::vector<std::int32_t> spatial_order(const Model& model);
+/// cache when it takes the grains in this order. Collective.
+std::vector<std::int32_t> spatial_order(const Model& model, const Communicator& ranks);
 
 } // namespace mpfem

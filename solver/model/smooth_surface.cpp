@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "solver/model/normals.hpp"
+#include "solver/parallel/grain_values.hpp"
 
 namespace mpfem {
 
@@ -27,10 +28,12 @@ Vector3<double> normal(const Model& model, std::size_t node) {
   return {model.normal[4 * node], model.normal[4 * node + 1], model.normal[4 * node + 2]};
 }
 
-/// Height of the smooth surface above the facets around each surface node, their mean by area, mm.
-std::vector<double> heights(const Model& model) {
-  std::vector<double> height(static_cast<std::size_t>(model.nodes()), 0.0);
-  for (std::size_t f = 0; f < model.facet.size(); f += 3) {
+/// Height of the smooth surface above the facets around each surface node of a grain, their mean by area, mm.
+std::vector<double> heights(const Model& model, std::size_t grain) {
+  const auto first = static_cast<std::size_t>(model.node_offset[grain]);
+  std::vector<double> height(static_cast<std::size_t>(model.surface_node_count[grain]), 0.0);
+  for (auto f = 3 * static_cast<std::size_t>(model.facet_offset[grain]);
+       f < 3 * static_cast<std::size_t>(model.facet_offset[grain + 1]); f += 3) {
     std::size_t node[3];
     Vector3<double> x[3];
     for (std::size_t c = 0; c < 3; ++c) {
@@ -43,7 +46,7 @@ std::vector<double> heights(const Model& model) {
       of_facet += dot(normal(model, node[j]) - normal(model, node[i]), x[j] - x[i]) / 24.0;
     }
     const double third = norm(cross(x[1] - x[0], x[2] - x[0])) / 6.0; // of its area, a node's share of it
-    for (const std::size_t n : node) height[n] += third * of_facet / model.reference_area[n];
+    for (const std::size_t n : node) height[n - first] += third * of_facet / model.reference_area[n];
   }
   return height;
 }
@@ -61,7 +64,7 @@ bool is_sphere_of_that_volume(const Model& model, std::size_t grain, const Vecto
 }
 
 /// Chooses for each surface node of a grain the node of its tets that lies straightest beneath it, and sets how far its
-/// contact point lies towards that node: `height` [nodes], mm, along the normal.
+/// contact point lies towards that node: `height` [surface nodes], mm, along the normal.
 void place_contact_points(Model& model, std::size_t grain, const std::vector<double>& height) {
   const auto first = static_cast<std::size_t>(model.node_offset[grain]),
              count = static_cast<std::size_t>(model.surface_node_count[grain]);
@@ -81,40 +84,48 @@ void place_contact_points(Model& model, std::size_t grain, const std::vector<dou
   for (std::size_t n = first; n < first + count; ++n) {
     if (cosine[n - first] < least_cosine) continue;
     const double edge = norm(position(model, n) - position(model, static_cast<std::size_t>(model.inner_node[n])));
-    model.inward[n] = std::clamp(height[n] / (cosine[n - first] * edge), 0.0, largest_share);
+    model.inward[n] = std::clamp(height[n - first] / (cosine[n - first] * edge), 0.0, largest_share);
   }
 }
 
 } // namespace
 
-std::vector<bool> smooth_grains(const Model& model, const MeshedPacking& packing, ContactSurface surface) {
-  const auto grains = static_cast<std::size_t>(model.grains);
-  std::vector<bool> smooth(grains, surface == ContactSurface::smooth);
+std::vector<char> smooth_grains(const Model& model, const MeshedPacking& packing, ContactSurface surface,
+                                const Communicator& ranks) {
+  std::vector<char> smooth(static_cast<std::size_t>(model.grains), surface == ContactSurface::smooth ? 1 : 0);
   if (surface != ContactSurface::automatic || packing.sphere_radius.empty()) return smooth;
-  for (std::size_t g = 0; g < grains; ++g) {
+  for (const std::int32_t grain : model.own()) {
+    const auto g = static_cast<std::size_t>(grain);
     const double* center = &packing.sphere_center[3 * g];
-    smooth[g] = is_sphere_of_that_volume(model, g, {center[0], center[1], center[2]}, packing.sphere_radius[g]);
+    smooth[g] =
+        is_sphere_of_that_volume(model, g, {center[0], center[1], center[2]}, packing.sphere_radius[g]) ? 1 : 0;
   }
+  share_of_grains(ranks, model.ownership, std::span(smooth));
   return smooth;
 }
 
-void find_smooth_surface(Model& model, const std::vector<bool>& grains) {
-  model.smooth_grains = static_cast<int>(std::count(grains.begin(), grains.end(), true));
+void find_smooth_surface(Model& model, const std::vector<char>& grains) {
+  model.smooth_grains = static_cast<int>(std::count(grains.begin(), grains.end(), char{1}));
   if (model.smooth_grains == 0) return;
-  for (int grain = 0; grain < model.grains; ++grain) set_normals(model, grain);
-  const std::vector<double> height = heights(model);
   const auto nodes = static_cast<std::size_t>(model.nodes());
-  model.inner_node.resize(nodes);
-  std::iota(model.inner_node.begin(), model.inner_node.end(), 0);
-  model.inward.assign(nodes, 0.0);
-  for (std::size_t g = 0; g < grains.size(); ++g)
-    if (grains[g]) place_contact_points(model, g, height);
+  model.inner_node = LazyArray<std::int32_t>(nodes, model.pages());
+  model.inward = LazyArray<double>(nodes, model.pages());
+  for (const std::int32_t grain : model.own()) {
+    const auto g = static_cast<std::size_t>(grain);
+    set_normals(model, grain);
+    std::iota(model.inner_node.data() + model.node_offset[g], model.inner_node.data() + model.node_offset[g + 1],
+              model.node_offset[g]);
+    if (grains[g]) place_contact_points(model, g, heights(model, g));
+  }
 }
 
 double max_contact_offset(const Model& model) {
   double largest = 0;
-  for (std::size_t n = 0; n < model.inner_node.size(); ++n)
-    if (model.inward[n] > 0) largest = std::max(largest, norm(position(model, n) - model.contact_point(n)));
+  if (model.inner_node.empty()) return largest;
+  for (const std::int32_t g : model.own())
+    for (auto n = static_cast<std::size_t>(model.node_offset[static_cast<std::size_t>(g)]);
+         n < static_cast<std::size_t>(model.node_offset[static_cast<std::size_t>(g) + 1]); ++n)
+      if (model.inward[n] > 0) largest = std::max(largest, norm(position(model, n) - model.contact_point(n)));
   return largest;
 }
 

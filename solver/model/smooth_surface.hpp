@@ -23,14 +23,16 @@ namespace mpfem {
 /// Which grains touch by their smooth surface, [grains]: all or none, or with `surface` = automatic those that are
 /// meshes of the packing's spheres with the spheres' volume. Only of these it is known that their nodes lie outside a
 /// curved surface: a cube has edges, and the nodes of a sphere that is meshed with its nodes on it lie on its surface.
-std::vector<bool> smooth_grains(const Model& model, const MeshedPacking& packing, ContactSurface surface);
+/// Collective.
+std::vector<char> smooth_grains(const Model& model, const MeshedPacking& packing, ContactSurface surface,
+                                const Communicator& ranks = Communicator());
 
 /// Sets model.inner_node and model.inward of these grains ([grains]) from the mesh as it is, and also
 /// model.normal; nothing where there are none. Nodes in concave places keep their place, and so do nodes on flat faces
 /// an element away from edges.
-void find_smooth_surface(Model& model, const std::vector<bool>& grains);
+void find_smooth_surface(Model& model, const std::vector<char>& grains);
 
-/// Largest distance (mm) of a node from its contact point at present; 0 where contact takes the nodes themselves.
+/// Largest distance (mm) of an own node from its contact point at present; 0 where contact takes the nodes themselves.
 double max_contact_offset(const Model& model);
 
 } // namespace mpfem

@@ -4,8 +4,8 @@
 
 #include <cstdint>
 #include <variant>
-#include <vector>
 
+#include "solver/model/lazy_array.hpp"
 #include "solver/physics/pack.hpp"
 
 namespace mpfem {
@@ -24,6 +24,6 @@ struct alignas(native_lanes_of<Real> * sizeof(Real)) TetBlock {
 };
 
 /// In double precision, or in single where the scenario's precision is mixed.
-using TetBlocks = std::variant<std::vector<TetBlock<double>>, std::vector<TetBlock<float>>>;
+using TetBlocks = std::variant<LazyArray<TetBlock<double>>, LazyArray<TetBlock<float>>>;
 
 } // namespace mpfem

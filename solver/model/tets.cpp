@@ -5,7 +5,7 @@ namespace mpfem {
 void fill_unused_lanes(Model& model) {
   with_tet_numbers(model, [&](auto number) {
     using Real = decltype(number);
-    for (int grain = 0; grain < model.grains; ++grain) {
+    for (const std::int32_t grain : model.own()) {
       const std::int32_t last = model.block_offset[static_cast<std::size_t>(grain) + 1] - 1;
       TetBlock<Real>& block = model.block<Real>(last);
       const int used = model.tets_in_block<Real>(grain, last);

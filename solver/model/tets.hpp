@@ -8,13 +8,13 @@
 
 namespace mpfem {
 
-/// Calls f(block, lane, tet) for every tet of the model, in the order of the blocks: its values are block.NAME[lane],
+/// Calls f(block, lane, tet) for every tet of the rank's own grains, in the order of the blocks: its values are block.NAME[lane],
 /// its number is `tet`.
 template <class ModelType, class F>
 void for_each_tet(ModelType& model, F&& f) {
   with_tet_numbers(model, [&](auto number) {
     using Real = decltype(number);
-    for (int grain = 0; grain < model.grains; ++grain) {
+    for (const std::int32_t grain : model.own()) {
       const auto g = static_cast<std::size_t>(grain);
       for (std::int32_t b = model.block_offset[g]; b < model.block_offset[g + 1]; ++b)
         for (int lane = 0; lane < model.template tets_in_block<Real>(grain, b); ++lane)

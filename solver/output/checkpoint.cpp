@@ -377,7 +377,7 @@ void CheckpointReader::take_arrays(Model& model, Contact& contact, WallFriction&
                                    GrainSteps& grain_steps, Grips* grips,
                                    const std::optional<BondParameters>& bond_parameters) const {
   const auto nodes = static_cast<std::size_t>(model.nodes()), grains = static_cast<std::size_t>(model.grains);
-  for_each_node_array(model, [&](const auto& dataset, AlignedVector<double>& into) {
+  for_each_node_array(model, [&](const auto& dataset, LazyArray<double>& into) {
     const auto values = file_.read(dataset); // one array at a time is in memory beside the model
     if (values.size() != 4 * nodes) fail_damaged();
     std::copy(values.begin(), values.end(), into.begin());

@@ -22,7 +22,7 @@ namespace {
 namespace run = schema::run;
 
 /// Rows of four doubles in the solver's order to rows of three floats in file order.
-std::vector<float> in_file_order(const Model& model, const AlignedVector<double>& rows) {
+std::vector<float> in_file_order(const Model& model, const LazyArray<double>& rows) {
   std::vector<float> result(3 * static_cast<std::size_t>(model.nodes()));
   for (std::size_t n = 0; n < model.file_node.size(); ++n)
     for (std::size_t axis = 0; axis < 3; ++axis)

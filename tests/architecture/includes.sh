@@ -15,13 +15,14 @@ pack-gen: common results-schema solver/physics
 postproc: common results-schema
 solver/physics:
 solver/scenario: common solver/physics
-solver/model: common results-schema solver/physics solver/scenario
-solver/kernels: common solver/physics solver/model
-solver/boundary: common solver/physics solver/model
-solver/output: common results-schema solver/physics solver/scenario solver/model solver/kernels solver/boundary
-solver/run: common solver/physics solver/scenario solver/model solver/kernels solver/boundary solver/output
-solver/bench: common solver/physics solver/scenario solver/model solver/kernels solver/boundary solver/output solver/run
-solver: common solver/scenario solver/model solver/output solver/run solver/bench
+solver/parallel: common
+solver/model: common results-schema solver/physics solver/scenario solver/parallel
+solver/kernels: common solver/physics solver/parallel solver/model
+solver/boundary: common solver/physics solver/parallel solver/model
+solver/output: common results-schema solver/physics solver/scenario solver/parallel solver/model solver/kernels solver/boundary
+solver/run: common solver/physics solver/scenario solver/parallel solver/model solver/kernels solver/boundary solver/output
+solver/bench: common solver/physics solver/scenario solver/parallel solver/model solver/kernels solver/boundary solver/output solver/run
+solver: common solver/scenario solver/parallel solver/model solver/output solver/run solver/bench
 '
 # FOLDER FOLDER: an include that is still there and shall go.
 open=''

@@ -1,0 +1,131 @@
+#pragma once
+// The processes of a run, its ranks, and how they exchange bytes. Two files fulfil this: communicator_mpi.cpp, the only
+// one that knows MPI, and communicator_alone.cpp, for builds without it, where every process is the only rank.
+//
+// A function that is called "collective" has to be called by all ranks, in the same order, from their first threads.
+
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+#include <memory>
+#include <span>
+#include <string>
+#include <type_traits>
+#include <vector>
+
+namespace mpfem {
+
+using Bytes = std::vector<std::byte>;
+
+class Communicator {
+public:
+  /// This process alone, whatever others there are.
+  Communicator();
+  /// The ranks that mpirun or srun started together; this process alone where neither did. To be called once, before
+  /// anything else; what it returns ends MPI when it goes. May change the arguments of main.
+  static Communicator of_launcher(int& argc, char**& argv);
+  Communicator(Communicator&&) noexcept;
+  Communicator(const Communicator&) = delete;
+  ~Communicator();
+
+  int rank() const { return rank_; } ///< 0 … size() - 1
+  int size() const { return size_; }
+  bool alone() const { return size_ == 1; }
+  /// Whether this rank reads and writes files for all, and reports.
+  bool leads() const { return rank_ == 0; }
+  /// Whether this build has MPI.
+  static bool has_mpi();
+  /// Of the MPI library: "Open MPI v4.1.4"; empty in a build without.
+  static std::string library();
+
+  /// Collective. What every rank has, by rank.
+  std::vector<Bytes> all_of(std::span<const std::byte> own) const;
+  /// Collective. The same where the number of bytes of every rank is known: `all` holds them one after another.
+  void all_of(std::span<const std::byte> own, std::span<const std::size_t> bytes_of_rank, std::span<std::byte> all) const;
+  /// Collective. `to` holds what goes to each rank; returns what came from each.
+  std::vector<Bytes> exchange(const std::vector<Bytes>& to) const;
+  /// Collective. The largest of all ranks' numbers; none may be NaN.
+  double largest(double own) const;
+  /// Collective. Copies what the first rank has to all others.
+  void from_leader(Bytes& bytes) const;
+
+  /// To one rank, which receives the same number of bytes.
+  void send(int rank, std::span<const std::byte> bytes) const;
+  void receive(int rank, std::span<std::byte> bytes) const;
+
+  /// One message to or from a rank.
+  struct Outgoing {
+    int rank;
+    std::span<const std::byte> bytes;
+  };
+  struct Incoming {
+    int rank;
+    std::span<std::byte> bytes; ///< room for the largest message that may come
+  };
+  /// Messages on their way; their memory must stay until finish().
+  class Transfer {
+  public:
+    Transfer();
+    Transfer(Transfer&&) noexcept;
+    Transfer& operator=(Transfer&&) noexcept;
+    ~Transfer();
+    /// Waits until all messages have gone and come. Returns the number of bytes of each incoming one.
+    std::vector<std::size_t> finish();
+
+  private:
+    friend class Communicator;
+    struct State;
+    std::unique_ptr<State> state_;
+  };
+  /// Starts messages to and from some ranks, at most one each way with each.
+  Transfer start(const std::vector<Outgoing>& out, const std::vector<Incoming>& in) const;
+
+  /// Ends all ranks at once, with this exit code, where one has failed and the others wait for it.
+  [[noreturn]] void abort(int exit_code) const;
+
+private:
+  int rank_ = 0, size_ = 1;
+  bool ends_mpi_ = false;
+};
+
+/// The bytes of numbers and of plain structs of them.
+template <class T>
+std::span<const std::byte> bytes_of(std::span<const T> values) {
+  static_assert(std::is_trivially_copyable_v<T>);
+  return std::as_bytes(values);
+}
+
+/// Appends a plain value or some of them to a message.
+template <class T>
+void append(Bytes& message, std::span<const T> values) {
+  const auto bytes = bytes_of(values);
+  message.insert(message.end(), bytes.begin(), bytes.end());
+}
+template <class T>
+void append(Bytes& message, const T& value) {
+  append(message, std::span<const T>(&value, 1));
+}
+
+/// Reads a message in the order in which it was put together.
+class MessageReader {
+public:
+  explicit MessageReader(std::span<const std::byte> bytes) : rest_(bytes) {}
+  bool done() const { return rest_.empty(); }
+  template <class T>
+  void take(std::span<T> into) {
+    static_assert(std::is_trivially_copyable_v<T>);
+    if (!into.empty()) std::memcpy(into.data(), rest_.data(), into.size_bytes());
+    rest_ = rest_.subspan(into.size_bytes());
+  }
+  template <class T>
+  T take() {
+    T value{};
+    take(std::span<T>(&value, 1));
+    return value;
+  }
+
+private:
+  std::span<const std::byte> rest_;
+};
+
+} // namespace mpfem

@@ -1,0 +1,186 @@
+// The only file that knows MPI.
+
+#include <array>
+#include <cstdlib>
+#include <limits>
+#include <stdexcept>
+#include <utility>
+
+#include <mpi.h>
+
+#include "solver/parallel/communicator.hpp"
+
+namespace mpfem {
+
+namespace {
+
+/// MPI counts in int: larger messages go in pieces.
+constexpr std::size_t largest_piece = std::size_t{1} << 30;
+
+int count_of(std::size_t bytes) {
+  if (bytes > static_cast<std::size_t>(std::numeric_limits<int>::max()))
+    throw std::length_error("a message between ranks of more than 2 GiB");
+  return static_cast<int>(bytes);
+}
+
+/// Where each rank's part begins, in int as MPI wants it.
+std::vector<int> offsets_of(const std::vector<int>& counts) {
+  std::vector<int> offset(counts.size(), 0);
+  std::size_t sum = 0;
+  for (std::size_t rank = 0; rank < counts.size(); ++rank) {
+    offset[rank] = count_of(sum);
+    sum += static_cast<std::size_t>(counts[rank]);
+  }
+  return offset;
+}
+
+std::size_t end_of(const std::vector<int>& offsets, const std::vector<int>& counts) {
+  return static_cast<std::size_t>(offsets.back()) + static_cast<std::size_t>(counts.back());
+}
+
+std::vector<Bytes> divided(const Bytes& all, const std::vector<int>& offsets, const std::vector<int>& counts) {
+  std::vector<Bytes> parts;
+  for (std::size_t rank = 0; rank < counts.size(); ++rank)
+    parts.emplace_back(all.begin() + offsets[rank], all.begin() + offsets[rank] + counts[rank]);
+  return parts;
+}
+
+} // namespace
+
+struct Communicator::Transfer::State {
+  std::vector<MPI_Request> request; ///< incoming first
+  std::size_t incoming = 0;
+};
+Communicator::Transfer::Transfer() = default;
+Communicator::Transfer::Transfer(Transfer&&) noexcept = default;
+Communicator::Transfer& Communicator::Transfer::operator=(Transfer&&) noexcept = default;
+Communicator::Transfer::~Transfer() = default;
+
+std::vector<std::size_t> Communicator::Transfer::finish() {
+  if (!state_) return {};
+  std::vector<MPI_Status> status(state_->request.size());
+  MPI_Waitall(static_cast<int>(state_->request.size()), state_->request.data(), status.data());
+  std::vector<std::size_t> bytes;
+  for (std::size_t i = 0; i < state_->incoming; ++i) {
+    int count = 0;
+    MPI_Get_count(&status[i], MPI_BYTE, &count);
+    bytes.push_back(static_cast<std::size_t>(count));
+  }
+  state_.reset();
+  return bytes;
+}
+
+Communicator::Communicator() = default;
+Communicator::Communicator(Communicator&& other) noexcept
+    : rank_(other.rank_), size_(other.size_), ends_mpi_(std::exchange(other.ends_mpi_, false)) {}
+Communicator::~Communicator() {
+  if (ends_mpi_) MPI_Finalize();
+}
+
+Communicator Communicator::of_launcher(int& argc, char**& argv) {
+  Communicator communicator;
+  // A process that no launcher started needs no MPI, and starts faster without.
+  const auto set = [](const char* name) { return std::getenv(name) != nullptr; };
+  if (!set("OMPI_COMM_WORLD_SIZE") && !set("PMI_SIZE") && !set("PMIX_RANK") && !set("PMI_RANK")) return communicator;
+  int provided = 0;
+  MPI_Init_thread(&argc, &argv, MPI_THREAD_FUNNELED, &provided);
+  communicator.ends_mpi_ = true;
+  MPI_Comm_rank(MPI_COMM_WORLD, &communicator.rank_);
+  MPI_Comm_size(MPI_COMM_WORLD, &communicator.size_);
+  return communicator;
+}
+bool Communicator::has_mpi() {
+  return true;
+}
+std::string Communicator::library() {
+  std::array<char, MPI_MAX_LIBRARY_VERSION_STRING> text{};
+  int length = 0;
+  MPI_Get_library_version(text.data(), &length);
+  const std::string whole(text.data(), static_cast<std::size_t>(length));
+  return whole.substr(0, whole.find(','));
+}
+
+std::vector<Bytes> Communicator::all_of(std::span<const std::byte> own) const {
+  if (alone()) return {Bytes(own.begin(), own.end())};
+  const int count = count_of(own.size());
+  std::vector<int> counts(static_cast<std::size_t>(size_));
+  MPI_Allgather(&count, 1, MPI_INT, counts.data(), 1, MPI_INT, MPI_COMM_WORLD);
+  const std::vector<int> offsets = offsets_of(counts);
+  Bytes all(end_of(offsets, counts));
+  MPI_Allgatherv(own.data(), count, MPI_BYTE, all.data(), counts.data(), offsets.data(), MPI_BYTE, MPI_COMM_WORLD);
+  return divided(all, offsets, counts);
+}
+
+void Communicator::all_of(std::span<const std::byte> own, std::span<const std::size_t> bytes_of_rank,
+                          std::span<std::byte> all) const {
+  if (alone()) {
+    if (!own.empty()) std::memcpy(all.data(), own.data(), own.size());
+    return;
+  }
+  std::vector<int> counts;
+  for (const std::size_t bytes : bytes_of_rank) counts.push_back(count_of(bytes));
+  const std::vector<int> offsets = offsets_of(counts);
+  MPI_Allgatherv(own.data(), count_of(own.size()), MPI_BYTE, all.data(), counts.data(), offsets.data(), MPI_BYTE,
+                 MPI_COMM_WORLD);
+}
+
+std::vector<Bytes> Communicator::exchange(const std::vector<Bytes>& to) const {
+  if (alone()) return to;
+  std::vector<int> counts_out, counts_in(to.size());
+  for (const Bytes& bytes : to) counts_out.push_back(count_of(bytes.size()));
+  MPI_Alltoall(counts_out.data(), 1, MPI_INT, counts_in.data(), 1, MPI_INT, MPI_COMM_WORLD);
+  const std::vector<int> offsets_out = offsets_of(counts_out), offsets_in = offsets_of(counts_in);
+  Bytes out, in(end_of(offsets_in, counts_in));
+  out.reserve(end_of(offsets_out, counts_out));
+  for (const Bytes& bytes : to) out.insert(out.end(), bytes.begin(), bytes.end());
+  MPI_Alltoallv(out.data(), counts_out.data(), offsets_out.data(), MPI_BYTE, in.data(), counts_in.data(),
+                offsets_in.data(), MPI_BYTE, MPI_COMM_WORLD);
+  return divided(in, offsets_in, counts_in);
+}
+
+double Communicator::largest(double own) const {
+  if (alone()) return own;
+  double largest = own;
+  MPI_Allreduce(&own, &largest, 1, MPI_DOUBLE, MPI_MAX, MPI_COMM_WORLD);
+  return largest;
+}
+
+void Communicator::from_leader(Bytes& bytes) const {
+  if (alone()) return;
+  std::uint64_t size = bytes.size();
+  MPI_Bcast(&size, 1, MPI_UINT64_T, 0, MPI_COMM_WORLD);
+  bytes.resize(size);
+  for (std::size_t begin = 0; begin < size; begin += largest_piece)
+    MPI_Bcast(bytes.data() + begin, static_cast<int>(std::min(largest_piece, size - begin)), MPI_BYTE, 0,
+              MPI_COMM_WORLD);
+}
+
+void Communicator::send(int rank, std::span<const std::byte> bytes) const {
+  MPI_Send(bytes.data(), count_of(bytes.size()), MPI_BYTE, rank, 0, MPI_COMM_WORLD);
+}
+void Communicator::receive(int rank, std::span<std::byte> bytes) const {
+  MPI_Recv(bytes.data(), count_of(bytes.size()), MPI_BYTE, rank, 0, MPI_COMM_WORLD, MPI_STATUS_IGNORE);
+}
+
+Communicator::Transfer Communicator::start(const std::vector<Outgoing>& out, const std::vector<Incoming>& in) const {
+  Transfer transfer;
+  if (out.empty() && in.empty()) return transfer;
+  transfer.state_ = std::make_unique<Transfer::State>();
+  transfer.state_->incoming = in.size();
+  auto& request = transfer.state_->request;
+  constexpr int tag = 1; // send() and receive() have 0
+  for (const Incoming& message : in)
+    MPI_Irecv(message.bytes.data(), count_of(message.bytes.size()), MPI_BYTE, message.rank, tag, MPI_COMM_WORLD,
+              &request.emplace_back());
+  for (const Outgoing& message : out)
+    MPI_Isend(message.bytes.data(), count_of(message.bytes.size()), MPI_BYTE, message.rank, tag, MPI_COMM_WORLD,
+              &request.emplace_back());
+  return transfer;
+}
+
+void Communicator::abort(int exit_code) const {
+  MPI_Abort(MPI_COMM_WORLD, exit_code);
+  std::abort();
+}
+
+} // namespace mpfem
