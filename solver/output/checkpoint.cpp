@@ -384,8 +384,10 @@ void CheckpointReader::take_arrays(Model& model, Contact& contact, WallFriction&
   });
   take_tets(model);
   for_each_step_array(grain_steps, grains, nodes, [&](const auto& dataset, auto& values, std::size_t rows) {
-    values = file_.read(dataset);
-    if (values.size() != rows) fail_damaged();
+    const auto found = file_.read(dataset);
+    if (found.size() != rows) fail_damaged();
+    values = std::decay_t<decltype(values)>(rows);
+    std::copy(found.begin(), found.end(), values.begin());
   });
   take_candidates(model, contact);
   if (contact.bonding()) {
