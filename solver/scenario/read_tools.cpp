@@ -88,6 +88,7 @@ ToolShape read_stl_shape(TableReader& table) {
     table.fail("file", "found an empty or unusable path, expected an STL file");
   stl.scale = table.number("scale", Range::between(1e-9, 1e9)); // no default: STL files do not tell their unit
   stl.inside = read_inside(table, "outside");
+  if (table.has("low_corner")) stl.low_corner = table.vector3("low_corner", any_length);
   return stl;
 }
 
@@ -104,7 +105,7 @@ const std::vector<ShapeKeyword>& shape_keywords() {
       {"cylinder", {"axis", "centre", "radius", "grains", "extent", "rounding"}, read_cylinder},
       {"sphere", {"centre", "radius", "grains"}, read_sphere},
       {"cone", {"axis", "opens", "apex", "half_angle", "grains"}, read_cone},
-      {"stl", {"file", "scale", "grains"}, read_stl_shape},
+      {"stl", {"file", "scale", "grains", "low_corner"}, read_stl_shape},
   };
   return keywords;
 }

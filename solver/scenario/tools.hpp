@@ -52,9 +52,10 @@ struct ConeShape {
 
 /// A closed surface of triangles.
 struct StlShape {
-  std::string file;    ///< relative to the scenario's folder
-  double scale = 1;    ///< mm in the file's unit of length
-  bool inside = false; ///< grains are inside
+  std::string file;                                  ///< relative to the scenario's folder
+  double scale = 1;                                  ///< mm in the file's unit of length
+  bool inside = false;                               ///< grains are inside
+  std::optional<std::array<double, 3>> low_corner{}; ///< mm, where the box that bounds it begins; none: as in the file
   bool operator==(const StlShape&) const = default;
 };
 
@@ -82,8 +83,8 @@ const char* shape_name(const ToolShape& shape);
 /// a sphere or a surface of triangles.
 std::optional<std::array<double, 3>> direction_of(const ToolShape& shape);
 
-/// What one tool does in a stage: it moves at a velocity, or holds its push along a direction, as a force or, a punch of
-/// the container, as a stress.
+/// What one tool does in a stage: it moves at a velocity, or holds its push along a direction: a force or, of a punch of
+/// the container, a stress.
 struct ToolDrive {
   std::size_t tool = 0;              ///< index into the scenario's tools
   std::array<double, 3> velocity{};  ///< mm/s, at full speed

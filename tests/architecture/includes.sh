@@ -11,22 +11,23 @@ cd "${1:-$(dirname "${BASH_SOURCE[0]}")/../..}"
 allowed='
 common:
 results-schema: common
-pack-gen: common results-schema solver/physics
+surfaces: common solver/physics
+pack-gen: common results-schema surfaces solver/physics
 postproc: common results-schema
 solver/physics:
 solver/scenario: common solver/physics
 solver/model: common results-schema solver/physics solver/scenario
 solver/kernels: common solver/physics solver/model
-solver/boundary: common solver/physics solver/model
+solver/boundary: common surfaces solver/physics solver/model
 solver/output: common results-schema solver/physics solver/scenario solver/model solver/kernels solver/boundary
-solver/run: common solver/physics solver/scenario solver/model solver/kernels solver/boundary solver/output
+solver/run: common surfaces solver/physics solver/scenario solver/model solver/kernels solver/boundary solver/output
 solver/bench: common solver/physics solver/scenario solver/model solver/kernels solver/boundary solver/output solver/run
-solver: common solver/scenario solver/model solver/output solver/run solver/bench
+solver: common surfaces solver/scenario solver/model solver/output solver/run solver/bench
 '
 # FOLDER FOLDER: an include that is still there and shall go.
 open=''
 
-grep -rnE --include='*.cpp' --include='*.hpp' '^ *# *include +"' common results-schema pack-gen postproc solver |
+grep -rnE --include='*.cpp' --include='*.hpp' '^ *# *include +"' common results-schema surfaces pack-gen postproc solver |
   awk -v allowed="$allowed" -v open="$open" '
     function folder(path) { # of a file: its first two parts in solver/, its first part elsewhere
       n = split(path, part, "/")
