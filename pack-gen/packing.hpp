@@ -1,5 +1,6 @@
 #pragma once
-// Random packings of spheres in a box, a cylinder or a closed surface of hard walls, denser than random sequential addition can make them.
+// Random packings of spheres in a box, a cylinder or a closed surface of hard walls, denser than random sequential
+// addition can make them.
 //
 // Method: spheres inflated by half the wanted gap repel each other and the walls where they overlap; from random points
 // the overlap energy is minimised with FIRE (Bitzek et al., Phys. Rev. Lett. 97, 170201, 2006). Below random close

@@ -160,7 +160,9 @@ void add_peak(Tablet& tablet) {
   tablet.add("upper_punch_stress", "MPa", tablet.peak.value / area, tablet.peak.uncertainty / area);
   tablet.add("lower_punch_stress", "MPa", lower.value / area, lower.uncertainty / area);
   add_wall_at_peak(tablet, lower);
-  tablet.add("relative_density_in_die", "1", tablet.history["relative_density"][row]);
+  const auto& density = tablet.history["relative_density"];
+  tablet.add("relative_density_in_die", "1", density[row]);
+  tablet.add("volume_loss", "1", 1 - density.front() / density[row]); // from the filled die of the first row
   tablet.add("height_at_peak", "mm", tablet.height(row));
   tablet.add("smallest_height", "mm", tablet.smallest_height);
   if (tablet.loaded.count() < fewest_smoothed_rows)

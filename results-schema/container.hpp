@@ -8,8 +8,8 @@
 
 namespace mpfem {
 
-/// A box, or a cylinder: its axis is z through the middle of the box [D, D, H] that bounds it. Or the inside of a closed
-/// surface of triangles, which the box bounds.
+/// A box, or a cylinder: its axis is z through the middle of the box [D, D, H] that bounds it. Or the inside of a
+/// closed surface of triangles, which the box bounds.
 enum class ContainerShape { box, cylinder, surface };
 
 /// Names in files, in the order of ContainerShape.

@@ -83,8 +83,8 @@ const char* shape_name(const ToolShape& shape);
 /// a sphere or a surface of triangles.
 std::optional<std::array<double, 3>> direction_of(const ToolShape& shape);
 
-/// What one tool does in a stage: it moves at a velocity, or holds its push along a direction: a force or, of a punch of
-/// the container, a stress.
+/// What one tool does in a stage: it moves at a velocity, or holds its push along a direction: a force or, of a punch
+/// of the container, a stress.
 struct ToolDrive {
   std::size_t tool = 0;              ///< index into the scenario's tools
   std::array<double, 3> velocity{};  ///< mm/s, at full speed

@@ -27,7 +27,9 @@ solver: common surfaces solver/scenario solver/model solver/output solver/run so
 # FOLDER FOLDER: an include that is still there and shall go.
 open=''
 
-grep -rnE --include='*.cpp' --include='*.hpp' '^ *# *include +"' common results-schema surfaces pack-gen postproc solver |
+folders='common results-schema surfaces pack-gen postproc solver'
+# shellcheck disable=SC2086 # folders are several words
+grep -rnE --include='*.cpp' --include='*.hpp' '^ *# *include +"' $folders |
   awk -v allowed="$allowed" -v open="$open" '
     function folder(path) { # of a file: its first two parts in solver/, its first part elsewhere
       n = split(path, part, "/")
