@@ -30,7 +30,8 @@ struct Frame {
 std::string pvd_text(const std::vector<Frame>& frames);
 
 /// Writes FOLDER/NNNN.vtu, NNNN-grains.vtp and NNNN-contacts.vtp for every snapshot of a run, run.pvd, grains.pvd and
-/// contacts.pvd over time, and where the run has tools NNNN-tools.vtp and tools.pvd; makes the folder. Returns the files.
+/// contacts.pvd over time, and where the run has tools NNNN-tools.vtp and tools.pvd; makes the folder. Returns the
+/// files.
 std::vector<std::string> write_run_as_vtk(const schema::FileReader& file, const std::string& folder, bool quiet);
 
 } // namespace mpfem

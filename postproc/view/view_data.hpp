@@ -11,7 +11,7 @@
 
 namespace mpfem {
 
-/// A field of all snapshots, from 0 (low) to 255 (high) on one scale; of a sparse one 0 stands for no value, and low is 1.
+/// A field of all snapshots, from 0 (low) to 255 (high) on one scale; of a sparse one 0 means no value, and low is 1.
 struct QuantisedField {
   std::string name, unit;
   std::pair<double, double> range;
