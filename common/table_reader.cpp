@@ -157,8 +157,8 @@ toml::node& child(toml::node& parent, const std::string& part, const toml::sourc
   if (toml::array* array = parent.as_array()) return *array->get(element_index(*array, part, *source.path));
   toml::table* table = parent.as_table();
   if (table == nullptr)
-    throw_input_error(*source.path, fmt::format("'{}' stands below {}, which has no keys",
-                                                shortened(part, longest_word), type_text(parent)));
+    throw_input_error(*source.path, fmt::format("'{}' is below {}, which has no keys", shortened(part, longest_word),
+                                                type_text(parent)));
   if (table->get(part) == nullptr) table->insert_or_assign(toml::key(part, source), toml::table{});
   return *table->get(part);
 }
@@ -197,8 +197,8 @@ void TomlDocument::set(std::string_view assignment) {
     value.visit(
         [&](auto& typed) { array->replace(array->begin() + static_cast<std::ptrdiff_t>(i), std::move(typed)); });
   } else {
-    throw_input_error(source, fmt::format("'{}' stands below {}, which has no keys", shortened(last, longest_word),
-                                          type_text(*parent)));
+    throw_input_error(
+        source, fmt::format("'{}' is below {}, which has no keys", shortened(last, longest_word), type_text(*parent)));
   }
 }
 

@@ -30,7 +30,8 @@ struct Arguments {
   std::vector<std::string> assignments;
   std::optional<std::int64_t> seed;
   std::vector<double> box, bottom_center;
-  std::string container;
+  std::string container, surface;
+  std::optional<double> scale;
   std::optional<double> diameter, height, gap;
   bool fit_height = false;
   double size = 0;
@@ -58,7 +59,10 @@ PackingDescription description_of(const Arguments& arguments) {
   if (!arguments.container.empty()) document.set(fmt::format("container={}", arguments.container));
   if (arguments.diameter) document.set(fmt::format("diameter={}", *arguments.diameter));
   if (arguments.height) document.set(fmt::format("height={}", *arguments.height));
-  return read_packing_description(document, arguments.container == "cylinder");
+  if (!arguments.surface.empty())
+    document.set(fmt::format("surface_file={}", std::filesystem::absolute(arguments.surface).string()));
+  if (arguments.scale) document.set(fmt::format("surface_scale={}", *arguments.scale));
+  return read_packing_description(document, !arguments.container.empty() && arguments.container != "box");
 }
 
 void spheres(const Arguments& arguments) {
@@ -69,6 +73,7 @@ void spheres(const Arguments& arguments) {
     try {
       return pack_spheres({.box = description.container.lengths,
                            .shape = description.container.shape,
+                           .surface = description.container.surface,
                            .radius = sizes.radius,
                            .smallest_gap = description.smallest_gap,
                            .seed = description.seed,
@@ -172,6 +177,12 @@ void check_container(const Arguments& arguments) {
     refuse("--container cylinder: found no diameter or no height", "--diameter D --height H");
   if (!cylinder && (arguments.diameter || arguments.height || !arguments.bottom_center.empty()))
     refuse("--diameter, --height, --bottom-center: found without a cylinder", "--container cylinder");
+  const bool surface = arguments.container == "surface";
+  if (surface && !arguments.box.empty()) refuse("--box: found beside --container surface", "--surface and --scale");
+  if (surface && (arguments.surface.empty() || !arguments.scale))
+    refuse("--container surface: found no file or no scale", "--surface FILE.stl --scale MM");
+  if (!surface && (!arguments.surface.empty() || arguments.scale))
+    refuse("--surface, --scale: found without a surface", "--container surface");
 }
 
 SpherePacking imported(const Arguments& arguments) {
@@ -179,6 +190,8 @@ SpherePacking imported(const Arguments& arguments) {
   const auto point = [](const std::vector<double>& v) { return Point{v[0], v[1], v[2]}; };
   std::optional<Point> box;
   if (!arguments.box.empty()) box = point(arguments.box);
+  if (arguments.container == "surface")
+    return import_spheres(arguments.input, read_surface(arguments.surface, *arguments.scale));
   if (arguments.container != "cylinder") return import_spheres(arguments.input, box);
   CylinderInTable cylinder{*arguments.diameter, *arguments.height, {}};
   cylinder.bottom_center = arguments.bottom_center.empty() ? Point{0.5 * cylinder.diameter, 0.5 * cylinder.diameter, 0}
@@ -260,13 +273,17 @@ void add_threads(CLI::App& command, Arguments& arguments) {
              "Threads (default: all cores that it may use); the result does not depend on it");
 }
 
-/// --container, --diameter and --height; `otherwise`: what holds without them.
+/// --container and what belongs to each; `otherwise`: what holds without them.
 void add_container(CLI::App& command, Arguments& arguments, const std::string& otherwise) {
   command
-      .add_option("--container", arguments.container, "box, or cylinder: its axis is z (default: " + otherwise + ")")
-      ->check(CLI::IsMember({"box", "cylinder"}));
+      .add_option("--container", arguments.container,
+                  "box, cylinder: its axis is z, or surface: a closed one from an STL file (default: " + otherwise +
+                      ")")
+      ->check(CLI::IsMember({"box", "cylinder", "surface"}));
   add_number(command, "--diameter", arguments.diameter, lengths, "mm", "Of the cylinder");
   add_number(command, "--height", arguments.height, lengths, "mm", "Of the cylinder");
+  command.add_option("--surface", arguments.surface, "STL file of the surface; its lowest corner becomes the origin");
+  add_number(command, "--scale", arguments.scale, Range::between(1e-9, 1e9), "mm", "In the unit of the STL file");
 }
 
 /// A command that reads a file, described by `input`.

@@ -192,14 +192,14 @@ SphereGap smallest_gap(const SpherePacking& packing) {
 double relative_density(const SpherePacking& packing) {
   double cubes = 0;
   for (const double r : packing.radius) cubes += r * r * r;
-  return 4.0 / 3.0 * std::numbers::pi * cubes / container_volume(packing.shape, packing.box);
+  return 4.0 / 3.0 * std::numbers::pi * cubes / packing.container().volume();
 }
 
 namespace {
 
 void refuse_spheres_beyond_the_box(const PackingRequest& request) {
   const double largest = *std::max_element(request.radius.begin(), request.radius.end());
-  const bool box = request.shape == ContainerShape::box;
+  const bool box = request.shape != ContainerShape::cylinder;
   for (std::size_t k = 0; k < 3; ++k)
     if (2 * (largest + request.smallest_gap) > request.box[k])
       throw InputError(
@@ -212,16 +212,24 @@ void refuse_spheres_beyond_the_box(const PackingRequest& request) {
                       request.box[k]));
 }
 
-/// A place for a sphere, inflated to radius r: uniform in the box less r on every side; of a cylinder again until it is
-/// within the round wall.
+/// A place for a sphere, inflated to radius r: uniform in the box less r on every side; of a cylinder or surface again
+/// until it is within.
 Point random_place(Random& random, const PackingContainer& container, double r) {
-  Point place{};
-  for (bool outside = true; outside;) {
+  constexpr int most_trials = 100000; // a surface may have less room than its box by far
+  Point place{}, deepest{};
+  double depth = -std::numeric_limits<double>::infinity();
+  for (int trial = 0;; ++trial) {
     for (std::size_t k = 0; k < 3; ++k) place[k] = r + random.uniform() * std::max(container.lengths[k] - 2 * r, 0.0);
-    outside = container.shape == ContainerShape::cylinder && container.radius() > r &&
-              container.from_axis(place) > container.radius() - r;
+    if (container.shape == ContainerShape::surface) {
+      const double distance = container.distance(place);
+      if (distance >= r) return place;
+      if (distance > depth) depth = distance, deepest = place;
+      if (trial == most_trials) return deepest; // what jams is told by what follows
+    } else if (container.shape == ContainerShape::box || container.radius() <= r ||
+               container.from_axis(place) <= container.radius() - r) {
+      return place;
+    }
   }
-  return place;
 }
 
 [[noreturn]] void refuse_jammed(const PackingRequest& request, const SpherePacking& packing) {
@@ -246,8 +254,8 @@ SpherePacking pack_spheres(const PackingRequest& request) {
   const double unit = mean + 0.5 * request.smallest_gap, margin = 2e-4;
   std::vector<double> inflated(n);
   for (std::size_t i = 0; i < n; ++i) inflated[i] = (request.radius[i] + 0.5 * request.smallest_gap) / unit + margin;
-  PackingContainer inner{{}, request.shape};
-  for (std::size_t k = 0; k < 3; ++k) inner.lengths[k] = (request.box[k] - request.smallest_gap) / unit;
+  const PackingContainer inner =
+      PackingContainer{request.box, request.shape, request.surface}.shrunk(0.5 * request.smallest_gap, unit);
 
   // 2. Random points.
   Random random(request.seed);
@@ -273,7 +281,7 @@ SpherePacking pack_spheres(const PackingRequest& request) {
     best = compaction.position();
   }
 
-  SpherePacking packing{request.box, std::vector<Point>(n), request.radius, request.shape};
+  SpherePacking packing{request.box, std::vector<Point>(n), request.radius, request.shape, request.surface};
   for (std::size_t i = 0; i < n; ++i)
     for (std::size_t k = 0; k < 3; ++k) packing.center[i][k] = best[i][k] * unit + 0.5 * request.smallest_gap;
 

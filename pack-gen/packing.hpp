@@ -1,5 +1,6 @@
 #pragma once
-// Random packings of spheres in a box or cylinder of hard walls, denser than random sequential addition can make them.
+// Random packings of spheres in a box, a cylinder or a closed surface of hard walls, denser than random sequential
+// addition can make them.
 //
 // Method: spheres inflated by half the wanted gap repel each other and the walls where they overlap; from random points
 // the overlap energy is minimised with FIRE (Bitzek et al., Phys. Rev. Lett. 97, 170201, 2006). Below random close
@@ -23,8 +24,9 @@ struct SpherePacking {
   std::vector<Point> center;  ///< mm
   std::vector<double> radius; ///< mm
   ContainerShape shape = ContainerShape::box;
+  std::shared_ptr<const SurfaceContainer> surface{}; ///< where the container is one
 
-  PackingContainer container() const { return {box, shape}; }
+  PackingContainer container() const { return {box, shape, surface}; }
 };
 
 /// Smallest surface distance, and where it is. `second` is -1 - wall for a wall, numbered as in container.hpp.
@@ -48,8 +50,9 @@ double relative_density(const SpherePacking& packing);
 struct PackingRequest {
   Point box{}; ///< mm
   ContainerShape shape = ContainerShape::box;
-  std::vector<double> radius; ///< mm
-  double smallest_gap = 0;    ///< mm, between spheres and to the walls
+  std::shared_ptr<const SurfaceContainer> surface{}; ///< where the container is one
+  std::vector<double> radius;                        ///< mm
+  double smallest_gap = 0;                           ///< mm, between spheres and to the walls
   std::uint64_t seed = 1;
   std::int64_t moves = 100'000'000; ///< random moves at most, where minimising the overlap is not enough
   /// Called now and then with what is being done.

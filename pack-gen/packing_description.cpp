@@ -69,21 +69,31 @@ std::unique_ptr<SizeDistribution> read_distribution(TableReader table, const std
   return distribution;
 }
 
-/// A box of three edge lengths, or a cylinder of a diameter and a height; the keys of the other are refused.
-PackingContainer read_container(TableReader& root, bool without_box) {
-  const bool cylinder = root.choice_or("container", "box", {"box", "cylinder"}) == "cylinder";
-  const auto refuse = [&](const char* key, const char* allowed) {
-    if (root.has(key))
-      root.fail(key, fmt::format("found beside a {}, allowed: {}", cylinder ? "cylinder" : "box", allowed));
+/// A box of three edge lengths, a cylinder of a diameter and a height, or a surface from a file; the keys of the others
+/// are refused.
+PackingContainer read_container(TableReader& root, const std::string& description_file, bool without_box) {
+  const std::string shape = root.choice_or("container", "box", {"box", "cylinder", "surface"});
+  const auto refuse = [&](std::initializer_list<const char*> keys, const char* allowed) {
+    for (const char* key : keys)
+      if (root.has(key)) root.fail(key, fmt::format("found beside a {}, allowed: {}", shape, allowed));
   };
-  if (!cylinder) {
-    for (const char* key : {"diameter", "height"}) refuse(key, "box, or container = \"cylinder\"");
+  if (shape == "box") {
+    refuse({"diameter", "height"}, "box, or container = \"cylinder\"");
+    refuse({"surface_file", "surface_scale"}, "box, or container = \"surface\"");
     return {root.vector3("box", length), ContainerShape::box};
   }
   if (without_box)
     root.value("box");
   else
-    refuse("box", "diameter and height");
+    refuse({"box"}, shape == "cylinder" ? "diameter and height" : "surface_file and surface_scale");
+  if (shape == "surface") {
+    refuse({"diameter", "height"}, "surface_file and surface_scale");
+    const auto path = std::filesystem::path(description_file).parent_path() / root.string("surface_file");
+    // No default: STL files do not tell their unit.
+    const PlacedSurface placed = read_surface(path.string(), root.number("surface_scale", Range::between(1e-9, 1e9)));
+    return {placed.lengths, ContainerShape::surface, placed.container};
+  }
+  refuse({"surface_file", "surface_scale"}, "diameter and height");
   const double diameter = root.number("diameter", length), height = root.number("height", length);
   return {{diameter, diameter, height}, ContainerShape::cylinder};
 }
@@ -96,7 +106,7 @@ PackingDescription read_packing_description(const TomlDocument& document, bool w
   description.text = document.text();
   description.count = static_cast<int>(root.integer("count", Range::between(1, 1e7)));
   description.relative_density = root.number("relative_density", Range::between(1e-9, 0.74));
-  description.container = read_container(root, without_box);
+  description.container = read_container(root, document.name(), without_box);
   description.smallest_gap = root.number("smallest_gap", length);
   description.seed = static_cast<std::uint64_t>(root.integer_or("seed", 1, Range::non_negative()));
   description.size_scale_tolerance = root.number_or("size_scale_tolerance", 0.01, Range::between(0, 1e6));
@@ -109,7 +119,7 @@ PackingDescription read_packing_description(const TomlDocument& document, bool w
 DrawnSizes draw_sizes(const PackingDescription& description) {
   std::vector<double> diameter = description.distribution->sample(description.count);
   const PackingContainer& container = description.container;
-  const double volume = container_volume(container.shape, container.lengths);
+  const double volume = container.volume();
   const double scale = size_scale(diameter, description.relative_density, volume);
   if (!(std::abs(scale - 1) <= description.size_scale_tolerance))
     throw InputError(fmt::format(
@@ -119,7 +129,7 @@ DrawnSizes draw_sizes(const PackingDescription& description) {
         description.places.prefix("count"), description.count, description.relative_density, name_of(container.shape),
         scale, 1 - description.size_scale_tolerance, 1 + description.size_scale_tolerance,
         description.count * scale * scale * scale, name_of(container.shape), 1 / scale,
-        container.shape == ContainerShape::box ? "each edge" : "diameter and height"));
+        container.shape == ContainerShape::cylinder ? "diameter and height" : "each edge"));
   DrawnSizes sizes{{}, scale};
   for (const double d : diameter) sizes.radius.push_back(0.5 * scale * d);
   return sizes;

@@ -15,7 +15,7 @@ namespace mpfem {
 struct PackingDescription {
   int count = 0;
   double relative_density = 0;
-  PackingContainer container; ///< a box, or a cylinder
+  PackingContainer container; ///< a box, a cylinder, or a surface
   double smallest_gap = 0;
   std::uint64_t seed = 1;
   double size_scale_tolerance = 0; ///< how far from 1 the factor on all sizes may be that makes count and density agree

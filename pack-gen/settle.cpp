@@ -25,8 +25,7 @@ Inflated inflated(const SpherePacking& packing, double gap) {
   Inflated result;
   for (const double r : packing.radius) result.unit += (r + 0.5 * gap) / static_cast<double>(packing.radius.size());
   for (const double r : packing.radius) result.radius.push_back((r + 0.5 * gap) / result.unit + margin);
-  result.inner.shape = packing.shape;
-  for (std::size_t k = 0; k < 3; ++k) result.inner.lengths[k] = (packing.box[k] - gap) / result.unit;
+  result.inner = packing.container().shrunk(0.5 * gap, result.unit);
   return result;
 }
 
@@ -40,6 +39,11 @@ double top_of(const SpherePacking& packing) {
 
 SettledPacking settle(const SpherePacking& packing, const SettleRequest& request) {
   const double gap = request.smallest_gap;
+  // Spheres there feel the nearest place of the surface alone, and never rest between two.
+  if (packing.surface)
+    throw InputError(
+        "found a container that is a surface, allowed: a box or a cylinder; let grains settle in a run, by "
+        "[gravity] and a tool of type 'stl'");
   const Inflated spheres = inflated(packing, gap);
   std::vector<Point> start = packing.center;
   for (Point& p : start)

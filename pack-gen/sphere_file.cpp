@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "common/errors.hpp"
+#include "common/one_line.hpp"
 #include "common/output_file.hpp"
 #include "common/version.hpp"
 #include "results-schema/file.hpp"
@@ -18,6 +19,40 @@ namespace {
 namespace file = schema::packing;
 using Doubles = std::span<const double>;
 using Integers = std::span<const std::int32_t>;
+
+void write_surface(schema::FileWriter& writer, const TriangleMesh& mesh) {
+  std::vector<double> vertex;
+  std::vector<std::int32_t> triangle;
+  for (const Vector3<double>& x : mesh.vertex) vertex.insert(vertex.end(), {x.x, x.y, x.z});
+  for (const auto& corners : mesh.triangle) triangle.insert(triangle.end(), corners.begin(), corners.end());
+  writer.write(file::box_vertex, Doubles(vertex), mesh.vertex.size());
+  writer.write(file::box_triangle, Integers(triangle), mesh.triangle.size());
+}
+
+std::shared_ptr<const SurfaceContainer> surface_of_file(const schema::FileReader& reader, const std::string& path) {
+  const auto fail = [&](const auto& dataset, const std::string& what) {
+    throw InputError(fmt::format("{}: dataset {}: {}", one_line(path), dataset.path, what));
+  };
+  if (!reader.has(file::box_vertex) || !reader.has(file::box_triangle))
+    fail(file::box_shape, "found surface, expected /box/vertex and /box/triangle beside it");
+  const auto vertex = reader.read(file::box_vertex);
+  const auto triangle = reader.read(file::box_triangle);
+  TriangleMesh mesh;
+  for (std::size_t i = 0; i < vertex.size(); i += 3) {
+    if (!std::isfinite(vertex[i] + vertex[i + 1] + vertex[i + 2]))
+      fail(file::box_vertex, fmt::format("found no finite number at index {}, allowed: finite", i / 3));
+    mesh.vertex.push_back({vertex[i], vertex[i + 1], vertex[i + 2]});
+  }
+  for (std::size_t i = 0; i < triangle.size(); i += 3) {
+    for (std::size_t k = 0; k < 3; ++k)
+      if (triangle[i + k] < 0 || static_cast<std::size_t>(triangle[i + k]) >= mesh.vertex.size())
+        fail(file::box_triangle, fmt::format("found vertex {} at index [{}, {}], allowed: 0 … {}", triangle[i + k],
+                                             i / 3, k, mesh.vertex.size() - 1));
+    mesh.triangle.push_back({triangle[i], triangle[i + 1], triangle[i + 2]});
+  }
+  if (mesh.triangle.empty()) fail(file::box_triangle, "found no triangle, allowed: a closed surface");
+  return place_surface(std::move(mesh)).container;
+}
 
 } // namespace
 
@@ -37,6 +72,7 @@ SphereFile read_spheres(const std::string& path) {
   schema::PackingSpheres spheres = schema::read_packing_spheres(reader);
   std::copy_n(spheres.box_lengths.begin(), 3, result.packing.box.begin());
   result.packing.shape = spheres.shape;
+  if (spheres.shape == ContainerShape::surface) result.packing.surface = surface_of_file(reader, path);
   for (std::size_t i = 0; i < spheres.radius.size(); ++i)
     result.packing.center.push_back({spheres.center[3 * i], spheres.center[3 * i + 1], spheres.center[3 * i + 2]});
   result.packing.radius = std::move(spheres.radius);
@@ -66,6 +102,7 @@ void write_packing_file(const std::string& path, const SpherePacking& packing, c
   writer.write(file::box_lengths, Doubles(packing.box), 3);
   // Files of boxes stay as they were, for programs that do not know of shapes.
   if (packing.shape != ContainerShape::box) writer.write_scalar(file::box_shape, std::string(name_of(packing.shape)));
+  if (packing.surface) write_surface(writer, packing.surface->mesh);
   writer.write(file::spheres_center, Doubles(center), spheres);
   writer.write(file::spheres_radius, Doubles(packing.radius), spheres);
   const bool halves = mesh && mesh->hemispheres;

@@ -90,4 +90,14 @@ SpherePacking import_spheres(const std::string& path, const CylinderInTable& cyl
   return packing;
 }
 
+SpherePacking import_spheres(const std::string& path, const PlacedSurface& surface) {
+  SpherePacking packing = read_table(CsvReader::from_file(path));
+  packing.shape = ContainerShape::surface;
+  packing.surface = surface.container;
+  packing.box = surface.lengths;
+  for (Point& center : packing.center)
+    for (std::size_t k = 0; k < 3; ++k) center[k] -= surface.corner_in_file[k];
+  return packing;
+}
+
 } // namespace mpfem

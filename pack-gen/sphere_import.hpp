@@ -28,4 +28,7 @@ struct CylinderInTable {
 /// within it says refuse_overlap. Throws InputError.
 SpherePacking import_spheres(const std::string& path, const CylinderInTable& cylinder);
 
+/// The same into a surface, which stands in the table's coordinates as it does in its file.
+SpherePacking import_spheres(const std::string& path, const PlacedSurface& surface);
+
 } // namespace mpfem

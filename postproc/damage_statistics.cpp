@@ -140,7 +140,7 @@ Measurement measure_damage(const schema::FileReader& file, int snapshot) {
   m.brief =
       fmt::format("{:.3g} % of the area broken, {:.3g} % undamaged, median {:.4g}; {} bonds of {} pairs of grains",
                   100 * s.broken_share.value, 100 * s.undamaged_share.value, s.percentile[2].value, s.bonds, s.pairs);
-  if (s.pairs == 1) m.notes.emplace_back("one pair of grains has bonds: the uncertainty is unknown and stands at 0");
+  if (s.pairs == 1) m.notes.emplace_back("one pair of grains has bonds: the uncertainty is unknown and reported as 0");
   return m;
 }
 

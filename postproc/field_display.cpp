@@ -10,7 +10,10 @@
 namespace mpfem {
 
 std::string field_label(const std::string& field) {
-  return field == "von_mises" ? "von Mises stress" : field == "pressure" ? "Pressure" : "Equivalent plastic strain";
+  return field == "von_mises"  ? "von Mises stress"
+         : field == "pressure" ? "Pressure"
+         : field == "damage"   ? "Damage of bonds"
+                               : "Equivalent plastic strain";
 }
 
 std::string with_unit(const std::string& label, const std::string& unit) {

@@ -53,10 +53,9 @@ std::size_t peak_row(const Test& test) {
     throw InputError(fmt::format("{}: stage {}: {} never rises above its value at the stage's beginning", c.path,
                                  c.stage, test.stress_name));
   if (!(c.axial_strain[peak] > 0))
-    throw InputError(
-        fmt::format("{}: stage {}: its largest {} stands at an axial strain of {:.3g}; allowed: a stage of "
-                    "axial compression",
-                    c.path, c.stage, test.stress_name, c.axial_strain[peak]));
+    throw InputError(fmt::format("{}: stage {}: its largest {} is at an axial strain of {:.3g}; allowed: a stage of "
+                                 "axial compression",
+                                 c.path, c.stage, test.stress_name, c.axial_strain[peak]));
   return peak;
 }
 

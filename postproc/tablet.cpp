@@ -123,7 +123,7 @@ void add_wall_at_peak(Tablet& tablet, const Reading& lower) {
   const double radial = normal.value / wall;
   tablet.add("radial_stress_at_peak", "MPa", radial, normal.uncertainty / wall);
   if (!(slice.lower_stress > 0 && radial > 0)) {
-    tablet.note("the lower punch or the die bears nothing at the peak: no transmission and no wall friction");
+    tablet.note("the lower punch or the die carries no force at the peak: no transmission and no wall friction");
     for (const char* name : {"axial_transmission", "radial_over_axial_stress", "wall_friction_coefficient"})
       tablet.add(name, "1", {});
     return;
@@ -160,12 +160,14 @@ void add_peak(Tablet& tablet) {
   tablet.add("upper_punch_stress", "MPa", tablet.peak.value / area, tablet.peak.uncertainty / area);
   tablet.add("lower_punch_stress", "MPa", lower.value / area, lower.uncertainty / area);
   add_wall_at_peak(tablet, lower);
-  tablet.add("relative_density_in_die", "1", tablet.history["relative_density"][row]);
+  const auto& density = tablet.history["relative_density"];
+  tablet.add("relative_density_in_die", "1", density[row]);
+  tablet.add("volume_loss", "1", 1 - density.front() / density[row]); // from the filled die of the first row
   tablet.add("height_at_peak", "mm", tablet.height(row));
   tablet.add("smallest_height", "mm", tablet.smallest_height);
   if (tablet.loaded.count() < fewest_smoothed_rows)
     tablet.note(fmt::format("pressing has {} rows, fewer than {}: forces are those of a row, their uncertainty is not "
-                            "known and stands at 0",
+                            "known and reported as 0",
                             tablet.loaded.count(), fewest_smoothed_rows));
 }
 

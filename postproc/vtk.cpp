@@ -2,13 +2,16 @@
 
 #include <algorithm>
 #include <cstring>
+#include <deque>
 #include <filesystem>
+#include <numeric>
 #include <span>
 
 #include <fmt/format.h>
 
 #include "common/errors.hpp"
 #include "common/progress.hpp"
+#include "postproc/tet_geometry.hpp"
 #include "postproc/text_file.hpp"
 #include "postproc/tool_surface.hpp"
 
@@ -128,6 +131,110 @@ std::string tools_vtp_text(const Snapshot& s, const std::vector<std::string>& na
   return xml.append(appended.bytes()).append("\n  </AppendedData>\n</VTKFile>\n");
 }
 
+namespace {
+
+/// A .vtp file of points with vertices or lines over them, and a number or a vector for each of these.
+class PointFile {
+public:
+  PointFile(const Snapshot& snapshot, const std::string& comment) : snapshot_(snapshot), comment_(comment) {}
+
+  void point(const Eigen::Vector3d& x) {
+    for (const double xk : x) position_.push_back(static_cast<float>(xk));
+  }
+  std::vector<float>& array(const std::string& name, int components = 1) {
+    arrays_.push_back({name, components, {}});
+    return arrays_.back().values;
+  }
+  /// `points_each`: 1 for vertices, 2 for lines; points follow each other.
+  std::string text(int points_each) const {
+    const std::size_t points = position_.size() / 3, cells = points / static_cast<std::size_t>(points_each);
+    std::vector<std::int32_t> connectivity(points), ends;
+    std::iota(connectivity.begin(), connectivity.end(), 0);
+    for (std::size_t c = 1; c <= cells; ++c) ends.push_back(points_each * static_cast<std::int32_t>(c));
+    Appended appended(64 * points + 1024);
+    const char* kind = points_each == 1 ? "Verts" : "Lines";
+    std::string xml = fmt::format(
+        "<?xml version=\"1.0\"?>\n"
+        "<VTKFile type=\"PolyData\" version=\"1.0\" byte_order=\"LittleEndian\" header_type=\"UInt64\">\n"
+        "  <!-- {} -->\n  <PolyData>\n    <FieldData>\n      <DataArray type=\"Float64\" Name=\"TimeValue\" "
+        "NumberOfTuples=\"1\" format=\"ascii\">{}</DataArray>\n    </FieldData>\n"
+        "    <Piece NumberOfPoints=\"{}\" NumberOf{}=\"{}\">\n      <Points>\n",
+        comment_, snapshot_.time, points, kind, cells);
+    xml += appended.array("position [mm]", "Float32", 3, std::span<const float>(position_));
+    xml += fmt::format("      </Points>\n      <{}>\n", kind);
+    xml += appended.array("connectivity", "Int32", 1, std::span<const std::int32_t>(connectivity));
+    xml += appended.array("offsets", "Int32", 1, std::span<const std::int32_t>(ends));
+    xml += fmt::format("      </{}>\n      <CellData>\n", kind);
+    for (const Array& array : arrays_)
+      xml += appended.array(array.name, "Float32", array.components, std::span<const float>(array.values));
+    xml += "      </CellData>\n    </Piece>\n  </PolyData>\n  <AppendedData encoding=\"raw\">\n_";
+    return xml.append(appended.bytes()).append("\n  </AppendedData>\n</VTKFile>\n");
+  }
+
+private:
+  struct Array {
+    std::string name;
+    int components;
+    std::vector<float> values;
+  };
+  const Snapshot& snapshot_;
+  std::string comment_;
+  std::vector<float> position_;
+  std::deque<Array> arrays_; // references to values stay valid
+};
+
+} // namespace
+
+std::string grains_vtp_text(const Snapshot& s) {
+  PointFile file(s, "grains: centres, volumes, and means by volume; mm, MPa");
+  const std::vector<Eigen::Vector3d> centre = grain_centres(s);
+  const std::size_t grains = centre.size();
+  std::vector<double> volume(grains, 0.0);
+  std::vector<std::vector<double>> sum(s.tet_fields.size(), std::vector<double>(grains, 0.0));
+  for (std::size_t t = 0; t < s.tets(); ++t) {
+    const auto g = static_cast<std::size_t>(s.tet_grain[t]);
+    const double of_tet = std::abs(tet_geometry(s, t).volume);
+    volume[g] += of_tet;
+    for (std::size_t f = 0; f < sum.size(); ++f) sum[f][g] += of_tet * static_cast<double>(s.tet_fields[f].values[t]);
+  }
+  for (const Eigen::Vector3d& x : centre) file.point(x);
+  std::vector<float>& number = file.array("grain");
+  for (std::size_t g = 0; g < grains; ++g) number.push_back(static_cast<float>(g));
+  std::vector<float>& volumes = file.array("volume [mm^3]");
+  for (const double v : volume) volumes.push_back(static_cast<float>(v));
+  for (std::size_t f = 0; f < sum.size(); ++f) {
+    if (s.tet_fields[f].name == "grain") continue;
+    std::vector<float>& mean = file.array(with_unit(s.tet_fields[f]));
+    for (std::size_t g = 0; g < grains; ++g)
+      mean.push_back(static_cast<float>(volume[g] > 0 ? sum[f][g] / volume[g] : 0));
+  }
+  return file.text(1);
+}
+
+std::string contacts_vtp_text(const schema::FileReader& run_file, const Snapshot& s) {
+  namespace run = schema::run;
+  PointFile file(s, "pairs of grains in contact or bonded, from centre to centre; mm, N, mJ; damage -1: never bonded");
+  const std::vector<Eigen::Vector3d> centre = grain_centres(s);
+  const auto grains = run_file.read(run::snapshots_pair_grains, s.name);
+  for (const std::int32_t grain : grains) file.point(centre.at(static_cast<std::size_t>(grain)));
+  for (const std::size_t side : {0U, 1U}) {
+    std::vector<float>& number = file.array(side == 0 ? "first_grain" : "second_grain");
+    for (std::size_t i = side; i < grains.size(); i += 2) number.push_back(static_cast<float>(grains[i]));
+  }
+  const auto add = [&](const auto& dataset, const char* name, int components = 1) {
+    if (!run_file.has(dataset, s.name)) return;
+    std::vector<float>& values = file.array(name, components);
+    for (const double value : run_file.read(dataset, s.name)) values.push_back(static_cast<float>(value));
+  };
+  add(run::snapshots_pair_force, "force [N]", 3);
+  add(run::snapshots_pair_area, "area [mm^2]");
+  add(run::snapshots_pair_bonded_area, "bonded_area [mm^2]");
+  add(run::snapshots_pair_damage, "damage");
+  add(run::snapshots_pair_bond_energy, "bond_energy [mJ]");
+  add(run::snapshots_pair_damage_dissipation, "damage_dissipation [mJ]");
+  return file.text(2);
+}
+
 std::string pvd_text(const std::vector<Frame>& frames) {
   std::string xml = "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"1.0\" "
                     "byte_order=\"LittleEndian\">\n  <Collection>\n";
@@ -152,17 +259,23 @@ std::vector<std::string> write_run_as_vtk(const schema::FileReader& file, const 
   };
   // Where all tools are withdrawn their file is empty: without one, ParaView would go on showing the last.
   const std::vector<std::string> tools = file.members(schema::run::tools_shape);
-  std::vector<Frame> frames, tool_frames;
+  std::vector<Frame> frames, tool_frames, grain_frames, contact_frames;
   for (int i = 0; i < count; ++i) {
     const Snapshot snapshot = read_snapshot(file, i);
     frames.push_back({snapshot.name + ".vtu", snapshot.time});
     write(frames.back().file, vtu_text(snapshot));
+    grain_frames.push_back({snapshot.name + "-grains.vtp", snapshot.time});
+    write(grain_frames.back().file, grains_vtp_text(snapshot));
+    contact_frames.push_back({snapshot.name + "-contacts.vtp", snapshot.time});
+    write(contact_frames.back().file, contacts_vtp_text(file, snapshot));
     if (!tools.empty()) {
       tool_frames.push_back({snapshot.name + "-tools.vtp", snapshot.time});
       write(tool_frames.back().file, tools_vtp_text(snapshot, tools));
     }
     progress.update((i + 1.0) / count, frames.back().file);
   }
+  write("grains.pvd", pvd_text(grain_frames));
+  write("contacts.pvd", pvd_text(contact_frames));
   if (!tools.empty()) write("tools.pvd", pvd_text(tool_frames));
   write("run.pvd", pvd_text(frames));
   progress.finish(files.back());

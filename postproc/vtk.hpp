@@ -15,6 +15,13 @@ std::string vtu_text(const Snapshot& snapshot);
 /// its place in `names`, all tools of the run.
 std::string tools_vtp_text(const Snapshot& snapshot, const std::vector<std::string>& names);
 
+/// A .vtp file with a point for each grain: number, volume, and means of the tets' fields by volume.
+std::string grains_vtp_text(const Snapshot& snapshot);
+
+/// A .vtp file with a line for each pair of grains in contact or bonded: both grains, force of the second on the first,
+/// area; with bonds their area, damage and energies.
+std::string contacts_vtp_text(const schema::FileReader& file, const Snapshot& snapshot);
+
 /// A .pvd file that lists files over time.
 struct Frame {
   std::string file;
@@ -22,8 +29,9 @@ struct Frame {
 };
 std::string pvd_text(const std::vector<Frame>& frames);
 
-/// Writes FOLDER/NNNN.vtu for every snapshot of a run and FOLDER/run.pvd, and where the run has tools
-/// FOLDER/NNNN-tools.vtp and FOLDER/tools.pvd; makes the folder. Returns the files.
+/// Writes FOLDER/NNNN.vtu, NNNN-grains.vtp and NNNN-contacts.vtp for every snapshot of a run, run.pvd, grains.pvd and
+/// contacts.pvd over time, and where the run has tools NNNN-tools.vtp and tools.pvd; makes the folder. Returns the
+/// files.
 std::vector<std::string> write_run_as_vtk(const schema::FileReader& file, const std::string& folder, bool quiet);
 
 } // namespace mpfem

@@ -8,17 +8,18 @@
 
 namespace mpfem {
 
-/// A box, or a cylinder: its axis is z through the middle of the box [D, D, H] that bounds it.
-enum class ContainerShape { box, cylinder };
+/// A box, or a cylinder: its axis is z through the middle of the box [D, D, H] that bounds it. Or the inside of a
+/// closed surface of triangles, which the box bounds.
+enum class ContainerShape { box, cylinder, surface };
 
 /// Names in files, in the order of ContainerShape.
-inline constexpr std::array<std::string_view, 2> container_names = {"box", "cylinder"};
+inline constexpr std::array<std::string_view, 3> container_names = {"box", "cylinder", "surface"};
 
 constexpr std::string_view name_of(ContainerShape shape) {
   return container_names[static_cast<std::size_t>(shape)];
 }
 
-/// Volume (mm^3) of a container with these three edge lengths (mm) of its box: of a cylinder pi/4 D^2 H.
+/// Volume (mm^3) of a box or cylinder with these three edge lengths (mm) of its box: of a cylinder pi/4 D^2 H.
 constexpr double container_volume(ContainerShape shape, std::span<const double> edges) {
   const double box = edges[0] * edges[1] * edges[2];
   return shape == ContainerShape::box ? box : 0.25 * std::numbers::pi * box;

@@ -49,7 +49,7 @@ void refuse_outside(const std::vector<double>& center, const std::vector<double>
 ContainerShape read_shape(const FileReader& file) {
   if (!file.has(packing::box_shape)) return ContainerShape::box;
   const std::string name = file.read_scalar(packing::box_shape);
-  for (const ContainerShape shape : {ContainerShape::box, ContainerShape::cylinder})
+  for (const ContainerShape shape : {ContainerShape::box, ContainerShape::cylinder, ContainerShape::surface})
     if (name == name_of(shape)) return shape;
   Place{file, packing::box_shape.path}.fail(
       fmt::format("found '{}', allowed: {}", one_line(name), fmt::join(container_names, ", ")));

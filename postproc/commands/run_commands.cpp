@@ -40,8 +40,7 @@ public:
             "curve.csv",
             "CSV file to write (default: standard output)") {
     options()
-        .add_option("--columns", columns_,
-                    "Columns, separated by commas (default: all); wall_stress stands for its six")
+        .add_option("--columns", columns_, "Columns, separated by commas (default: all); wall_stress means its six")
         ->delimiter(',');
   }
 

@@ -14,7 +14,8 @@ class ViewCommand : public RunCommand {
 public:
   explicit ViewCommand(CLI::App& app)
       : RunCommand(app, "view",
-                   "Write one page for a browser: turn, zoom, cut and colour the grains, step through snapshots.\n"
+                   "Write one page for a browser: turn, zoom, cut and colour the grains, see bonds and contacts, step "
+                   "through snapshots.\n"
                    "Example: postproc view run.h5 -o view.html",
                    "HTML file to write") {
     output_option()->required();
@@ -26,7 +27,7 @@ public:
 private:
   void execute() const override {
     const std::string title = title_.empty() ? std::filesystem::path(path_of_run()).filename().string() : title_;
-    deliver(view_page(view_data(spread_snapshots(open_run(), most_)), title));
+    deliver(view_page_of_run(open_run(), most_, title));
   }
 
   int most_ = 8;

@@ -24,7 +24,7 @@ namespace mpfem {
 struct FigureCommands::State {
   std::string figure, name, output, results = "out/coarse", mesh = "coarse", programmes = "studies/branches", packing,
                                     description;
-  std::string title, run;
+  std::string title, run, beside;
   std::vector<std::string> files, settings;
   int packings = 0;
   std::vector<std::pair<CLI::App*, std::function<void()>>> commands;
@@ -133,16 +133,18 @@ struct FigureCommands::State {
   /// Of at most six snapshots, so that the page stays small.
   static std::string view_of(const std::string& run) {
     if (run.empty()) return "";
-    return view_page(view_data(spread_snapshots({run, schema::FileKind::run}, 6)), "Compaction in three dimensions");
+    return view_page_of_run({run, schema::FileKind::run}, 6, "Compaction in three dimensions");
   }
 
   void report() const {
     std::vector<ReportEntry> entries;
     for (const std::string& file : files) {
       const Figure f = read_figure(file, programmes);
-      entries.push_back({f.name, f.name == f.title ? f.title : fmt::format("{}: {}", f.name, f.title), f.question});
+      entries.push_back({f.name, f.name == f.title ? f.title : fmt::format("{}: {}", f.name, f.title), f.question, file,
+                         runs_of_figure(f, {results, mesh})});
     }
-    deliver(report_page(entries, results, title, view_of(run)));
+    const std::string page_folder = std::filesystem::path(output).parent_path().string();
+    deliver(report_page(entries, {results, title, view_of(run), beside, page_folder}));
   }
 };
 
@@ -190,10 +192,15 @@ FigureCommands::FigureCommands(CLI::App& app) : state_(std::make_unique<State>()
       .add_option("folders", s.files, "MESH=FOLDER: where its figures have their verdict.json")
       ->required();
   CLI::App& report =
-      s.add(app, "report", "Write pictures and verdicts of figures as one HTML page.", [&s] { s.report(); });
+      s.add(app, "report",
+            "Write pictures, verdicts and runs of figures as one HTML page; links are relative to its folder.\n"
+            "Example: postproc report studies/fig12/figure.toml --results out/smoke --mesh smoke --title Moduli "
+            "-o out/smoke/report/index.html",
+            [&s] { s.report(); });
   report.add_option("figures", s.files, "Figures' files (TOML)")->required();
   s.add_common(report);
   report.add_option("--title", s.title, "Title of the page")->required();
+  report.add_option("--beside", s.beside, "A page (Markdown) whose first table stands beside the verdicts");
   report.add_option("--view", s.run, "A run to turn in three dimensions on the page (HDF5)");
 }
 

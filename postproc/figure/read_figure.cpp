@@ -532,8 +532,7 @@ private:
     if (auto groups = r.optional_table("settings_unless_zero"))
       for (const std::string& key : groups->keys())
         run.settings_unless_zero.emplace_back(key, read_settings(groups->table(key)));
-    if (!run.mesh.empty() && run.folder.empty())
-      r.fail("mesh", "found without 'folder', which says where that run lies");
+    if (!run.mesh.empty() && run.folder.empty()) r.fail("mesh", "found without 'folder', the folder of that run");
     r.finish();
     figure_.runs.push_back(std::move(run));
   }

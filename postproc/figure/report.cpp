@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <sstream>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -20,15 +21,33 @@ namespace {
 
 constexpr const char* style =
     R"(  body { font: 16px/1.45 sans-serif; max-width: 75rem; margin: 2rem auto; padding: 0 1rem; color: #222; }
+  h2 { border-top: 1px solid #ccc; margin-top: 2.5rem; padding-top: 1rem; }
   table { border-collapse: collapse; margin: 1rem 0; }
   td, th { border: 1px solid #bbb; padding: 0.3rem 0.6rem; text-align: left; vertical-align: top; }
-  tr.true td:nth-child(4) { background: #d9f0d9; }
-  tr.false td:nth-child(4) { background: #f7d4cf; }
+  th { background: #f3f4f6; }
+  .summary td + td, .summary th + th { text-align: right; font-variant-numeric: tabular-nums; }
+  .top { display: flex; flex-wrap: wrap; gap: 0 2.5rem; }
+  .top section { flex: 1 1 30rem; min-width: 0; }
+  h3 { font-size: 1.05rem; margin: 0.5rem 0 0; }
+  .wide { overflow-x: auto; }
+  .runs { font-size: 0.8rem; }
+  summary { cursor: pointer; }
+  tr.true td:nth-child(4) { background: #dbe9f6; }
+  tr.false td:nth-child(4) { background: #fde0c5; font-weight: bold; }
   .pictures { display: flex; flex-wrap: wrap; gap: 1rem; }
   figure { margin: 0; width: 36rem; max-width: 100%; }
   img { width: 100%; }
   .view { width: 100%; height: 56rem; max-height: 95vh; border: 1px solid #ccc; }
   figcaption { font-size: 0.85rem; color: #555; }
+  @media (max-width: 48rem) { /* a statement's cells below each other */
+    .statements tr:first-child { display: none; }
+    .statements tr { display: block; border: 1px solid #bbb; margin-bottom: 0.7rem; }
+    .statements td { display: block; border: 0; }
+    .statements td:empty { display: none; }
+    .statements td:nth-child(1) { font-weight: bold; }
+    .statements td:nth-child(2)::before { content: "paper: "; color: #555; }
+    .statements td:nth-child(3)::before { content: "here: "; color: #555; }
+  }
 )";
 
 std::string content_of(const std::filesystem::path& path) {
@@ -80,43 +99,108 @@ std::string note_of(const nlohmann::json& statement) {
 
 std::string statements_table(const std::filesystem::path& folder) {
   const auto list = statements_in(folder);
-  std::string text = "<table>\n<tr><th>statement</th><th>paper</th><th>here</th><th>verdict</th><th>note</th></tr>\n";
+  std::string text =
+      "<div class=\"wide\"><table "
+      "class=\"statements\">\n<tr><th>statement</th><th>paper</th><th>here</th><th>verdict</th><th>note</th></tr>\n";
   for (const auto& s : list) {
     const auto& agrees = s.at("agrees");
-    const char* word = agrees.is_null() ? "not judged" : agrees.get<bool>() ? "agrees" : "differs";
+    const char* word = agrees.is_null() ? "not judged" : agrees.get<bool>() ? "✓ agrees" : "✗ differs";
     const char* row = agrees.is_null() ? "null" : agrees.get<bool>() ? "true" : "false";
     const auto cell = [&](const char* key) { return html_text(s.at(key).get<std::string>()); };
     text += fmt::format("<tr class=\"{}\"><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td></tr>\n", row,
                         cell("statement"), cell("paper"), cell("ours"), word, html_text(note_of(s)));
   }
-  return text + "</table>\n";
+  return text + "</table></div>\n";
+}
+
+/// `code` of Markdown becomes an element; all else is text.
+std::string cell_text(const std::string& markdown) {
+  std::string text;
+  bool code = false;
+  for (const char c : html_text(markdown))
+    if (c == '`')
+      text += (code = !code) ? "<code>" : "</code>";
+    else
+      text += c;
+  return text;
+}
+
+/// The cells of a row "| a | b |" of Markdown.
+std::vector<std::string> cells_of(const std::string& line) {
+  std::vector<std::string> cells;
+  for (std::size_t at = 1, end = 0; (end = line.find('|', at)) != std::string::npos; at = end + 1) {
+    const std::size_t first = line.find_first_not_of(' ', at), last = line.find_last_not_of(' ', end - 1);
+    cells.push_back(first < end ? line.substr(first, last - first + 1) : std::string());
+  }
+  return cells;
+}
+
+/// The title and the first table of a page in Markdown, with a link to it.
+std::string table_of_page(const ReportRequest& request) {
+  std::istringstream lines(content_of(request.beside));
+  std::string line, title, rows;
+  while (std::getline(lines, line)) {
+    if (line.starts_with("# ") && title.empty()) title = line.substr(2);
+    if (!line.starts_with('|') && !rows.empty()) break;
+    if (!line.starts_with('|') || line.starts_with("|-")) continue;
+    const char* element = rows.empty() ? "th" : "td";
+    rows += "<tr>";
+    for (const std::string& cell : cells_of(line)) rows += fmt::format("<{0}>{1}</{0}>", element, cell_text(cell));
+    rows += "</tr>\n";
+  }
+  if (rows.empty()) throw InputError(fmt::format("{}: found no table, allowed: Markdown", one_line(request.beside)));
+  return fmt::format("<section><h3>{}</h3>\n<div class=\"wide\"><table>\n{}</table></div>\n<p>{}</p></section>\n",
+                     html_text(title), rows, link_to(request.beside, request.page_folder, "all tables and conditions"));
+}
+
+/// A picture, with links to what a reader may want to take along.
+std::string picture_of(const std::filesystem::path& picture, const std::filesystem::path& page_folder) {
+  std::filesystem::path vector = picture;
+  vector.replace_extension(".svg");
+  std::string links = link_to(picture, page_folder, "PNG");
+  if (std::filesystem::exists(vector)) links += fmt::format(" {}", link_to(vector, page_folder, "SVG"));
+  std::string name = picture.stem().string();
+  std::replace(name.begin(), name.end(), '-', ' ');
+  return fmt::format("<figure><img alt=\"{0}\" src=\"data:image/png;base64,{1}\"><figcaption>{0} ({2})</figcaption>"
+                     "</figure>\n",
+                     html_text(name), base64(content_of(picture)), links);
+}
+
+/// Tables and verdicts as files.
+std::string links_of(const ReportEntry& entry, const std::filesystem::path& folder,
+                     const std::filesystem::path& page_folder) {
+  std::string text;
+  for (const char* ending : {".csv", ".json"})
+    for (const auto& file : files_with(folder, ending))
+      text += fmt::format(" {}", link_to(file, page_folder, file.filename().string()));
+  if (!entry.source.empty()) text += fmt::format(" · made from {}", link_to(entry.source, page_folder, "figure.toml"));
+  return text;
 }
 
 } // namespace
 
-std::string report_page(const std::vector<ReportEntry>& entries, const std::string& results, const std::string& title,
-                        const std::string& view) {
-  std::string page = fmt::format("<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
-                                 "<title>{0}</title>\n<style>\n{1}</style>\n</head>\n<body>\n<h1>{0}</h1>\n",
-                                 html_text(title), style);
-  page += "<p>Each table sets what was stated or expected beside what was computed here; the last but one column is "
-          "computed from the data.</p>\n";
-  page += summary_table(entries, results);
-  if (!view.empty())
+std::string report_page(const std::vector<ReportEntry>& entries, const ReportRequest& request) {
+  std::string page =
+      fmt::format("<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n<meta name=\"viewport\" "
+                  "content=\"width=device-width, initial-scale=1\">\n<link rel=\"icon\" href=\"data:,\">\n"
+                  "<title>{0}</title>\n<style>\n{1}</style>\n</head>\n<body>\n<h1>{0}</h1>\n",
+                  html_text(request.title), style);
+  page += "<p>Each table sets what was stated or expected beside what was computed here. The verdict is computed from "
+          "the data.</p>\n<div class=\"top\">\n<section><h3>Verdicts</h3>\n";
+  page += summary_table(entries, request.results) + "</section>\n";
+  if (!request.beside.empty()) page += table_of_page(request);
+  page += "</div>\n";
+  if (!request.view.empty())
     page += fmt::format("<iframe class=\"view\" title=\"Grains in three dimensions\" srcdoc=\"{}\"></iframe>\n",
-                        html_text(view));
+                        html_text(request.view));
   for (const ReportEntry& entry : entries) {
-    const std::filesystem::path folder = std::filesystem::path(results) / entry.name;
+    const std::filesystem::path folder = std::filesystem::path(request.results) / entry.name;
     page += fmt::format("<h2 id=\"{}\">{}</h2>\n<p>{}</p>\n<div class=\"pictures\">\n", entry.name,
                         html_text(entry.title), html_text(entry.question));
-    for (const auto& picture : files_with(folder, ".png"))
-      page +=
-          fmt::format("<figure><img alt=\"{}\" src=\"data:image/png;base64,{}\"><figcaption>{}</figcaption></figure>\n",
-                      picture.stem().string(), base64(content_of(picture)), picture.string());
-    page += "</div>\n" + statements_table(folder) + "<p>Numbers:";
-    for (const auto& table : files_with(folder, ".csv"))
-      page += fmt::format(" <a href=\"../{0}/{1}\">{1}</a>", entry.name, table.filename().string());
-    page += "</p>\n";
+    for (const auto& picture : files_with(folder, ".png")) page += picture_of(picture, request.page_folder);
+    page += "</div>\n" + statements_table(folder) +
+            fmt::format("<p>Numbers:{}</p>\n", links_of(entry, folder, request.page_folder)) +
+            runs_table(entry.runs, request.page_folder);
   }
   return page + "</body>\n</html>\n";
 }

@@ -1,8 +1,10 @@
 #pragma once
-// One HTML page of figures: their questions, pictures and verdicts.
+// One HTML page of figures: their questions, pictures, verdicts and the runs behind them.
 
 #include <string>
 #include <vector>
+
+#include "postproc/figure/report_runs.hpp"
 
 namespace mpfem {
 
@@ -10,11 +12,19 @@ namespace mpfem {
 struct ReportEntry {
   std::string name;            ///< of its folder below the results' folder
   std::string title, question; ///< plain text
+  std::string source = {};     ///< the figure's file; empty: no link to it
+  std::vector<ReportRun> runs = {};
 };
 
-/// The page, pictures included, and below the title a page of its own where `view` is not empty (view_page). Throws
-/// InputError where a verdict is missing.
-std::string report_page(const std::vector<ReportEntry>& entries, const std::string& results, const std::string& title,
-                        const std::string& view);
+/// What the page is made of and where it will lie: links are relative to that folder.
+struct ReportRequest {
+  std::string results, title;
+  std::string view = {};   ///< a page of its own (view_page), shown below the tables; empty: none
+  std::string beside = {}; ///< Markdown file whose title and first table stand beside the verdicts; empty: none
+  std::string page_folder = {};
+};
+
+/// The page, pictures included. Throws InputError where a verdict is missing, or the file beside has no table.
+std::string report_page(const std::vector<ReportEntry>& entries, const ReportRequest& request);
 
 } // namespace mpfem

@@ -249,7 +249,7 @@ const RunInstance& add_run(RunGraph& graph, const Figure& figure, const RunTempl
 
   const auto [at, added] = graph.try_emplace(instance.folder, instance);
   if (!added && !same_run(at->second, instance))
-    run.place.fail(fmt::format("folder '{}' stands for two runs with different settings; the folder's name must tell "
+    run.place.fail(fmt::format("folder '{}' is that of two runs with different settings; the folder's name must tell "
                                "them apart",
                                instance.folder));
   return at->second;

@@ -42,6 +42,7 @@ namespace {
 /// Everything is drawn twice as large in both directions and averaged.
 constexpr int supersampling = 2;
 /// Okabe and Ito 2008: told apart with any colour vision.
+constexpr RodKind rod_kinds[] = {RodKind::whole, RodKind::broken, RodKind::contact};
 constexpr double blue[3] = {0.0, 0.45, 0.70}, vermilion[3] = {0.84, 0.37, 0.0}, dark_grey[3] = {0.25, 0.25, 0.25};
 
 using MakeColour = std::function<Colour(std::size_t triangle, std::size_t corner)>;
@@ -89,12 +90,12 @@ Colour outline_key(const SolidTriangle& t) {
           static_cast<std::uint8_t>(number >> 16U & 255U)};
 }
 
-vtkNew<vtkActor> rods_of(const std::vector<BondRod>& rods, bool whole) {
+vtkNew<vtkActor> rods_of(const std::vector<PairRod>& rods, RodKind kind) {
   vtkNew<vtkPoints> points;
   vtkNew<vtkCellArray> lines;
   vtkNew<vtkDoubleArray> radius;
-  for (const BondRod& rod : rods) {
-    if (rod.whole != whole) continue;
+  for (const PairRod& rod : rods) {
+    if (rod.kind != kind) continue;
     lines->InsertNextCell(2);
     for (const Eigen::Vector3d& end : {rod.from, rod.to}) {
       lines->InsertCellPoint(points->InsertNextPoint(end.data()));
@@ -113,7 +114,7 @@ vtkNew<vtkActor> rods_of(const std::vector<BondRod>& rods, bool whole) {
   tubes->Update();
   vtkNew<vtkActor> actor = actor_of(tubes->GetOutput(), true);
   actor->GetMapper()->ScalarVisibilityOff();
-  const double* colour = whole ? blue : vermilion;
+  const double* colour = kind == RodKind::whole ? blue : kind == RodKind::broken ? vermilion : dark_grey;
   actor->GetProperty()->SetColor(colour[0], colour[1], colour[2]);
   return actor;
 }
@@ -248,7 +249,7 @@ vtkNew<vtkImageData> draw_colours(vtkRenderWindow* window, const PictureScene& s
   renderer->AddActor(
       actor_of(mesh_of(scene.triangles, [&](std::size_t t, std::size_t c) { return scene.colours[t][c]; }), true));
   renderer->AddActor(box_edges({scene.box_low, scene.box_high}, 0.75 * view.pixel * supersampling));
-  for (const bool whole : {true, false}) renderer->AddActor(rods_of(scene.rods, whole));
+  for (const RodKind kind : rod_kinds) renderer->AddActor(rods_of(scene.rods, kind));
   set_camera(renderer, view, shown);
   set_lights(renderer);
   add_texts(renderer, scene, view);
@@ -273,8 +274,8 @@ vtkNew<vtkImageData> draw_keys(vtkRenderWindow* window, const PictureScene& scen
   faces->GetProperty()->SetAmbient(0); // ambient and diffuse shares add up: beyond 1 high keys would all become 255
   faces->GetProperty()->SetDiffuse(1);
   renderer->AddActor(faces);
-  for (const bool whole : {true, false}) {
-    vtkNew<vtkActor> rods = rods_of(scene.rods, whole);
+  for (const RodKind kind : rod_kinds) {
+    vtkNew<vtkActor> rods = rods_of(scene.rods, kind);
     rods->GetProperty()->SetLighting(false);
     renderer->AddActor(rods);
   }

@@ -64,6 +64,9 @@ public:
     options().add_flag("--bonds", request_.bonds,
                        "Draw bonds from grain to grain in the part that is cut away: whole ones blue, as thick as "
                        "their area is large, broken ones orange");
+    options().add_flag("--contacts", request_.contacts,
+                       "Draw contacts from grain to grain in the part that is cut away, grey, as thick as the root of "
+                       "their force");
     options().add_flag("!--without-tools", request_.tools, "Leave out rigid tools");
   }
 
@@ -85,9 +88,10 @@ private:
     SceneRequest request = request_;
     request.camera = {camera_[0], camera_[1]};
     if (of_packing() && !given("--color")) request.colour = "grain";
-    if (request.bonds && (of_packing() || request.cut == "none"))
-      throw InputError(fmt::format("--bonds: found {}; allowed: with a run, and a cut that shows them",
-                                   of_packing() ? "--packing" : "--cut none"));
+    for (const auto& [rods, option] : {std::pair{request.bonds, "--bonds"}, {request.contacts, "--contacts"}})
+      if (rods && (of_packing() || request.cut == "none"))
+        throw InputError(fmt::format("{}: found {}; allowed: with a run, and a cut that shows them", option,
+                                     of_packing() ? "--packing" : "--cut none"));
     if (range_.empty()) return request;
     if (!(range_[1] > range_[0]))
       throw InputError(fmt::format("--range: found {},{}; allowed: low,high with low < high", range_[0], range_[1]));
@@ -97,9 +101,18 @@ private:
 
   PictureScene scene_of(const Snapshot& state, const SceneRequest& request) const {
     PictureScene scene = make_scene(state, request);
-    if (!request.bonds) return scene;
-    scene.rods = bond_rods({path_of_run(), schema::FileKind::run}, state, cut_away(state, request));
-    scene.note += "; bonds: blue whole, orange broken";
+    if (!request.bonds && !request.contacts) return scene;
+    const schema::FileReader file(path_of_run(), schema::FileKind::run);
+    const CutAway away = cut_away(state, request);
+    if (request.bonds) {
+      scene.rods = bond_rods(file, state, away);
+      scene.note += "; bonds: blue whole, orange broken";
+    }
+    if (request.contacts) {
+      const std::vector<PairRod> contacts = contact_rods(file, state, away);
+      scene.rods.insert(scene.rods.end(), contacts.begin(), contacts.end());
+      scene.note += "; contacts: grey, thickness by force";
+    }
     return scene;
   }
 

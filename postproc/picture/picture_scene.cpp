@@ -111,7 +111,35 @@ CutAway tool_cut_away(const Snapshot& snapshot, const SceneRequest& request) {
   return away;
 }
 
-std::vector<BondRod> bond_rods(const schema::FileReader& file, const Snapshot& snapshot, const CutAway& away) {
+namespace {
+
+/// Of the thinnest rod that is still well seen.
+double thin_radius(const Snapshot& snapshot) {
+  return 0.006 * (vector_of(snapshot.box_high) - vector_of(snapshot.box_low)).minCoeff();
+}
+
+} // namespace
+
+std::vector<PairRod> contact_rods(const schema::FileReader& file, const Snapshot& snapshot, const CutAway& away) {
+  namespace run = schema::run;
+  const auto grains = file.read(run::snapshots_pair_grains, snapshot.name);
+  const auto force = file.read(run::snapshots_pair_force, snapshot.name);
+  const std::vector<Eigen::Vector3d> centre = grain_centres(snapshot);
+  std::vector<double> size;
+  for (std::size_t p = 0; 3 * p < force.size(); ++p)
+    size.push_back(Eigen::Vector3d(force[3 * p], force[3 * p + 1], force[3 * p + 2]).norm());
+  const double largest = size.empty() ? 0 : *std::max_element(size.begin(), size.end());
+  std::vector<PairRod> rods;
+  for (std::size_t p = 0; p < size.size(); ++p) {
+    const auto first = static_cast<std::size_t>(grains[2 * p]), second = static_cast<std::size_t>(grains[2 * p + 1]);
+    if (!(size[p] > 0) || !lies_in(away, 0.5 * (centre[first] + centre[second]))) continue;
+    const double share = std::sqrt(size[p] / largest);
+    rods.push_back({centre[first], centre[second], thin_radius(snapshot) * (0.4 + 3 * share), RodKind::contact});
+  }
+  return rods;
+}
+
+std::vector<PairRod> bond_rods(const schema::FileReader& file, const Snapshot& snapshot, const CutAway& away) {
   namespace run = schema::run;
   if (!file.has(run::snapshots_pair_damage, snapshot.name))
     throw InputError(fmt::format("{}: --bonds: the run is without bonds", one_line(file.path())));
@@ -119,14 +147,14 @@ std::vector<BondRod> bond_rods(const schema::FileReader& file, const Snapshot& s
   const auto damage = file.read(run::snapshots_pair_damage, snapshot.name);
   const auto area = file.read(run::snapshots_pair_bonded_area, snapshot.name);
   const std::vector<Eigen::Vector3d> centre = grain_centres(snapshot);
-  const double thin = 0.006 * (vector_of(snapshot.box_high) - vector_of(snapshot.box_low)).minCoeff();
-  std::vector<BondRod> rods;
+  const double thin = thin_radius(snapshot);
+  std::vector<PairRod> rods;
   for (std::size_t p = 0; p < damage.size(); ++p) {
     const auto first = static_cast<std::size_t>(grains[2 * p]), second = static_cast<std::size_t>(grains[2 * p + 1]);
     if (damage[p] < 0 || !lies_in(away, 0.5 * (centre[first] + centre[second]))) continue; // < 0: never bonded
     const bool whole = area[p] > 0;
-    rods.push_back(
-        {centre[first], centre[second], whole ? std::max(thin, std::sqrt(0.1 * area[p] / M_PI)) : thin, whole});
+    rods.push_back({centre[first], centre[second], whole ? std::max(thin, std::sqrt(0.1 * area[p] / M_PI)) : thin,
+                    whole ? RodKind::whole : RodKind::broken});
   }
   return rods;
 }
@@ -180,9 +208,7 @@ PictureScene make_scene(const Snapshot& snapshot, const SceneRequest& request) {
   scene.title = request.title.empty() ? title_of(snapshot) : request.title;
   const Eigen::Vector3d box = scene.box_high - scene.box_low;
   scene.note = fmt::format("box {:.3g} × {:.3g} × {:.3g} mm", box[0], box[1], box[2]);
-  if (request.colour != "grain")
-    scene.bar = ColourBar{
-        range, with_unit(request.colour == "damage" ? "Damage of bonds" : field_label(field.name), field.unit)};
+  if (request.colour != "grain") scene.bar = ColourBar{range, with_unit(field_label(field.name), field.unit)};
   return scene;
 }
 

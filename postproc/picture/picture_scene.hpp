@@ -21,7 +21,7 @@ struct SceneRequest {
   /// Of the colour scale; default: see range_of.
   std::optional<std::pair<double, double>> range;
   std::string title; ///< default: relative density and mean stress
-  bool bonds = false;
+  bool bonds = false, contacts = false;
   bool tools = true; ///< draw rigid tools that are in place
 };
 
@@ -38,15 +38,21 @@ CutAway cut_away(const Snapshot& snapshot, const SceneRequest& request);
 /// it, with nothing of them the half towards the camera; else the same.
 CutAway tool_cut_away(const Snapshot& snapshot, const SceneRequest& request);
 
-/// Two grains that are bonded or have been, drawn as a rod from centre to centre.
-struct BondRod {
+/// What a rod stands for: a bond of which some area is unbroken, one that is broken, a contact that carries a force.
+enum class RodKind { whole, broken, contact };
+
+/// Two grains that are bonded or have been, or that touch, drawn as a rod from centre to centre.
+struct PairRod {
   Eigen::Vector3d from, to; ///< mm
-  double radius = 0;        ///< mm; of a whole bond that of a circle of a tenth of its area
-  bool whole = false;       ///< some of its area is unbroken
+  double radius = 0; ///< mm; of a whole bond that of a circle of a tenth of its area, of a contact as the root of force
+  RodKind kind = RodKind::whole;
 };
 
+/// Contacts of the snapshot that carry a force, those whose middles lie in what is cut away.
+std::vector<PairRod> contact_rods(const schema::FileReader& file, const Snapshot& snapshot, const CutAway& away);
+
 /// Rods whose middles lie in what is cut away. Throws InputError where the run has no bonds.
-std::vector<BondRod> bond_rods(const schema::FileReader& file, const Snapshot& snapshot, const CutAway& away);
+std::vector<PairRod> bond_rods(const schema::FileReader& file, const Snapshot& snapshot, const CutAway& away);
 
 /// Colours of a triangle's corners.
 using CornerColours = std::array<Colour, 3>;
@@ -55,7 +61,7 @@ struct PictureScene {
   std::vector<SolidTriangle> triangles; ///< of grains, then of tools, whose numbers follow those of the grains
   std::vector<CornerColours> colours;   ///< of the triangles
   std::size_t first_of_tools = 0;       ///< where the tools' triangles begin
-  std::vector<BondRod> rods;
+  std::vector<PairRod> rods;
   Eigen::Vector3d box_low, box_high; ///< mm
   Eigen::Vector3d towards_camera;
   std::string title, note; ///< the note: what the box measures, and what the rods' colours mean

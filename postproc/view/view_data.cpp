@@ -5,7 +5,10 @@
 #include <limits>
 #include <numeric>
 
+#include <Eigen/Geometry>
+
 #include "common/errors.hpp"
+#include "postproc/field_display.hpp"
 #include "postproc/picture/cut_solid.hpp"
 #include "postproc/surface_facets.hpp"
 #include "postproc/tool_surface.hpp"
@@ -14,15 +17,11 @@ namespace mpfem {
 
 namespace {
 
-constexpr const char* shown_names[] = {"von_mises", "plastic_strain", "pressure"};
+constexpr const char* shown_names[] = {"von_mises", "plastic_strain", "pressure", "damage"};
 
-/// The value below which a share of the finite ones lies.
-double percentile(std::vector<double> values, double fraction) {
-  std::erase_if(values, [](double value) { return !std::isfinite(value); });
-  if (values.empty()) return 0;
-  const auto at = static_cast<std::ptrdiff_t>(fraction * static_cast<double>(values.size() - 1));
-  std::nth_element(values.begin(), values.begin() + at, values.end());
-  return values[static_cast<std::size_t>(at)];
+bool has_field(const Snapshot& snapshot, const std::string& name) {
+  return name != "damage" || std::any_of(snapshot.node_fields.begin(), snapshot.node_fields.end(),
+                                         [](const Field& field) { return field.name == "damage"; });
 }
 
 /// 0 … largest from low to high; what is not a number becomes 0.
@@ -82,43 +81,98 @@ void add_tools(ViewData& data, const std::vector<Snapshot>& snapshots) {
         }
 }
 
+/// The range of what the grains' surfaces show, by the rule of pictures.
+std::pair<double, double> surface_range(const ViewData& data, const Snapshot& snapshot,
+                                        const std::vector<double>& value) {
+  const auto position = [&](std::uint32_t node) {
+    const float* x = snapshot.node.data() + 3 * std::size_t{node};
+    return Eigen::Vector3d(x[0], x[1], x[2]);
+  };
+  std::vector<std::pair<double, double>> value_and_area;
+  for (std::size_t f = 0; f < data.facet.size(); f += 3) {
+    const Eigen::Vector3d a = position(data.facet[f]), b = position(data.facet[f + 1]), c = position(data.facet[f + 2]);
+    const double area = (b - a).cross(c - a).norm() / 6; // a third of the facet's for each corner
+    for (std::size_t k = 0; k < 3; ++k) value_and_area.emplace_back(value[data.facet[f + k]], area);
+  }
+  return colour_range(std::move(value_and_area));
+}
+
+/// From 1: 0 stands for no value.
+std::uint8_t quantised_or_none(double value, double low, double high) {
+  if (!std::isfinite(value)) return 0;
+  return static_cast<std::uint8_t>(1 + std::lround(254 * std::clamp((value - low) / (high - low), 0.0, 1.0)));
+}
+
 /// One field of all snapshots, on the scale that holds them all.
-void add_field(ViewData& data, const std::vector<Snapshot>& snapshots, const char* name) {
+void add_field(ViewData& data, const std::vector<Snapshot>& snapshots, const std::string& name) {
   std::vector<std::vector<double>> values;
-  QuantisedField shown{name, snapshots.front().tet_field(name).unit, {0, 0}};
+  QuantisedField shown{name, shown_field(snapshots.front(), name).unit, {0, 0}, name == "damage"};
   for (const Snapshot& snapshot : snapshots) {
     values.push_back(shown_field(snapshot, name).value);
-    shown.range.first = std::min(shown.range.first, percentile(values.back(), 0.005));
-    shown.range.second = std::max(shown.range.second, percentile(values.back(), 0.995));
+    const auto range = shown.sparse ? std::pair{0.0, 1.0} : surface_range(data, snapshot, values.back());
+    shown.range.first = std::min(shown.range.first, range.first);
+    shown.range.second = std::max(shown.range.second, range.second);
   }
-  if (!(shown.range.second > shown.range.first)) shown.range.second = shown.range.first + 1;
   for (std::size_t s = 0; s < snapshots.size(); ++s) {
     auto& whole = data.states[s].value.emplace_back();
     for (const double value : values[s])
-      whole.push_back(quantised<std::uint8_t>(value, shown.range.first, shown.range.second));
+      whole.push_back(shown.sparse ? quantised_or_none(value, shown.range.first, shown.range.second)
+                                   : quantised<std::uint8_t>(value, shown.range.first, shown.range.second));
   }
   data.fields.push_back(std::move(shown));
 }
 
+void add_rods(ViewData& data, const std::vector<std::vector<PairRod>>& rods) {
+  for (const auto& of_state : rods)
+    for (const PairRod& rod : of_state) data.widest_rod = std::max(data.widest_rod, rod.radius);
+  for (std::size_t s = 0; s < rods.size(); ++s)
+    for (const PairRod& rod : rods[s]) {
+      for (const Eigen::Vector3d& end : {rod.from, rod.to})
+        for (int k = 0; k < 3; ++k) {
+          const auto axis = static_cast<std::size_t>(k);
+          data.states[s].rod_end.push_back(quantised<std::uint16_t>(end[k], data.low[axis], data.high[axis]));
+        }
+      data.states[s].rod_kind.push_back(static_cast<std::uint8_t>(rod.kind));
+      data.states[s].rod_width.push_back(quantised<std::uint8_t>(rod.radius, 0, data.widest_rod));
+    }
+}
+
 } // namespace
 
-ViewData view_data(const std::vector<Snapshot>& snapshots) {
+ViewData view_data(const std::vector<Snapshot>& snapshots, const std::vector<std::vector<PairRod>>& rods) {
   if (snapshots.empty()) throw InputError("found no snapshot, allowed: one or more");
   ViewData data;
   add_mesh(data, snapshots.front());
   add_bounds(data, snapshots);
   for (const Snapshot& snapshot : snapshots) {
-    ViewState state{
-        snapshot.relative_density, snapshot.mean_stress, snapshot.box_low, snapshot.box_high, {}, {}, {}, {}};
+    ViewState state;
+    state.relative_density = snapshot.relative_density;
+    state.mean_stress = snapshot.mean_stress;
+    state.box_low = snapshot.box_low;
+    state.box_high = snapshot.box_high;
     state.position.reserve(snapshot.node.size());
     for (std::size_t i = 0; i < snapshot.node.size(); ++i)
       state.position.push_back(
           quantised<std::uint16_t>(static_cast<double>(snapshot.node[i]), data.low[i % 3], data.high[i % 3]));
     data.states.push_back(std::move(state));
   }
-  for (const char* name : shown_names) add_field(data, snapshots, name);
+  for (const char* name : shown_names)
+    if (std::all_of(snapshots.begin(), snapshots.end(), [&](const auto& s) { return has_field(s, name); }))
+      add_field(data, snapshots, name);
   add_tools(data, snapshots);
+  add_rods(data, rods);
   return data;
+}
+
+std::vector<std::vector<PairRod>> rods_of(const schema::FileReader& file, const std::vector<Snapshot>& snapshots) {
+  std::vector<std::vector<PairRod>> rods;
+  for (const Snapshot& snapshot : snapshots) {
+    rods.push_back(contact_rods(file, snapshot, {}));
+    if (!file.has(schema::run::snapshots_pair_damage, snapshot.name)) continue;
+    const std::vector<PairRod> bonds = bond_rods(file, snapshot, {});
+    rods.back().insert(rods.back().end(), bonds.begin(), bonds.end());
+  }
+  return rods;
 }
 
 } // namespace mpfem

@@ -7,14 +7,15 @@
 #include <utility>
 #include <vector>
 
-#include "postproc/snapshot.hpp"
+#include "postproc/picture/picture_scene.hpp"
 
 namespace mpfem {
 
-/// A field of all snapshots, from 0 (low) to 255 (high) on one scale.
+/// A field of all snapshots, from 0 (low) to 255 (high) on one scale; of a sparse one 0 means no value, and low is 1.
 struct QuantisedField {
   std::string name, unit;
   std::pair<double, double> range;
+  bool sparse = false;
 };
 
 /// One snapshot.
@@ -26,6 +27,10 @@ struct ViewState {
   /// Of the triangles of rigid tools' surfaces, [corners * 3]: places from tool_low to tool_high, normals times 127.
   std::vector<std::uint16_t> tool_position;
   std::vector<std::int8_t> tool_normal;
+  /// Of rods between grains that are or were bonded, or that touch.
+  std::vector<std::uint16_t> rod_end;  ///< [rods * 6], both ends, as `position`
+  std::vector<std::uint8_t> rod_kind;  ///< [rods], RodKind
+  std::vector<std::uint8_t> rod_width; ///< [rods], radius, 0 … 255 from 0 to widest_rod of ViewData
 };
 
 struct ViewData {
@@ -34,15 +39,19 @@ struct ViewData {
   std::vector<std::uint32_t> facet;              ///< [facets * 3], nodes of the surface, counter-clockwise from outside
   std::vector<std::uint32_t> tet;                ///< [tets * 4], nodes: what the page cuts
   std::vector<std::uint16_t> grain;              ///< [nodes], modulo 65536: colours repeat
-  std::vector<QuantisedField> fields;            ///< von_mises, plastic_strain, pressure
+  std::vector<QuantisedField> fields;            ///< von_mises, plastic_strain, pressure, with bonds damage
+  double widest_rod = 0;                         ///< mm, radius
   std::vector<ViewState> states;
 
   std::size_t nodes() const { return grain.size(); }
 };
 
-/// Fields of tets are averaged around nodes (shown_field). The upper end of a field's range is the 99.5th percentile of
-/// the nodes of the snapshot where that is largest, the lower end 0 or the smallest 0.5th percentile. Throws InputError
-/// where there is no snapshot.
-ViewData view_data(const std::vector<Snapshot>& snapshots);
+/// Fields of tets are averaged around nodes (shown_field). A field's range holds those of all snapshots, each by the
+/// rule of pictures (colour_range) over the grains' surfaces; damage is 0 … 1. `rods`: of each snapshot; none where
+/// empty. Throws InputError where there is no snapshot.
+ViewData view_data(const std::vector<Snapshot>& snapshots, const std::vector<std::vector<PairRod>>& rods = {});
+
+/// What is drawn between grains in each snapshot: bonds, where the run has them, and contacts.
+std::vector<std::vector<PairRod>> rods_of(const schema::FileReader& file, const std::vector<Snapshot>& snapshots);
 
 } // namespace mpfem

@@ -11,6 +11,7 @@
 #include "common/one_line.hpp"
 #include "postproc/base64.hpp"
 #include "postproc/field_display.hpp"
+#include "postproc/view/view_data.hpp"
 #include "postproc/view/view_page_text.hpp" // generated from view_page.html
 
 namespace mpfem {
@@ -33,6 +34,9 @@ std::string binary_part(const ViewData& data) {
     for (const auto& values : state.value) append(bytes, values);
     append(bytes, state.tool_position);
     append(bytes, state.tool_normal);
+    append(bytes, state.rod_end);
+    append(bytes, state.rod_kind);
+    append(bytes, state.rod_width);
   }
   return bytes;
 }
@@ -54,17 +58,20 @@ nlohmann::json head_of(const ViewData& data) {
                       {"tets", data.tet.size() / 4},
                       {"low", data.low},
                       {"high", data.high},
+                      {"widest_rod", data.widest_rod},
                       {"tool_low", data.tool_low},
                       {"tool_high", data.tool_high},
                       {"fields", nlohmann::json::array()},
                       {"states", nlohmann::json::array()}};
   for (const QuantisedField& field : data.fields)
     head["fields"].push_back({{"label", with_unit(field_label(field.name), field.unit)},
-                              {"range", {field.range.first, field.range.second}}});
+                              {"range", {field.range.first, field.range.second}},
+                              {"sparse", field.sparse}});
   for (const ViewState& state : data.states)
     head["states"].push_back({{"relative_density", state.relative_density},
                               {"mean_stress", state.mean_stress},
                               {"tool_corners", state.tool_position.size() / 3},
+                              {"rods", state.rod_kind.size()},
                               {"box_low", state.box_low},
                               {"box_high", state.box_high}});
   const auto densest = std::max_element(data.states.begin(), data.states.end(),
@@ -93,6 +100,11 @@ std::string view_page(const ViewData& data, const std::string& title) {
   replace(page, "@TITLE@", html_text(one_line(title)));
   replace(page, "@DATA@", base64(compressed(binary_part(data))));
   return page;
+}
+
+std::string view_page_of_run(const schema::FileReader& file, int most, const std::string& title) {
+  const std::vector<Snapshot> snapshots = spread_snapshots(file, most);
+  return view_page(view_data(snapshots, rods_of(file, snapshots)), title);
 }
 
 std::vector<Snapshot> spread_snapshots(const schema::FileReader& file, int most) {

@@ -12,7 +12,7 @@
 #include <memory>
 
 #include "solver/boundary/rigid_surface.hpp"
-#include "solver/boundary/triangulated_surface.hpp"
+#include "surfaces/triangulated_surface.hpp"
 
 namespace mpfem {
 

@@ -128,7 +128,9 @@ double Tools::take_loads() {
     ToolLoad sum;
     for (int grain = 0; grain < grains_; ++grain) sum.add(of_grain_[slot(grain, index)]);
     Tool& tool = tools_[index];
-    work -= 0.5 * dot(sum.force + vector_of(tool.force), vector_of(tool.movement));
+    const double own_work = -0.5 * dot(sum.force + vector_of(tool.force), vector_of(tool.movement));
+    work += own_work;
+    tool.work += own_work;
     tool.force = array_of(sum.force);
     tool.movement = {};
     tool.friction_dissipation += sum.friction_dissipation;
@@ -191,7 +193,9 @@ double Tools::set_away(std::span<const std::size_t> away, const Model& model, co
     Tool& tool = tools_[index];
     const bool leaves = std::find(away.begin(), away.end(), index) != away.end();
     if (leaves && !tool.away) {
-      taken += load_[index].energy + load_[index].friction_energy + load_[index].adhesion_energy;
+      const double own = load_[index].energy + load_[index].friction_energy + load_[index].adhesion_energy;
+      taken += own;
+      tool.work -= own;
       load_[index] = {};
       tool.force = tool.movement = {};
       for (int grain = 0; grain < grains_; ++grain) {

@@ -44,13 +44,15 @@ struct Tool {
   std::array<double, 3> moved{};      ///< mm, since the start of the run
   std::array<double, 3> movement{};   ///< mm, in the step that led to the present
   std::array<double, 3> force{};      ///< N, of the grains on it at the last time level
+  double work = 0;                    ///< mJ, done on the grains so far, less what it took along when it left
   double friction_dissipation = 0;    ///< mJ, so far
   double adhesion_dissipation = 0;    ///< mJ, so far
 
   template <class Self, class Visitor>
   static void for_each_field(Self& s, Visitor&& visit) {
     visit("tool.away", s.away), visit("tool.moved", s.moved), visit("tool.movement", s.movement);
-    visit("tool.force", s.force), visit("tool.friction_dissipation", s.friction_dissipation);
+    visit("tool.force", s.force), visit("tool.work", s.work);
+    visit("tool.friction_dissipation", s.friction_dissipation);
     visit("tool.adhesion_dissipation", s.adhesion_dissipation);
   }
 };

@@ -99,9 +99,10 @@ BondedCandidates keep_bonded_points(const ContactCandidates& found, const Contac
   return merged;
 }
 
-/// The friction of new points: what the old ones of the same node and grain had.
+/// The friction of new points: what the old ones of the same node and grain had. These lose what they have dissipated,
+/// so that `friction` keeps that of points which are gone.
 std::vector<PointFriction> carried_friction(const ContactCandidates& now, const ContactCandidates& old,
-                                            const std::vector<PointFriction>& friction) {
+                                            std::vector<PointFriction>& friction) {
   std::vector<PointFriction> carried(now.point_node.size());
   PairCursor next_old{old};
   for (PairCursor next_now{now}; next_now.left();) {
@@ -111,10 +112,25 @@ std::vector<PointFriction> carried_friction(const ContactCandidates& now, const 
     for (; points.left(); ++points.point) {
       const std::int32_t node = next_node(now, points);
       while (next_node(old, before) < node) ++before.point;
-      if (next_node(old, before) == node) carried[at(points.point)] = friction[at(before.point)];
+      if (next_node(old, before) != node) continue;
+      carried[at(points.point)] = friction[at(before.point)];
+      friction[at(before.point)].dissipated = 0;
     }
   }
   return carried;
+}
+
+/// Puts friction on new candidates, and remembers what points that are gone have dissipated.
+void carry_friction(const ContactCandidates& now, Contact& contact) {
+  const ContactCandidates& old = contact.candidates;
+  std::vector<PointFriction> carried = carried_friction(now, old, contact.rubbing);
+  for (std::size_t p = 0; p < old.pair_first.size(); ++p) {
+    double lost = 0;
+    for (std::int32_t i = old.pair_point_offset[p]; i < old.pair_point_offset[p + 1]; ++i)
+      lost += contact.rubbing[at(i)].dissipated;
+    if (lost != 0) contact.friction_left_behind[{old.pair_first[p], old.pair_second[p]}] += lost;
+  }
+  contact.rubbing = std::move(carried);
 }
 
 /// Memory for the records of forces of all points.
@@ -182,7 +198,7 @@ void renew_candidates(const Model& model, const SearchRange& range, ThreadTeam& 
     candidates = std::move(merged.candidates);
     contact.bond = std::move(merged.bond);
   }
-  if (contact.has_friction()) contact.rubbing = carried_friction(candidates, contact.candidates, contact.rubbing);
+  if (contact.has_friction()) carry_friction(candidates, contact);
   contact.candidates = std::move(candidates);
   contact.margin = range.margin;
   const std::size_t points = contact.candidates.point_node.size();

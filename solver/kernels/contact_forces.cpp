@@ -109,7 +109,7 @@ private:
       record = evaluate_friction({x, facet, geometry.x, closest, distance, motion(point, closest, geometry)}, geometry,
                                  point, pair.friction, k, pushed, sums);
     } else {
-      if constexpr (rubbing) contact_.rubbing[at(point)] = {}; // a branch may have taken the pair's friction away
+      if constexpr (rubbing) take_anchor(point); // a branch may have taken the pair's friction away
       record = make_record(penalty_force(pushed, offset), closest.weight1, closest.weight2, std::abs(pushed), node,
                            geometry);
     }
@@ -214,6 +214,11 @@ private:
     const Vector3<double> v[3] = {vector_of(model_.velocity, facet.node[0]), vector_of(model_.velocity, facet.node[1]),
                                   vector_of(model_.velocity, facet.node[2])};
     return contact_.last_step * (model_.contact_velocity(node) - facet_point(v, closest.weight1, closest.weight2));
+  }
+
+  void take_anchor(std::int32_t point) {
+    PointFriction& friction = contact_.rubbing[at(point)];
+    if (friction.exists()) friction = without_anchor(friction);
   }
 
   /// Forgets the anchor of a point that has opened.

@@ -7,7 +7,9 @@
 // (solver/physics/friction_kinematics.hpp).
 
 #include <cstdint>
+#include <map>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "solver/kernels/contact_search.hpp"
@@ -50,6 +52,8 @@ struct Contact {
   std::vector<std::int32_t> pulling;    ///< [pairs]: number of pulling bonds
   PairFriction friction;                ///< without any, the array below stays empty
   std::vector<PointFriction> rubbing;   ///< [points]
+  /// mJ that friction has dissipated so far at points that are candidates no more, by ordered pair of grains.
+  std::map<std::pair<std::int32_t, std::int32_t>, double> friction_left_behind;
   double last_step = 0;                 ///< s, that led to the present positions; friction asks where points came in
   std::vector<double> travel;           ///< [grains], mm: bound of any node's path length since the run began
   std::vector<double> travel_at_search; ///< [grains], mm

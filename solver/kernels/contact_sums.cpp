@@ -71,8 +71,29 @@ double bond_dissipation(const Model& model, const Contact& contact, std::int32_t
   return share * (bond.spent + damage_dissipation(law_at_point(model, contact, penalty, point), bond.state));
 }
 
+namespace {
+
+using GrainPair = std::pair<std::int32_t, std::int32_t>;
+
+/// Of all pairs that have ever rubbed, first < second, whichever of the two grains' nodes did.
+std::map<GrainPair, FrictionSums> friction_of_pairs(const Contact& contact) {
+  std::map<GrainPair, FrictionSums> pairs;
+  if (!contact.has_friction()) return pairs;
+  const ContactCandidates& candidates = contact.candidates;
+  for (std::size_t p = 0; p < candidates.pair_first.size(); ++p) {
+    FrictionSums& sums = pairs[std::minmax(candidates.pair_first[p], candidates.pair_second[p])];
+    for (std::int32_t i = candidates.pair_point_offset[p]; i < candidates.pair_point_offset[p + 1]; ++i)
+      sums.add({contact.rubbing[at(i)].stored, contact.rubbing[at(i)].dissipated});
+  }
+  for (const auto& [grains, lost] : contact.friction_left_behind)
+    pairs[std::minmax(grains.first, grains.second)].dissipated += lost;
+  return pairs;
+}
+
+} // namespace
+
 std::vector<PairContact> pair_contacts(const Model& model, const Contact& contact) {
-  std::map<std::pair<std::int32_t, std::int32_t>, PairContact> pairs;
+  std::map<GrainPair, PairContact> pairs;
   const ContactCandidates& candidates = contact.candidates;
   for (std::size_t p = 0; p < candidates.pair_first.size(); ++p) {
     const std::int32_t a = candidates.pair_first[p], b = candidates.pair_second[p];
@@ -81,7 +102,7 @@ std::vector<PairContact> pair_contacts(const Model& model, const Contact& contac
     const auto touching = contact.active_points(pair), pulling = contact.pulling_bonds(pair);
     if (touching.empty() && bonds.formed_area == 0) continue;
     auto& entry =
-        pairs.try_emplace({std::min(a, b), std::max(a, b)}, PairContact{std::min(a, b), std::max(a, b), {}, 0, {}})
+        pairs.try_emplace({std::min(a, b), std::max(a, b)}, PairContact{std::min(a, b), std::max(a, b), {}, 0, {}, {}})
             .first->second;
     const double sign = a < b ? 1.0 : -1.0;
     for (const auto points : {touching, pulling})
@@ -90,8 +111,12 @@ std::vector<PairContact> pair_contacts(const Model& model, const Contact& contac
     for (const ContactForce& point : touching) entry.area += 0.5 * model.normal[4 * at(point.node) + 3];
     entry.bonds.add(bonds);
   }
+  const auto friction = friction_of_pairs(contact);
   std::vector<PairContact> result;
-  for (const auto& [key, pair] : pairs) result.push_back(pair);
+  for (const auto& [key, pair] : pairs) {
+    result.push_back(pair);
+    if (const auto found = friction.find(key); found != friction.end()) result.back().friction = found->second;
+  }
   return result;
 }
 

@@ -32,6 +32,14 @@ struct BondSums {
 };
 BondSums bond_sums(const Model& model, const Contact& contact, std::int32_t pair);
 
+/// Sums over the friction of a pair of grains.
+struct FrictionSums {
+  double stored = 0;     ///< mJ
+  double dissipated = 0; ///< mJ, so far
+
+  void add(const FrictionSums& other) { stored += other.stored, dissipated += other.dissipated; }
+};
+
 /// mJ that damage has dissipated at one point of a pair's contact so far; `point` as in contact.bond.
 double bond_dissipation(const Model& model, const Contact& contact, std::int32_t pair, std::int32_t point);
 
@@ -41,6 +49,7 @@ struct PairContact {
   double force[3]; ///< N, of second on first, bonds included
   double area;     ///< mm^2, mean of both sides
   BondSums bonds;
+  FrictionSums friction;
 };
 /// Pairs in contact or bonded, first < second.
 std::vector<PairContact> pair_contacts(const Model& model, const Contact& contact);

@@ -5,6 +5,8 @@
 #include <cstdint>
 #include <span>
 
+#include "common/bounds.hpp"
+
 namespace mpfem {
 
 /// Nodes are rows of four doubles (x, y, z, unused) in mm. The surface nodes of a grain are its first nodes.
@@ -14,12 +16,6 @@ struct SurfaceView {
   std::span<const std::int32_t> surface_node_count; ///< [grains]: nodes node_offset[g] … + count are on the surface
   std::span<const std::int32_t> facet;              ///< [facets * 3], node indices, outward counter-clockwise
   std::span<const std::int32_t> facet_offset;       ///< [grains + 1]
-};
-
-/// Axis-aligned bounding box of a grain's surface, mm.
-struct Bounds {
-  std::array<double, 3> low;
-  std::array<double, 3> high;
 };
 
 } // namespace mpfem

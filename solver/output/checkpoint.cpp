@@ -211,10 +211,19 @@ void Writer::write_friction(const Contact& contact) {
   for (const PointFriction& point : contact.rubbing) {
     facet.push_back(point.facet);
     const Vector3<double>& force = point.force;
-    values.insert(values.end(), {point.weight1, point.weight2, point.stiffness, force.x, force.y, force.z});
+    values.insert(values.end(), {point.weight1, point.weight2, point.stiffness, force.x, force.y, force.z, point.stored,
+                                 point.dissipated});
   }
   write(check::friction_facet, facet);
   write(check::friction_values, values, facet.size());
+  std::vector<std::int32_t> grains;
+  std::vector<double> lost;
+  for (const auto& [pair, dissipated] : contact.friction_left_behind) {
+    grains.insert(grains.end(), {pair.first, pair.second});
+    lost.push_back(dissipated);
+  }
+  write(check::friction_left_grains, grains, lost.size());
+  write(check::friction_left_behind, lost);
 }
 
 template <class Friction>
@@ -463,12 +472,17 @@ void CheckpointReader::take_friction(const Model& model, Contact& contact) const
   if (!file_.has(check::friction_facet)) return;
   const auto facet = file_.read(check::friction_facet);
   const auto values = file_.read(check::friction_values);
-  if (facet.size() != points || values.size() != 6 * points) fail_damaged();
+  if (facet.size() != points || values.size() != 8 * points) fail_damaged();
   for (std::size_t i = 0; i < points; ++i) {
-    const double* v = &values[6 * i];
+    const double* v = &values[8 * i];
     if (facet[i] < -1 || facet[i] >= model.facets()) fail_damaged();
-    contact.rubbing[i] = {facet[i], v[0], v[1], v[2], {v[3], v[4], v[5]}};
+    contact.rubbing[i] = {facet[i], v[0], v[1], v[2], {v[3], v[4], v[5]}, v[6], v[7]};
   }
+  const auto grains = file_.read(check::friction_left_grains);
+  const auto lost = file_.read(check::friction_left_behind);
+  if (grains.size() != 2 * lost.size()) fail_damaged();
+  for (std::size_t i = 0; i < lost.size(); ++i)
+    contact.friction_left_behind[{grains[2 * i], grains[2 * i + 1]}] = lost[i];
 }
 
 /// What stands by grain, surface and node: calls `make(node, values)` for each and puts what it gives into

@@ -84,6 +84,17 @@ void write_bonds_of_pairs(schema::FileWriter& file, const std::string& name, con
   write_rows(file, name, run::snapshots_pair_damage_dissipation, dissipation, pairs.size());
 }
 
+/// Writes what friction stores and has dissipated between the grains of each pair.
+void write_friction_of_pairs(schema::FileWriter& file, const std::string& name, const std::vector<PairContact>& pairs) {
+  std::vector<double> stored, dissipated;
+  for (const PairContact& pair : pairs) {
+    stored.push_back(pair.friction.stored);
+    dissipated.push_back(pair.friction.dissipated);
+  }
+  write_rows(file, name, run::snapshots_pair_friction_energy, stored, pairs.size());
+  write_rows(file, name, run::snapshots_pair_friction_dissipation, dissipated, pairs.size());
+}
+
 /// Writes what the walls bear of each grain.
 void write_wall_forces(schema::FileWriter& file, const std::string& name, const Model& model, const Box& box) {
   std::vector<double> force;
@@ -240,6 +251,7 @@ void write_snapshot_file(const std::string& path, const SnapshotState& state) {
   write_wall_forces(file, name, model, state.box);
   if (state.wall_friction.present()) write_wall_friction(file, name, state.wall_friction);
   write_placed_tools(file, name, state.tools);
+  if (state.contact.has_friction()) write_friction_of_pairs(file, name, pairs);
   if (state.contact.bonding()) {
     write_bonds_of_pairs(file, name, pairs);
     write_bonds(file, name, model, state.contact);

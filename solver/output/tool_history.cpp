@@ -40,6 +40,8 @@ void write_tool_history(schema::FileWriter& file, std::span<const NamedTool> too
     write_vectors(run::history_tools_force, &ToolRow::force);
     write_vectors(run::history_tools_moment, &ToolRow::moment);
     write_numbers(run::history_tools_normal_force, &ToolRow::normal_force);
+    write_numbers(run::history_tools_work, &ToolRow::work);
+    write_numbers(run::history_tools_friction_energy, &ToolRow::friction_energy);
     write_numbers(run::history_tools_friction_dissipation, &ToolRow::friction_dissipation);
     if (!tools[tool].adheres) continue;
     write_numbers(run::history_tools_adhesion_energy, &ToolRow::adhesion_energy);

@@ -16,6 +16,8 @@ struct ToolRow {
   std::array<double, 3> force;        ///< N, of the grains on the tool
   std::array<double, 3> moment;       ///< N mm, of that about the tool's reference point
   double normal_force;                ///< N, sum of the normal forces, pulls of bonds negative
+  double work;                        ///< mJ, on the grains so far
+  double friction_energy;             ///< mJ, stored in its stick springs
   double friction_dissipation;        ///< mJ, so far
   double adhesion_energy;             ///< mJ, stored in bonds to the tool
   double adhesion_dissipation;        ///< mJ, by damage of these bonds so far

@@ -24,6 +24,8 @@ struct PointFriction {
   double weight1 = 0, weight2 = 0; ///< shape functions of the facet's second and third node
   double stiffness = 0;            ///< k_t at the last time level, N/mm
   Vector3<double> force{0, 0, 0};  ///< N, of the node on the anchor at the last time level
+  double stored = 0;               ///< mJ, at the last time level
+  double dissipated = 0;           ///< mJ, by this point so far; kept where it opens
   bool exists() const { return facet >= 0; }
 };
 
@@ -111,14 +113,24 @@ inline FrictionStep rub(PointFriction& point, const Rubbing& rubbing, const Clos
                     slip_dissipation(point.force, force, now - start - unloaded);
   point.stiffness = rubbing.stiffness;
   point.force = force;
+  point.stored = step.stored;
+  point.dissipated += step.dissipated;
   return step;
+}
+
+/// The point without an anchor.
+inline PointFriction without_anchor(const PointFriction& point) {
+  PointFriction free;
+  free.dissipated = point.dissipated;
+  return free;
 }
 
 /// Energy (mJ) that is lost where a point opens: its anchor slips all the way to the closest point. `anchor` as above.
 inline double release(PointFriction& point, const Vector3<double>& closest, const Vector3<double> (&anchor)[3]) {
   const Vector3<double> slip = closest - facet_point(anchor, point.weight1, point.weight2);
   const double lost = slip_dissipation(point.force, Vector3<double>{0, 0, 0}, slip);
-  point = {};
+  point = without_anchor(point);
+  point.dissipated += lost;
   return lost;
 }
 

@@ -8,7 +8,6 @@
 
 #include "common/available_memory.hpp"
 #include "common/errors.hpp"
-#include "solver/boundary/stl.hpp"
 #include "solver/model/bond_resolution.hpp"
 #include "solver/output/checkpoint.hpp"
 #include "solver/run/needs.hpp"
@@ -16,6 +15,7 @@
 #include "solver/run/programme.hpp"
 #include "solver/run/resume.hpp"
 #include "solver/run/simulation.hpp"
+#include "surfaces/stl.hpp"
 
 namespace mpfem {
 

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <limits>
 
-#include "solver/boundary/stl.hpp"
 #include "solver/model/material.hpp"
+#include "surfaces/stl.hpp"
 
 namespace mpfem {
 
@@ -42,8 +42,16 @@ CylinderSurface cylinder_of(const CylinderShape& shape, const std::array<double,
 }
 
 BodySurface body_of(const StlShape& shape) {
-  const StlBody body = read_stl(shape.file, shape.scale);
-  const Bounds& b = body.findings.bounds;
+  StlBody body = read_stl(shape.file, shape.scale);
+  Bounds& b = body.findings.bounds;
+  if (shape.low_corner) {
+    std::array<double, 3> shift{};
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      shift[axis] = (*shape.low_corner)[axis] - b.low[axis];
+      b.low[axis] += shift[axis], b.high[axis] += shift[axis];
+    }
+    for (Vector3<double>& corner : body.mesh.vertex) corner = corner + vector_of(shift);
+  }
   // A node that has left the surface is this near to it one step later.
   constexpr double near = 1e-4; // of the body's diagonal
   const double diagonal = std::hypot(b.high[0] - b.low[0], b.high[1] - b.low[1], b.high[2] - b.low[2]);

@@ -197,6 +197,8 @@ std::vector<ToolRow> observe_tools(const Tools& tools) {
                     .force = array_of(load.force),
                     .moment = array_of(load.moment),
                     .normal_force = load.normal_force,
+                    .work = tools[i].work,
+                    .friction_energy = load.friction_energy,
                     .friction_dissipation = tools[i].friction_dissipation,
                     .adhesion_energy = load.adhesion_energy,
                     .adhesion_dissipation = tools[i].adhesion_dissipation,

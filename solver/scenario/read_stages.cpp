@@ -174,18 +174,21 @@ ToolEnds read_tool_ends(TableReader& table, const StageContext& context) {
 StageType read_tool_loading(TableReader& table, const StageContext& context) {
   ToolLoading loading;
   loading.container = context.container;
-  loading.drives = read_drives(table, context.tools);
+  loading.drives = read_drives(table, context.tools, context.container);
   for (const std::string& name : table.strings_or("away", {}))
     loading.away.push_back(tool_named(table, "away", name, context.tools));
   for (const ToolDrive& drive : loading.drives) {
     if (std::find(loading.away.begin(), loading.away.end(), drive.tool) != loading.away.end())
       table.fail("away", fmt::format("found '{}', which the stage also drives", context.tools[drive.tool].name));
     const auto& v = drive.velocity;
-    loading.speed = std::max({loading.speed, std::hypot(v[0], v[1], v[2]), drive.servo_speed});
+    loading.speed = std::max(loading.speed, std::hypot(v[0], v[1], v[2]));
+    loading.servo_speed = std::max(loading.servo_speed, drive.servo_speed);
   }
   loading.ramp_fraction = read_ramp_fraction(table);
   loading.ends = read_tool_ends(table, context);
-  if (loading.speed == 0 && !loading.ends.duration)
+  if (loading.speed == 0 && loading.ends.travel)
+    table.fail("travel", "is that of tools driven at a speed or velocity, and there is none");
+  if (loading.speed == 0 && loading.servo_speed == 0 && !loading.ends.duration)
     table.fail("duration", "missing, expected the time of a stage in which no tool moves");
   return loading;
 }

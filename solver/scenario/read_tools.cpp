@@ -88,6 +88,7 @@ ToolShape read_stl_shape(TableReader& table) {
     table.fail("file", "found an empty or unusable path, expected an STL file");
   stl.scale = table.number("scale", Range::between(1e-9, 1e9)); // no default: STL files do not tell their unit
   stl.inside = read_inside(table, "outside");
+  if (table.has("low_corner")) stl.low_corner = table.vector3("low_corner", any_length);
   return stl;
 }
 
@@ -104,7 +105,7 @@ const std::vector<ShapeKeyword>& shape_keywords() {
       {"cylinder", {"axis", "centre", "radius", "grains", "extent", "rounding"}, read_cylinder},
       {"sphere", {"centre", "radius", "grains"}, read_sphere},
       {"cone", {"axis", "opens", "apex", "half_angle", "grains"}, read_cone},
-      {"stl", {"file", "scale", "grains"}, read_stl_shape},
+      {"stl", {"file", "scale", "grains", "low_corner"}, read_stl_shape},
   };
   return keywords;
 }
@@ -144,15 +145,16 @@ ToolParameters read_tool(TableReader& table) {
   return tool;
 }
 
-/// What one tool does; `name` of the tool.
-ToolDrive read_drive(TableReader table, std::size_t tool, const ToolShape& shape) {
+/// What one tool does; `is_punch`: of the container.
+ToolDrive read_drive(TableReader table, std::size_t tool, const ToolShape& shape, bool is_punch) {
   ToolDrive drive{.tool = tool};
   const auto direction = direction_of(shape);
   drive.direction = direction.value_or(Vector{});
   const auto given = static_cast<int>(table.has("speed")) + static_cast<int>(table.has("velocity")) +
-                     static_cast<int>(table.has("force"));
+                     static_cast<int>(table.has("force")) + static_cast<int>(table.has("stress"));
   if (given != 1)
-    table.fail("speed", fmt::format("found {} of the keys speed, velocity and force, expected one of them", given));
+    table.fail("speed",
+               fmt::format("found {} of the keys speed, velocity, force and stress, expected one of them", given));
   if (!direction && !table.has("velocity"))
     table.fail("velocity", "missing, expected a vector: this tool has no direction of its own");
   if (table.has("velocity")) drive.velocity = table.vector3("velocity", any_speed);
@@ -163,10 +165,14 @@ ToolDrive read_drive(TableReader table, std::size_t tool, const ToolShape& shape
   if (table.has("force")) {
     constexpr double largest_force = 1e15; // N
     drive.force = table.number("force", Range::between(-largest_force, largest_force));
-    drive.servo_speed = table.number("servo_speed", positive_speed);
-  } else if (table.has("servo_speed")) {
-    table.fail("servo_speed", "is used only with 'force'");
+  } else if (table.has("stress")) {
+    if (!is_punch) table.fail("stress", "is used only for the punches of [container]; other tools hold a 'force'");
+    drive.stress = table.number("stress", stress_or_zero);
   }
+  if (drive.holds_push())
+    drive.servo_speed = table.number("servo_speed", positive_speed);
+  else if (table.has("servo_speed"))
+    table.fail("servo_speed", "is used only with 'force' or 'stress'");
   table.finish();
   return drive;
 }
@@ -239,13 +245,15 @@ std::optional<ContainerParameters> read_container(TableReader& root, std::span<c
   return container;
 }
 
-std::vector<ToolDrive> read_drives(TableReader& stage, std::span<const ToolParameters> tools) {
+std::vector<ToolDrive> read_drives(TableReader& stage, std::span<const ToolParameters> tools,
+                                   const std::optional<ContainerParameters>& container) {
   std::vector<ToolDrive> drives;
   auto table = stage.optional_table("drive");
   if (!table) return drives;
   for (const std::string& name : table->keys()) {
     const std::size_t tool = tool_named(*table, name, name, tools);
-    drives.push_back(read_drive(table->table(name), tool, tools[tool].shape));
+    const bool is_punch = container && (tool == container->lower || tool == container->upper);
+    drives.push_back(read_drive(table->table(name), tool, tools[tool].shape, is_punch));
   }
   table->finish();
   std::sort(drives.begin(), drives.end(), [](const ToolDrive& a, const ToolDrive& b) { return a.tool < b.tool; });

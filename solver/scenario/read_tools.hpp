@@ -18,6 +18,7 @@ std::optional<ContainerParameters> read_container(TableReader& root, std::span<c
 std::size_t tool_named(const TableReader& table, std::string_view key, const std::string& name,
                        std::span<const ToolParameters> tools);
 /// Reads the table [drive] of a stage: one entry for each tool that moves.
-std::vector<ToolDrive> read_drives(TableReader& stage, std::span<const ToolParameters> tools);
+std::vector<ToolDrive> read_drives(TableReader& stage, std::span<const ToolParameters> tools,
+                                   const std::optional<ContainerParameters>& container);
 
 } // namespace mpfem

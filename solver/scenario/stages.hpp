@@ -115,7 +115,7 @@ struct GripMotion {
 struct ToolEnds {
   std::optional<double> relative_density{};  ///< of the container
   std::optional<double> axial_stress{};      ///< MPa, of the container's punches
-  std::optional<double> travel{};            ///< mm, of the tool that moves fastest, since the stage began
+  std::optional<double> travel{};            ///< mm, of the fastest tool driven at a velocity, since the stage began
   std::optional<double> force{};             ///< N, push of the watched tool along its direction
   std::optional<double> force_drop{};        ///< fall of that push below its peak, over the peak
   double smallest_peak = 0;                  ///< N, of a peak that counts
@@ -128,7 +128,8 @@ struct ToolEnds {
 struct ToolLoading {
   std::vector<ToolDrive> drives; ///< of the tools that move; the others are at rest
   std::vector<std::size_t> away; ///< tools that touch nothing while the stage lasts
-  double speed = 0;              ///< mm/s, of the fastest driven tool
+  double speed = 0;              ///< mm/s, of the fastest tool that is driven at a velocity
+  double servo_speed = 0;        ///< mm/s, the largest of tools that hold a push
   double ramp_fraction = 0.1;    ///< of the time of the whole travel (of 5 % of the container's length) to full speed
   ToolEnds ends;
   std::optional<ContainerParameters> container{}; ///< the scenario's

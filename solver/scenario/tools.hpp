@@ -52,9 +52,10 @@ struct ConeShape {
 
 /// A closed surface of triangles.
 struct StlShape {
-  std::string file;    ///< relative to the scenario's folder
-  double scale = 1;    ///< mm in the file's unit of length
-  bool inside = false; ///< grains are inside
+  std::string file;                                  ///< relative to the scenario's folder
+  double scale = 1;                                  ///< mm in the file's unit of length
+  bool inside = false;                               ///< grains are inside
+  std::optional<std::array<double, 3>> low_corner{}; ///< mm, where the box that bounds it begins; none: as in the file
   bool operator==(const StlShape&) const = default;
 };
 
@@ -82,13 +83,17 @@ const char* shape_name(const ToolShape& shape);
 /// a sphere or a surface of triangles.
 std::optional<std::array<double, 3>> direction_of(const ToolShape& shape);
 
-/// What one tool does in a stage: it moves at a velocity, or holds its push along a direction.
+/// What one tool does in a stage: it moves at a velocity, or holds its push along a direction: a force or, of a punch
+/// of the container, a stress.
 struct ToolDrive {
   std::size_t tool = 0;              ///< index into the scenario's tools
   std::array<double, 3> velocity{};  ///< mm/s, at full speed
   std::array<double, 3> direction{}; ///< unit vector; 0 where the tool has none
   std::optional<double> force{};     ///< N, push on the grains along the direction, held instead of a velocity
+  std::optional<double> stress{};    ///< MPa, that push over the container's section, in place of `force`
   double servo_speed = 0;            ///< mm/s, largest speed of a tool that holds its push
+
+  bool holds_push() const { return force || stress; }
 };
 
 } // namespace mpfem

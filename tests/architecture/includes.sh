@@ -11,23 +11,26 @@ cd "${1:-$(dirname "${BASH_SOURCE[0]}")/../..}"
 allowed='
 common:
 results-schema: common
-pack-gen: common results-schema solver/physics
+surfaces: common solver/physics
+pack-gen: common results-schema surfaces solver/physics
 postproc: common results-schema
 solver/physics:
 solver/scenario: common solver/physics
 solver/parallel: common
 solver/model: common results-schema solver/physics solver/scenario solver/parallel
 solver/kernels: common solver/physics solver/parallel solver/model
-solver/boundary: common solver/physics solver/parallel solver/model
+solver/boundary: common surfaces solver/physics solver/parallel solver/model
 solver/output: common results-schema solver/physics solver/scenario solver/parallel solver/model solver/kernels solver/boundary
-solver/run: common solver/physics solver/scenario solver/parallel solver/model solver/kernels solver/boundary solver/output
+solver/run: common surfaces solver/physics solver/scenario solver/parallel solver/model solver/kernels solver/boundary solver/output
 solver/bench: common solver/physics solver/scenario solver/parallel solver/model solver/kernels solver/boundary solver/output solver/run
-solver: common solver/scenario solver/parallel solver/model solver/output solver/run solver/bench
+solver: common surfaces solver/scenario solver/parallel solver/model solver/output solver/run solver/bench
 '
 # FOLDER FOLDER: an include that is still there and shall go.
 open=''
 
-grep -rnE --include='*.cpp' --include='*.hpp' '^ *# *include +"' common results-schema pack-gen postproc solver |
+folders='common results-schema surfaces pack-gen postproc solver'
+# shellcheck disable=SC2086 # folders are several words
+grep -rnE --include='*.cpp' --include='*.hpp' '^ *# *include +"' $folders |
   awk -v allowed="$allowed" -v open="$open" '
     function folder(path) { # of a file: its first two parts in solver/, its first part elsewhere
       n = split(path, part, "/")

@@ -130,9 +130,9 @@ TEST_CASE("An assignment does not make array elements, nor keys below what has n
   CHECK(refusal("stages.-1.speed=1") == "--set stages.-1.speed=1: found element '-1' of an array, allowed 0 … 1");
   CHECK(refusal("words.2=c") == "--set words.2=c: found element '2' of an array, allowed 0 … 1");
   CHECK(refusal("none.0=1") == "--set none.0=1: found element '0' of an empty array");
-  CHECK_THAT(refusal("size.x=1"), Catch::StartsWith("--set size.x=1: 'x' stands below an integer"));
-  CHECK_THAT(refusal("size.x.y=1"), Catch::StartsWith("--set size.x.y=1: 'x' stands below an integer"));
-  CHECK_THAT(refusal("box.length.0=1"), Catch::Contains("stands below a number"));
+  CHECK_THAT(refusal("size.x=1"), Catch::StartsWith("--set size.x=1: 'x' is below an integer"));
+  CHECK_THAT(refusal("size.x.y=1"), Catch::StartsWith("--set size.x.y=1: 'x' is below an integer"));
+  CHECK_THAT(refusal("box.length.0=1"), Catch::Contains("is below a number"));
 }
 
 TEST_CASE("The text of a document holds its assignments") {

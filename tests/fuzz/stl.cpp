@@ -1,6 +1,6 @@
 // STL files: bytes -> closed surface.
 
-#include "solver/boundary/stl.hpp"
+#include "surfaces/stl.hpp"
 #include "refusal.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {

@@ -92,5 +92,5 @@ TEST_CASE("coordination is of pairs that touch or are held, and of walls that pu
   CHECK(m.details["coordination_number_without_rattlers"].get<double>() == 1);
   contents.numbers.erase("/snapshots/*/wall_force");
   write_run(folder / "old.h5", contents);
-  CHECK_THROWS_WITH(contact_graph(schema::FileReader(folder / "old.h5"), -1), Catch::Contains("what the walls bear"));
+  CHECK_THROWS_WITH(contact_graph(schema::FileReader(folder / "old.h5"), -1), Catch::Contains("no forces of walls"));
 }

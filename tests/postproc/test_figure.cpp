@@ -195,7 +195,7 @@ TEST_CASE("one folder for two different runs is refused, in one figure and in tw
       [&] {
         for (const Case& row : cases_of(figure, {}, {}, "smoke", {})) add_run(graph, figure, figure.runs[0], row);
       }(),
-      Contains("stands for two runs with different settings"));
+      Contains("is that of two runs with different settings"));
   std::string other = tablets;
   other.replace(other.find("0.5,"), 4, "0.6,");
   CHECK_THROWS_WITH(make_rules({toolkit.figure(tablets), toolkit.figure(other, "other.toml")},

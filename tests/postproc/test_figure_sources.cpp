@@ -10,6 +10,7 @@
 #include "postproc/figure/figure_plot.hpp"
 #include "postproc/figure/report.hpp"
 #include "postproc/figure/verdict_pages.hpp"
+#include "small_run.hpp"
 #include "tests/support/folder.hpp"
 
 using namespace mpfem;
@@ -375,9 +376,42 @@ TEST_CASE("a report opens with how many statements of each study agree, and says
   write_text(studies.path("out/fig04/verdict.json"),
              R"([{"statement": "c", "paper": "1", "ours": "2", "agrees": null, "note": ""}])");
   const std::string page =
-      report_page({{"fig03", "bonds", "q"}, {"fig04", "grains", "q"}}, studies.path("out"), "Studies", "");
+      report_page({{"fig03", "bonds", "q"}, {"fig04", "grains", "q"}}, {studies.path("out"), "Studies"});
   CHECK_THAT(page, Contains("<a href=\"#fig03\">bonds</a></td><td>1</td><td>1</td><td>0</td>"));
   CHECK_THAT(page, Contains("<th>all</th><th>1</th><th>1</th><th>1</th>"));
   CHECK_THAT(page, Contains("<td>n; why: the &lt;mesh&gt;</td>"));
   CHECK(page.find("class=\"summary\"") < page.find("id=\"fig03\""));
+}
+
+TEST_CASE("a report has settings and quality of each run, and links that are relative to its folder") {
+  const Studies studies;
+  write_text(studies.path("out/study/verdict.json"), "[]");
+  write_text(studies.path("out/study/t.csv"), "x\n");
+  write_text(studies.path("out/first/work/log.txt"), "");
+  test::write_run(studies.path("out/first/run.h5"), test::small_run());
+  const Figure figure = studies.figure(chain);
+  const auto runs = runs_of_figure(figure, studies.results());
+  REQUIRE(runs.size() == 3);
+  CHECK(runs[0].name == "first");
+  const std::string page = report_page({{"study", "s", "q", studies.path("study.toml"), runs}},
+                                       {studies.path("out"), "Studies", "", "", studies.path("out/report")});
+  CHECK_THAT(page, Contains("Settings and provenance of 3 runs"));
+  // of small_run: 48 tets, kinetic over internal energy 2 % under load, residual 0.06 of 4 mJ, 0.96 s on 2 threads
+  CHECK_THAT(page, Contains("<td>48</td>") && Contains("<td>2 %</td><td>1.5 %</td><td>0.96 s × 2</td>"));
+  CHECK_THAT(page, Contains("<td>second</td><td colspan=\"10\">the run file is not here</td>"));
+  CHECK_THAT(page, Contains("<a href=\"../first/work/log.txt\">log</a>"));
+  CHECK_THAT(page, Contains("<a href=\"../study/t.csv\">t.csv</a>") && Contains("\"../study/verdict.json\""));
+  CHECK_THAT(page, Contains("<a href=\"../../programmes/press.toml\">scenario</a>"));
+}
+
+TEST_CASE("a report shows the first table of a page beside the verdicts") {
+  const Studies studies;
+  write_text(studies.path("out/fig03/verdict.json"), "[]");
+  write_text(studies.path("page.md"), "# Speed <1>\n\n| a | `b` |\n|---|---|\n| 1 < 2 |  |\n\n| other |\n");
+  const std::vector<ReportEntry> entries = {{"fig03", "bonds", "q"}};
+  const std::string page = report_page(entries, {studies.path("out"), "S", "", studies.path("page.md"), ""});
+  CHECK_THAT(page, Contains("<h3>Speed &lt;1&gt;</h3>") && Contains("<tr><th>a</th><th><code>b</code></th></tr>") &&
+                       Contains("<tr><td>1 &lt; 2</td><td></td></tr>") && !Contains("<td>other"));
+  CHECK_THROWS_WITH(report_page(entries, {studies.path("out"), "S", "", studies.path("none.md"), ""}),
+                    Contains("found no table"));
 }

@@ -112,6 +112,7 @@ TEST_CASE("what cannot be drawn is refused in one line") {
                                                           {"--range 3,2", "--range: found 3,2"},
                                                           {"--color damage", "the run is without bonds"},
                                                           {"--cut none --bonds", "--bonds: found --cut"},
+                                                          {"--cut none --contacts", "--contacts: found --cut"},
                                                           {"--bonds", "the run is without bonds"},
                                                           {"--cut w", "--cut"},
                                                           {"--color height", "--color"}};

@@ -8,7 +8,10 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "bonded_run.hpp"
 #include "postproc/base64.hpp"
+#include "postproc/picture/cut_solid.hpp"
+#include "postproc/view/view_data.hpp"
 #include "postproc/view/view_page.hpp"
 #include "small_run.hpp"
 #include "tests/support/folder.hpp"
@@ -87,7 +90,7 @@ TEST_CASE("the page holds all of its data, asks nothing of a network, and shows 
   const std::string packed = decoded(between(page, "const packed = '", "'"));
   const std::size_t nodes = head.at("nodes"), expected = 12 * head.at("facets").get<std::size_t>() +
                                                          16 * head.at("tets").get<std::size_t>() + 2 * nodes +
-                                                         nodes * (6 + 3);
+                                                         nodes * (6 + 3) + 14 * 1; // one contact
   std::string bytes(expected + 1, '\0');
   uLongf size = bytes.size();
   REQUIRE(uncompress(reinterpret_cast<Bytef*>(bytes.data()), &size, reinterpret_cast<const Bytef*>(packed.data()),
@@ -104,4 +107,40 @@ TEST_CASE("a view without -o, or of a file that is no run, is refused in one lin
     CHECK(outcome.exit_code == 2);
     CHECK(std::count(outcome.messages.begin(), outcome.messages.end(), '\n') == 1);
   }
+}
+
+TEST_CASE("a view has bonds and contacts as rods from centre to centre, and damage where there are bonds") {
+  const Folder folder;
+  write_run(folder / "run.h5", bonded_run());
+  const schema::FileReader file(folder / "run.h5", schema::FileKind::run);
+  const std::vector<Snapshot> snapshots = {read_snapshot(file, 0)};
+  const ViewData data = view_data(snapshots, rods_of(file, snapshots));
+  // Two contacts, 10 N and 1 N, and a bond between the first two grains that is whole.
+  const ViewState& state = data.states[0];
+  REQUIRE(state.rod_kind == std::vector<std::uint8_t>{2, 2, 0});
+  CHECK(state.rod_width[0] > 2 * state.rod_width[1]);
+  CHECK(data.widest_rod == Approx(std::sqrt(0.1 * 3.5 / M_PI)));
+  CHECK(state.rod_width[2] == 255);
+  // The bond: from (0, 0, 0) to (2, 0, 0).
+  for (std::size_t k = 0; k < 6; ++k) {
+    const double width = data.high[k % 3] - data.low[k % 3];
+    CHECK(std::abs(data.low[k % 3] + width * state.rod_end[12 + k] / 65535 - (k == 3 ? 2 : 0)) < 1e-3);
+  }
+  REQUIRE(data.fields.back().name == "damage");
+  CHECK(data.fields.back().sparse);
+  const auto& damage = state.value.back();
+  const auto& values = snapshots[0].node_field("damage").values;
+  for (std::size_t n = 0; n < values.size(); ++n) // 0: never bonded; else from 1 to 255
+    CHECK(damage[n] == (values[n] < 0 ? 0 : std::lround(1 + 254 * static_cast<double>(values[n]))));
+}
+
+TEST_CASE("a view's colours have the range that a picture of the same grains has without a cut") {
+  const Folder folder;
+  write_run(folder / "run.h5", small_run());
+  const Snapshot snapshot = read_snapshot({folder / "run.h5", schema::FileKind::run}, 0);
+  const ViewData data = view_data({snapshot});
+  const ShownField field = shown_field(snapshot, "von_mises");
+  const auto range = range_of(cut_solid(snapshot, field, {}), field);
+  CHECK(data.fields[0].range.first == range.first);
+  CHECK(data.fields[0].range.second == Approx(range.second).epsilon(1e-12));
 }

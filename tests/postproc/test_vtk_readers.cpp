@@ -4,6 +4,7 @@
 
 #include <catch2/catch.hpp>
 #include <fmt/format.h>
+#include <vtkCell.h>
 #include <vtkCellData.h>
 #include <vtkFieldData.h>
 #include <vtkNew.h>
@@ -16,6 +17,7 @@
 #include <vtkXMLUnstructuredGridReader.h>
 #include <vtkXMLUtilities.h>
 
+#include "bonded_run.hpp"
 #include "postproc/vtk.hpp"
 #include "tests/support/folder.hpp"
 #include "tool_run.hpp"
@@ -139,4 +141,51 @@ TEST_CASE("VTK's reader finds the tools where they stand, by number, and none th
   run.numbers["/snapshots/*/tool_displacement"] = {};
   write_series(folder, run);
   CHECK(opened<vtkXMLPolyDataReader>(folder / ("vtk/" + steps[0].file))->GetOutput()->GetNumberOfPoints() == 0);
+}
+
+TEST_CASE("VTK's reader finds a point for each grain, with its volume and the means of its fields") {
+  const Folder folder;
+  write_series(folder, two_snapshots());
+  const std::vector<Step> steps = steps_of(folder / "vtk/grains.pvd");
+  REQUIRE(steps.size() == 2);
+  CHECK(steps[1].time == 5e-6);
+  const auto reader = opened<vtkXMLPolyDataReader>(folder / ("vtk/" + steps[1].file));
+  vtkPolyData* grains = reader->GetOutput();
+  REQUIRE(grains->GetNumberOfVerts() == 2);
+  vtkCellData* cells = grains->GetCellData();
+  CHECK(cells->GetArray("grain")->GetComponent(1, 0) == 1);
+  // Tets of equal volume that are numbered from 0, half of them in each grain.
+  for (int g = 0; g < 2; ++g) {
+    CHECK(std::abs(cells->GetArray("volume [mm^3]")->GetComponent(g, 0) - 4) < 1e-6);
+    CHECK(std::abs(cells->GetArray("von_mises [MPa]")->GetComponent(g, 0) - (g == 0 ? 11.5 : 35.5)) < 1e-5);
+  }
+}
+
+TEST_CASE("VTK's reader finds a line for each pair of grains, with its force, area and bonds") {
+  const Folder folder;
+  write_series(folder, bonded_run());
+  const std::vector<Step> steps = steps_of(folder / "vtk/contacts.pvd");
+  REQUIRE(steps.size() == 1);
+  const auto reader = opened<vtkXMLPolyDataReader>(folder / ("vtk/" + steps[0].file));
+  vtkPolyData* contacts = reader->GetOutput();
+  REQUIRE(contacts->GetNumberOfLines() == 2);
+  vtkCellData* cells = contacts->GetCellData();
+  const auto value = [&](const char* name, vtkIdType pair, int component = 0) {
+    INFO(name);
+    REQUIRE(cells->GetArray(name) != nullptr);
+    return cells->GetArray(name)->GetComponent(pair, component);
+  };
+  CHECK(value("first_grain", 1) == 0);
+  CHECK(value("second_grain", 1) == 2);
+  CHECK(value("force [N]", 0, 0) == -10);
+  CHECK(value("force [N]", 1, 2) == -1);
+  CHECK(value("area [mm^2]", 0) == 4);
+  CHECK(value("bonded_area [mm^2]", 0) == 3.5);
+  CHECK(value("damage", 0) == 0.5);
+  CHECK(value("damage", 1) == -1);
+  // From the centre of the first cube to that of the second, which lies next to it along x.
+  double ends[2][3];
+  for (int e = 0; e < 2; ++e) contacts->GetPoint(contacts->GetCell(0)->GetPointId(e), ends[e]);
+  CHECK(std::abs(ends[1][0] - ends[0][0] - 2) < 1e-6);
+  CHECK(std::abs(ends[1][2] - ends[0][2]) < 1e-6);
 }

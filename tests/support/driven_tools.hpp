@@ -20,9 +20,10 @@ inline ToolParameters plane(const std::string& name, const std::array<double, 3>
 /// A stage in which tools move for a time, damped at a rate (1/s).
 inline Stage driven(std::vector<ToolDrive> drives, double duration, double damping = 0) {
   ToolLoading loading;
-  for (const ToolDrive& drive : drives)
-    loading.speed = std::max(loading.speed,
-                             std::hypot(drive.velocity[0], drive.velocity[1], drive.velocity[2]) + drive.servo_speed);
+  for (const ToolDrive& drive : drives) {
+    loading.speed = std::max(loading.speed, std::hypot(drive.velocity[0], drive.velocity[1], drive.velocity[2]));
+    loading.servo_speed = std::max(loading.servo_speed, drive.servo_speed);
+  }
   loading.drives = std::move(drives);
   loading.ends.duration = duration;
   Stage stage;

@@ -11,7 +11,7 @@
 
 #include <fmt/format.h>
 
-#include "solver/boundary/weld_corners.hpp"
+#include "surfaces/weld_corners.hpp"
 
 namespace mpfem::test {
 

@@ -42,11 +42,10 @@ ToolLoadingControl::ToolLoadingControl(const ToolLoading& stage, const StageLabe
     travel = stage.speed * std::abs((start.cell.length(2) - height) / closing_speed());
   }
   constexpr double instant = 1e-12; // s
-  if (stage.speed > 0) {
-    ramp_ = stage.ramp_fraction * travel / stage.speed;
-    // A fraction of the travel is done at half of the speed, at both ends.
-    expected_duration_ = std::max(travel / stage.speed * (1 + 1.5 * stage.ramp_fraction), instant);
-  }
+  if (stage.speed > 0) ramp_ = stage.ramp_fraction * travel / stage.speed;
+  // A fraction of the travel is done at half of the speed, at both ends.
+  if (const double pace = stage.speed > 0 ? stage.speed : stage.servo_speed; pace > 0)
+    expected_duration_ = std::max(travel / pace * (1 + 1.5 * stage.ramp_fraction), instant);
   const bool ends_otherwise = ends.travel || ends.relative_density;
   if (ends.duration)
     expected_duration_ = ends_otherwise ? std::min(expected_duration_, *ends.duration) : *ends.duration;
@@ -125,7 +124,7 @@ void ToolLoadingControl::set_velocities(const StageObservation& observation, dou
   for (std::size_t i = 0; i < stage_.drives.size(); ++i) {
     const ToolDrive& drive = stage_.drives[i];
     for (std::size_t axis = 0; axis < 3; ++axis) velocity_[drive.tool][axis] = part * drive.velocity[axis];
-    if (!drive.force) continue;
+    if (!drive.holds_push()) continue;
     // The law of held walls, whose stress is a force over the section.
     const double area = start_.cell.area(2);
     ObservedSample as_wall;
@@ -133,8 +132,8 @@ void ToolLoadingControl::set_velocities(const StageObservation& observation, dou
     as_wall.rate_factor = 1;
     as_wall.stress[2] = push_along(drive.direction, observation.tools->load(drive.tool)) / area;
     HoldQuality quality;
-    const double speed =
-        StressServo(start_, drive.servo_speed).hold(servo_[i], quality, as_wall, 2, *drive.force / area);
+    const double target = drive.stress ? *drive.stress : *drive.force / area;
+    const double speed = StressServo(start_, drive.servo_speed).hold(servo_[i], quality, as_wall, 2, target);
     for (std::size_t axis = 0; axis < 3; ++axis) velocity_[drive.tool][axis] = speed * drive.direction[axis];
   }
 }

@@ -51,7 +51,7 @@ private:
     bool begun = false;
     ToolEnd ended_by = ToolEnd::none;
     double fraction_done = 0;
-    double travelled = 0;    ///< mm, of the fastest driven tool
+    double travelled = 0;    ///< mm, of the fastest tool driven at a velocity
     double start_stress = 0; ///< MPa, axial
     double start_push = 0;   ///< N, of the watched tool
     double start_density = 0;

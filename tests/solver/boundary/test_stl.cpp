@@ -6,7 +6,7 @@
 
 #include <catch2/catch.hpp>
 
-#include "solver/boundary/stl.hpp"
+#include "surfaces/stl.hpp"
 #include "tests/common/one_line_error.hpp"
 #include "tests/support/folder.hpp"
 #include "tests/support/tolerances.hpp"

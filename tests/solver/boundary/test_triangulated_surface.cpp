@@ -7,8 +7,8 @@
 
 #include <catch2/catch.hpp>
 
-#include "solver/boundary/stl.hpp"
-#include "solver/boundary/triangulated_surface.hpp"
+#include "surfaces/stl.hpp"
+#include "surfaces/triangulated_surface.hpp"
 #include "tests/common/one_line_error.hpp"
 #include "tests/support/tolerances.hpp"
 #include "tests/support/triangle_meshes.hpp"

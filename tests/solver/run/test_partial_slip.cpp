@@ -20,3 +20,13 @@ TEST_CASE("two caps that are dragged slip from the edge of their contact inwards
   CHECK(back < 0.05);
   CHECK(std::abs(loss) < 0.16); // a small difference of two curves
 }
+
+// Four elements in the contact's radius, plain tetrahedra: 1.9 %, 2.6 % and 1.7 % were measured.
+TEST_CASE("with four elements in the contact's radius two caps lose in a cycle what Mindlin says, to 3 %") {
+  const auto [out, back, loss, amplitude, other_share] = partial_slip::errors({18, mpfem::ElementType::tet4}, 0.3);
+  CAPTURE(out, back, loss, amplitude, other_share);
+  REQUIRE(amplitude > 0.7);
+  CHECK(out < 0.03);
+  CHECK(back < 0.03);
+  CHECK(std::abs(loss) < 0.03);
+}

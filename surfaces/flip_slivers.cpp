@@ -1,4 +1,4 @@
-#include "solver/boundary/flip_slivers.hpp"
+#include "surfaces/flip_slivers.hpp"
 
 #include <algorithm>
 

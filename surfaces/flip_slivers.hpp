@@ -5,7 +5,7 @@
 // leave it out would open the surface. Its longest edge is flipped instead: with the neighbour across that edge it
 // forms a quadrangle whose shape is the neighbour's, and the other diagonal splits that into two triangles with area.
 
-#include "solver/boundary/triangle_mesh.hpp"
+#include "surfaces/triangle_mesh.hpp"
 
 namespace mpfem {
 

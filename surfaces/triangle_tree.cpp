@@ -1,4 +1,4 @@
-#include "solver/boundary/triangle_tree.hpp"
+#include "surfaces/triangle_tree.hpp"
 
 #include <algorithm>
 #include <cmath>

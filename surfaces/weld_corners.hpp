@@ -4,7 +4,7 @@
 #include <array>
 #include <span>
 
-#include "solver/boundary/triangle_mesh.hpp"
+#include "surfaces/triangle_mesh.hpp"
 
 namespace mpfem {
 

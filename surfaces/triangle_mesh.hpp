@@ -8,7 +8,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "solver/model/surface_view.hpp"
+#include "common/bounds.hpp"
 #include "solver/physics/tensor.hpp"
 
 namespace mpfem {

@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "solver/boundary/flat_triangle.hpp"
+#include "surfaces/flat_triangle.hpp"
 
 namespace mpfem {
 

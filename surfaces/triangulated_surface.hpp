@@ -13,9 +13,9 @@
 #include <cstdint>
 #include <vector>
 
-#include "solver/boundary/pseudonormals.hpp"
-#include "solver/boundary/triangle_mesh.hpp"
-#include "solver/boundary/triangle_tree.hpp"
+#include "surfaces/pseudonormals.hpp"
+#include "surfaces/triangle_mesh.hpp"
+#include "surfaces/triangle_tree.hpp"
 
 namespace mpfem {
 

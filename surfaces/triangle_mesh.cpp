@@ -1,4 +1,4 @@
-#include "solver/boundary/triangle_mesh.hpp"
+#include "surfaces/triangle_mesh.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "solver/boundary/stl.hpp"
+#include "surfaces/stl.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -10,9 +10,9 @@
 #include "common/errors.hpp"
 #include "common/one_line.hpp"
 #include "common/text_input.hpp"
-#include "solver/boundary/flip_slivers.hpp"
-#include "solver/boundary/stl_facets.hpp"
-#include "solver/boundary/weld_corners.hpp"
+#include "surfaces/flip_slivers.hpp"
+#include "surfaces/stl_facets.hpp"
+#include "surfaces/weld_corners.hpp"
 
 namespace mpfem {
 

@@ -1,4 +1,4 @@
-#include "solver/boundary/triangulated_surface.hpp"
+#include "surfaces/triangulated_surface.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "solver/boundary/weld_corners.hpp"
+#include "surfaces/weld_corners.hpp"
 
 #include <cmath>
 #include <unordered_map>

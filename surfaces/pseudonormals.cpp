@@ -1,9 +1,9 @@
-#include "solver/boundary/pseudonormals.hpp"
+#include "surfaces/pseudonormals.hpp"
 
 #include <algorithm>
 #include <cmath>
 
-#include "solver/boundary/triangle_mesh.hpp"
+#include "surfaces/triangle_mesh.hpp"
 
 namespace mpfem {
 

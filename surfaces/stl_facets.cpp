@@ -1,4 +1,4 @@
-#include "solver/boundary/stl_facets.hpp"
+#include "surfaces/stl_facets.hpp"
 
 #include <algorithm>
 #include <bit>

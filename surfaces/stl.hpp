@@ -10,7 +10,7 @@
 #include <string>
 #include <string_view>
 
-#include "solver/boundary/triangle_mesh.hpp"
+#include "surfaces/triangle_mesh.hpp"
 
 namespace mpfem {
 

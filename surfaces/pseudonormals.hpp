@@ -11,7 +11,7 @@
 #include <span>
 #include <vector>
 
-#include "solver/boundary/flat_triangle.hpp"
+#include "surfaces/flat_triangle.hpp"
 
 namespace mpfem {
 
