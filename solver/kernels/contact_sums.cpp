@@ -1,8 +1,8 @@
 #include "solver/kernels/contact_sums.hpp"
 
 #include <algorithm>
-#include <map>
-#include <utility>
+#include <optional>
+#include <tuple>
 
 #include "common/index.hpp"
 #include "solver/physics/penalty.hpp"
@@ -71,28 +71,70 @@ double bond_dissipation(const Model& model, const Contact& contact, std::int32_t
   return share * (bond.spent + damage_dissipation(law_at_point(model, contact, penalty, point), bond.state));
 }
 
-std::vector<PairContact> pair_contacts(const Model& model, const Contact& contact) {
-  std::map<std::pair<std::int32_t, std::int32_t>, PairContact> pairs;
+namespace {
+
+/// What the nodes of a grain have with another: force on the grain, half of the area, bonds. Nothing where they neither
+/// touch nor ever had a bond.
+std::optional<PairContact> half_contact(const Model& model, const Contact& contact, std::int32_t pair) {
+  const auto p = at(pair);
+  PairContact half{
+      contact.candidates.pair_first[p], contact.candidates.pair_second[p], {}, 0, bond_sums(model, contact, pair)};
+  const auto touching = contact.active_points(pair), pulling = contact.pulling_bonds(pair);
+  if (touching.empty() && half.bonds.formed_area == 0) return std::nullopt;
+  for (const auto points : {touching, pulling})
+    for (const ContactForce& point : points)
+      for (int axis = 0; axis < 3; ++axis) half.force[axis] += point.force[axis];
+  for (const ContactForce& point : touching) half.area += 0.5 * model.normal[4 * at(point.node) + 3];
+  return half;
+}
+
+/// The halves that concern own grains as the first of both: own ones, and those whose nodes are another rank's.
+std::vector<PairContact> halves_of_own(const Model& model, const Contact& contact, const Communicator& ranks) {
+  std::vector<PairContact> halves;
+  std::vector<Bytes> to_ranks(at(ranks.size()));
   const ContactCandidates& candidates = contact.candidates;
-  for (std::size_t p = 0; p < candidates.pair_first.size(); ++p) {
-    const std::int32_t a = candidates.pair_first[p], b = candidates.pair_second[p];
-    const auto pair = static_cast<std::int32_t>(p);
-    const BondSums bonds = bond_sums(model, contact, pair);
-    const auto touching = contact.active_points(pair), pulling = contact.pulling_bonds(pair);
-    if (touching.empty() && bonds.formed_area == 0) continue;
-    auto& entry =
-        pairs.try_emplace({std::min(a, b), std::max(a, b)}, PairContact{std::min(a, b), std::max(a, b), {}, 0, {}})
-            .first->second;
-    const double sign = a < b ? 1.0 : -1.0;
-    for (const auto points : {touching, pulling})
-      for (const ContactForce& point : points)
-        for (int axis = 0; axis < 3; ++axis) entry.force[axis] += sign * point.force[axis];
-    for (const ContactForce& point : touching) entry.area += 0.5 * model.normal[4 * at(point.node) + 3];
-    entry.bonds.add(bonds);
+  for (const std::int32_t grain : model.own())
+    for (std::int32_t pair = candidates.outgoing_offset[at(grain)]; pair < candidates.outgoing_offset[at(grain) + 1];
+         ++pair) {
+      const auto half = half_contact(model, contact, pair);
+      if (!half) continue;
+      const std::int32_t owner = model.ownership.owner[at(std::min(half->first, half->second))];
+      if (owner == model.ownership.rank)
+        halves.push_back(*half);
+      else
+        append(to_ranks[at(owner)], *half);
+    }
+  if (ranks.alone()) return halves;
+  for (const Bytes& message : ranks.exchange(to_ranks))
+    for (MessageReader reader(message); !reader.done();) halves.push_back(reader.take<PairContact>());
+  return halves;
+}
+
+/// Adds a half to the contact of its two grains; the other half may have been added before.
+void add_half(PairContact& pair, const PairContact& half) {
+  const double sign = half.first == pair.first ? 1.0 : -1.0;
+  for (int axis = 0; axis < 3; ++axis) pair.force[axis] += sign * half.force[axis];
+  pair.area += half.area;
+  pair.bonds.add(half.bonds);
+}
+
+} // namespace
+
+std::vector<PairContact> pair_contacts(const Model& model, const Contact& contact, const Communicator& ranks) {
+  std::vector<PairContact> halves = halves_of_own(model, contact, ranks);
+  const auto grains = [](const PairContact& half) { return std::minmax(half.first, half.second); };
+  // Of both halves that of the first grain's nodes comes first.
+  std::sort(halves.begin(), halves.end(), [&](const PairContact& a, const PairContact& b) {
+    return std::tuple(grains(a), a.first) < std::tuple(grains(b), b.first);
+  });
+  std::vector<PairContact> pairs;
+  for (const PairContact& half : halves) {
+    const auto [first, second] = grains(half);
+    if (pairs.empty() || pairs.back().first != first || pairs.back().second != second)
+      pairs.push_back({first, second, {}, 0, {}});
+    add_half(pairs.back(), half);
   }
-  std::vector<PairContact> result;
-  for (const auto& [key, pair] : pairs) result.push_back(pair);
-  return result;
+  return pairs;
 }
 
 } // namespace mpfem

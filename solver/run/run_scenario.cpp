@@ -147,7 +147,7 @@ private:
     if (options_.resume && resume()) return;
     if (must_begin_anew_) return;
     if (options_.from) {
-      begin_branch(*options_.from, simulation_);
+      begin_branch(*options_.from, simulation_, ranks());
       first_step_ = simulation_.state().step;
     }
     record_.from = from;
@@ -196,7 +196,7 @@ private:
     const bool rolling = path == checkpoint_path(options_.output);
     taken_up_ = true;
     record_ = {};
-    mpfem::resume(path, simulation_, record_);
+    mpfem::resume(path, simulation_, record_, ranks());
     if (options_.from && !record_.from.empty() && record_.from != identity_.from)
       throw InputError(fmt::format("{}: the run did not begin at {}; run without --resume to start again", path,
                                    one_line(*options_.from)));
@@ -376,12 +376,13 @@ private:
 
   void save_snapshot() {
     const auto start = Profile::Clock::now();
-    std::filesystem::create_directories(parts_folder(options_.output));
+    if (ranks().leads()) std::filesystem::create_directories(parts_folder(options_.output));
     const std::string name = snapshot_name(record_.snapshot_files.size());
     const RunState& state = simulation_.state();
     write_snapshot_file(snapshot_path(name),
                         {simulation_.model(), simulation_.contact(), simulation_.box(), simulation_.wall_friction(),
-                         simulation_.tools(), state.time, state.step, simulation_.relative_density()});
+                         simulation_.tools(), state.time, state.step, simulation_.relative_density()},
+                        ranks());
     record_.snapshot_files.push_back(name); // the name alone: a run may be resumed from another folder
     simulation_.profile().add_serial(Part::output, Profile::since(start));
   }
@@ -425,7 +426,7 @@ private:
   void save_checkpoint(const std::string& path) {
     RunRecord record = record_;
     add_times(record);
-    mpfem::save_checkpoint(path, simulation_, record);
+    mpfem::save_checkpoint(path, simulation_, record, ranks());
   }
 
   /// Adds this process's share of wall-clock time to what earlier parts of the run took.
@@ -441,6 +442,7 @@ private:
     Provenance provenance{scenario_.text,
                           status,
                           options_.threads,
+                          ranks().size(),
                           record.wall_time,
                           {},
                           {},
@@ -458,8 +460,10 @@ private:
     std::vector<std::string> snapshots;
     for (const std::string& name : record_.snapshot_files) snapshots.push_back(snapshot_path(name));
     const RunHistory history{record_.history, simulation_.tools(), record_.tool_history};
-    write_run_file(options_.output, simulation_.model(), history, snapshots, provenance);
+    write_run_file(options_.output, simulation_.model(), history, snapshots, provenance, ranks());
   }
+
+  const Communicator& ranks() const { return ranks_; }
 
   static std::string snapshot_name(std::size_t number) { return fmt::format("snapshot-{:04}.h5", number); }
   std::string snapshot_path(const std::string& name) const { return parts_folder(options_.output) + "/" + name; }
@@ -553,6 +557,7 @@ private:
 
   const Scenario& scenario_;
   const RunOptions& options_;
+  Communicator ranks_;
   ThreadTeam team_;
   Simulation simulation_;
   EnergyCheck energy_check_;

@@ -63,7 +63,7 @@ TEST_CASE("patch test: a linear displacement field gives one stress everywhere a
     }
     REQUIRE(element_forces(model, 0, step).admissible);
   }
-  const TetFields fields = tet_fields(model);
+  const TetFields fields = tet_fields(model, 0);
   if (law == HardeningLaw::power) REQUIRE(fields.plastic_strain[0] > 1e-4F); // the case really yields
   for (std::size_t t = 0; t < fields.von_mises.size(); ++t) {
     REQUIRE(within(static_cast<double>(fields.von_mises[t]), static_cast<double>(fields.von_mises[0]), 1e-6));
@@ -105,7 +105,7 @@ TEST_CASE("a full turn of a stressed grain in steps leaves its stress as it was"
   }
   REQUIRE(element_forces(model, 0, step).admissible);
   const AlignedVector<double> positions = model.position;
-  const TetFields before = tet_fields(model);
+  const TetFields before = tet_fields(model, 0);
   const double energy = elastic_energy(model, 0);
   REQUIRE(energy > 0);
 
@@ -127,7 +127,7 @@ TEST_CASE("a full turn of a stressed grain in steps leaves its stress as it was"
     REQUIRE(element_forces(model, 0, step).admissible);
   }
   CHECK(within(elastic_energy(model, 0), energy, 1e-10));
-  const TetFields after = tet_fields(model);
+  const TetFields after = tet_fields(model, 0);
   for (std::size_t t = 0; t < after.von_mises.size(); ++t)
     CHECK(std::abs(after.von_mises[t] - before.von_mises[t]) < 1e-5F * 20);
 }
