@@ -1,6 +1,7 @@
 #include "solver/output/numbering_hash.hpp"
 
 #include <algorithm>
+#include <cstring>
 
 #include "common/hash.hpp"
 #include "common/index.hpp"
@@ -27,11 +28,12 @@ std::uint64_t hash_at_leader(const Communicator& ranks, const Model& model, cons
 
 std::uint64_t numbering_hash(const Communicator& ranks, const Model& model) {
   const std::uint64_t of_nodes = hash_at_leader(ranks, model, model.file_node, model.node_offset, hash_seed);
-  const std::uint64_t hash = hash_at_leader(ranks, model, model.file_tet, model.tet_offset, of_nodes);
-  Bytes message;
-  append(message, hash);
+  std::uint64_t hash = hash_at_leader(ranks, model, model.file_tet, model.tet_offset, of_nodes);
+  Bytes message(sizeof hash);
+  std::memcpy(message.data(), &hash, sizeof hash);
   ranks.from_leader(message);
-  return MessageReader(message).take<std::uint64_t>();
+  std::memcpy(&hash, message.data(), sizeof hash);
+  return hash;
 }
 
 } // namespace mpfem

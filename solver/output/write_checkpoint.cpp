@@ -141,13 +141,12 @@ public:
 
   void write_candidates() {
     for_each_pair_array(contact_, [&](const auto& dataset, const auto& array) {
-      file_.write_grains(dataset, counts_.pairs, copy(array, &ContactPlace::pair));
+      write_array(dataset, counts_.pairs, array, &ContactPlace::pair);
     });
     for_each_point_array(contact_, [&](const auto& dataset, const auto& array) {
-      file_.write_grains(dataset, counts_.points, copy(array, &ContactPlace::point));
+      write_array(dataset, counts_.points, array, &ContactPlace::point);
     });
-    file_.write_grains(check::contact_candidate_facet, counts_.facets,
-                       copy(candidates_.point_facet, &ContactPlace::facet));
+    write_array(check::contact_candidate_facet, counts_.facets, candidates_.point_facet, &ContactPlace::facet);
     write_offsets(check::contact_pair_point_offset, counts_.pairs, counts_.points, candidates_.pair_point_offset,
                   &ContactPlace::pair, &ContactPlace::point);
     write_offsets(check::contact_point_facet_offset, counts_.points, counts_.facets, candidates_.point_facet_offset,
@@ -167,12 +166,13 @@ public:
   }
 
 private:
-  /// Copies a grain's part of an array of pairs, points or facets.
-  template <class Array>
-  auto copy(const Array& array, Index ContactPlace::*member) const {
-    return [this, &array, member](Index grain, auto values) {
+  /// Of each grain its part of an array of pairs, points or facets.
+  template <class T>
+  void write_array(const schema::Dataset<T, 1>& dataset, const Counts& counts, const std::vector<T>& array,
+                   Index ContactPlace::*member) {
+    file_.write_grains(dataset, counts, [&](Index grain, std::span<T> values) {
       std::copy_n(array.begin() + first_of(candidates_, grain).*member, values.size(), values.begin());
-    };
+    });
   }
   /// Calls set(k, point) for the points of a grain, k counted from its first.
   template <class Array, class Set>
