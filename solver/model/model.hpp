@@ -145,7 +145,7 @@ auto with_tet_numbers(const Model& model, F&& f) {
 }
 
 /// The mesh of one grain in a packing file.
-struct GrainMesh {
+struct PackedMesh {
   std::span<const double> node;      ///< [nodes * 3], mm
   std::span<const std::int32_t> tet; ///< [tets * 4], numbers of nodes in the file
   std::int32_t first_node = 0;       ///< in the file
@@ -185,7 +185,7 @@ struct MeshedPacking {
 
   int grains() const { return static_cast<int>(grain_node_offset.size()) - 1; }
   /// Of a grain that is here.
-  GrainMesh mesh_of(int grain) const;
+  PackedMesh mesh_of(int grain) const;
 };
 
 /// What tells a mesh from others, from the hash of its nodes and that of its tets chained to it (common/hash.hpp).

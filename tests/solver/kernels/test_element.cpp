@@ -104,7 +104,7 @@ TEST_CASE("a full turn of a stressed grain in steps leaves its stress as it was"
     for (std::size_t a = 0; a < 3; ++a) x[a] += step * v[a];
   }
   REQUIRE(element_forces(model, 0, step).admissible);
-  const AlignedVector<double> positions = model.position;
+  const LazyArray<double> positions = model.position;
   const TetFields before = tet_fields(model, 0);
   const double energy = elastic_energy(model, 0);
   REQUIRE(energy > 0);
@@ -188,7 +188,7 @@ TEST_CASE("the pressure of nodes or of patches is the gradient of its energy, wi
     x[0] += 0.03 * x[1] * x[1], x[1] -= 0.02 * x[0] * x[2], x[2] += 0.02 * x[2] * x[0];
   }
   REQUIRE(element_forces(model, 0, 1e-9).admissible); // velocities are zero: the deviator stays zero
-  const AlignedVector<double> force = model.force;
+  const LazyArray<double> force = model.force;
   double largest = 0;
   for (const double f : force) largest = std::max(largest, std::abs(f));
   constexpr double move = 1e-5; // of a radius: truncation 1e-10, rounding of the energy 1e-11
