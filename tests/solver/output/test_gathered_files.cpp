@@ -2,9 +2,12 @@
 // this test has as many ranks as that starts, otherwise one.
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <catch2/catch.hpp>
@@ -18,6 +21,7 @@
 #include "tests/support/folder.hpp"
 #include "tests/support/material_text.hpp"
 #include "tests/support/packing_file.hpp"
+#include "tests/support/tolerances.hpp"
 
 using namespace mpfem;
 using namespace mpfem::test;
@@ -456,6 +460,59 @@ TEST_CASE("all ranks see that a checkpoint is of another order of nodes, whoever
       std::swap(part.model.file_node[static_cast<std::size_t>(part.model.node_offset[7])],
                 part.model.file_node[static_cast<std::size_t>(part.model.node_offset[7]) + 1]);
   CHECK_THROWS_WITH(reader.check_model(part.model, test_ranks()), Catch::Contains("orders nodes and tets otherwise"));
+}
+
+TEST_CASE("the pressure at nodes and the forces of pairs are sums over all contact points") {
+  const Scene scene;
+  const Simulation& simulation = scene.simulation;
+  const Model& model = simulation.model();
+  const Contact& contact = simulation.contact();
+  std::vector<double> push(static_cast<std::size_t>(model.nodes()), 0.0); // N, along the inward normal
+  std::map<std::pair<Index, Index>, std::array<double, 3>> force;         // N, of the second on the first
+  const auto add = [&](Index node, double share, const ContactForce& point) {
+    for (std::size_t axis = 0; axis < 3; ++axis)
+      push[static_cast<std::size_t>(node)] -=
+          share * point.force[axis] * model.normal[4 * static_cast<std::size_t>(node) + axis];
+  };
+  for (std::size_t p = 0; p < contact.active.size(); ++p) {
+    const auto pair = static_cast<Index>(p);
+    const Index first = contact.candidates.pair_first[p], second = contact.candidates.pair_second[p];
+    for (const auto points : {contact.active_points(pair), contact.pulling_bonds(pair)})
+      for (const ContactForce& point : points) {
+        add(point.node, 1.0, point);
+        for (int c = 0; c < 3; ++c) add(point.facet_node[c], -point.weight(c), point);
+        for (std::size_t axis = 0; axis < 3; ++axis)
+          force[std::minmax(first, second)][axis] += (first < second ? 1 : -1) * point.force[axis];
+      }
+  }
+
+  const Folder folder;
+  write_snapshot_file(folder / "f.h5",
+                      {model, contact, simulation.box(), simulation.wall_friction(), simulation.tools(), 0, 0, 0.5});
+  const schema::FileReader file(folder / "f.h5");
+  const auto pressure = file.read(schema::run::snapshots_contact_pressure, "0000");
+  for (Index grain = 0; grain < model.grains; ++grain) {
+    const auto first = static_cast<std::size_t>(model.node_offset[static_cast<std::size_t>(grain)]);
+    const auto count = static_cast<std::size_t>(model.surface_node_count[static_cast<std::size_t>(grain)]);
+    for (std::size_t n = first; n < first + count; ++n) {
+      const double sum = push[n] + simulation.box().wall_force_on_node(model, n, grain) +
+                         simulation.tools().push_on_node(model, n, grain);
+      CHECK(pressure[static_cast<std::size_t>(model.file_node[n])] ==
+            static_cast<float>(sum / model.normal[4 * n + 3])); // every bit: in the order of pairs
+    }
+  }
+  const auto grains = file.read(schema::run::snapshots_pair_grains, "0000");
+  const auto of_pairs = file.read(schema::run::snapshots_pair_force, "0000");
+  REQUIRE(grains.size() == 2 * force.size());
+  std::size_t row = 0;
+  for (const auto& [pair, sum] : force) { // ascending, as in the file
+    CHECK(grains[2 * row] == pair.first);
+    CHECK(grains[2 * row + 1] == pair.second);
+    const double size = std::hypot(sum[0], sum[1], sum[2]);
+    for (std::size_t axis = 0; axis < 3; ++axis)
+      CHECK(std::abs(of_pairs[3 * row + axis] - sum[axis]) < accumulated_rounding * size);
+    ++row;
+  }
 }
 
 TEST_CASE("the two halves of a pair's contact add up on the owner of its first grain") {
