@@ -84,9 +84,9 @@ public:
   /// Replaces the state of nodes, tets and contact points of own grains: `contact` has the pairs whose first grain is
   /// an own one afterwards. No more than that is held, and no rank waits for another. Bonds keep the laws by which they
   /// formed; whether they resist sliding is said by `bond_parameters`, of the run that wrote the checkpoint; none where
-  /// no bond has formed. The last law in `contact` stays that of bonds to come. `grips`: of a stage that grips, its axis
-  /// set, or none. Friction that is on only now begins without anchors; anchors of friction that is off now are left
-  /// out.
+  /// no bond has formed. The last law in `contact` stays that of bonds to come. `grips`: of a stage that grips, its
+  /// axis set, or none. Friction that is on only now begins without anchors; anchors of friction that is off now are
+  /// left out.
   void take_arrays(Model& model, Contact& contact, WallFriction& wall_friction, Tools& tools, GrainSteps& grain_steps,
                    Grips* grips, const std::optional<BondParameters>& bond_parameters) const;
 
