@@ -17,7 +17,8 @@ void Grips::make_offsets(std::span<const std::int32_t> node_offset) {
 
 Grips grip_nodes(const Model& model, const Cell& cell, std::size_t axis, double depth, bool lateral_fixed) {
   Grips grips{.axis = axis, .lateral_fixed = lateral_fixed, .node = {}, .offset = {}};
-  for (std::size_t g = 0; g < static_cast<std::size_t>(model.grains); ++g) {
+  for (const std::int32_t grain : model.own()) {
+    const auto g = static_cast<std::size_t>(grain);
     for (std::int32_t node = model.node_offset[g]; node < model.node_offset[g + 1]; ++node) {
       const double* x = &model.position[4 * static_cast<std::size_t>(node)];
       const bool low = x[axis] - cell.low[axis] <= depth, high = cell.high[axis] - x[axis] <= depth;

@@ -23,14 +23,14 @@ struct GrippedNode {
 struct Grips {
   std::size_t axis = 2;
   bool lateral_fixed = true;
-  std::vector<GrippedNode> node;    ///< by grain
+  std::vector<GrippedNode> node;    ///< of own grains, by grain
   std::vector<std::int32_t> offset; ///< [grains + 1]
-  bool present() const { return !node.empty(); }
+  bool present() const { return !offset.empty(); }
   /// Sets `offset` from `node` and the grains' first nodes.
   void make_offsets(std::span<const std::int32_t> node_offset);
 };
 
-/// Nodes within `depth` (mm) of the two faces of the cell along an axis.
+/// Own nodes within `depth` (mm) of the two faces of the cell along an axis.
 Grips grip_nodes(const Model& model, const Cell& cell, std::size_t axis, double depth, bool lateral_fixed);
 
 /// Forces and work of grips on one grain.

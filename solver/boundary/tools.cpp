@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "common/errors.hpp"
+#include "solver/parallel/grain_values.hpp"
 
 namespace mpfem {
 
@@ -117,6 +118,10 @@ void Tools::add_forces(Model& model, const Bounds& bounds, double last_step, int
     of_grain_[slot(grain, tool)] = tools_[tool].away ? ToolLoad{} : add_tool(model, tool, bounds, last_step, grain);
 }
 
+void Tools::share_loads(const Communicator& ranks, const Ownership& ownership) {
+  share_of_grains(ranks, ownership, std::span(of_grain_), size());
+}
+
 double Tools::take_loads() {
   double work = 0;
   for (std::size_t index = 0; index < size(); ++index) {
@@ -180,7 +185,7 @@ double Tools::push_on_node(const Model& model, std::size_t node, int grain) cons
   return push;
 }
 
-double Tools::set_away(std::span<const std::size_t> away, const Model& model) {
+double Tools::set_away(std::span<const std::size_t> away, const Model& model, const Communicator& ranks) {
   double taken = 0;
   for (std::size_t index = 0; index < size(); ++index) {
     Tool& tool = tools_[index];
@@ -195,19 +200,20 @@ double Tools::set_away(std::span<const std::size_t> away, const Model& model) {
         bonds_[slot(grain, index)].clear();
       }
     }
-    if (!leaves && tool.away) come_back(tool, model);
+    if (!leaves && tool.away) come_back(tool, model, ranks);
     tool.away = leaves;
   }
   return taken;
 }
 
-void Tools::come_back(Tool& tool, const Model& model) const {
+void Tools::come_back(Tool& tool, const Model& model, const Communicator& ranks) const {
   double deepest = 0;
   with_surface(tool, [&](const auto& surface) {
-    for (int grain = 0; grain < grains_; ++grain)
+    for (const std::int32_t grain : model.own())
       for_each_node_behind(model, surface, grain,
                            [&](std::size_t, const auto& gap) { deepest = std::max(deepest, -gap.distance); });
   });
+  deepest = ranks.largest(deepest);
   if (deepest == 0) return;
   const auto* plane = std::get_if<OrientedPlane>(&tool.surface);
   if (plane == nullptr)

@@ -67,6 +67,8 @@ public:
   /// Adds the tools' forces on a grain to model.force. `bounds`: the present bounding box of the grain's surface;
   /// `last_step` in s. Different grains may be at work at once.
   void add_forces(Model& model, const Bounds& bounds, double last_step, int grain);
+  /// Collective. Brings what the tools bear of each grain to all ranks.
+  void share_loads(const Communicator& ranks, const Ownership& ownership);
   /// Adds up what the tools bear at this time level, in the order of grains. Returns their work (mJ) on the grains
   /// since the level before, by the trapezoidal rule.
   double take_loads();
@@ -84,10 +86,10 @@ public:
   double push_on_node(const Model& model, std::size_t node, int grain) const;
 
   // ---- tools that go and come
-  /// From now on these tools and no others are away, and bonds to them are cut. Returns the energy (mJ) that those
+  /// Collective. From now on these tools and no others are away, and bonds to them are cut. Returns the energy (mJ) that those
   /// which leave take along. Planes that come back stand where they touch no grain. Throws SimulationError where
   /// another tool comes back into grains.
-  double set_away(std::span<const std::size_t> away, const Model& model);
+  double set_away(std::span<const std::size_t> away, const Model& model, const Communicator& ranks);
   /// Name and depth (mm) of the tool that a surface node is deepest behind; none where it is behind none.
   std::optional<std::pair<std::string, double>> behind(const Model& model, std::size_t node) const;
 
@@ -108,7 +110,7 @@ public:
 private:
   std::size_t slot(int grain, std::size_t tool) const { return static_cast<std::size_t>(grain) * size() + tool; }
   ToolLoad add_tool(Model& model, std::size_t tool, const Bounds& bounds, double last_step, int grain);
-  void come_back(Tool& tool, const Model& model) const;
+  void come_back(Tool& tool, const Model& model, const Communicator& ranks) const;
 
   int grains_ = 0;
   std::vector<Tool> tools_;

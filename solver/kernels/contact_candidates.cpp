@@ -5,7 +5,6 @@
 #include <utility>
 
 #include "common/index.hpp"
-#include "solver/model/smooth_surface.hpp"
 
 namespace mpfem {
 
@@ -118,31 +117,101 @@ std::vector<PointFriction> carried_friction(const ContactCandidates& now, const 
   return carried;
 }
 
+/// Memory for the records of forces of all points.
+void make_room_for_forces(Contact& contact) {
+  const std::size_t points = contact.candidates.point_node.size(), pairs = contact.candidates.pair_first.size();
+  contact.force = {}; // before its successor: never both in memory
+  contact.force.resize(points);
+  contact.active.assign(pairs, 0);
+  if (!contact.bonding()) return;
+  contact.bond_force = {};
+  contact.bond_force.resize(points);
+  contact.pulling.assign(pairs, 0);
+}
+
+/// Candidates that are put together from pairs of others, and which old point each point was.
+struct CandidatesFromOld {
+  ContactCandidates candidates;
+  std::vector<std::int32_t> old_point; ///< [points]; -1: none
+
+  CandidatesFromOld() {
+    candidates.pair_point_offset.push_back(0);
+    candidates.point_facet_offset.push_back(0);
+  }
+  void append(const ContactCandidates& from, std::size_t pair, bool keeps_state) {
+    candidates.pair_first.push_back(from.pair_first[pair]);
+    candidates.pair_second.push_back(from.pair_second[pair]);
+    for (std::int32_t p = from.pair_point_offset[pair]; p < from.pair_point_offset[pair + 1]; ++p) {
+      candidates.point_node.push_back(from.point_node[at(p)]);
+      candidates.point_facet.insert(candidates.point_facet.end(),
+                                    from.point_facet.begin() + from.point_facet_offset[at(p)],
+                                    from.point_facet.begin() + from.point_facet_offset[at(p) + 1]);
+      candidates.point_facet_offset.push_back(static_cast<std::int32_t>(candidates.point_facet.size()));
+      old_point.push_back(keeps_state ? p : -1);
+    }
+    candidates.pair_point_offset.push_back(static_cast<std::int32_t>(candidates.point_node.size()));
+  }
+};
+
+template <class T>
+void carry_over(const std::vector<std::int32_t>& old_point, const T& fresh, std::vector<T>& values) {
+  std::vector<T> carried;
+  carried.reserve(old_point.size());
+  for (const std::int32_t old : old_point) carried.push_back(old >= 0 ? values[at(old)] : fresh);
+  values = std::move(carried);
+}
+
+/// Makes these the candidates of contact. Points keep the state that they had.
+void take_over(CandidatesFromOld&& now, int grains, Contact& contact) {
+  carry_over(now.old_point, std::int32_t{-1}, contact.point_facet);
+  carry_over(now.old_point, -1.0, contact.point_open_until);
+  carry_over(now.old_point, -1.0, contact.point_facet_until);
+  if (contact.bonding()) carry_over(now.old_point, PointBond{}, contact.bond);
+  if (contact.has_friction()) carry_over(now.old_point, PointFriction{}, contact.rubbing);
+  contact.candidates = std::move(now.candidates);
+  index_pairs(contact.candidates, grains);
+  make_room_for_forces(contact);
+}
+
 } // namespace
 
-void renew_candidates(const Model& model, double margin, ThreadTeam& team, Contact& contact) {
-  // The search looks for nodes. Contact points lie behind their nodes, and travel counts from where the points are now.
-  ContactCandidates candidates = find_contact_candidates(model.surface(), margin + max_contact_offset(model), team);
+void renew_candidates(const Model& model, const SearchRange& range, ThreadTeam& team, Contact& contact) {
+  ContactCandidates candidates = find_contact_candidates(model.surface(), range.reach, range.bounds, range.near, team);
   if (contact.bonding()) {
     BondedCandidates merged = keep_bonded_points(candidates, contact.candidates, contact.bond, model.grains);
     candidates = std::move(merged.candidates);
     contact.bond = std::move(merged.bond);
-    contact.bond_force = {};
-    contact.bond_force.resize(contact.bond.size());
-    contact.pulling.assign(candidates.pair_first.size(), 0);
   }
   if (contact.has_friction()) contact.rubbing = carried_friction(candidates, contact.candidates, contact.rubbing);
   contact.candidates = std::move(candidates);
-  contact.margin = margin;
+  contact.margin = range.margin;
   const std::size_t points = contact.candidates.point_node.size();
   contact.point_facet.assign(points, -1);
   contact.point_open_until.assign(points, -1.0);
   contact.point_facet_until.assign(points, -1.0);
-  contact.force = {}; // before its successor: never both in memory
-  contact.force.resize(points);
-  contact.active.assign(contact.candidates.pair_first.size(), 0);
+  make_room_for_forces(contact);
   if (contact.travel.empty()) contact.travel.assign(static_cast<std::size_t>(model.grains), 0.0);
   contact.travel_at_search = contact.travel;
+}
+
+void leave_own_pairs(const Model& model, Contact& contact) {
+  const ContactCandidates& all = contact.candidates;
+  CandidatesFromOld own;
+  for (std::size_t pair = 0; pair < all.pair_first.size(); ++pair)
+    if (model.ownership.owns(all.pair_first[pair])) own.append(all, pair, true);
+  take_over(std::move(own), model.grains, contact);
+}
+
+void add_pairs(const Model& model, const ContactCandidates& others, Contact& contact) {
+  CandidatesFromOld joined;
+  PairCursor own{contact.candidates}, other{others};
+  while (own.left() || other.left()) {
+    const bool is_own = own.grains() < other.grains();
+    PairCursor& next = is_own ? own : other;
+    joined.append(next.candidates, next.pair, is_own);
+    ++next.pair;
+  }
+  take_over(std::move(joined), model.grains, contact);
 }
 
 bool search_is_due(const Contact& contact) {

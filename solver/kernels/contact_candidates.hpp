@@ -1,15 +1,32 @@
 #pragma once
 // When candidates are searched anew, and what points keep then.
 
+#include <span>
+
 #include "solver/kernels/contact_state.hpp"
 #include "solver/model/model.hpp"
 
 namespace mpfem {
 
-/// Searches anew and resets the points' running state, apart from bonds. `margin` in mm.
-void renew_candidates(const Model& model, double margin, ThreadTeam& team, Contact& contact);
+/// Where a search looks.
+struct SearchRange {
+  double margin = 0;              ///< mm, up to which candidates hold: Contact::margin
+  double reach = 0;               ///< mm, of nodes and facets: contact points lie behind their nodes
+  std::span<const Bounds> bounds; ///< [grains], of the surfaces at present
+  const NearGrains& near;         ///< grains whose nodes are looked at, and the others near each
+};
+
+/// Searches anew and resets the points' running state, apart from bonds and friction. The pairs of `contact` must be
+/// those of grains in range.near.
+void renew_candidates(const Model& model, const SearchRange& range, ThreadTeam& team, Contact& contact);
 
 /// True when two nodes may have approached by more than the candidates' margin.
 bool search_is_due(const Contact& contact);
+
+/// Leaves the pairs whose first grain is the rank's own, with the state of their points.
+void leave_own_pairs(const Model& model, Contact& contact);
+
+/// Adds pairs whose first grain is another rank's, sorted as candidates are; their points begin without state.
+void add_pairs(const Model& model, const ContactCandidates& others, Contact& contact);
 
 } // namespace mpfem

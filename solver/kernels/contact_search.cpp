@@ -9,18 +9,20 @@
 #include "common/index.hpp"
 #include "solver/physics/gap.hpp"
 
-// Three sieves, each of which passes everything that could be near: boxes of grains swept along x, boxes of facets
+// Three sieves, each of which passes everything that could be near: boxes of grains in a grid, boxes of facets
 // against a grid of the other grain's nodes, and the exact distance. What a sieve passes needlessly only costs time.
 
 namespace mpfem {
 
 namespace {
 
-struct Box {
-  std::array<double, 3> low{std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity(),
-                            std::numeric_limits<double>::infinity()};
-  std::array<double, 3> high{-std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity(),
-                             -std::numeric_limits<double>::infinity()};
+struct Box : Bounds {
+  Box()
+      : Bounds{{std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity(),
+                std::numeric_limits<double>::infinity()},
+               {-std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity(),
+                -std::numeric_limits<double>::infinity()}} {}
+  explicit Box(const Bounds& bounds) : Bounds(bounds) {}
 
   void add(const double* x) {
     for (std::size_t k = 0; k < 3; ++k) low[k] = std::min(low[k], x[k]), high[k] = std::max(high[k], x[k]);
@@ -33,7 +35,7 @@ struct Box {
   bool contains(const double* x) const {
     return x[0] >= low[0] && x[0] <= high[0] && x[1] >= low[1] && x[1] <= high[1] && x[2] >= low[2] && x[2] <= high[2];
   }
-  bool meets(const Box& other) const {
+  bool meets(const Bounds& other) const {
     for (std::size_t k = 0; k < 3; ++k)
       if (low[k] > other.high[k] || high[k] < other.low[k]) return false;
     return true;
@@ -55,26 +57,73 @@ double safe(double margin) {
   return margin * (1 + 1e-9);
 }
 
-/// Grains whose boxes come within the margin, for every grain, ascending.
-std::vector<std::vector<std::int32_t>> near_grains(const std::vector<Box>& box, double margin) {
-  const auto grains = static_cast<std::int32_t>(box.size());
-  std::vector<std::int32_t> order(box.size());
-  for (std::int32_t g = 0; g < grains; ++g) order[at(g)] = g;
-  std::sort(order.begin(), order.end(), [&](std::int32_t a, std::int32_t b) {
-    return std::pair(box[at(a)].low[0], a) < std::pair(box[at(b)].low[0], b);
-  });
-  std::vector<std::vector<std::int32_t>> near(box.size());
-  for (std::size_t i = 0; i < order.size(); ++i) {
-    const Box grown = box[at(order[i])].grown(margin);
-    for (std::size_t j = i + 1; j < order.size() && box[at(order[j])].low[0] <= grown.high[0]; ++j)
-      if (grown.meets(box[at(order[j])])) {
-        near[at(order[i])].push_back(order[j]);
-        near[at(order[j])].push_back(order[i]);
-      }
+/// A grid of cells over all grains. A grain stands in every cell that its box meets.
+class GrainGrid {
+public:
+  explicit GrainGrid(std::span<const Bounds> bounds) : bounds_(bounds) {
+    Box all;
+    std::vector<double> extents;
+    for (const Bounds& box : bounds) {
+      all.add(box.low.data()), all.add(box.high.data());
+      const double extent = std::max({box.high[0] - box.low[0], box.high[1] - box.low[1], box.high[2] - box.low[2]});
+      extents.push_back(std::isfinite(extent) ? extent : 0.0);
+    }
+    const auto middle = extents.begin() + static_cast<std::ptrdiff_t>(extents.size() / 2);
+    std::nth_element(extents.begin(), middle, extents.end());
+    low_ = all.low;
+    // Cells as large as a usual grain; where grains have flown far apart larger ones, no more than some for each.
+    const double most = std::max(2.0, 2 * std::cbrt(static_cast<double>(bounds.size())));
+    for (std::size_t k = 0; k < 3; ++k) {
+      const double length = all.high[k] - all.low[k], wanted = length / *middle;
+      cells_[k] = wanted > 1 ? static_cast<int>(std::min(wanted, most)) : 1;
+      inverse_size_[k] = length > 0 ? cells_[k] / length : 0.0;
+    }
+    fill();
   }
-  for (auto& list : near) std::sort(list.begin(), list.end());
-  return near;
-}
+  /// Calls visit(grain) for every grain of the cells that a box meets; a grain may come more than once.
+  template <class Visit>
+  void in(const Bounds& box, Visit visit) const {
+    for_each_cell(box, [&](std::size_t cell) {
+      for (std::size_t i = offset_[cell]; i < offset_[cell + 1]; ++i) visit(grain_[i]);
+    });
+  }
+
+private:
+  /// The first cell for what is no number.
+  int coordinate(double x, std::size_t k) const {
+    const double place = (x - low_[k]) * inverse_size_[k];
+    return place > 0 ? static_cast<int>(std::min(place, static_cast<double>(cells_[k] - 1))) : 0;
+  }
+  template <class Visit>
+  void for_each_cell(const Bounds& box, Visit visit) const {
+    std::array<int, 3> from{}, to{};
+    for (std::size_t k = 0; k < 3; ++k) from[k] = coordinate(box.low[k], k), to[k] = coordinate(box.high[k], k);
+    for (int z = from[2]; z <= to[2]; ++z)
+      for (int y = from[1]; y <= to[1]; ++y)
+        for (int x = from[0]; x <= to[0]; ++x)
+          visit(static_cast<std::size_t>(x) +
+                static_cast<std::size_t>(cells_[0]) *
+                    (static_cast<std::size_t>(y) + static_cast<std::size_t>(cells_[1]) * static_cast<std::size_t>(z)));
+  }
+  void fill() {
+    offset_.assign(static_cast<std::size_t>(cells_[0]) * static_cast<std::size_t>(cells_[1]) *
+                           static_cast<std::size_t>(cells_[2]) +
+                       1,
+                   0);
+    for (const Bounds& box : bounds_) for_each_cell(box, [&](std::size_t cell) { ++offset_[cell + 1]; });
+    for (std::size_t cell = 1; cell < offset_.size(); ++cell) offset_[cell] += offset_[cell - 1];
+    grain_.resize(offset_.back());
+    std::vector<std::size_t> next(offset_.begin(), offset_.end() - 1);
+    for (std::size_t g = 0; g < bounds_.size(); ++g)
+      for_each_cell(bounds_[g], [&](std::size_t cell) { grain_[next[cell]++] = static_cast<std::int32_t>(g); });
+  }
+
+  std::span<const Bounds> bounds_;
+  std::array<double, 3> low_{}, inverse_size_{};
+  std::array<int, 3> cells_{1, 1, 1};
+  std::vector<std::size_t> offset_; ///< [cells + 1]
+  std::vector<std::int32_t> grain_;
+};
 
 /// Nodes of one grain inside a region, sorted into a grid of cells.
 struct NodeGrid {
@@ -129,10 +178,10 @@ struct NodeGrid {
 using NodeFacet = std::pair<std::int32_t, std::int32_t>;
 
 /// All combinations of the first grain's nodes with the second grain's facets within the margin, by node, then facet.
-void near_points(const SurfaceView& surface, std::int32_t first, std::int32_t second, const std::vector<Box>& box,
+void near_points(const SurfaceView& surface, std::int32_t first, std::int32_t second, std::span<const Bounds> bounds,
                  double margin, NodeGrid& grid, std::vector<NodeFacet>& found) {
   found.clear();
-  const Box reach = box[at(second)].grown(safe(margin)), own = box[at(first)].grown(safe(margin));
+  const Box reach = Box(bounds[at(second)]).grown(safe(margin)), own = Box(bounds[at(first)]).grown(safe(margin));
   grid.node.clear();
   grid.region = Box{};
   for (std::int32_t n = surface.node_offset[at(first)];
@@ -144,7 +193,7 @@ void near_points(const SurfaceView& surface, std::int32_t first, std::int32_t se
   if (grid.node.empty()) return;
 
   // Cells about as large as the boxes that are looked up: the mean facet box of the second grain.
-  const Box& other = box[at(second)];
+  const Bounds& other = bounds[at(second)];
   const auto facets = static_cast<double>(surface.facet_offset[at(second) + 1] - surface.facet_offset[at(second)]);
   const double extent =
       std::max({other.high[0] - other.low[0], other.high[1] - other.low[1], other.high[2] - other.low[2]});
@@ -186,16 +235,39 @@ void index_pairs(ContactCandidates& candidates, int grains) {
     candidates.incoming_pair[at(next[at(candidates.pair_second[p])]++)] = static_cast<std::int32_t>(p);
 }
 
+NearGrains find_near_grains(std::span<const Bounds> bounds, double margin, std::vector<std::int32_t> grains) {
+  const GrainGrid grid(bounds);
+  NearGrains near;
+  near.grain = std::move(grains);
+  for (const std::int32_t g : near.grain) {
+    std::vector<std::int32_t>& others = near.other.emplace_back();
+    const Box grown = Box(bounds[at(g)]).grown(safe(margin));
+    grid.in(grown, [&](std::int32_t other) {
+      if (other != g && grown.meets(bounds[at(other)])) others.push_back(other);
+    });
+    std::sort(others.begin(), others.end());
+    others.erase(std::unique(others.begin(), others.end()), others.end());
+  }
+  return near;
+}
+
 ContactCandidates find_contact_candidates(const SurfaceView& surface, double margin, ThreadTeam& team) {
-  const int grains = static_cast<int>(surface.node_offset.size()) - 1;
-  std::vector<Box> box(static_cast<std::size_t>(grains));
-  team.for_each(grains, [&](int g, int) {
+  const auto grains = static_cast<std::int32_t>(surface.node_offset.size()) - 1;
+  std::vector<Bounds> bounds(at(grains));
+  std::vector<std::int32_t> all(at(grains));
+  for (std::int32_t g = 0; g < grains; ++g) {
+    Box box;
     for (std::int32_t n = surface.node_offset[at(g)];
          n < surface.node_offset[at(g)] + surface.surface_node_count[at(g)]; ++n)
-      box[at(g)].add(node_row(surface, n));
-  });
-  const auto near = near_grains(box, safe(margin));
+      box.add(node_row(surface, n));
+    bounds[at(g)] = box;
+    all[at(g)] = g;
+  }
+  return find_contact_candidates(surface, margin, bounds, find_near_grains(bounds, margin, std::move(all)), team);
+}
 
+ContactCandidates find_contact_candidates(const SurfaceView& surface, double margin, std::span<const Bounds> bounds,
+                                          const NearGrains& near, ThreadTeam& team) {
   struct Found {
     std::int32_t second;
     std::vector<NodeFacet> points;
@@ -204,13 +276,13 @@ ContactCandidates find_contact_candidates(const SurfaceView& surface, double mar
     NodeGrid grid;
     std::vector<NodeFacet> points;
   };
-  std::vector<std::vector<Found>> found(static_cast<std::size_t>(grains));
+  std::vector<std::vector<Found>> found(near.grain.size());
   std::vector<Scratch> scratch(static_cast<std::size_t>(team.size()));
-  team.for_each(grains, [&](int g, int thread) {
+  team.for_each(static_cast<int>(near.grain.size()), [&](int i, int thread) {
     Scratch& own = scratch[at(thread)];
-    for (const std::int32_t other : near[at(g)]) {
-      near_points(surface, g, other, box, margin, own.grid, own.points);
-      if (!own.points.empty()) found[at(g)].push_back({other, own.points});
+    for (const std::int32_t other : near.other[at(i)]) {
+      near_points(surface, near.grain[at(i)], other, bounds, margin, own.grid, own.points);
+      if (!own.points.empty()) found[at(i)].push_back({other, own.points});
     }
   });
 
@@ -218,9 +290,9 @@ ContactCandidates find_contact_candidates(const SurfaceView& surface, double mar
   ContactCandidates result;
   result.pair_point_offset.push_back(0);
   result.point_facet_offset.push_back(0);
-  for (std::int32_t g = 0; g < grains; ++g)
-    for (const Found& pair : found[at(g)]) {
-      result.pair_first.push_back(g);
+  for (std::size_t first = 0; first < found.size(); ++first)
+    for (const Found& pair : found[first]) {
+      result.pair_first.push_back(near.grain[first]);
       result.pair_second.push_back(pair.second);
       for (std::size_t i = 0; i < pair.points.size(); ++i) {
         const auto [node, facet] = pair.points[i];
@@ -233,7 +305,7 @@ ContactCandidates find_contact_candidates(const SurfaceView& surface, double mar
       result.point_facet_offset.push_back(static_cast<std::int32_t>(result.point_facet.size()));
       result.pair_point_offset.push_back(static_cast<std::int32_t>(result.point_node.size()));
     }
-  index_pairs(result, grains);
+  index_pairs(result, static_cast<int>(surface.node_offset.size()) - 1);
   return result;
 }
 

@@ -2,6 +2,7 @@
 // Which surface nodes may touch which facets of other grains before the next search.
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "solver/kernels/thread_team.hpp"
@@ -29,6 +30,21 @@ struct ContactCandidates {
 /// distance is that to the closest point of the triangle, whichever side the node is on). The result does not depend
 /// on the number of threads. `margin` in mm.
 ContactCandidates find_contact_candidates(const SurfaceView& surface, double margin, ThreadTeam& team);
+
+/// Grains and the other grains that lie near each of them.
+struct NearGrains {
+  std::vector<std::int32_t> grain;              ///< ascending
+  std::vector<std::vector<std::int32_t>> other; ///< of each: ascending
+};
+
+/// The grains that come within the margin of some grains by their bounding boxes; a few more may be among them.
+/// `bounds` [grains of the packing].
+NearGrains find_near_grains(std::span<const Bounds> bounds, double margin, std::vector<std::int32_t> grains);
+
+/// The same as above for pairs whose first grain and second grain are near.grain and among near.other; looks at no
+/// other surfaces. `bounds` [grains of the packing] of the surfaces at present.
+ContactCandidates find_contact_candidates(const SurfaceView& surface, double margin, std::span<const Bounds> bounds,
+                                          const NearGrains& near, ThreadTeam& team);
 
 /// Makes outgoing_offset, incoming_offset and incoming_pair from pair_first and pair_second.
 void index_pairs(ContactCandidates& candidates, int grains);

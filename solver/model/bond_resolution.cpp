@@ -10,7 +10,7 @@
 namespace mpfem {
 
 BondResolution bond_resolution(const Model& model, const BondParameters& bond, const ContactParameters& contact,
-                               BondPartner partner) {
+                               BondPartner partner, const Communicator& ranks) {
   // The softest grains: cohesive zones are shortest there.
   const auto softest = std::min_element(model.material.begin(), model.material.end(), [](const auto& a, const auto& b) {
     return a.moduli.youngs() < b.moduli.youngs();
@@ -21,17 +21,20 @@ BondResolution bond_resolution(const Model& model, const BondParameters& bond, c
       bond.normal_only ? bond.tensile_strength : std::max(bond.tensile_strength, bond.shear_strength);
   // Two grains' penalties act as their harmonic mean, at least the softest's; a tool's is that of the grain.
   const BondLaw law = law_of_bonds(bond, contact);
-  double stiffness = std::numeric_limits<double>::infinity();
-  for (std::size_t g = 0; g < model.penalty_stiffness.size(); ++g) {
+  double stiffness = std::numeric_limits<double>::infinity(), finest = model.refinement.empty() ? 1.0 : 0.0;
+  for (const std::int32_t grain : model.own()) {
+    const auto g = static_cast<std::size_t>(grain);
     const auto first = static_cast<std::size_t>(model.node_offset[g]);
-    for (std::size_t n = first; n < first + static_cast<std::size_t>(model.surface_node_count[g]); ++n)
+    for (std::size_t n = first; n < first + static_cast<std::size_t>(model.surface_node_count[g]); ++n) {
       stiffness =
           std::min(stiffness, law_at_point(law, model.penalty_stiffness[g] * model.local_stiffness(n)).stiffness);
+      if (!model.refinement.empty()) finest = std::max(finest, model.refinement[n]);
+    }
   }
+  stiffness = -ranks.largest(-stiffness);
+  finest = ranks.largest(finest);
   BondResolution result;
   // Where grains are locally refined, bonds are taken to be where the elements are smallest.
-  const double finest =
-      model.refinement.empty() ? 1.0 : *std::max_element(model.refinement.begin(), model.refinement.end());
   result.element_size = *std::max_element(model.element_size.begin(), model.element_size.end()) / finest;
   result.cohesive_zone = 0.34 * 2 * reduced * bond.fracture_energy / (bond.tensile_strength * bond.tensile_strength);
   result.smallest_fracture_energy = 0.5 * strength * strength / stiffness;
@@ -42,12 +45,14 @@ BondResolution bond_resolution(const Model& model, const BondParameters& bond, c
 namespace {
 
 /// MPa/mm, of the contact points of all grains.
-double smallest_penalty(const Model& model) {
+double smallest_penalty(const Model& model, const Communicator& ranks) {
   double smallest = std::numeric_limits<double>::infinity();
-  for (std::size_t g = 0; g < static_cast<std::size_t>(model.grains); ++g)
+  for (const std::int32_t grain : model.own()) {
+    const auto g = static_cast<std::size_t>(grain);
     for (auto n = model.node_offset[g]; n < model.node_offset[g] + model.surface_node_count[g]; ++n)
       smallest = std::min(smallest, model.penalty_stiffness[g] * model.local_stiffness(static_cast<std::size_t>(n)));
-  return smallest;
+  }
+  return -ranks.largest(-smallest);
 }
 
 /// Bonds of one kind in a scenario.
@@ -65,14 +70,14 @@ struct BondsOfScenario {
 };
 
 void check(const Model& model, const ContactParameters& contact, const BondsOfScenario& bonds,
-           std::vector<std::string>& warnings) {
+           const Communicator& ranks, std::vector<std::string>& warnings) {
   if (const auto stiffness = bonds.bond.stiffness; stiffness && bonds.rub)
-    if (const double allowed = smallest_penalty(model); *stiffness > allowed)
+    if (const double allowed = smallest_penalty(model, ranks); *stiffness > allowed)
       bonds.refuse("stiffness",
                    fmt::format("found {:g} MPa/mm, with friction allowed up to {:.3g} MPa/mm, the smallest "
                                "penalty of a contact point",
                                *stiffness, allowed));
-  const BondResolution r = bond_resolution(model, bonds.bond, contact, bonds.partner);
+  const BondResolution r = bond_resolution(model, bonds.bond, contact, bonds.partner, ranks);
   const double energy = bonds.bond.fracture_energy;
   if (!(energy > 1.01 * r.smallest_fracture_energy))
     bonds.refuse("fracture_energy",
@@ -92,19 +97,19 @@ void check(const Model& model, const ContactParameters& contact, const BondsOfSc
 
 } // namespace
 
-std::vector<std::string> check_bonds(const Model& model, const Scenario& scenario) {
+std::vector<std::string> check_bonds(const Model& model, const Scenario& scenario, const Communicator& ranks) {
   std::vector<std::string> warnings;
   if (scenario.bond)
     check(
         model, scenario.contact,
         {*scenario.bond, scenario.bond_places, BondPartner::grain, "[bond]", "bonds", scenario.contact.has_friction()},
-        warnings);
+        ranks, warnings);
   for (const ToolParameters& tool : scenario.tools)
     if (tool.adhesion)
       check(model, scenario.contact,
             {*tool.adhesion, tool.adhesion_places, BondPartner::tool, fmt::format("tool '{}': adhesion", tool.name),
              fmt::format("bonds to tool '{}'", tool.name), tool.friction > 0},
-            warnings);
+            ranks, warnings);
   return warnings;
 }
 

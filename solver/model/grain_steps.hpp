@@ -3,14 +3,16 @@
 
 #include <vector>
 
+#include "solver/model/lazy_array.hpp"
+
 namespace mpfem {
 
 /// Grains when the largest frequency of each was last found, and how much that may have grown since; [grains] but for
-/// one.
+/// one. Set for the rank's own grains.
 struct GrainSteps {
-  std::vector<double> whole;   ///< s, stable step
-  std::vector<double> growth;  ///< factor by which single tets' frequencies squared have grown since, at most
-  std::vector<double> contact; ///< 1/s^2, [nodes]: share of contact in the frequency squared, then
+  std::vector<double> whole;  ///< s, stable step
+  std::vector<double> growth; ///< factor by which single tets' frequencies squared have grown since, at most
+  LazyArray<double> contact;  ///< 1/s^2, [nodes]: share of contact in the frequency squared, then
 };
 
 } // namespace mpfem

@@ -40,8 +40,10 @@ public:
     return *this;
   }
   ~LazyArray() {
-    if (mapped()) munmap(data_, bytes());
-    else std::free(data_);
+    if (mapped())
+      munmap(data_, bytes());
+    else
+      std::free(data_);
   }
 
   std::size_t size() const { return size_; }

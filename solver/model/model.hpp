@@ -43,17 +43,18 @@ struct Model {
   LazyArray<std::int32_t> file_node;            ///< [nodes]: index in the packing file
   LazyArray<std::int32_t> file_tet;             ///< [tets]: index in the packing file, in block order
 
-  LazyArray<double> position;     ///< mm
-  LazyArray<double> velocity;     ///< mm/s, at the half step before the position
-  LazyArray<double> force;        ///< N, internal and contact forces at the position
-  LazyArray<double> normal;       ///< unit outward normal of surface nodes and, fourth, tributary area mm^2
+  LazyArray<double> position;       ///< mm
+  LazyArray<double> velocity;       ///< mm/s, at the half step before the position
+  LazyArray<double> force;          ///< N, internal and contact forces at the position
+  LazyArray<double> normal;         ///< unit outward normal of surface nodes and, fourth, tributary area mm^2
   LazyArray<double> reference_area; ///< [nodes]: tributary area of surface nodes at the start, mm^2
-  LazyArray<double> inverse_mass; ///< [nodes], 1/tonne
+  LazyArray<double> inverse_mass;   ///< [nodes], 1/tonne
   TetBlocks blocks;
   LazyArray<double> inverse_nodal_volume; ///< [nodes], 1/mm^3, of the reference state; tet4_anp only
   LazyArray<double> nodal_mean;           ///< [nodes], MPa: scratch of the element pass; tet4_anp only
-  std::vector<std::int32_t> patch_offset;   ///< [grains + 1]; tet4_patch only
-  LazyArray<double> inverse_patch_volume; ///< [patches], 1/mm^3, of the reference state: eight tets that follow each other
+  std::vector<std::int32_t> patch_offset; ///< [grains + 1]; tet4_patch only
+  LazyArray<double>
+      inverse_patch_volume; ///< [patches], 1/mm^3, of the reference state: eight tets that follow each other
 
   std::vector<double> reference_volume;  ///< [grains], mm^3
   std::vector<double> mass;              ///< [grains], tonne (scaled)
@@ -64,11 +65,12 @@ struct Model {
   std::vector<double> penalty_stiffness; ///< [grains], K = factor E / h, MPa/mm
   bool uniform_penalty = false;          ///< K was given, and is the same wherever the mesh is refined
   LazyArray<double> refinement; ///< [nodes]: h of the grain over that of the surface node's facets; empty where
-                                  ///< no grain is locally refined
-  LazyArray<std::int32_t> inner_node; ///< [nodes]: towards which a surface node's contact point lies; empty where contact
-                              ///< takes the nodes themselves (solver/model/smooth_surface.hpp)
+                                ///< no grain is locally refined
+  LazyArray<std::int32_t>
+      inner_node;           ///< [nodes]: towards which a surface node's contact point lies; empty where contact
+                            ///< takes the nodes themselves (solver/model/smooth_surface.hpp)
   LazyArray<double> inward; ///< [nodes]: the inner node's share in the contact point
-  int smooth_grains = 0;      ///< number of grains that touch by their smooth surface
+  int smooth_grains = 0;    ///< number of grains that touch by their smooth surface
 
   std::array<double, 3> box_low{}; ///< mm, at the start
   std::array<double, 3> box_high{};

@@ -97,8 +97,7 @@ std::vector<char> smooth_grains(const Model& model, const MeshedPacking& packing
   for (const std::int32_t grain : model.own()) {
     const auto g = static_cast<std::size_t>(grain);
     const double* center = &packing.sphere_center[3 * g];
-    smooth[g] =
-        is_sphere_of_that_volume(model, g, {center[0], center[1], center[2]}, packing.sphere_radius[g]) ? 1 : 0;
+    smooth[g] = is_sphere_of_that_volume(model, g, {center[0], center[1], center[2]}, packing.sphere_radius[g]) ? 1 : 0;
   }
   share_of_grains(ranks, model.ownership, std::span(smooth));
   return smooth;

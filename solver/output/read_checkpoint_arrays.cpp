@@ -118,7 +118,7 @@ void ArrayReader::take_nodes(Model& model, GrainSteps& steps) const {
   for_each_node_array(model, [&](const auto& dataset, LazyArray<double>& array) {
     read_own(dataset, model.node_offset, copy_to(array, 4));
   });
-  steps.contact = decltype(steps.contact)(at(model.nodes()));
+  steps.contact = LazyArray<double>(at(model.nodes()), model.pages());
   read_own(check::node_step_contact, model.node_offset, copy_to(steps.contact, 1));
 }
 

@@ -41,7 +41,8 @@ public:
   /// Collective. What every rank has, by rank.
   std::vector<Bytes> all_of(std::span<const std::byte> own) const;
   /// Collective. The same where the number of bytes of every rank is known: `all` holds them one after another.
-  void all_of(std::span<const std::byte> own, std::span<const std::size_t> bytes_of_rank, std::span<std::byte> all) const;
+  void all_of(std::span<const std::byte> own, std::span<const std::size_t> bytes_of_rank,
+              std::span<std::byte> all) const;
   /// Collective. `to` holds what goes to each rank; returns what came from each.
   std::vector<Bytes> exchange(const std::vector<Bytes>& to) const;
   /// Collective. The largest of all ranks' numbers; none may be NaN.

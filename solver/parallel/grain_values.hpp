@@ -12,23 +12,30 @@
 
 namespace mpfem {
 
-/// Collective. `values` ([grains]) is set for the rank's own grains; afterwards it is set for all.
+/// Collective. `values` ([grains * width]) is set for the rank's own grains; afterwards it is set for all.
 template <class T>
-void share_of_grains(const Communicator& ranks, const Ownership& ownership, std::span<T> values) {
+void share_of_grains(const Communicator& ranks, const Ownership& ownership, std::span<T> values,
+                     std::size_t width = 1) {
   static_assert(std::is_trivially_copyable_v<T>);
-  if (ranks.alone()) return;
+  if (ranks.alone() || width == 0) return;
   std::vector<T> own;
-  own.reserve(ownership.own.size());
-  for (const std::int32_t g : ownership.own) own.push_back(values[at(g)]);
+  own.reserve(width * ownership.own.size());
+  for (const std::int32_t g : ownership.own)
+    own.insert(own.end(), values.begin() + static_cast<std::ptrdiff_t>(width * at(g)),
+               values.begin() + static_cast<std::ptrdiff_t>(width * at(g) + width));
   std::vector<std::size_t> first(static_cast<std::size_t>(ranks.size()) + 1, 0), bytes(first.size() - 1);
-  for (const std::int32_t owner : ownership.owner) ++first[at(owner) + 1];
+  for (const std::int32_t owner : ownership.owner) first[at(owner) + 1] += width;
   for (std::size_t rank = 0; rank < bytes.size(); ++rank) {
     bytes[rank] = first[rank + 1] * sizeof(T);
     first[rank + 1] += first[rank];
   }
   std::vector<T> all(values.size());
   ranks.all_of(std::as_bytes(std::span<const T>(own)), bytes, std::as_writable_bytes(std::span<T>(all)));
-  for (std::size_t g = 0; g < values.size(); ++g) values[g] = all[first[at(ownership.owner[g])]++];
+  for (std::size_t g = 0; g < ownership.owner.size(); ++g) {
+    std::size_t& from = first[at(ownership.owner[g])];
+    std::copy_n(all.data() + from, width, values.data() + width * g);
+    from += width;
+  }
 }
 
 /// Collective. Brings `counts[g]` values of each grain to the first rank, in the order of grains and a few megabytes at

@@ -2,10 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include <fmt/format.h>
 
 #include "common/errors.hpp"
+#include "solver/parallel/agree.hpp"
+#include "solver/parallel/grain_values.hpp"
 
 namespace mpfem {
 
@@ -13,14 +16,15 @@ namespace {
 
 using Vector = std::array<double, 3>;
 
-/// Sets the velocity of one grain: that of its centre of mass and a spin about it. Adds its kinetic energy (mJ).
-void set_velocity(Model& model, std::size_t grain, const Vector& linear, const Vector& spin, double& energy) {
+/// Sets the velocity of one grain: that of its centre of mass and a spin about it. Returns its kinetic energy (mJ).
+double set_velocity(Model& model, std::size_t grain, const Vector& linear, const Vector& spin) {
   const auto first = static_cast<std::size_t>(model.node_offset[grain]),
              end = static_cast<std::size_t>(model.node_offset[grain + 1]);
   Vector centre{};
   for (std::size_t n = first; n < end; ++n)
     for (std::size_t axis = 0; axis < 3; ++axis)
       centre[axis] += model.position[4 * n + axis] / (model.inverse_mass[n] * model.mass[grain]);
+  double energy = 0;
   for (std::size_t n = first; n < end; ++n) {
     const double* x = &model.position[4 * n];
     const double r[3] = {x[0] - centre[0], x[1] - centre[1], x[2] - centre[2]};
@@ -30,6 +34,7 @@ void set_velocity(Model& model, std::size_t grain, const Vector& linear, const V
     v[2] = linear[2] + spin[0] * r[1] - spin[1] * r[0];
     for (int axis = 0; axis < 3; ++axis) energy += 0.5 * v[axis] * v[axis] / model.inverse_mass[n];
   }
+  return energy;
 }
 
 [[noreturn]] void refuse_overlap(const std::string& packing_file, const std::string& what) {
@@ -64,44 +69,69 @@ void check_overlap(Model& model, Contact& contact, int grain, const std::string&
                                                grain, c.pair_second[static_cast<std::size_t>(pair)], deepest));
 }
 
+void check_within_walls(const Box& box, const Bounds& b, std::int32_t grain, const std::string& packing_file) {
+  constexpr double rounding = 1e-9; // mm
+  const Cell& cell = box.cell();
+  for (std::size_t axis = 0; axis < 3; ++axis)
+    if (box.has_walls(axis) && (b.low[axis] < cell.low[axis] - rounding || b.high[axis] > cell.high[axis] + rounding))
+      throw InputError(
+          fmt::format("{}: grain {} spans {:.6g} … {:.6g} mm along axis {}, allowed within the box {:.6g} … {:.6g}",
+                      packing_file, grain, b.low[axis], b.high[axis], axis, cell.low[axis], cell.high[axis]));
+}
+
+/// Collective. Calls check(grain) for all own grains; all ranks throw what the lowest grain that fails throws.
+template <class Check>
+void for_own_grains(const Model& model, const Communicator& ranks, Check&& check) {
+  std::int32_t present = 0;
+  agree(
+      ranks,
+      [&] {
+        for (const std::int32_t grain : model.own()) {
+          present = grain;
+          check(grain);
+        }
+      },
+      [&] { return static_cast<double>(present); });
+}
+
 } // namespace
 
-double set_initial_velocities(Model& model, const Scenario& scenario) {
+double set_initial_velocities(Model& model, const Scenario& scenario, const Communicator& ranks) {
   const auto grains = static_cast<std::size_t>(model.grains);
   for (const auto* list : {&scenario.grain_velocity, &scenario.grain_angular_velocity})
     if (!list->empty() && list->size() != grains)
       throw InputError(fmt::format("{}: key 'initial': found {} rows for {} grains, allowed one row a grain",
                                    scenario.packing_file, list->size(), grains));
-  double energy = 0;
-  for (std::size_t g = 0; g < grains; ++g)
-    set_velocity(model, g, scenario.grain_velocity.empty() ? scenario.initial_velocity : scenario.grain_velocity[g],
-                 scenario.grain_angular_velocity.empty() ? Vector{} : scenario.grain_angular_velocity[g], energy);
-  return energy;
+  std::vector<double> energy(grains, 0.0);
+  for (const std::int32_t grain : model.own()) {
+    const auto g = static_cast<std::size_t>(grain);
+    energy[g] =
+        set_velocity(model, g, scenario.grain_velocity.empty() ? scenario.initial_velocity : scenario.grain_velocity[g],
+                     scenario.grain_angular_velocity.empty() ? Vector{} : scenario.grain_angular_velocity[g]);
+  }
+  share_of_grains(ranks, model.ownership, std::span(energy));
+  return std::accumulate(energy.begin(), energy.end(), 0.0);
 }
 
 void check_apart(Model& model, Contact& contact, const Box& box, const std::vector<Bounds>& bounds,
-                 const std::string& packing_file) {
-  constexpr double rounding = 1e-9; // mm
-  const Cell& cell = box.cell();
-  for (int grain = 0; grain < model.grains; ++grain) {
+                 const std::string& packing_file, const Communicator& ranks) {
+  for_own_grains(model, ranks, [&](std::int32_t grain) {
     check_overlap(model, contact, grain, packing_file);
-    const Bounds& b = bounds[static_cast<std::size_t>(grain)];
-    for (std::size_t axis = 0; axis < 3; ++axis)
-      if (box.has_walls(axis) && (b.low[axis] < cell.low[axis] - rounding || b.high[axis] > cell.high[axis] + rounding))
-        throw InputError(
-            fmt::format("{}: grain {} spans {:.6g} … {:.6g} mm along axis {}, allowed within the box {:.6g} … {:.6g}",
-                        packing_file, grain, b.low[axis], b.high[axis], axis, cell.low[axis], cell.high[axis]));
-  }
+    check_within_walls(box, bounds[static_cast<std::size_t>(grain)], grain, packing_file);
+  });
 }
 
-void check_clear_of_tools(const Model& model, const Tools& tools, const std::string& packing_file) {
+void check_clear_of_tools(const Model& model, const Tools& tools, const std::string& packing_file,
+                          const Communicator& ranks) {
   constexpr double rounding = 1e-9; // mm
-  for (std::size_t g = 0; g < static_cast<std::size_t>(model.grains); ++g)
+  for_own_grains(model, ranks, [&](std::int32_t grain) {
+    const auto g = static_cast<std::size_t>(grain);
     for (std::int32_t n = model.node_offset[g]; n < model.node_offset[g] + model.surface_node_count[g]; ++n)
       if (const auto found = tools.behind(model, static_cast<std::size_t>(n)); found && found->second > rounding)
         throw InputError(fmt::format("{}: grain {} reaches {:.4g} mm into the tool '{}' at the start, allowed no "
                                      "overlap: move the tool, or pack with a larger smallest_gap",
                                      packing_file, g, found->second, found->first));
+  });
 }
 
 } // namespace mpfem

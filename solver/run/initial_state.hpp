@@ -11,16 +11,17 @@
 
 namespace mpfem {
 
-/// Gives all grains the scenario's initial velocities. Returns their kinetic energy, mJ. Throws InputError where there
+/// Collective. Gives all grains the scenario's initial velocities. Returns their kinetic energy, mJ. Throws InputError where there
 /// is not one velocity for each grain.
-double set_initial_velocities(Model& model, const Scenario& scenario);
+double set_initial_velocities(Model& model, const Scenario& scenario, const Communicator& ranks);
 
-/// Throws InputError where two grains overlap or a grain reaches through a wall. Evaluates contact forces, which are
+/// Collective. Throws InputError where two grains overlap or a grain reaches through a wall. Evaluates contact forces, which are
 /// left in the model.
 void check_apart(Model& model, Contact& contact, const Box& box, const std::vector<Bounds>& bounds,
-                 const std::string& packing_file);
+                 const std::string& packing_file, const Communicator& ranks);
 
-/// Throws InputError where a grain reaches into a tool.
-void check_clear_of_tools(const Model& model, const Tools& tools, const std::string& packing_file);
+/// Collective. Throws InputError where a grain reaches into a tool.
+void check_clear_of_tools(const Model& model, const Tools& tools, const std::string& packing_file,
+                          const Communicator& ranks);
 
 } // namespace mpfem

@@ -4,6 +4,9 @@
 #include <cmath>
 #include <set>
 
+#include "common/index.hpp"
+#include "solver/parallel/grain_values.hpp"
+
 namespace mpfem {
 
 namespace {
@@ -14,24 +17,54 @@ struct GrainObservation {
   double volume = 0;                         ///< mm^3, current
   double surface_area = 0, contact_area = 0; ///< mm^2
   MassMoments mass;                          ///< about the cell's centre
+  std::int32_t touched = 0;                  ///< grains of larger number that it touches
 };
 
 std::array<double, 3> centre_of(const Cell& cell) {
   return {cell.centre(0), cell.centre(1), cell.centre(2)};
 }
 
-std::vector<GrainObservation> observe_grains(const Model& model, const Contact& contact, const Cell& cell,
-                                             double step_mean, ThreadTeam& team) {
-  std::vector<GrainObservation> grains(static_cast<std::size_t>(model.grains));
-  team.for_each(model.grains, [&](int grain, int) {
-    grains[static_cast<std::size_t>(grain)] = {.kinetic = kinetic_energy(model, grain, step_mean),
-                                               .elastic = elastic_energy(model, grain),
-                                               .volume = current_volume(model, grain),
-                                               .surface_area = surface_area(model, grain),
-                                               .contact_area = contact_area(model, contact, grain),
-                                               .mass = mass_moments(model, centre_of(cell), grain)};
+/// How many grains of larger number a grain touches, with points of either.
+std::int32_t touched_later_grains(const Contact& contact, std::int32_t grain) {
+  const ContactCandidates& c = contact.candidates;
+  const auto g = static_cast<std::size_t>(grain);
+  std::set<std::int32_t> touched;
+  const auto look = [&](std::int32_t pair, const std::vector<std::int32_t>& other) {
+    const auto p = static_cast<std::size_t>(pair);
+    if (contact.active[p] > 0 && other[p] > grain) touched.insert(other[p]);
+  };
+  for (std::int32_t pair = c.outgoing_offset[g]; pair < c.outgoing_offset[g + 1]; ++pair) look(pair, c.pair_second);
+  for (std::int32_t i = c.incoming_offset[g]; i < c.incoming_offset[g + 1]; ++i)
+    look(c.incoming_pair[static_cast<std::size_t>(i)], c.pair_first);
+  return static_cast<std::int32_t>(touched.size());
+}
+
+/// Calls observe(grain) for own grains and brings what it returns to all ranks, [grains].
+template <class Observe>
+auto of_all_grains(const Simulation& simulation, ThreadTeam& team, Observe&& observe) {
+  const Model& model = simulation.model();
+  std::vector<decltype(observe(0))> values(static_cast<std::size_t>(model.grains));
+  team.for_each(static_cast<int>(model.own().size()), [&](int item, int) {
+    const std::int32_t grain = model.own()[static_cast<std::size_t>(item)];
+    values[static_cast<std::size_t>(grain)] = observe(grain);
   });
-  return grains;
+  share_of_grains(simulation.ranks(), model.ownership, std::span(values));
+  return values;
+}
+
+std::vector<GrainObservation> observe_grains(const Simulation& simulation, double step_mean, ThreadTeam& team) {
+  const Model& model = simulation.model();
+  const Contact& contact = simulation.contact();
+  const std::array<double, 3> centre = centre_of(simulation.box().cell());
+  return of_all_grains(simulation, team, [&](std::int32_t grain) {
+    return GrainObservation{.kinetic = kinetic_energy(model, grain, step_mean),
+                            .elastic = elastic_energy(model, grain),
+                            .volume = current_volume(model, grain),
+                            .surface_area = surface_area(model, grain),
+                            .contact_area = contact_area(model, contact, grain),
+                            .mass = mass_moments(model, centre, grain),
+                            .touched = touched_later_grains(contact, grain)};
+  });
 }
 
 /// Standard deviation (mm) of all mass along each axis.
@@ -52,12 +85,10 @@ std::array<double, 3> mass_spread(std::span<const GrainObservation> grains) {
   return spread;
 }
 
-double coordination_number(const Model& model, const Contact& contact) {
-  std::set<std::pair<std::int32_t, std::int32_t>> touching;
-  const ContactCandidates& c = contact.candidates;
-  for (std::size_t p = 0; p < c.pair_first.size(); ++p)
-    if (contact.active[p] > 0) touching.insert(std::minmax(c.pair_first[p], c.pair_second[p]));
-  return 2.0 * static_cast<double>(touching.size()) / static_cast<double>(static_cast<std::size_t>(model.grains));
+double coordination_number(std::span<const GrainObservation> grains) {
+  std::int64_t touching = 0;
+  for (const GrainObservation& grain : grains) touching += grain.touched;
+  return 2.0 * static_cast<double>(touching) / static_cast<double>(grains.size());
 }
 
 /// Stresses and strains of the box.
@@ -91,23 +122,29 @@ void take_over_sums(HistoryRow& row, const EnergyLedger& energies) {
 
 } // namespace
 
-BondSums total_bonds(const Model& model, const Contact& contact, ThreadTeam& team) {
+BondSums total_bonds(const Simulation& simulation, ThreadTeam& team) {
+  const Contact& contact = simulation.contact();
   if (!contact.bonding()) return {};
-  const auto pairs = static_cast<int>(contact.candidates.pair_first.size());
-  std::vector<BondSums> sums(static_cast<std::size_t>(pairs));
-  team.for_each(pairs, [&](int pair, int) { sums[static_cast<std::size_t>(pair)] = bond_sums(model, contact, pair); });
+  const ContactCandidates& candidates = contact.candidates;
   BondSums total;
-  for (const BondSums& pair : sums) total.add(pair);
+  for (const BondSums& grain : of_all_grains(simulation, team, [&](std::int32_t g) {
+         BondSums sums;
+         for (std::int32_t pair = candidates.outgoing_offset[at(g)]; pair < candidates.outgoing_offset[at(g) + 1];
+              ++pair)
+           sums.add(bond_sums(simulation.model(), contact, pair));
+         return sums;
+       }))
+    total.add(grain);
   return total;
 }
 
-HistoryRow observe_row(const Simulation& simulation, std::span<const GrainSums> sums, ThreadTeam& team) {
+HistoryRow observe_row(const Simulation& simulation, std::span<const ForceSums> sums, ThreadTeam& team) {
   const Model& model = simulation.model();
   const RunState& state = simulation.state();
   const double next_step = simulation.stage_run().next_step(simulation.step_estimate().stable_step(), state.last_step);
   // At the very first time level the velocity is that of the level itself.
   const double step_mean = state.last_step > 0 ? 0.5 * (state.last_step + next_step) : 0.0;
-  const auto grains = observe_grains(model, simulation.contact(), simulation.box().cell(), step_mean, team);
+  const auto grains = observe_grains(simulation, step_mean, team);
 
   HistoryRow row{};
   row.time = state.time;
@@ -134,7 +171,7 @@ HistoryRow observe_row(const Simulation& simulation, std::span<const GrainSums> 
   const double cell_volume = simulation.box().cell().volume();
   row.relative_density = model.total_reference_volume() / cell_volume;
   row.relative_density_current = total_volume / cell_volume;
-  observe_bonds(row, total_bonds(model, simulation.contact(), team));
+  observe_bonds(row, total_bonds(simulation, team));
   row.bond_energy += of_tools.adhesion_energy;
   row.damage_dissipation += simulation.tools().adhesion_dissipation();
   take_over_sums(row, simulation.energies());
@@ -144,7 +181,7 @@ HistoryRow observe_row(const Simulation& simulation, std::span<const GrainSums> 
                                                         .bonds = row.bond_energy,
                                                         .friction = row.friction_energy,
                                                         .damage_dissipation = row.damage_dissipation});
-  row.coordination_number = coordination_number(model, simulation.contact());
+  row.coordination_number = coordination_number(grains);
   double wall_force = 0;
   for (const double force : simulation.box().force()) wall_force += force;
   row.damping_drag_ratio = wall_force > 0 ? state.damping_force / wall_force : 0.0;
@@ -173,25 +210,25 @@ LoadingRateObservation observe_loading_rate(const Simulation& simulation, Thread
   const Cell& cell = simulation.box().cell();
   const RunState& state = simulation.state();
   const std::array<double, 3> centre = centre_of(cell);
-  std::vector<double> kinetic(static_cast<std::size_t>(model.grains)), elastic(kinetic.size());
-  std::vector<ForceMoments> moments(kinetic.size());
-  team.for_each(model.grains, [&](int grain, int) {
-    const auto g = static_cast<std::size_t>(grain);
-    kinetic[g] = kinetic_energy(model, grain, state.last_step);
-    elastic[g] = elastic_energy(model, grain);
-    moments[g] = force_moments(model, centre, grain);
+  struct OfGrain {
+    double kinetic, elastic; ///< mJ
+    ForceMoments moments;
+  };
+  const std::vector<OfGrain> grains = of_all_grains(simulation, team, [&](std::int32_t grain) {
+    return OfGrain{kinetic_energy(model, grain, state.last_step), elastic_energy(model, grain),
+                   force_moments(model, centre, grain)};
   });
   LoadingRateObservation seen;
   seen.elapsed = LoadingRateControl::steps_between_observations * state.last_step;
   seen.plastic_dissipation = simulation.energies().plastic_dissipation;
   const double cell_volume = cell.volume();
   const std::array<double, 6> stress = simulation.box().stress();
-  for (std::size_t g = 0; g < kinetic.size(); ++g) {
-    seen.kinetic_energy += kinetic[g];
-    seen.elastic_energy += elastic[g];
+  for (const OfGrain& grain : grains) {
+    seen.kinetic_energy += grain.kinetic;
+    seen.elastic_energy += grain.elastic;
     for (std::size_t axis = 0; axis < 3; ++axis) {
-      seen.imbalance[axis] += moments[g].force[axis] * cell.length(axis) / cell_volume;
-      seen.dynamic[axis] += moments[g].moment[axis] / cell_volume;
+      seen.imbalance[axis] += grain.moments.force[axis] * cell.length(axis) / cell_volume;
+      seen.dynamic[axis] += grain.moments.moment[axis] / cell_volume;
     }
   }
   for (std::size_t axis = 0; axis < 3; ++axis) seen.wall_stress[axis] = 0.5 * (stress[2 * axis] + stress[2 * axis + 1]);

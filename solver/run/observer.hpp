@@ -10,16 +10,16 @@
 
 namespace mpfem {
 
-/// Sums over all bonds.
-BondSums total_bonds(const Model& model, const Contact& contact, ThreadTeam& team);
+/// Collective. Sums over all bonds.
+BondSums total_bonds(const Simulation& simulation, ThreadTeam& team);
 
-/// One row of the history, between evaluate_forces() and advance(). `sums` [grains], of the last passes.
-HistoryRow observe_row(const Simulation& simulation, std::span<const GrainSums> sums, ThreadTeam& team);
+/// Collective. One row of the history, between evaluate_forces() and advance(). `sums` [grains], of the last pass.
+HistoryRow observe_row(const Simulation& simulation, std::span<const ForceSums> sums, ThreadTeam& team);
 
 /// What the tools bear, after evaluate_forces().
 std::vector<ToolRow> observe_tools(const Tools& tools);
 
-/// The part of the stresses that inertia balances, for stages that choose their speed.
+/// Collective. The part of the stresses that inertia balances, for stages that choose their speed.
 LoadingRateObservation observe_loading_rate(const Simulation& simulation, ThreadTeam& team);
 
 } // namespace mpfem

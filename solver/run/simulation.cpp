@@ -1,10 +1,16 @@
 #include "solver/run/simulation.hpp"
 
 #include <algorithm>
+#include <exception>
 
 #include <fmt/format.h>
 
 #include "common/errors.hpp"
+#include "common/index.hpp"
+#include "solver/kernels/contact_candidates.hpp"
+#include "solver/model/smooth_surface.hpp"
+#include "solver/parallel/agree.hpp"
+#include "solver/parallel/grain_values.hpp"
 #include "solver/physics/smooth_step.hpp"
 #include "solver/run/failure_report.hpp"
 #include "solver/run/initial_state.hpp"
@@ -33,13 +39,18 @@ std::array<double, 3> gravity_of_scaled_mass(const Scenario& scenario) {
 
 } // namespace
 
-Simulation::Simulation(Model model, const Scenario& scenario, ThreadTeam& team, bool branch)
-    : scenario_(&scenario), team_(&team), profile_(team.size()), model_(std::move(model)),
+const Communicator& Simulation::alone() {
+  static const Communicator itself;
+  return itself;
+}
+
+Simulation::Simulation(Model model, const Scenario& scenario, ThreadTeam& team, bool branch, const Communicator& ranks)
+    : scenario_(&scenario), ranks_(&ranks), team_(&team), profile_(team.size()), model_(std::move(model)),
       box_({model_.box_low, model_.box_high}, scenario.walls ? Axes{} : all_axes),
       wall_friction_(scenario.wall_friction, model_.grains), tools_(make_tools(scenario, model_)),
-      step_estimate_(model_, scenario.numerics), bounds_(static_cast<std::size_t>(model_.grains)),
-      sums_(static_cast<std::size_t>(model_.grains)) {
-  energies_.initial = set_initial_velocities(model_, scenario);
+      step_estimate_(model_, scenario.numerics, ranks), ghosts_(ranks, scenario.contact.has_friction()),
+      bounds_(static_cast<std::size_t>(model_.grains)), force_sums_(bounds_.size()), motion_sums_(bounds_.size()) {
+  energies_.initial = set_initial_velocities(model_, scenario, ranks);
   if (scenario.container) {
     container_.emplace(
         Container::Parts{scenario.container->wall, scenario.container->lower, scenario.container->upper});
@@ -53,14 +64,29 @@ Simulation::Simulation(Model model, const Scenario& scenario, ThreadTeam& team, 
   contact_.friction = friction_of_pairs(scenario.contact, model_.material.size());
   margin_ = scenario.contact.search_margin * *std::max_element(model_.element_size.begin(), model_.element_size.end());
 
+  order_grains();
   update_surfaces();
-  renew_candidates(model_, margin_, *team_, contact_);
-  check_apart(model_, contact_, box_, bounds_, scenario.packing_file);
-  std::fill(model_.force.begin(), model_.force.end(), 0.0);
+  find_candidates();
+  check_apart(model_, contact_, box_, bounds_, scenario.packing_file, ranks);
+  ghosts_.start_forces(contact_);
+  ghosts_.finish_forces(contact_);
+  for (const std::int32_t grain : model_.own())
+    std::fill(model_.force.data() + 4 * model_.node_offset[at(grain)],
+              model_.force.data() + 4 * model_.node_offset[at(grain) + 1], 0.0);
   renew_step_estimate(box_, true);
   if (branch) return;
   begin_stage(0);
-  if (tools_.present()) check_clear_of_tools(model_, tools_, scenario.packing_file);
+  if (tools_.present()) check_clear_of_tools(model_, tools_, scenario.packing_file, ranks);
+}
+
+/// Own grains in the orders in which loops take them.
+void Simulation::order_grains() {
+  in_space_ = by_number_ = {};
+  const auto put = [&](std::int32_t grain, Order& order) {
+    if (model_.ownership.owns(grain)) (ghosts_.is_at_border(grain) ? order.border : order.inside).push_back(grain);
+  };
+  for (const std::int32_t grain : model_.spatial_order) put(grain, in_space_);
+  for (const std::int32_t grain : model_.own()) put(grain, by_number_);
 }
 
 // ---------------------------------------------------------------------------------------------- the step
@@ -70,7 +96,7 @@ void Simulation::evaluate_forces() {
   if (search_is_due(contact_)) search();
   contact_.last_step = state_.last_step;
   add_contact_and_walls();
-  for (const GrainSums& sums : sums_) energies_.add_friction(sums.contact, sums.wall_friction);
+  for (const ForceSums& sums : force_sums_) energies_.add_friction(sums.contact, sums.wall_friction);
   if (scenario_->has_gravity()) add_work_of_gravity();
   check_penetration();
   if (tools_.present()) measure_tools();
@@ -96,36 +122,81 @@ void Simulation::advance() {
 
 void Simulation::search() {
   const auto start = Profile::Clock::now();
-  renew_candidates(model_, margin_, *team_, contact_);
+  find_candidates();
   profile_.add_serial(Part::contact_search, Profile::since(start));
 }
 
+/// Searches for candidates among own grains and those of other ranks near them.
+void Simulation::find_candidates() {
+  share_of_grains(*ranks_, model_.ownership, std::span(bounds_));
+  const double reach = margin_ + ranks_->largest(max_contact_offset(model_));
+  const NearGrains near = find_near_grains(bounds_, reach, model_.own());
+  if (!ranks_->alone()) {
+    leave_own_pairs(model_, contact_);
+    std::vector<std::int32_t> ghosts(contact_.candidates.pair_second); // bonded ones may have gone far
+    for (const auto& others : near.other) ghosts.insert(ghosts.end(), others.begin(), others.end());
+    ghosts_.choose(std::move(ghosts), model_);
+  }
+  renew_candidates(model_, {margin_, reach, bounds_, near}, *team_, contact_);
+  ghosts_.share_pairs(model_, contact_);
+  order_grains();
+}
+
 void Simulation::add_contact_and_walls() {
-  team_->for_each(model_.grains, [&](int item, int thread) {
-    const int grain = model_.spatial_order[static_cast<std::size_t>(item)];
-    Stopwatch watch(profile_, thread);
-    sums_[static_cast<std::size_t>(grain)].contact = contact_forces(model_, contact_, grain);
-    watch.mark(Part::contact);
+  std::exception_ptr failure; // of this rank; the others wait for its messages all the same
+  const auto unless_failed = [&failure](auto&& work) {
+    if (failure) return;
+    try {
+      work();
+    } catch (...) {
+      failure = std::current_exception();
+    }
+  };
+  unless_failed([&] { add_contact(in_space_.border); });
+  ghosts_.start_forces(contact_);
+  unless_failed([&] { add_contact(in_space_.inside); });
+  ghosts_.finish_forces(contact_);
+  unless_failed([&] { add_reactions_and_walls(); });
+  agree(*ranks_, [&] {
+    if (failure) std::rethrow_exception(failure);
   });
-  team_->for_each(model_.grains, [&](int item, int thread) {
-    const int grain = model_.spatial_order[static_cast<std::size_t>(item)];
-    const auto g = static_cast<std::size_t>(grain);
+  share_of_grains(*ranks_, model_.ownership, std::span(force_sums_));
+  if (tools_.present()) tools_.share_loads(*ranks_, model_.ownership);
+}
+
+/// Forces of the contact points of these grains' nodes.
+void Simulation::add_contact(std::span<const std::int32_t> grains) {
+  team_->for_each(static_cast<int>(grains.size()), [&](int item, int thread) {
+    const std::int32_t grain = grains[at(item)];
     Stopwatch watch(profile_, thread);
-    contact_reactions(model_, contact_, grain);
+    force_sums_[at(grain)].contact = contact_forces(model_, contact_, grain);
     watch.mark(Part::contact);
-    sums_[g].box = box_.add_forces(model_, bounds_[g], grain);
-    if (wall_friction_.present())
-      sums_[g].wall_friction = wall_friction_.add_forces(model_, box_, bounds_[g], state_.last_step, grain);
-    if (tools_.present()) tools_.add_forces(model_, bounds_[g], state_.last_step, grain);
-    if (scenario_->has_gravity())
-      sums_[g].weight_potential = add_weight(model_, gravity_of_scaled_mass(*scenario_), grain);
-    watch.mark(Part::integration);
   });
 }
 
+/// Reactions of contact, boundaries and weight.
+void Simulation::add_reactions_and_walls() {
+  const std::array<double, 3> gravity = gravity_of_scaled_mass(*scenario_);
+  for (const auto* grains : {&in_space_.border, &in_space_.inside})
+    team_->for_each(static_cast<int>(grains->size()), [&](int item, int thread) {
+      const std::int32_t grain = (*grains)[at(item)];
+      ForceSums& sums = force_sums_[at(grain)];
+      const Bounds& bounds = bounds_[at(grain)];
+      Stopwatch watch(profile_, thread);
+      contact_reactions(model_, contact_, grain);
+      watch.mark(Part::contact);
+      sums.box = box_.add_forces(model_, bounds, grain);
+      if (wall_friction_.present())
+        sums.wall_friction = wall_friction_.add_forces(model_, box_, bounds, state_.last_step, grain);
+      if (tools_.present()) tools_.add_forces(model_, bounds, state_.last_step, grain);
+      if (scenario_->has_gravity()) sums.weight_potential = add_weight(model_, gravity, grain);
+      watch.mark(Part::integration);
+    });
+}
+
 void Simulation::check_penetration() const {
-  for (std::size_t g = 0; g < sums_.size(); ++g)
-    if (const double penetration = sums_[g].box.penetration(); penetration > deepest_penetration)
+  for (std::size_t g = 0; g < force_sums_.size(); ++g)
+    if (const double penetration = force_sums_[g].box.penetration(); penetration > deepest_penetration)
       throw SimulationError(fmt::format(
           "step {}, D_r = {:.4f}: a node of grain {} is {:.2f} of the element size behind a wall, allowed up to "
           "{:g}: raise contact.stiffness_factor or lower the speed",
@@ -136,11 +207,12 @@ void Simulation::check_penetration() const {
 std::array<double, 2> Simulation::add_grips() {
   plan_ = stage_run_->plan(box_.cell(), step_estimate_.stable_step(), state_.last_step);
   const Advance update = velocity_update(*plan_);
-  std::vector<GripSums> sums(sums_.size());
-  team_->for_each(model_.grains, [&](int grain, int) {
-    sums[static_cast<std::size_t>(grain)] =
-        grip_forces(model_, grips_, plan_->cell, plan_->sliding, update, state_.last_step, grain);
+  std::vector<GripSums> sums(force_sums_.size());
+  team_->for_each(static_cast<int>(model_.own().size()), [&](int item, int) {
+    const std::int32_t grain = model_.own()[at(item)];
+    sums[at(grain)] = grip_forces(model_, grips_, plan_->cell, plan_->sliding, update, state_.last_step, grain);
   });
+  share_of_grains(*ranks_, model_.ownership, std::span(sums));
   energies_.add_grips(sums);
   std::array<double, 2> force{};
   for (const GripSums& grain : sums)
@@ -150,7 +222,7 @@ std::array<double, 2> Simulation::add_grips() {
 
 void Simulation::add_work_of_gravity() {
   double potential = 0;
-  for (const GrainSums& sums : sums_) potential += sums.weight_potential;
+  for (const ForceSums& sums : force_sums_) potential += sums.weight_potential;
   if (state_.last_step > 0) energies_.external_work += potential - state_.weight_potential;
   state_.weight_potential = potential;
 }
@@ -171,7 +243,7 @@ void Simulation::measure_tools() {
 void Simulation::measure_walls(const std::array<double, 2>& grip_force) {
   std::array<double, 6> contact{}, grip{};
   for (std::size_t side = 0; side < 2; ++side) grip[2 * grips_.axis + side] = grip_force[side];
-  for (const GrainSums& sums : sums_)
+  for (const ForceSums& sums : force_sums_)
     for (std::size_t side = 0; side < 6; ++side) contact[side] += sums.box.wall[side].force;
   if (container_) contact = container_->face_forces(tools_);
   energies_.add_walls(box_.take_loads(contact, grip));
@@ -192,7 +264,7 @@ StageObservation Simulation::observation() const {
                         .damage_dissipation = {},
                         .tools = &tools_};
   if (!stage_complete() && stage_run_->needs_damage(state_.step))
-    seen.damage_dissipation = total_bonds(model_, contact_, *team_).dissipated + tools_.adhesion_dissipation();
+    seen.damage_dissipation = total_bonds(*this, *team_).dissipated + tools_.adhesion_dissipation();
   return seen;
 }
 
@@ -216,14 +288,28 @@ Advance Simulation::velocity_update(const StepPlan& plan) const {
 }
 
 void Simulation::move_and_strain(const Advance& update) {
-  team_->for_each(model_.grains, [&](int grain, int thread) {
-    const auto g = static_cast<std::size_t>(grain);
+  move_and_strain(by_number_.border, update);
+  ghosts_.start_motion(model_);
+  move_and_strain(by_number_.inside, update);
+  ghosts_.finish_motion(model_);
+  team_->for_each(static_cast<int>(ghosts_.grains().size()), [&](int item, int thread) {
     Stopwatch watch(profile_, thread);
-    sums_[g].advance = mpfem::advance(model_, grain, update);
-    watch.mark(Part::integration);
-    bounds_[g] = update_surface(model_, grain);
+    update_surface(model_, ghosts_.grains()[at(item)]);
     watch.mark(Part::surface);
-    sums_[g].elements = element_forces(model_, grain, update.step);
+  });
+  share_of_grains(*ranks_, model_.ownership, std::span(motion_sums_));
+}
+
+void Simulation::move_and_strain(std::span<const std::int32_t> grains, const Advance& update) {
+  team_->for_each(static_cast<int>(grains.size()), [&](int item, int thread) {
+    const std::int32_t grain = grains[at(item)];
+    MotionSums& sums = motion_sums_[at(grain)];
+    Stopwatch watch(profile_, thread);
+    sums.advance = mpfem::advance(model_, grain, update);
+    watch.mark(Part::integration);
+    bounds_[at(grain)] = update_surface(model_, grain);
+    watch.mark(Part::surface);
+    sums.elements = element_forces(model_, grain, update.step);
     watch.mark(Part::elements);
   });
 }
@@ -232,8 +318,8 @@ void Simulation::move_and_strain(const Advance& update) {
 double Simulation::add_up_step(double step) {
   double strain = 0;
   state_.damping_force = 0;
-  for (std::size_t g = 0; g < sums_.size(); ++g) {
-    const GrainSums& sums = sums_[g];
+  for (std::size_t g = 0; g < motion_sums_.size(); ++g) {
+    const MotionSums& sums = motion_sums_[g];
     if (!sums.elements.admissible) report_bad_grain(static_cast<int>(g));
     energies_.add_step(sums.elements, sums.advance);
     state_.damping_force += sums.advance.damping_force;
@@ -250,8 +336,12 @@ void Simulation::renew_step_estimate(const Box& box, bool anew) {
 }
 
 void Simulation::report_bad_grain(int grain) const {
-  throw SimulationError(fmt::format("step {}, t = {:.4g} s, D_r = {:.4f}: {}", state_.step, state_.time,
-                                    relative_density(), failed_grain_text(model_, grain)));
+  agree(*ranks_, [&] { // its owner knows
+    if (model_.ownership.owns(grain))
+      throw SimulationError(fmt::format("step {}, t = {:.4g} s, D_r = {:.4f}: {}", state_.step, state_.time,
+                                        relative_density(), failed_grain_text(model_, grain)));
+  });
+  throw SimulationError(fmt::format("step {}: grain {} failed", state_.step, grain)); // unless nobody owns it
 }
 
 // ---------------------------------------------------------------------------------------------- stages
@@ -276,7 +366,7 @@ void Simulation::begin_stage(std::int64_t stage) {
 void Simulation::change_walls(const Axes& withdrawn) {
   for (std::size_t axis = 0; axis < 3; ++axis) {
     if (withdrawn[axis] && box_.has_walls(axis))
-      for (const GrainSums& sums : sums_)
+      for (const ForceSums& sums : force_sums_)
         for (std::size_t side = 2 * axis; side < 2 * axis + 2; ++side)
           energies_.external_work -= sums.box.wall[side].energy + sums.wall_friction.energy[side];
     if (!withdrawn[axis] && !box_.has_walls(axis)) return_walls(axis);
@@ -289,13 +379,14 @@ void Simulation::change_walls(const Axes& withdrawn) {
 void Simulation::change_tools() {
   const auto* loading = std::get_if<ToolLoading>(&scenario_->stages[static_cast<std::size_t>(state_.stage)].type);
   if (loading == nullptr) return;
-  energies_.external_work -= tools_.set_away(loading->away, model_);
+  energies_.external_work -= tools_.set_away(loading->away, model_, *ranks_);
   if (container_) box_.set_cell(container_->cell(tools_, box_.cell()));
 }
 
 void Simulation::return_walls(std::size_t axis) {
   constexpr double largest_growth = 2;
   const double before = box_.cell().length(axis);
+  share_of_grains(*ranks_, model_.ownership, std::span(bounds_));
   box_.move_clear(axis, bounds_);
   if (const double length = box_.cell().length(axis); length > largest_growth * before)
     throw SimulationError(fmt::format("stage '{}': the walls along {} cannot return: grains lie {:.4g} mm apart, the "
@@ -309,11 +400,12 @@ void Simulation::grip_faces() {
   const GripMotion* grip = stage_run_->control().grips();
   if (!grip) return;
   grips_ = grip_nodes(model_, box_.cell(), static_cast<std::size_t>(grip->axis), grip->depth, grip->lateral_fixed);
-  std::array<bool, 2> holds{};
-  for (const GrippedNode& node : grips_.node) holds[static_cast<std::size_t>(node.side)] = true;
-  if (!holds[0] || !holds[1])
+  std::array<double, 2> holds{};
+  for (const GrippedNode& node : grips_.node) holds[static_cast<std::size_t>(node.side)] = 1;
+  for (double& side : holds) side = ranks_->largest(side);
+  if (holds[0] == 0 || holds[1] == 0)
     throw InputError(fmt::format("stage '{}': no node lies within grip_depth = {:g} mm of the {} face of the box",
-                                 stage().name, grip->depth, holds[0] ? "high" : "low"));
+                                 stage().name, grip->depth, holds[0] > 0 ? "high" : "low"));
 }
 
 StageResult Simulation::stage_result() const {
@@ -323,7 +415,7 @@ StageResult Simulation::stage_result() const {
 // ---------------------------------------------------------------------------------------------- observation
 
 HistoryRow Simulation::observe() const {
-  return observe_row(*this, sums_, *team_);
+  return observe_row(*this, force_sums_, *team_);
 }
 
 double Simulation::relative_density() const {
@@ -380,17 +472,21 @@ Grips* Simulation::prepare_grips() {
 void Simulation::take_up(GrainSteps grain_steps) {
   step_estimate_.restore(std::move(grain_steps));
   update_surfaces();
+  ghosts_.share_pairs(model_, contact_);
+  order_grains();
 }
 
 void Simulation::update_surfaces() {
-  team_->for_each(model_.grains,
-                  [&](int grain, int) { bounds_[static_cast<std::size_t>(grain)] = update_surface(model_, grain); });
+  team_->for_each(static_cast<int>(model_.own().size()), [&](int item, int) {
+    const std::int32_t grain = model_.own()[at(item)];
+    bounds_[at(grain)] = update_surface(model_, grain);
+  });
 }
 
 void Simulation::begin_branch() {
   Box coming = box_;
   coming.withdraw(withdrawn_in(*scenario_, 0));
-  renew_candidates(model_, margin_, *team_, contact_);
+  find_candidates();
   renew_step_estimate(coming, true);
   step_estimate_.renew_after_next_step(); // nothing touches yet
   begin_stage(0);

@@ -9,6 +9,7 @@
 #include <array>
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "solver/boundary/box.hpp"
@@ -25,6 +26,7 @@
 #include "solver/model/model.hpp"
 #include "solver/output/history_row.hpp"
 #include "solver/run/energy_ledger.hpp"
+#include "solver/run/ghosts.hpp"
 #include "solver/run/profile.hpp"
 #include "solver/run/stage_run.hpp"
 #include "solver/run/step_estimate.hpp"
@@ -51,12 +53,16 @@ struct RunState {
   }
 };
 
-/// Sums of one grain over the last pass of each kind.
-struct GrainSums {
+/// Sums of one grain over the last evaluation of forces.
+struct ForceSums {
   double weight_potential = 0; ///< mJ, work of gravity from the origin to where the nodes are; 0 without gravity
   ContactSums contact;
   BoxSums box;
   WallFrictionSums wall_friction;
+};
+
+/// Sums of one grain over the last advance.
+struct MotionSums {
   AdvanceSums advance;
   ElementSums elements;
 };
@@ -64,9 +70,11 @@ struct GrainSums {
 class Simulation {
 public:
   /// Begins at rest apart from the scenario's initial velocities. With `branch`, the first stage is not begun: that
-  /// waits for restore() and begin_branch(). `scenario` and `team` must outlive the simulation. Throws InputError where
-  /// grains overlap at the start.
-  Simulation(Model model, const Scenario& scenario, ThreadTeam& team, bool branch = false);
+  /// waits for restore() and begin_branch(). `scenario`, `team` and `ranks` must outlive the simulation. Throws
+  /// InputError where grains overlap at the start. With several ranks, whose grains `model` divides, this and all that
+  /// is not const are collective, and so are observe() and what else says so.
+  Simulation(Model model, const Scenario& scenario, ThreadTeam& team, bool branch = false,
+             const Communicator& ranks = alone());
 
   // ---- the step
   /// Adds contact and wall forces at the present positions. Throws SimulationError where contact cannot hold.
@@ -83,13 +91,15 @@ public:
   StageResult stage_result() const;
 
   // ---- what can be observed, between evaluate_forces() and advance()
-  HistoryRow observe() const;
+  HistoryRow observe() const; ///< collective
   double relative_density() const;
   /// After a branch began: what energies jump by, where its settings differ, is not in the balance. Takes the residual
   /// of the branch's first row out of it.
   void reset_energy_balance(HistoryRow& first_row);
 
   const Scenario& scenario() const { return *scenario_; }
+  const Communicator& ranks() const { return *ranks_; }
+  const Ghosts& ghosts() const { return ghosts_; }
   const Model& model() const { return model_; }
   const Contact& contact() const { return contact_; }
   const Box& box() const { return box_; }
@@ -135,14 +145,20 @@ private:
   void read(FieldReader& fields, std::optional<std::int64_t> stage);
   Grips* prepare_grips();
   void take_up(GrainSteps grain_steps);
+  static const Communicator& alone();
+  void order_grains();
+  void find_candidates();
   void search();
   void add_contact_and_walls();
+  void add_contact(std::span<const std::int32_t> grains);
+  void add_reactions_and_walls();
   void check_penetration() const;
   std::array<double, 2> add_grips();
   void measure_walls(const std::array<double, 2>& grip_force);
   void regulate_loading_rate();
   Advance velocity_update(const StepPlan& plan) const;
   void move_and_strain(const Advance& update);
+  void move_and_strain(std::span<const std::int32_t> grains, const Advance& update);
   double add_up_step(double step);
   void update_surfaces();
   void change_walls(const Axes& withdrawn);
@@ -157,6 +173,7 @@ private:
   [[noreturn]] void report_bad_grain(int grain) const;
 
   const Scenario* scenario_;
+  const Communicator* ranks_;
   ThreadTeam* team_;
   Profile profile_;
   Model model_;
@@ -170,12 +187,19 @@ private:
   EnergyLedger energies_;
   StepEstimate step_estimate_;
   std::optional<StageRun> stage_run_;
-  std::vector<Bounds> bounds_;       ///< [grains]
-  std::vector<GrainSums> sums_;      ///< [grains]
-  std::optional<StepPlan> plan_;     ///< of the next step, where grips need it before
-  double margin_ = 0;                ///< mm, of the contact search
-  double damping_rate_ = 0;          ///< 1/s, of the next advance
-  bool energy_balance_open_ = false; ///< until the first row of a branch
+  Ghosts ghosts_;
+  /// Own grains as loops take them: at the border to other ranks, and the others.
+  struct Order {
+    std::vector<std::int32_t> border, inside;
+  };
+  Order in_space_, by_number_;
+  std::vector<Bounds> bounds_;          ///< [grains], of own grains and ghosts; of all after a search
+  std::vector<ForceSums> force_sums_;   ///< [grains]
+  std::vector<MotionSums> motion_sums_; ///< [grains]
+  std::optional<StepPlan> plan_;        ///< of the next step, where grips need it before
+  double margin_ = 0;                   ///< mm, of the contact search
+  double damping_rate_ = 0;             ///< 1/s, of the next advance
+  bool energy_balance_open_ = false;    ///< until the first row of a branch
 };
 
 } // namespace mpfem

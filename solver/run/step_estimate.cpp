@@ -2,9 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
+#include <queue>
 
 #include "solver/kernels/largest_frequency.hpp"
+#include "solver/parallel/grain_values.hpp"
 
 namespace mpfem {
 
@@ -32,12 +35,12 @@ double largest_quadratic_damping(const Model& model, double rate) {
 
 } // namespace
 
-StepEstimate::StepEstimate(const Model& model, const NumericsParameters& numerics)
-    : numerics_(numerics), of_tets_(static_cast<std::size_t>(model.grains)),
-      stiffness_rate_(static_cast<std::size_t>(model.nodes())) {
+StepEstimate::StepEstimate(const Model& model, const NumericsParameters& numerics, const Communicator& ranks)
+    : ranks_(&ranks), numerics_(numerics), of_tets_(static_cast<std::size_t>(model.grains)),
+      stiffness_rate_(static_cast<std::size_t>(model.nodes()), model.pages()) {
   const auto grains = static_cast<std::size_t>(model.grains);
   grain_steps_ = {std::vector<double>(grains), std::vector<double>(grains),
-                  std::vector<double>(static_cast<std::size_t>(model.nodes()))};
+                  LazyArray<double>(static_cast<std::size_t>(model.nodes()), model.pages())};
 }
 
 bool StepEstimate::is_due_after(double strain, double step) {
@@ -84,7 +87,8 @@ void StepEstimate::renew(Model& model, const Contact& contact, const Boundaries&
 
   std::vector<double> steps(of_tets_.size());
   std::vector<char> fresh(steps.size(), whole_grains && !anew ? 0 : 1);
-  team.for_each(model.grains, [&](int grain, int) {
+  team.for_each(static_cast<int>(model.own().size()), [&](int item, int) {
+    const std::int32_t grain = model.own()[static_cast<std::size_t>(item)];
     const auto g = static_cast<std::size_t>(grain);
     contact_stiffness_rate(model, contact, grain, stiffness_rate_);
     boundaries.box.add_stiffness_rate(model, bounds[g], grain, stiffness_rate_);
@@ -103,15 +107,23 @@ void StepEstimate::renew(Model& model, const Contact& contact, const Boundaries&
     steps[g] = std::max(of_tets_[g].step, 2.0 / std::sqrt(now));
     fresh[g] = now < growth_worth_a_spectrum * then ? 1 : 0;
   });
+  share_of_grains(*ranks_, model.ownership, std::span(steps));
+  share_of_grains(*ranks_, model.ownership, std::span(fresh));
+  share_of_grains(*ranks_, model.ownership, std::span(of_tets_));
   // The grain that sets the step must have set it by its frequency, not by a bound of what that has become.
-  const auto shortest = [&] {
-    return static_cast<std::size_t>(std::min_element(steps.begin(), steps.end()) - steps.begin());
-  };
-  std::size_t g = shortest();
-  for (; !fresh[g]; g = shortest()) {
-    steps[g] = renew_grain(model, static_cast<int>(g), rate);
-    fresh[g] = 1;
+  using Candidate = std::pair<double, std::size_t>; // step and grain
+  std::vector<Candidate> candidates;
+  for (std::size_t grain = 0; grain < steps.size(); ++grain) candidates.emplace_back(steps[grain], grain);
+  std::priority_queue<Candidate, std::vector<Candidate>, std::greater<>> shortest({}, std::move(candidates));
+  while (!fresh[shortest.top().second]) {
+    const std::size_t grain = shortest.top().second;
+    shortest.pop();
+    const bool own = model.ownership.owns(static_cast<std::int32_t>(grain));
+    steps[grain] = ranks_->largest(own ? renew_grain(model, static_cast<int>(grain), rate) : 0.0); // from its owner
+    fresh[grain] = 1;
+    shortest.emplace(steps[grain], grain);
   }
+  const std::size_t g = shortest.top().second;
   state_.stable_step = numerics_.time_step_factor * steps[g];
   state_.controlled_by_contact = of_tets_[g].step < 0.95 * of_tets_[g].step_no_contact;
   state_.steps_since_estimate = 0;

@@ -45,7 +45,7 @@ public:
     }
   };
 
-  StepEstimate(const Model& model, const NumericsParameters& numerics);
+  StepEstimate(const Model& model, const NumericsParameters& numerics, const Communicator& ranks);
 
   const State& state() const { return state_; }
   const GrainSteps& grain_steps() const { return grain_steps_; }
@@ -53,7 +53,7 @@ public:
 
   /// Takes in the largest strain of a step (s). True when the estimate is to be renewed.
   bool is_due_after(double strain, double step);
-  /// Estimates the stable step of the present state; sets the tets' lengths in the model. `anew`: with the frequencies
+  /// Collective. Estimates the stable step of the present state; sets the tets' lengths in the model. `anew`: with the frequencies
   /// of whole grains, whenever they were last found.
   void renew(Model& model, const Contact& contact, const Boundaries& boundaries, std::span<const Bounds> bounds,
              ThreadTeam& team, bool anew);
@@ -67,11 +67,12 @@ private:
   double renew_grain(const Model& model, int grain, double rate);
   double bound_since_spectrum(const Model& model, int grain, double found) const;
 
+  const Communicator* ranks_;
   NumericsParameters numerics_;
   State state_;
   GrainSteps grain_steps_;
-  std::vector<StableStep> of_tets_;    ///< [grains]
-  std::vector<double> stiffness_rate_; ///< 1/s^2, [nodes], of contact and walls
+  std::vector<StableStep> of_tets_;  ///< [grains]
+  LazyArray<double> stiffness_rate_; ///< 1/s^2, [nodes], of contact and walls
 };
 
 } // namespace mpfem

@@ -1,0 +1,72 @@
+#pragma once
+// Grains at the border between ranks. A rank computes its own grains. Of other ranks' grains that lie near these it holds
+// the surfaces, its ghosts: positions come in every step, while the elements of grains inside are at work. The force of
+// a contact point is computed once, by the owner of the point's node, and its record goes to the owner of the facet.
+// So a rank's contact is a part of what a rank alone would have: the pairs that touch its own grains, in the same order,
+// with the same numbers; and sums over them are the same to the last bit.
+
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "solver/kernels/contact_state.hpp"
+#include "solver/model/model.hpp"
+#include "solver/parallel/communicator.hpp"
+
+namespace mpfem {
+
+class Ghosts {
+public:
+  /// `velocities`: contact asks for those of the ghosts, too.
+  Ghosts(const Communicator& ranks, bool velocities) : ranks_(&ranks), velocities_(velocities) {}
+
+  // ---- at a search; all of these are collective
+  /// Makes those of these grains that are other ranks' the ghosts: their surfaces are set in the model as they are now.
+  void choose(std::vector<std::int32_t> grains, Model& model);
+  /// Gives pairs whose second grain is another rank's to that rank, and takes those of others. `contact` has own pairs
+  /// alone before. Then the second grains of own pairs become the ghosts.
+  void share_pairs(Model& model, Contact& contact);
+
+  // ---- in a step
+  /// Whether other ranks have this own grain as a ghost, or a pair with it: it comes first.
+  bool is_at_border(std::int32_t grain) const {
+    return !at_border_.empty() && at_border_[static_cast<std::size_t>(grain)] != 0;
+  }
+  /// Positions and velocities of own grains at the border go, those of ghosts come.
+  void start_motion(const Model& model);
+  /// Sets the ghosts' positions and velocities; not their normals (update_surface).
+  void finish_motion(Model& model);
+  /// Records of forces on ghosts go, those on own grains come.
+  void start_forces(const Contact& contact);
+  void finish_forces(Contact& contact);
+
+  const std::vector<std::int32_t>& grains() const { return ghosts_; }
+  /// Bytes that this rank has sent in steps so far.
+  std::int64_t bytes_sent() const { return bytes_sent_; }
+
+private:
+  /// What goes to and comes from one rank.
+  struct Partner {
+    int rank = 0;
+    std::vector<std::int32_t> sent_grains, ghosts; ///< whose surfaces go and come
+    std::vector<std::int32_t> sent_pairs, pairs;   ///< whose records go and come, indices into the candidates
+    Bytes out, in;
+    bool has_surfaces() const { return !sent_grains.empty() || !ghosts.empty(); }
+    bool has_pairs() const { return !sent_pairs.empty() || !pairs.empty(); }
+  };
+  Partner& partner(int rank);
+  void find_border(const Model& model);
+  Communicator::Transfer start(bool (Partner::*concerns)() const);
+
+  const Communicator* ranks_;
+  bool velocities_;
+  std::vector<std::int32_t> ghosts_; ///< ascending
+  std::vector<char> known_;          ///< [grains]: whose facets are set in the model
+  std::vector<char> at_border_;      ///< [grains]
+  std::vector<Partner> partners_;    ///< by rank
+  Communicator::Transfer transfer_;
+  std::int64_t bytes_sent_ = 0;
+};
+
+} // namespace mpfem
