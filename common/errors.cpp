@@ -16,13 +16,6 @@ namespace mpfem {
 
 namespace {
 
-int report(const char* program, std::string_view message, ExitCode code) {
-  constexpr std::size_t longest = 500; // characters; whoever throws shortens the parts that are long
-  const std::string line = fmt::format("{}: error: {}\n", program, shortened(message, longest));
-  std::fputs(line.c_str(), stderr); // nobody may be there to read it
-  return static_cast<int>(code);
-}
-
 /// A write beyond the file size limit, or to a pipe that nobody reads, is to fail instead of ending the program.
 void let_writes_fail() {
   std::signal(SIGXFSZ, SIG_IGN);
@@ -39,33 +32,48 @@ bool is_of_storage(const std::error_code& code) {
 int after_output(const char* program, int code) {
   if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0) return code;
   std::clearerr(stdout); // it is reported once
-  return code != 0 ? code : report(program, "standard output could not be written", ExitCode::storage_failed);
+  return code != 0 ? code : report(program, {"standard output could not be written", ExitCode::storage_failed});
 }
 
 } // namespace
+
+Failure present_failure() {
+  try {
+    throw;
+  } catch (const InputError& error) {
+    return {error.what(), ExitCode::bad_input};
+  } catch (const StorageError& error) {
+    return {error.what(), ExitCode::storage_failed};
+  } catch (const Interrupted& error) {
+    return {error.what(), ExitCode::interrupted};
+  } catch (const std::filesystem::filesystem_error& error) {
+    return {error.what(), ExitCode::storage_failed};
+  } catch (const std::system_error& error) {
+    if (is_of_storage(error.code()))
+      return {fmt::format("an output could not be written: {}", error.what()), ExitCode::storage_failed};
+    return {error.what(), ExitCode::simulation_failed};
+  } catch (const std::bad_alloc&) {
+    return {"out of memory", ExitCode::simulation_failed};
+  } catch (const std::exception& error) {
+    return {error.what(), ExitCode::simulation_failed};
+  } catch (...) {
+    return {"unknown error", ExitCode::simulation_failed};
+  }
+}
+
+int report(const char* program, const Failure& failure) {
+  constexpr std::size_t longest = 500; // characters; whoever throws shortens the parts that are long
+  const std::string line = fmt::format("{}: error: {}\n", program, shortened(failure.message, longest));
+  std::fputs(line.c_str(), stderr); // nobody may be there to read it
+  return static_cast<int>(failure.code);
+}
 
 int run_program(const char* program, int (*body)(int argc, char** argv), int argc, char** argv) {
   let_writes_fail();
   try {
     return after_output(program, body(argc, argv));
-  } catch (const InputError& error) {
-    return report(program, error.what(), ExitCode::bad_input);
-  } catch (const StorageError& error) {
-    return report(program, error.what(), ExitCode::storage_failed);
-  } catch (const Interrupted& error) {
-    return report(program, error.what(), ExitCode::interrupted);
-  } catch (const std::filesystem::filesystem_error& error) {
-    return report(program, error.what(), ExitCode::storage_failed);
-  } catch (const std::system_error& error) {
-    const bool storage = is_of_storage(error.code());
-    return report(program, storage ? fmt::format("an output could not be written: {}", error.what()) : error.what(),
-                  storage ? ExitCode::storage_failed : ExitCode::simulation_failed);
-  } catch (const std::bad_alloc&) {
-    return report(program, "out of memory", ExitCode::simulation_failed);
-  } catch (const std::exception& error) {
-    return report(program, error.what(), ExitCode::simulation_failed);
   } catch (...) {
-    return report(program, "unknown error", ExitCode::simulation_failed);
+    return report(program, present_failure());
   }
 }
 

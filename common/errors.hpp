@@ -39,8 +39,20 @@ public:
   using std::runtime_error::runtime_error;
 };
 
+/// A failure as a program tells it.
+struct Failure {
+  std::string message;
+  ExitCode code;
+};
+
+/// What the exception that is being handled means. Any other std::exception counts as simulation_failed.
+Failure present_failure();
+
+/// Prints one line "PROGRAM: error: MESSAGE" on standard error and returns the exit code.
+int report(const char* program, const Failure& failure);
+
 /// Runs `body`, prints one line "PROGRAM: error: MESSAGE" on standard error for any exception, and returns the exit
-/// code that belongs to it (any other std::exception counts as simulation_failed).
+/// code that belongs to it.
 int run_program(const char* program, int (*body)(int argc, char** argv), int argc, char** argv);
 
 } // namespace mpfem

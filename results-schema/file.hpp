@@ -52,8 +52,8 @@ public:
   void write_scalar(const Dataset<T, 0>& dataset, const T& value, std::string_view snapshot = {}) {
     write_values(dataset, &value, 1, 1, snapshot);
   }
-  /// Writes all datasets that another file of this kind has of a snapshot, under another name. Throws InputError where
-  /// one of them cannot be read or a required one is missing.
+  /// Writes all datasets that another file of this kind has of a snapshot, under another name, piece by piece. Throws
+  /// InputError where one of them cannot be read or a required one is missing: this file is to be given up then.
   void copy_snapshot(const FileReader& from, std::string_view source, std::string_view target);
   /// Closes the file, waits until it is on the disk, and renames it to its place.
   void commit();
@@ -98,14 +98,7 @@ public:
   template <class T, int Rank, class Take>
   void read_in_pieces(const Dataset<T, Rank>& dataset, Take&& take, std::string_view snapshot = {}) const {
     static_assert(Rank > 0 && std::is_arithmetic_v<T>, "numbers in rows are read in pieces");
-    std::vector<T> piece;
-    read_piecewise(
-        dataset, snapshot,
-        [&piece](std::size_t values) {
-          piece.resize(values);
-          return static_cast<void*>(piece.data());
-        },
-        [&](std::size_t first_row) { take(first_row, std::span<const T>(piece)); });
+    read_pieces<T>(dataset, snapshot, take);
   }
   template <class T>
   T read_scalar(const Dataset<T, 0>& dataset, std::string_view snapshot = {}) const {
@@ -131,6 +124,17 @@ private:
     std::vector<T> values(count(dataset, snapshot));
     read_values(dataset, values.data(), snapshot);
     return values;
+  }
+  template <class T, class Take>
+  void read_pieces(const DatasetDescription& dataset, std::string_view snapshot, Take&& take) const {
+    std::vector<T> piece;
+    read_piecewise(
+        dataset, snapshot,
+        [&piece](std::size_t values) {
+          piece.resize(values);
+          return static_cast<void*>(piece.data());
+        },
+        [&](std::size_t first_row) { take(first_row, std::span<const T>(piece)); });
   }
   std::size_t count(const DatasetDescription& dataset, std::string_view snapshot) const;
   void read_values(const DatasetDescription& dataset, void* values, std::string_view snapshot) const;

@@ -239,7 +239,12 @@ std::size_t FileReader::rows(const DatasetDescription& dataset, std::string_view
 void FileReader::verify() const {
   const auto read_one = [this](const DatasetDescription& dataset, const std::string& snapshot) {
     if (!has(dataset, snapshot)) return;
-    with_element(dataset.type, [&](auto element) { read_all<decltype(element)>(dataset, snapshot); });
+    with_element(dataset.type, [&](auto element) {
+      using T = decltype(element);
+      if constexpr (std::is_arithmetic_v<T>)
+        if (dataset.rank > 0) return read_pieces<T>(dataset, snapshot, [](std::size_t, std::span<const T>) {});
+      read_all<T>(dataset, snapshot);
+    });
   };
   for (const DatasetDescription& dataset : kinds[static_cast<std::size_t>(kind())].datasets)
     for (const std::string& member : members(dataset)) read_one(dataset, member);

@@ -258,8 +258,17 @@ void FileWriter::copy_snapshot(const FileReader& from, std::string_view source, 
   for (const DatasetDescription& dataset : kinds[static_cast<std::size_t>(state_->kind)].datasets) {
     if (!dataset.of_snapshot() || (!dataset.required && !from.has(dataset, source))) continue;
     with_element(dataset.type, [&](auto element) {
-      const auto values = from.read_all<decltype(element)>(dataset, source);
-      write_values(dataset, values.data(), values.size(), from.rows(dataset, source), target);
+      using T = decltype(element);
+      const std::size_t rows = from.rows(dataset, source);
+      if constexpr (std::is_arithmetic_v<T>) {
+        if (dataset.rank > 0) {
+          begin_values(dataset, from.count(dataset, source), rows, target);
+          from.read_pieces<T>(dataset, source, [this](std::size_t, std::span<const T> piece) { append(piece); });
+          return;
+        }
+      }
+      const auto values = from.read_all<T>(dataset, source);
+      write_values(dataset, values.data(), values.size(), rows, target);
     });
   }
 }

@@ -7,13 +7,15 @@
 
 #include <fmt/format.h>
 
-#include "common/available_cores.hpp"
 #include "common/command_line.hpp"
 #include "common/errors.hpp"
 #include "common/table_reader.hpp"
 #include "common/version.hpp"
 #include "solver/bench/bench.hpp"
 #include "solver/hand_over.hpp"
+#include "solver/parallel/leader.hpp"
+#include "solver/parallel/on_all_ranks.hpp"
+#include "solver/parallel/share_of_cores.hpp"
 #include "solver/run/bond_programme.hpp"
 #include "solver/run/check_scenario.hpp"
 #include "solver/run/interrupt.hpp"
@@ -50,7 +52,7 @@ Scenario load_scenario(const Arguments& arguments) {
 
 void add_threads(CLI::App& command, Arguments& arguments) {
   add_number(command, "--threads", arguments.run.threads, thread_numbers, "",
-             "Threads (default: all cores that it may use)");
+             "Threads (default: all cores that it may use), of each rank");
 }
 
 void add_common(CLI::App& command, Arguments& arguments) {
@@ -129,6 +131,7 @@ constexpr const char* help_text =
     "  mpfem run compaction.toml -o run.h5\n"
     "  mpfem run compaction.toml -o run.h5 --set stages.0.wall_speed=2000 --threads 2\n"
     "  mpfem run compaction.toml -o run.h5 --resume\n"
+    "  mpirun -n 4 mpfem run compaction.toml -o run.h5   # in a build with MPI (docs/cluster.md)\n"
     "  mpfem bond law.toml programme.csv -o result.csv\n"
     "  mpfem bench\n"
     "Exit codes: 0 done, 2 bad usage or input, 3 simulation failed (state saved), 4 storage failed, "
@@ -160,24 +163,21 @@ CLI::App* add_check(CLI::App& app, Arguments& arguments) {
   return check;
 }
 
-void measure_steps(const Arguments& arguments, BenchOptions options) {
+void measure_steps(const Arguments& arguments, BenchOptions options, const Communicator& ranks) {
   if (!arguments.scenario.empty()) options.scenario = load_scenario(arguments);
   if (!arguments.from.empty()) options.from = arguments.from;
   if (arguments.scenario.empty() && (!arguments.from.empty() || !arguments.assignments.empty()))
     throw InputError("mpfem bench: found --from or --set without a scenario, allowed with one only");
   options.threads = arguments.run.threads;
-  run_bench(options);
+  run_bench(options, ranks);
 }
 
-int body(int argc, char** argv) {
-#ifdef MPFEM_HANDS_OVER
-  hand_over_to_best_build(argv);
-#endif
+int run_command(int argc, char** argv, const Communicator& ranks) {
   CLI::App app(help_text);
   app.set_version_flag("--version", version_and_commit());
   app.require_subcommand(1);
   Arguments arguments;
-  arguments.run.threads = available_cores();
+  arguments.run.threads = share_of_cores(ranks);
   BondProgrammeOptions bond_options;
   BenchOptions bench_options;
   const CLI::App* run = add_run(app, arguments);
@@ -187,15 +187,23 @@ int body(int argc, char** argv) {
 
   if (const auto done = parse_command_line(app, "mpfem", argc, argv)) return *done;
 
-  if (bond->parsed()) run_bond_programme(bond_options);
-  if (bench->parsed()) measure_steps(arguments, bench_options);
+  if (bond->parsed()) leader_does(ranks, [&] { run_bond_programme(bond_options); });
+  if (bench->parsed()) measure_steps(arguments, bench_options, ranks);
   if (!run->parsed() && !check->parsed()) return 0;
   const Scenario scenario = load_scenario(arguments);
   if (!arguments.from.empty()) arguments.run.from = arguments.from;
   arguments.run.scenario_file = arguments.scenario;
-  if (run->parsed()) run_scenario(scenario, arguments.run);
-  if (check->parsed()) check_scenario(scenario, arguments.run.threads, arguments.run.from);
+  if (run->parsed()) run_scenario(scenario, arguments.run, ranks);
+  if (check->parsed()) check_scenario(scenario, arguments.run.threads, arguments.run.from, ranks);
   return 0;
+}
+
+int body(int argc, char** argv) {
+#ifdef MPFEM_HANDS_OVER
+  hand_over_to_best_build(argv);
+#endif
+  const Communicator ranks = Communicator::of_launcher(argc, argv);
+  return on_all_ranks("mpfem", ranks, [&] { return run_command(argc, argv, ranks); });
 }
 
 } // namespace

@@ -14,6 +14,7 @@
 #include <fmt/format.h>
 
 #include "common/errors.hpp"
+#include "common/index.hpp"
 #include "solver/bench/dense_packing.hpp"
 #include "solver/bench/machine.hpp"
 #include "solver/bench/result.hpp"
@@ -83,9 +84,10 @@ void approach_affinely(Simulation& simulation, Scenario& scenario) {
   std::get<IsotropicCompaction>(scenario.stages[0].type).wall_speed =
       0.5 * rate * *std::max_element(model.box_high.begin(), model.box_high.end());
   simulation.begin_stage(0);
-  for (std::size_t n = 0; n < model.position.size(); n += 4)
-    for (std::size_t axis = 0; axis < 3; ++axis)
-      model.velocity[n + axis] = -rate * (model.position[n + axis] - 0.5 * model.box_high[axis]);
+  for (const std::int32_t grain : model.own())
+    for (std::size_t n = 4 * at(model.node_offset[at(grain)]); n < 4 * at(model.node_offset[at(grain) + 1]); n += 4)
+      for (std::size_t axis = 0; axis < 3; ++axis)
+        model.velocity[n + axis] = -rate * (model.position[n + axis] - 0.5 * model.box_high[axis]);
 }
 
 /// The median of three segments of the steps.
@@ -177,8 +179,9 @@ OutputCost measure_output(Simulation& simulation, const Scenario& scenario) {
   OutputCost cost;
   cost.row_seconds = median_time(3, [&] { simulation.observe(); });
   const auto scratch = std::filesystem::temp_directory_path() / fmt::format("mpfem-bench-{}.checkpoint.h5", getpid());
-  cost.checkpoint_seconds = median_time(1, [&] { save_checkpoint(scratch.string(), simulation, RunRecord{}); });
-  cost.checkpoint_bytes = static_cast<double>(std::filesystem::file_size(scratch));
+  const Communicator& ranks = simulation.ranks();
+  cost.checkpoint_seconds = median_time(1, [&] { save_checkpoint(scratch.string(), simulation, RunRecord{}, ranks); });
+  if (ranks.leads()) cost.checkpoint_bytes = static_cast<double>(std::filesystem::file_size(scratch));
   std::error_code ignored;
   std::filesystem::remove(scratch, ignored);
   cost.steps_per_row = simulation.stage_run().expected_duration() /
@@ -194,6 +197,7 @@ BenchScene describe(Simulation& simulation, const Scenario& scenario, const Benc
   const HistoryRow row = simulation.observe();
   return {.element = element_name(scenario.numerics.element),
           .precision = precision_name(scenario.numerics.precision),
+          .ranks = simulation.ranks().size(),
           .threads = options.threads,
           .lanes = with_tet_numbers(model, [](auto number) { return TetBlock<decltype(number)>::lanes; }),
           .tets = model.tets(),
@@ -206,16 +210,18 @@ BenchScene describe(Simulation& simulation, const Scenario& scenario, const Benc
 }
 
 /// The model to measure. Sets the scenario, and its end where the packing is built in.
-Model make_model(const BenchOptions& options, Scenario& scenario) {
+Model make_model(const BenchOptions& options, Scenario& scenario, const Communicator& ranks) {
   if (options.scenario) {
     scenario = *options.scenario;
-    Model model = build_model(read_packing(scenario.packing_file), scenario, scenario.packing_file);
-    check_bonds(model, scenario);
+    Model model =
+        build_model(read_packing(scenario.packing_file, ranks), scenario, scenario.packing_file, ranks);
+    check_bonds(model, scenario, ranks);
     return model;
   }
   scenario = built_in_scenario(options);
-  const DensePacking dense = make_dense_packing(options.tets, options.grains, 1);
-  Model model = build_model(dense.packing, scenario, scenario.packing_file);
+  DensePacking dense = make_dense_packing(options.tets, options.grains, 1);
+  divide(dense.packing, ranks);
+  Model model = build_model(dense.packing, scenario, scenario.packing_file, ranks);
   scenario.stages[0].type = IsotropicCompaction{std::min(0.999, 1.15 * dense.relative_density), 1.0, 0.01};
   return model;
 }
@@ -227,7 +233,7 @@ void prepare(const BenchOptions& options, Scenario& scenario, Simulation& simula
     set_initial_hardening(simulation.model_to_disturb());
     approach_affinely(simulation, scenario);
   }
-  if (options.from) begin_branch(*options.from, simulation);
+  if (options.from) begin_branch(*options.from, simulation, simulation.ranks());
   const StageRun::State& stage = simulation.stage_run().state();
   check_programme(scenario, simulation.state().stage, stage.start, simulation.model(),
                   simulation.step_estimate().stable_step());
@@ -238,36 +244,46 @@ void prepare(const BenchOptions& options, Scenario& scenario, Simulation& simula
   }
 }
 
-} // namespace
-
-void run_bench(const BenchOptions& options) {
-  ThreadTeam team(options.threads);
-  const auto say = [&](const char* text) {
-    if (!options.quiet && !options.json) fmt::print(stderr, "{}\n", text);
-  };
-  Scenario scenario;
-  Model made = make_model(options, scenario);
-  Simulation simulation(std::move(made), scenario, team, options.from.has_value());
+/// What is measured with one rank only.
+template <class Say>
+void measure_alone(Simulation& simulation, ThreadTeam& team, BenchResult& result, const Say& say) {
   const Model& model = simulation.model();
-  say(fmt::format("{} tets in {} grains; warming up", model.tets(), model.grains).c_str());
-  prepare(options, scenario, simulation);
-
-  BenchResult result;
-  say("measuring steps");
-  result.step = measure_steps(simulation, options.steps);
-  simulation.evaluate_forces();
-  result.scene = describe(simulation, scenario, options);
   result.contact = work_of_contact(simulation.contact());
   result.search_work = work_of_search(model, simulation.contact().candidates);
-  result.output = measure_output(simulation, scenario);
   result.search = measure_search(simulation, team);
-  result.memory = peak_memory();
   say("measuring the element pass");
   result.elements = measure_elements(simulation.model_to_disturb(), simulation.step_estimate().stable_step(), team);
   say("measuring the machine");
   result.machine = {measure_triad(team), measure_fma(team)};
   result.tet = work_of_tet(model);
   result.integration = work_of_integration(model);
+}
+
+} // namespace
+
+void run_bench(const BenchOptions& options, const Communicator& ranks) {
+  ThreadTeam team(options.threads);
+  const auto say = [&](const std::string& text) {
+    if (ranks.leads() && !options.quiet && !options.json) fmt::print(stderr, "{}\n", text);
+  };
+  Scenario scenario;
+  Model made = make_model(options, scenario, ranks);
+  Simulation simulation(std::move(made), scenario, team, options.from.has_value(), ranks);
+  const Model& model = simulation.model();
+  say(fmt::format("{} tets in {} grains; warming up", model.tets(), model.grains));
+  prepare(options, scenario, simulation);
+
+  BenchResult result;
+  say("measuring steps");
+  const std::int64_t sent_before = simulation.ghosts().bytes_sent(), step_before = simulation.state().step;
+  result.step = measure_steps(simulation, options.steps);
+  result.sent = ranks.largest(static_cast<double>(simulation.ghosts().bytes_sent() - sent_before)) /
+                static_cast<double>(simulation.state().step - step_before);
+  simulation.evaluate_forces();
+  result.scene = describe(simulation, scenario, options);
+  result.output = measure_output(simulation, scenario);
+  if (ranks.alone()) measure_alone(simulation, team, result, say);
+  result.memory = peak_memory();
   fmt::print("{}", options.json ? json_text(result) : table_text(result));
 }
 

@@ -5,6 +5,7 @@
 #include <optional>
 #include <string>
 
+#include "solver/parallel/communicator.hpp"
 #include "solver/scenario/scenario.hpp"
 
 namespace mpfem {
@@ -24,7 +25,8 @@ struct BenchOptions {
   bool quiet = false;
 };
 
-/// Measures and prints a table, or with `json` one object. Throws InputError.
-void run_bench(const BenchOptions& options);
+/// Collective. Measures and prints a table, or with `json` one object. With several ranks: the step and the output alone;
+/// times of parts are the first rank's. Throws InputError.
+void run_bench(const BenchOptions& options, const Communicator& ranks = Communicator());
 
 } // namespace mpfem

@@ -61,6 +61,7 @@ void add_rate(Fields& fields, const std::string& part, const Rate& rate) {
 Fields scene_fields(const BenchScene& s) {
   return {text("version", version()),
           text("element", s.element),
+          integer("ranks", s.ranks),
           integer("threads", s.threads),
           text("precision", s.precision),
           integer("lanes", s.lanes),
@@ -110,6 +111,25 @@ void add_rest_fields(Fields& fields, const BenchResult& r) {
   fields.push_back(number("fma_GFlop_per_s", r.machine.fma));
 }
 
+void add_fields_of_ranks(Fields& fields, const BenchResult& r) {
+  fields.push_back(number("elements_ns_per_tet_step", r.step.of(Part::elements)));
+  fields.push_back(number("contact_ns_per_tet_step", r.step.of(Part::contact)));
+  fields.push_back(number("integration_ns_per_tet_step", r.step.of(Part::integration)));
+  fields.push_back(number("surface_ns_per_tet_step", r.step.of(Part::surface)));
+  fields.push_back(number("step_estimate_ns_per_tet_step", r.step.of(Part::step_estimate)));
+  fields.push_back(number("whole_step_ns_per_tet_step", r.step.whole));
+  fields.push_back(number("sent_bytes_per_step", r.sent));
+  fields.push_back(number("memory_bytes_of_first_rank", r.memory));
+}
+
+std::string scene_of_ranks_text(const BenchResult& r) {
+  const BenchScene& s = r.scene;
+  return fmt::format("scene          {} ranks of {} threads; {} {} tets ({} precision) in {} grains, D_r {:.3f}\n", s.ranks,
+                     s.threads, s.tets, s.element, s.precision, s.grains, s.relative_density) +
+         fmt::format("memory         {:.2f} GB at most in the first rank\n", 1e-9 * r.memory) +
+         fmt::format("messages       {:.1f} kB a step from the rank that sends most\n\n", 1e-3 * r.sent);
+}
+
 std::string scene_text(const BenchResult& r) {
   const BenchScene& s = r.scene;
   return fmt::format(
@@ -140,7 +160,7 @@ std::string cost_text(const BenchResult& r) {
   }
   line("waiting and rest", r.step.whole - accounted, false);
   line("total", r.step.whole, false);
-  line("a search over its steps", r.search_per_step(), true);
+  if (r.search.steps > 0) line("a search over its steps", r.search_per_step(), true);
   line("output over its steps", r.output_per_step(), false);
   return table;
 }
@@ -178,9 +198,13 @@ double BenchResult::output_per_step() const {
 
 std::string json_text(const BenchResult& result) {
   Fields fields = scene_fields(result.scene);
-  add_element_fields(fields, result);
-  add_contact_fields(fields, result);
-  add_rest_fields(fields, result);
+  if (result.scene.ranks == 1) {
+    add_element_fields(fields, result);
+    add_contact_fields(fields, result);
+    add_rest_fields(fields, result);
+  } else {
+    add_fields_of_ranks(fields, result);
+  }
   std::string object = "{";
   for (std::size_t i = 0; i < fields.size(); ++i)
     object += fmt::format("{}\n  \"{}\": {}", i > 0 ? "," : "", fields[i].first, fields[i].second);
@@ -188,6 +212,7 @@ std::string json_text(const BenchResult& result) {
 }
 
 std::string table_text(const BenchResult& r) {
+  if (r.scene.ranks > 1) return scene_of_ranks_text(r) + cost_text(r);
   return scene_text(r) + cost_text(r) + rate_text(r) +
          fmt::format("search {:.2f} ms, lasts {:.0f} steps; history row {:.2f} ms; checkpoint {:.2f} s, {:.0f} B a "
                      "tet, {:.2f} GB/s\n",

@@ -14,7 +14,8 @@ namespace mpfem {
 /// What was measured: the state of the packing.
 struct BenchScene {
   std::string element, precision;
-  int threads = 1;
+  int ranks = 1;
+  int threads = 1; ///< of each rank
   int lanes = 1; ///< tets in a pack
   std::int32_t tets = 0;
   int grains = 0;
@@ -65,7 +66,8 @@ struct BenchResult {
   OutputCost output;
   MachineLimits machine;
   Work tet, contact, search_work, integration; ///< of a tet; of all points; of a search; of all nodes
-  double memory = 0;                           ///< bytes, at most
+  double memory = 0;                           ///< bytes, at most, of the first rank
+  double sent = 0;                             ///< bytes a step, of the rank that sends most
 
   /// ns per tet, of some seconds.
   double per_tet(double seconds) const { return 1e9 * seconds / scene.tets; }

@@ -1,8 +1,8 @@
 #include "solver/kernels/contact_sums.hpp"
 
 #include <algorithm>
-#include <map>
-#include <utility>
+#include <optional>
+#include <tuple>
 
 #include "common/index.hpp"
 #include "solver/physics/penalty.hpp"
@@ -73,51 +73,88 @@ double bond_dissipation(const Model& model, const Contact& contact, std::int32_t
 
 namespace {
 
-using GrainPair = std::pair<std::int32_t, std::int32_t>;
+/// What the nodes of one grain have with another grain.
+struct HalfContact {
+  PairContact pair;   ///< first: the grain of the nodes; force on it
+  bool shown = false; ///< they touch or have had bonds; else it is only friction of the past
+};
 
-/// Of all pairs that have ever rubbed, first < second, whichever of the two grains' nodes did.
-std::map<GrainPair, FrictionSums> friction_of_pairs(const Contact& contact) {
-  std::map<GrainPair, FrictionSums> pairs;
-  if (!contact.has_friction()) return pairs;
+/// Force on the grain, half of the area, bonds and friction at its nodes.
+HalfContact half_contact(const Model& model, const Contact& contact, std::int32_t pair) {
+  const auto p = at(pair);
   const ContactCandidates& candidates = contact.candidates;
-  for (std::size_t p = 0; p < candidates.pair_first.size(); ++p) {
-    FrictionSums& sums = pairs[std::minmax(candidates.pair_first[p], candidates.pair_second[p])];
-    for (std::int32_t i = candidates.pair_point_offset[p]; i < candidates.pair_point_offset[p + 1]; ++i)
-      sums.add({contact.rubbing[at(i)].stored, contact.rubbing[at(i)].dissipated});
-  }
+  HalfContact half{{candidates.pair_first[p], candidates.pair_second[p], {}, 0, bond_sums(model, contact, pair), {}}};
+  const auto touching = contact.active_points(pair), pulling = contact.pulling_bonds(pair);
+  half.shown = !touching.empty() || half.pair.bonds.formed_area > 0;
+  for (const auto points : {touching, pulling})
+    for (const ContactForce& point : points)
+      for (int axis = 0; axis < 3; ++axis) half.pair.force[axis] += point.force[axis];
+  for (const ContactForce& point : touching) half.pair.area += 0.5 * model.normal[4 * at(point.node) + 3];
+  if (!contact.has_friction()) return half;
+  for (std::int32_t i = candidates.pair_point_offset[p]; i < candidates.pair_point_offset[p + 1]; ++i)
+    half.pair.friction.add({contact.rubbing[at(i)].stored, contact.rubbing[at(i)].dissipated});
+  return half;
+}
+
+/// The halves at nodes of own grains.
+std::vector<HalfContact> halves_at_own_nodes(const Model& model, const Contact& contact) {
+  std::vector<HalfContact> halves;
+  const ContactCandidates& candidates = contact.candidates;
+  for (const std::int32_t grain : model.own())
+    for (std::int32_t pair = candidates.outgoing_offset[at(grain)]; pair < candidates.outgoing_offset[at(grain) + 1];
+         ++pair)
+      if (const HalfContact half = half_contact(model, contact, pair); half.shown || contact.has_friction())
+        halves.push_back(half);
   for (const auto& [grains, lost] : contact.friction_left_behind)
-    pairs[std::minmax(grains.first, grains.second)].dissipated += lost;
-  return pairs;
+    halves.push_back({{grains.first, grains.second, {}, 0, {}, {0, lost}}});
+  return halves;
+}
+
+/// Of the halves of all ranks those where an own grain is the first of the two in number.
+std::vector<HalfContact> halves_of_own(const Model& model, const Contact& contact, const Communicator& ranks) {
+  std::vector<HalfContact> halves = halves_at_own_nodes(model, contact);
+  if (ranks.alone()) return halves;
+  std::vector<Bytes> to_ranks(at(ranks.size()));
+  std::erase_if(halves, [&](const HalfContact& half) {
+    const std::int32_t owner = model.ownership.owner[at(std::min(half.pair.first, half.pair.second))];
+    if (owner == model.ownership.rank) return false;
+    append(to_ranks[at(owner)], half);
+    return true;
+  });
+  for (const Bytes& message : ranks.exchange(to_ranks))
+    for (MessageReader reader(message); !reader.done();) halves.push_back(reader.take<HalfContact>());
+  return halves;
+}
+
+/// Adds a half to the contact of its two grains; the other half may have been added before.
+void add_half(HalfContact& both, const HalfContact& half) {
+  const double sign = half.pair.first == both.pair.first ? 1.0 : -1.0;
+  for (int axis = 0; axis < 3; ++axis) both.pair.force[axis] += sign * half.pair.force[axis];
+  both.pair.area += half.pair.area;
+  both.pair.bonds.add(half.pair.bonds);
+  both.pair.friction.add(half.pair.friction);
+  both.shown = both.shown || half.shown;
 }
 
 } // namespace
 
-std::vector<PairContact> pair_contacts(const Model& model, const Contact& contact) {
-  std::map<GrainPair, PairContact> pairs;
-  const ContactCandidates& candidates = contact.candidates;
-  for (std::size_t p = 0; p < candidates.pair_first.size(); ++p) {
-    const std::int32_t a = candidates.pair_first[p], b = candidates.pair_second[p];
-    const auto pair = static_cast<std::int32_t>(p);
-    const BondSums bonds = bond_sums(model, contact, pair);
-    const auto touching = contact.active_points(pair), pulling = contact.pulling_bonds(pair);
-    if (touching.empty() && bonds.formed_area == 0) continue;
-    auto& entry =
-        pairs.try_emplace({std::min(a, b), std::max(a, b)}, PairContact{std::min(a, b), std::max(a, b), {}, 0, {}, {}})
-            .first->second;
-    const double sign = a < b ? 1.0 : -1.0;
-    for (const auto points : {touching, pulling})
-      for (const ContactForce& point : points)
-        for (int axis = 0; axis < 3; ++axis) entry.force[axis] += sign * point.force[axis];
-    for (const ContactForce& point : touching) entry.area += 0.5 * model.normal[4 * at(point.node) + 3];
-    entry.bonds.add(bonds);
+std::vector<PairContact> pair_contacts(const Model& model, const Contact& contact, const Communicator& ranks) {
+  std::vector<HalfContact> halves = halves_of_own(model, contact, ranks);
+  const auto grains = [](const HalfContact& half) { return std::minmax(half.pair.first, half.pair.second); };
+  // Of both halves that of the first grain's nodes comes first, so that sums do not depend on who owns the grains.
+  std::stable_sort(halves.begin(), halves.end(), [&](const HalfContact& a, const HalfContact& b) {
+    return std::tuple(grains(a), a.pair.first) < std::tuple(grains(b), b.pair.first);
+  });
+  std::vector<PairContact> pairs;
+  for (std::size_t i = 0; i < halves.size();) {
+    const auto [first, second] = grains(halves[i]);
+    HalfContact both{{first, second, {}, 0, {}, {}}};
+    for (; i < halves.size() && grains(halves[i]) == std::pair<const std::int32_t&, const std::int32_t&>(first, second);
+         ++i)
+      add_half(both, halves[i]);
+    if (both.shown) pairs.push_back(both.pair);
   }
-  const auto friction = friction_of_pairs(contact);
-  std::vector<PairContact> result;
-  for (const auto& [key, pair] : pairs) {
-    result.push_back(pair);
-    if (const auto found = friction.find(key); found != friction.end()) result.back().friction = found->second;
-  }
-  return result;
+  return pairs;
 }
 
 } // namespace mpfem

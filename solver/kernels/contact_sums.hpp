@@ -51,7 +51,9 @@ struct PairContact {
   BondSums bonds;
   FrictionSums friction;
 };
-/// Pairs in contact or bonded, first < second.
-std::vector<PairContact> pair_contacts(const Model& model, const Contact& contact);
+/// Collective. Pairs in contact or bonded whose first is an own grain, first < second, in ascending order: the sum of
+/// what the nodes of both grains have.
+std::vector<PairContact> pair_contacts(const Model& model, const Contact& contact,
+                                       const Communicator& ranks = Communicator());
 
 } // namespace mpfem

@@ -69,30 +69,28 @@ BadTet find_bad_tet_in(const Model& model, int grain) {
 }
 
 template <class Real>
-TetFields tet_fields_in(const Model& model) {
-  const auto tets = static_cast<std::size_t>(model.tets());
+TetFields tet_fields_in(const Model& model, int grain) {
+  const auto g = static_cast<std::size_t>(grain);
+  const std::int32_t first = model.tet_offset[g];
+  const auto tets = static_cast<std::size_t>(model.tet_offset[g + 1] - first);
   TetFields fields{std::vector<float>(tets), std::vector<float>(tets), std::vector<float>(tets)};
-  for (int grain = 0; grain < model.grains; ++grain) {
-    const auto g = static_cast<std::size_t>(grain);
-    const double* position = model.position.data() + 4 * model.node_offset[g];
-    std::vector<double> nodal(static_cast<std::size_t>(model.node_offset[g + 1] - model.node_offset[g]));
-    with_pressure<Real>(model, grain, nodal.data(), [&](auto pressure) {
-      for (std::int32_t b = model.block_offset[g]; b < model.block_offset[g + 1]; ++b) {
-        const TetBlock<Real>& block = model.block<Real>(b);
-        pressure.enter(b);
-        const auto q = von_mises(load_deviator(block));
-        const auto mean = pressure(block, current_volume_ratio(block, position));
-        for (int lane = 0; lane < model.tets_in_block<Real>(grain, b); ++lane) {
-          const auto tet = static_cast<std::size_t>(model.tet_offset[g] +
-                                                    (b - model.block_offset[g]) * TetBlock<Real>::lanes + lane);
-          const auto file = static_cast<std::size_t>(model.file_tet[tet]);
-          fields.von_mises[file] = static_cast<float>(q[lane]);
-          fields.pressure[file] = static_cast<float>(-mean[lane]);
-          fields.plastic_strain[file] = static_cast<float>(block.plastic_strain[lane]);
-        }
+  const double* position = model.position.data() + 4 * model.node_offset[g];
+  std::vector<double> nodal(static_cast<std::size_t>(model.node_offset[g + 1] - model.node_offset[g]));
+  with_pressure<Real>(model, grain, nodal.data(), [&](auto pressure) {
+    for (std::int32_t b = model.block_offset[g]; b < model.block_offset[g + 1]; ++b) {
+      const TetBlock<Real>& block = model.block<Real>(b);
+      pressure.enter(b);
+      const auto q = von_mises(load_deviator(block));
+      const auto mean = pressure(block, current_volume_ratio(block, position));
+      for (int lane = 0; lane < model.tets_in_block<Real>(grain, b); ++lane) {
+        const auto tet = static_cast<std::size_t>(first + (b - model.block_offset[g]) * TetBlock<Real>::lanes + lane);
+        const auto place = static_cast<std::size_t>(model.file_tet[tet] - first);
+        fields.von_mises[place] = static_cast<float>(q[lane]);
+        fields.pressure[place] = static_cast<float>(-mean[lane]);
+        fields.plastic_strain[place] = static_cast<float>(block.plastic_strain[lane]);
       }
-    });
-  }
+    }
+  });
   return fields;
 }
 
@@ -110,8 +108,8 @@ BadTet find_bad_tet(const Model& model, int grain) {
   return with_tet_numbers(model, [&](auto number) { return find_bad_tet_in<decltype(number)>(model, grain); });
 }
 
-TetFields tet_fields(const Model& model) {
-  return with_tet_numbers(model, [&](auto number) { return tet_fields_in<decltype(number)>(model); });
+TetFields tet_fields(const Model& model, int grain) {
+  return with_tet_numbers(model, [&](auto number) { return tet_fields_in<decltype(number)>(model, grain); });
 }
 
 } // namespace mpfem

@@ -21,12 +21,12 @@ struct BadTet {
 };
 BadTet find_bad_tet(const Model& model, int grain);
 
-/// Fields of one tet for output, in file order of the whole packing.
+/// Fields of a grain's tets for output, in their order in the packing file.
 struct TetFields {
   std::vector<float> von_mises; ///< MPa
   std::vector<float> pressure;  ///< MPa, compression positive
   std::vector<float> plastic_strain;
 };
-TetFields tet_fields(const Model& model);
+TetFields tet_fields(const Model& model, int grain);
 
 } // namespace mpfem

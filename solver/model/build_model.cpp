@@ -85,7 +85,7 @@ std::vector<Index> block_offsets(const Model& model, int lanes) {
 /// The tets of a grain in the order of model.file_tet. `new_index` maps its nodes in the file, counted from its first,
 /// to the model's, counted likewise.
 template <class Real>
-void set_blocks(const GrainMeshView& mesh, const std::vector<Index>& new_index, int grain, Model& model) {
+void set_blocks(const PackedMesh& mesh, const std::vector<Index>& new_index, int grain, Model& model) {
   constexpr int lanes = TetBlock<Real>::lanes;
   const std::size_t g = at(grain);
   const Index first_tet = model.tet_offset[g], end_tet = model.tet_offset[g + 1];
@@ -143,7 +143,7 @@ Model empty_model(const MeshedPacking& packing, const Scenario& scenario, const 
 
 /// Nodes of a grain in the order of the model: surface nodes first, each group along a Morton curve through the grain's
 /// box.
-std::vector<Index> order_nodes(const GrainMeshView& mesh, const std::vector<char>& on_surface) {
+std::vector<Index> order_nodes(const PackedMesh& mesh, const std::vector<char>& on_surface) {
   Vector3<double> low = mesh.point(mesh.first_node), high = low;
   for (Index n = mesh.first_node; n < mesh.end_node(); ++n) {
     const auto x = mesh.point(n);
@@ -164,7 +164,7 @@ std::vector<Index> order_nodes(const GrainMeshView& mesh, const std::vector<char
 
 /// Sets nodes and positions of a grain. Returns the number in the model of each of its nodes in the file, both counted
 /// from the grain's first.
-std::vector<Index> add_nodes(const GrainMeshView& mesh, const Faces& faces, std::size_t grain, Model& model) {
+std::vector<Index> add_nodes(const PackedMesh& mesh, const Faces& faces, std::size_t grain, Model& model) {
   std::vector<char> on_surface(at(mesh.nodes()), 0);
   for (const auto& face : faces)
     for (const Index n : face) on_surface[at(n - mesh.first_node)] = 1;
@@ -184,7 +184,7 @@ std::vector<Index> add_nodes(const GrainMeshView& mesh, const Faces& faces, std:
 
 /// Sets the element size of a grain, the tributary areas of its surface nodes, and turns its faces to facets: triples
 /// of the model's nodes.
-void measure_facets(const GrainMeshView& mesh, const std::vector<Index>& new_index, std::size_t grain, Faces& faces,
+void measure_facets(const PackedMesh& mesh, const std::vector<Index>& new_index, std::size_t grain, Faces& faces,
                     Model& model) {
   double edge_sum = 0;
   for (auto& face : faces) {
@@ -200,7 +200,7 @@ void measure_facets(const GrainMeshView& mesh, const std::vector<Index>& new_ind
 }
 
 /// Sets the order of a grain's tets: in patches of eight that lie together.
-void add_tets(const GrainMeshView& mesh, Model& model) {
+void add_tets(const PackedMesh& mesh, Model& model) {
   std::vector<Vector3<double>> centre(at(mesh.tets()), Vector3<double>{0, 0, 0});
   const std::span<Index> order(model.file_tet.data() + mesh.first_tet, at(mesh.tets()));
   for (Index t = mesh.first_tet; t < mesh.end_tet(); ++t) {
@@ -212,8 +212,8 @@ void add_tets(const GrainMeshView& mesh, Model& model) {
 }
 
 /// Lumps a quarter of every tet's mass at each of its nodes. Throws InputError where a node belongs to no tet.
-void lump_masses(const GrainMeshView& mesh, double density, const std::vector<Index>& new_index,
-                 const std::string& name, std::size_t grain, Model& model) {
+void lump_masses(const PackedMesh& mesh, double density, const std::vector<Index>& new_index, const std::string& name,
+                 std::size_t grain, Model& model) {
   double volume = 0;
   for (Index i = mesh.first_tet; i < mesh.end_tet(); ++i) {
     const Index t = model.file_tet[at(i)];
@@ -240,7 +240,7 @@ struct GrainParts {
 GrainParts add_grain(const MeshedPacking& packing, const Scenario& scenario, const std::string& name, Index grain,
                      Model& model) {
   const std::size_t g = at(grain);
-  const GrainMeshView mesh = packing.mesh_of(grain);
+  const PackedMesh mesh = packing.mesh_of(grain);
   GrainParts parts;
   parts.facets = boundary_faces(mesh.tet, fmt::format("{}: grain {}", name, grain));
   const Material& material = model.material_of(grain);
@@ -300,7 +300,7 @@ void set_patch_volumes(const MeshedPacking& packing, Model& model) {
                                  (model.tet_offset[g + 1] - model.tet_offset[g] + patch_tets - 1) / patch_tets);
   model.inverse_patch_volume = LazyArray<double>(at(model.patch_offset.back()), model.pages());
   for (const Index g : model.own()) {
-    const GrainMeshView mesh = packing.mesh_of(g);
+    const PackedMesh mesh = packing.mesh_of(g);
     Index patch = model.patch_offset[at(g)];
     for (Index t = mesh.first_tet; t < mesh.end_tet(); t += patch_tets) {
       double volume = 0;

@@ -40,7 +40,7 @@ void check_array_sizes(const MeshedPacking& packing, const std::string& name) {
                     name, packing.sphere_center.size(), packing.sphere_radius.size(), no.size() - 1));
 }
 
-void check_tet(const GrainMeshView& mesh, Index tet, std::size_t grain, const std::string& name) {
+void check_tet(const PackedMesh& mesh, Index tet, std::size_t grain, const std::string& name) {
   for (const Index n : mesh.corners(tet))
     if (n < mesh.first_node || n >= mesh.end_node())
       throw InputError(fmt::format("{}: /mesh/tet row {}: node {} is not one of grain {} (allowed {} … {})", name, tet,
@@ -59,7 +59,7 @@ void check_packing(const MeshedPacking& packing, const std::string& name) {
   for (int grain = 0; grain < packing.grains(); ++grain) {
     if (packing.ownership && !packing.ownership->owns(grain)) continue;
     const auto g = static_cast<std::size_t>(grain);
-    const GrainMeshView mesh = packing.mesh_of(grain);
+    const PackedMesh mesh = packing.mesh_of(grain);
     if (mesh.tet.empty()) throw InputError(fmt::format("{}: grain {} has no tetrahedra", name, g));
     for (Index t = mesh.first_tet; t < mesh.end_tet(); ++t) check_tet(mesh, t, g, name);
     for (std::size_t i = 0; i < mesh.node.size(); ++i)
@@ -71,7 +71,7 @@ void check_packing(const MeshedPacking& packing, const std::string& name) {
 void refuse_sizes_beyond_floats(const MeshedPacking& packing, std::span<const Index> grains, const std::string& name) {
   constexpr double least = 1e-4, most = 1e4; // mm
   for (const Index grain : grains) {
-    const GrainMeshView mesh = packing.mesh_of(grain);
+    const PackedMesh mesh = packing.mesh_of(grain);
     for (Index t = mesh.first_tet; t < mesh.end_tet(); ++t) {
       const auto corner = mesh.corners(t);
       double longest = 0;

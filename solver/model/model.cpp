@@ -12,13 +12,13 @@ SurfaceView Model::surface() const {
   return {position, node_offset, surface_node_count, facet, facet_offset};
 }
 
-double GrainMeshView::volume(std::int32_t file_tet) const {
+double PackedMesh::volume(std::int32_t file_tet) const {
   const auto n = corners(file_tet);
   const auto x0 = point(n[0]);
   return dot(point(n[1]) - x0, cross(point(n[2]) - x0, point(n[3]) - x0)) / 6.0;
 }
 
-GrainMeshView MeshedPacking::mesh_of(int grain) const {
+PackedMesh MeshedPacking::mesh_of(int grain) const {
   const auto g = static_cast<std::size_t>(grain);
   const std::int32_t first_node = grain_node_offset[g], first_tet = grain_tet_offset[g];
   const std::size_t nodes = static_cast<std::size_t>(grain_node_offset[g + 1] - first_node),

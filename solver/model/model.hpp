@@ -147,7 +147,7 @@ auto with_tet_numbers(const Model& model, F&& f) {
 }
 
 /// The mesh of one grain in a packing file.
-struct GrainMeshView {
+struct PackedMesh {
   std::span<const double> node;      ///< [nodes * 3], mm
   std::span<const std::int32_t> tet; ///< [tets * 4], numbers of nodes in the file
   std::int32_t first_node = 0;       ///< in the file
@@ -187,7 +187,7 @@ struct MeshedPacking {
 
   int grains() const { return static_cast<int>(grain_node_offset.size()) - 1; }
   /// Of a grain that is here.
-  GrainMeshView mesh_of(int grain) const;
+  PackedMesh mesh_of(int grain) const;
 };
 
 /// What tells a mesh from others, from the hash of its nodes and that of its tets chained to it (common/hash.hpp).
@@ -198,6 +198,9 @@ std::uint64_t hash_of_mesh(std::uint64_t of_nodes_and_tets, const MeshedPacking&
 /// meshed.
 MeshedPacking read_packing(const std::string& path, const Communicator& ranks = Communicator(),
                            const std::optional<std::vector<std::int32_t>>& owner = std::nullopt);
+
+/// Leaves each rank the grains of its share, by the number of tets, of a packing that all ranks have made alike.
+void divide(MeshedPacking& packing, const Communicator& ranks);
 
 /// Makes nodes heavier until no tet, with the usual share of contact, requires a smaller step than `step` (s) in the
 /// reference state; with `lighten`, also lighter where the tets leave room: then every node is as heavy as the step

@@ -32,13 +32,13 @@ void take_spheres(schema::PackingSpheres&& spheres, MeshedPacking& packing) {
   packing.sphere_radius = std::move(spheres.radius);
 }
 
-/// By the number of tets, which is what a loose grain's step costs.
-std::vector<Index> divide(const MeshedPacking& packing, int ranks) {
-  std::vector<std::array<double, 3>> centre(packing.sphere_radius.size());
+/// By the number of tets, which is what a loose grain's step costs. `point` ([grains * 3], mm): a point of each grain.
+std::vector<Index> owners(const std::vector<double>& point, const std::vector<Index>& tet_offset, int ranks) {
+  std::vector<std::array<double, 3>> centre(tet_offset.size() - 1);
   std::vector<double> weight(centre.size());
   for (std::size_t g = 0; g < centre.size(); ++g) {
-    std::copy_n(&packing.sphere_center[3 * g], 3, centre[g].begin());
-    weight[g] = packing.grain_tet_offset[g + 1] - packing.grain_tet_offset[g];
+    std::copy_n(&point[3 * g], 3, centre[g].begin());
+    weight[g] = tet_offset[g + 1] - tet_offset[g];
   }
   return divide_among_ranks(centre, weight, ranks);
 }
@@ -79,7 +79,8 @@ void read_own_meshes(const schema::FileReader& reader, const Communicator& ranks
   const schema::PackingOffsets offsets = schema::read_packing_offsets(reader, packing.sphere_radius.size());
   packing.grain_node_offset = offsets.node;
   packing.grain_tet_offset = offsets.tet;
-  packing.ownership = ownership_of(owner ? *owner : divide(packing, ranks.size()), ranks.rank());
+  packing.ownership = ownership_of(
+      owner ? *owner : owners(packing.sphere_center, packing.grain_tet_offset, ranks.size()), ranks.rank());
   packing.node_start = starts_of_own(*packing.ownership, offsets.node);
   packing.tet_start = starts_of_own(*packing.ownership, offsets.tet);
   StreamingHash nodes;
@@ -90,6 +91,22 @@ void read_own_meshes(const schema::FileReader& reader, const Communicator& ranks
 }
 
 } // namespace
+
+void divide(MeshedPacking& packing, const Communicator& ranks) {
+  if (ranks.alone()) return;
+  std::vector<double> point; // the first node of each grain
+  for (std::size_t g = 0; g < at(packing.grains()); ++g)
+    point.insert(point.end(), &packing.node[3 * at(packing.grain_node_offset[g])],
+                 &packing.node[3 * at(packing.grain_node_offset[g])] + 3);
+  packing.ownership = ownership_of(owners(point, packing.grain_tet_offset, ranks.size()), ranks.rank());
+  packing.node_start.assign(packing.grain_node_offset.begin(), packing.grain_node_offset.end() - 1);
+  packing.tet_start.assign(packing.grain_tet_offset.begin(), packing.grain_tet_offset.end() - 1);
+  StreamingHash nodes;
+  nodes.update(std::as_bytes(std::span(packing.node)));
+  StreamingHash tets(nodes.value());
+  tets.update(std::as_bytes(std::span(packing.tet)));
+  packing.hash = hash_of_mesh(tets.value(), packing);
+}
 
 MeshedPacking read_packing(const std::string& path, const Communicator& ranks,
                            const std::optional<std::vector<Index>>& owner) {

@@ -55,11 +55,12 @@ struct CheckpointState {
   FieldValues fields; ///< of the simulation, whose first whole number is the step, then of the record
 };
 
-/// Written beside and renamed. Throws StorageError.
+/// Collective; of what is not of grains, the first rank's counts. Written beside and renamed, the same whatever the
+/// ranks. Throws StorageError on the first rank, where the others may wait for it (gathered_file.hpp).
 void write_checkpoint(const std::string& path, const CheckpointState& state, const RunRecord& record,
-                      const std::string& scenario_text);
+                      const std::string& scenario_text, const Communicator& ranks = Communicator());
 
-/// An open checkpoint. Every function throws InputError where the file is damaged.
+/// An open checkpoint; every rank opens it. Every function throws InputError where the file is damaged.
 class CheckpointReader {
 public:
   explicit CheckpointReader(const std::string& path);
@@ -74,35 +75,27 @@ public:
   /// Whether a bond has formed by then.
   bool has_bonds() const;
 
-  /// Throws InputError where the checkpoint belongs to another mesh or was written by a build whose arrays stand
-  /// otherwise.
-  void check_model(const Model& model) const;
+  /// Collective. Throws InputError where the checkpoint belongs to another mesh or was written by a build whose arrays
+  /// stand otherwise.
+  void check_model(const Model& model, const Communicator& ranks = Communicator()) const;
 
   RunRecord record() const; ///< without what stands among the fields
   FieldValues fields() const;
-  /// Replaces the state of nodes, tets and contact points. Bonds keep the laws by which they formed; whether they
-  /// resist sliding is said by `bond_parameters`, of the run that wrote the checkpoint; none where no bond has formed.
-  /// The last law in `contact` stays that of bonds to come. `grips`: of a stage that grips, its axis set, or none.
-  /// Friction that is on only now begins without anchors; anchors of friction that is off now are left out.
+  /// Replaces the state of nodes, tets and contact points of own grains: `contact` has the pairs whose first grain is
+  /// an own one afterwards. No more than that is held, and no rank waits for another. Bonds keep the laws by which they
+  /// formed; whether they resist sliding is said by `bond_parameters`, of the run that wrote the checkpoint; none where
+  /// no bond has formed. The last law in `contact` stays that of bonds to come. `grips`: of a stage that grips, its
+  /// axis set, or none. Friction that is on only now begins without anchors; anchors of friction that is off now are
+  /// left out.
   void take_arrays(Model& model, Contact& contact, WallFriction& wall_friction, Tools& tools, GrainSteps& grain_steps,
                    Grips* grips, const std::optional<BondParameters>& bond_parameters) const;
 
 private:
-  void take_tets(Model& model) const;
-  void take_candidates(const Model& model, Contact& contact) const;
-  void take_bonds(const Model& model, Contact& contact, const BondParameters& parameters) const;
-  void take_friction(const Model& model, Contact& contact) const;
-  template <class Datasets, class Lists, class Make>
-  void take_by_surface(const Model& model, const Datasets& datasets, std::size_t surfaces, std::size_t width,
-                       Lists&& list_of, Make&& make) const;
-  template <class Datasets, class Anchors>
-  void take_anchors(const Model& model, const Datasets& datasets, std::size_t surfaces, Anchors&& anchors_of) const;
-  void take_tool_bonds(const Model& model, Tools& tools) const;
-  void take_grips(const Model& model, Grips& grips) const;
-  [[noreturn]] void fail_damaged() const;
-
   schema::FileReader file_;
 };
+
+/// Throws InputError: numbers of a checkpoint that do not belong together.
+[[noreturn]] void refuse_damaged_checkpoint(const std::string& path);
 
 /// Reads all arrays of a checkpoint. Throws InputError where they do not match its checksum or cannot be read.
 void verify_checkpoint(const std::string& path);

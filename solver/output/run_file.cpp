@@ -7,12 +7,14 @@
 
 #include "common/errors.hpp"
 #include "common/hash.hpp"
+#include "common/index.hpp"
 #include "common/one_line.hpp"
 #include "common/physical_host.hpp"
 #include "common/version.hpp"
 #include "results-schema/descriptors.hpp"
 #include "solver/kernels/grain_state.hpp"
 #include "solver/output/bond_laws.hpp"
+#include "solver/output/gathered_file.hpp"
 #include "solver/output/tool_geometry.hpp"
 
 namespace mpfem {
@@ -21,157 +23,250 @@ namespace {
 
 namespace run = schema::run;
 
-/// Rows of four doubles in the solver's order to rows of three floats in file order.
-std::vector<float> in_file_order(const Model& model, const LazyArray<double>& rows) {
-  std::vector<float> result(3 * static_cast<std::size_t>(model.nodes()));
-  for (std::size_t n = 0; n < model.file_node.size(); ++n)
-    for (std::size_t axis = 0; axis < 3; ++axis)
-      result[3 * static_cast<std::size_t>(model.file_node[n]) + axis] = static_cast<float>(rows[4 * n + axis]);
-  return result;
+using Index = std::int32_t;
+using Counts = std::vector<std::int64_t>; ///< [grains]
+
+/// Place of a node in the packing file among the nodes of its grain.
+std::size_t place_in_grain(const Model& model, Index grain, std::size_t node) {
+  return at(model.file_node[node] - model.node_offset[at(grain)]);
 }
 
-/// Normal traction at surface nodes: the sum of contact, bond and wall forces along the inward normal over the
-/// tributary area.
-std::vector<float> contact_pressure(const SnapshotState& state) {
-  const Model& model = state.model;
-  const Contact& contact = state.contact;
-  std::vector<double> force(static_cast<std::size_t>(model.nodes()), 0.0);
-  const auto add = [&](std::int32_t node, double share, const ContactForce& point) {
-    const double* normal = &model.normal[4 * static_cast<std::size_t>(node)];
-    for (std::size_t axis = 0; axis < 3; ++axis)
-      force[static_cast<std::size_t>(node)] -= share * point.force[axis] * normal[axis];
+/// Writes rows of four doubles in the solver's order as rows of three floats in file order.
+template <class Dataset>
+void write_node_rows(GatheredFile& file, const std::string& name, const Dataset& dataset, const Model& model,
+                     const LazyArray<double>& rows) {
+  file.write_grains(
+      dataset, rows_of_grains(model.node_offset),
+      [&](Index grain, std::span<float> values) {
+        for (std::size_t n = at(model.node_offset[at(grain)]); n < at(model.node_offset[at(grain) + 1]); ++n)
+          for (std::size_t axis = 0; axis < 3; ++axis)
+            values[3 * place_in_grain(model, grain, n) + axis] = static_cast<float>(rows[4 * n + axis]);
+      },
+      name);
+}
+
+/// Calls visit(pair) for the pairs that have a grain's nodes or facets, in ascending order.
+template <class Visit>
+void for_pairs_of(const ContactCandidates& candidates, Index grain, Visit&& visit) {
+  const Index first = candidates.outgoing_offset[at(grain)], end = candidates.outgoing_offset[at(grain) + 1];
+  Index incoming = candidates.incoming_offset[at(grain)];
+  const Index incoming_end = candidates.incoming_offset[at(grain) + 1];
+  for (; incoming < incoming_end && candidates.incoming_pair[at(incoming)] < first; ++incoming)
+    visit(candidates.incoming_pair[at(incoming)]);
+  for (Index pair = first; pair < end; ++pair) visit(pair);
+  for (; incoming < incoming_end; ++incoming) visit(candidates.incoming_pair[at(incoming)]);
+}
+
+/// N, the sum of contact and bond forces on the nodes of a grain along their inward normals.
+std::vector<double> contact_push(const Model& model, const Contact& contact, Index grain) {
+  const Index first = model.node_offset[at(grain)];
+  std::vector<double> push(at(model.node_offset[at(grain) + 1] - first), 0.0);
+  const auto add = [&](Index node, double share, const ContactForce& point) {
+    const double* normal = &model.normal[4 * at(node)];
+    for (std::size_t axis = 0; axis < 3; ++axis) push[at(node - first)] -= share * point.force[axis] * normal[axis];
   };
-  for (std::size_t pair = 0; pair < contact.active.size(); ++pair)
-    for (const auto points : {contact.active_points(static_cast<std::int32_t>(pair)),
-                              contact.pulling_bonds(static_cast<std::int32_t>(pair))})
+  for_pairs_of(contact.candidates, grain, [&](Index pair) {
+    const bool of_nodes = contact.candidates.pair_first[at(pair)] == grain;
+    for (const auto points : {contact.active_points(pair), contact.pulling_bonds(pair)})
       for (const ContactForce& point : points) {
-        add(point.node, 1.0, point);
-        for (int c = 0; c < 3; ++c) add(point.facet_node[c], -point.weight(c), point);
+        if (of_nodes)
+          add(point.node, 1.0, point);
+        else
+          for (int c = 0; c < 3; ++c) add(point.facet_node[c], -point.weight(c), point);
       }
-  std::vector<float> pressure(force.size(), 0.0F);
-  for (int grain = 0; grain < model.grains; ++grain) {
-    const auto g = static_cast<std::size_t>(grain);
-    for (std::int32_t n = model.node_offset[g]; n < model.node_offset[g] + model.surface_node_count[g]; ++n) {
-      const auto node = static_cast<std::size_t>(n);
-      const double area = model.normal[4 * node + 3];
-      const double push =
-          force[node] + state.box.wall_force_on_node(model, node, grain) + state.tools.push_on_node(model, node, grain);
-      pressure[static_cast<std::size_t>(model.file_node[node])] = area > 0 ? static_cast<float>(push / area) : 0.0F;
-    }
-  }
-  return pressure;
+  });
+  return push;
 }
 
-template <class Dataset, class Values>
-void write_rows(schema::FileWriter& file, const std::string& name, const Dataset& dataset, const Values& values,
-                std::size_t rows) {
-  file.write(dataset, std::span<const typename Values::value_type>(values), rows, name);
+/// Writes the normal traction at surface nodes: the sum of contact, bond and wall forces along the inward normal over
+/// the tributary area.
+void write_contact_pressure(GatheredFile& file, const std::string& name, const SnapshotState& state) {
+  const Model& model = state.model;
+  file.write_grains(
+      run::snapshots_contact_pressure, rows_of_grains(model.node_offset),
+      [&](Index grain, std::span<float> pressure) {
+        std::ranges::fill(pressure, 0.0F);
+        const std::vector<double> contact = contact_push(model, state.contact, grain);
+        const std::size_t first = at(model.node_offset[at(grain)]);
+        for (std::size_t node = first; node < first + at(model.surface_node_count[at(grain)]); ++node) {
+          const double area = model.normal[4 * node + 3];
+          const double push = contact[node - first] + state.box.wall_force_on_node(model, node, grain) +
+                              state.tools.push_on_node(model, node, grain);
+          pressure[place_in_grain(model, grain, node)] = area > 0 ? static_cast<float>(push / area) : 0.0F;
+        }
+      },
+      name);
 }
 
-/// Writes what the bonds of each pair of grains come to.
-void write_bonds_of_pairs(schema::FileWriter& file, const std::string& name, const std::vector<PairContact>& pairs) {
-  std::vector<double> bonded_area, pair_damage, energy, dissipation;
-  for (const PairContact& pair : pairs) {
-    const BondSums& b = pair.bonds;
-    bonded_area.push_back(0.5 * b.bonded_area);
-    pair_damage.push_back(b.formed_area > 0 ? b.damaged_area / b.formed_area : -1.0);
-    energy.push_back(b.stored);
-    dissipation.push_back(b.dissipated);
-  }
-  write_rows(file, name, run::snapshots_pair_bonded_area, bonded_area, pairs.size());
-  write_rows(file, name, run::snapshots_pair_damage, pair_damage, pairs.size());
-  write_rows(file, name, run::snapshots_pair_bond_energy, energy, pairs.size());
-  write_rows(file, name, run::snapshots_pair_damage_dissipation, dissipation, pairs.size());
+/// Writes stresses and plastic strain.
+void write_tet_fields(GatheredFile& file, const std::string& name, const Model& model) {
+  const Counts tets = rows_of_grains(model.tet_offset);
+  // Computed anew for each: all of a rank's tets would be a tenth of what it holds.
+  const auto write = [&](const auto& dataset, std::vector<float> TetFields::*field) {
+    file.write_grains(
+        dataset, tets,
+        [&](Index grain, std::span<float> values) {
+          std::ranges::copy(tet_fields(model, grain).*field, values.begin());
+        },
+        name);
+  };
+  write(run::snapshots_von_mises, &TetFields::von_mises);
+  write(run::snapshots_pressure, &TetFields::pressure);
+  write(run::snapshots_plastic_strain, &TetFields::plastic_strain);
 }
 
-/// Writes what friction stores and has dissipated between the grains of each pair.
-void write_friction_of_pairs(schema::FileWriter& file, const std::string& name, const std::vector<PairContact>& pairs) {
-  std::vector<double> stored, dissipated;
-  for (const PairContact& pair : pairs) {
-    stored.push_back(pair.friction.stored);
-    dissipated.push_back(pair.friction.dissipated);
+/// Writes one value or some for each of a grain's entries: set(entry, values).
+template <class T, int Rank, class Entries, class Set>
+void write_entries(GatheredFile& file, const std::string& name, const schema::Dataset<T, Rank>& dataset,
+                   const Counts& counts, Entries&& entries_of, Set&& set) {
+  const std::size_t columns = Rank == 2 ? dataset.extent[1].fixed : 1;
+  file.write_grains(
+      dataset, counts,
+      [&](Index grain, std::span<T> values) {
+        for (const auto& entry : entries_of(grain)) {
+          set(entry, values.first(columns));
+          values = values.subspan(columns);
+        }
+      },
+      name);
+}
+
+/// Writes what is between each pair of grains: force, area and, with bonds, what these come to.
+void write_pairs(GatheredFile& file, const std::string& name, const Model& model, const Contact& contact) {
+  const auto pairs = pair_contacts(model, contact, file.ranks());
+  const auto of_grain = [&](Index grain) {
+    return std::ranges::equal_range(pairs, grain, {}, [](const PairContact& pair) { return pair.first; });
+  };
+  const Counts counts = count_of_grains(file.ranks(), model, [&](Index grain) { return of_grain(grain).size(); });
+  const auto write = [&](const auto& dataset, auto&& set) {
+    write_entries(file, name, dataset, counts, of_grain, set);
+  };
+  const auto write_number = [&](const auto& dataset, auto&& number) {
+    write(dataset, [&](const PairContact& pair, std::span<double> value) { value[0] = number(pair); });
+  };
+  write(run::snapshots_pair_grains,
+        [](const PairContact& pair, std::span<Index> grains) { grains[0] = pair.first, grains[1] = pair.second; });
+  write(run::snapshots_pair_force,
+        [](const PairContact& pair, std::span<double> force) { std::ranges::copy(pair.force, force.begin()); });
+  write_number(run::snapshots_pair_area, [](const PairContact& pair) { return pair.area; });
+  if (contact.has_friction()) {
+    write_number(run::snapshots_pair_friction_energy, [](const PairContact& pair) { return pair.friction.stored; });
+    write_number(run::snapshots_pair_friction_dissipation,
+                 [](const PairContact& pair) { return pair.friction.dissipated; });
   }
-  write_rows(file, name, run::snapshots_pair_friction_energy, stored, pairs.size());
-  write_rows(file, name, run::snapshots_pair_friction_dissipation, dissipated, pairs.size());
+  if (!contact.bonding()) return;
+  write_number(run::snapshots_pair_bonded_area, [](const PairContact& pair) { return 0.5 * pair.bonds.bonded_area; });
+  write_number(run::snapshots_pair_damage, [](const PairContact& pair) {
+    return pair.bonds.formed_area > 0 ? pair.bonds.damaged_area / pair.bonds.formed_area : -1.0;
+  });
+  write_number(run::snapshots_pair_bond_energy, [](const PairContact& pair) { return pair.bonds.stored; });
+  write_number(run::snapshots_pair_damage_dissipation, [](const PairContact& pair) { return pair.bonds.dissipated; });
 }
 
 /// Writes what the walls bear of each grain.
-void write_wall_forces(schema::FileWriter& file, const std::string& name, const Model& model, const Box& box) {
-  std::vector<double> force;
-  for (int grain = 0; grain < model.grains; ++grain) {
-    const std::array<double, 6> of_grain = box.wall_forces_on_grain(model, grain);
-    force.insert(force.end(), of_grain.begin(), of_grain.end());
-  }
-  write_rows(file, name, run::snapshots_wall_force, force, static_cast<std::size_t>(model.grains));
+void write_wall_forces(GatheredFile& file, const std::string& name, const Model& model, const Box& box) {
+  file.write_grains(
+      run::snapshots_wall_force, Counts(at(model.grains), 1),
+      [&](Index grain, std::span<double> force) {
+        std::ranges::copy(box.wall_forces_on_grain(model, grain), force.begin());
+      },
+      name);
 }
 
 /// Writes the friction of the walls on each grain.
-void write_wall_friction(schema::FileWriter& file, const std::string& name, const WallFriction& friction) {
-  std::vector<double> force;
-  for (int grain = 0; grain < friction.grains(); ++grain) {
-    const std::array<double, 12> of_grain = friction.forces_on_grain(grain);
-    force.insert(force.end(), of_grain.begin(), of_grain.end());
-  }
-  write_rows(file, name, run::snapshots_wall_friction, force, static_cast<std::size_t>(friction.grains()));
+void write_wall_friction(GatheredFile& file, const std::string& name, const WallFriction& friction) {
+  file.write_grains(
+      run::snapshots_wall_friction, Counts(at(friction.grains()), 1),
+      [&](Index grain, std::span<double> force) { std::ranges::copy(friction.forces_on_grain(grain), force.begin()); },
+      name);
 }
 
-/// Writes every bond of a snapshot, and the mean damage at nodes.
-void write_bonds(schema::FileWriter& file, const std::string& name, const Model& model, const Contact& contact) {
-  const auto nodes = static_cast<std::size_t>(model.nodes());
-  std::vector<double> sum(nodes, 0.0), count(nodes, 0.0);
-  std::vector<std::int32_t> node, grain, law;
-  std::vector<float> damage, separation;
-  std::vector<double> area, dissipation;
+/// A point that has, or had, a bond.
+struct PointOfBond {
+  Index pair, point;
+};
+
+/// Those of a grain's nodes.
+std::vector<PointOfBond> bonds_of(const Contact& contact, Index grain) {
+  std::vector<PointOfBond> bonds;
   const ContactCandidates& candidates = contact.candidates;
-  for (std::size_t p = 0; p < candidates.pair_first.size(); ++p)
-    for (std::int32_t i = candidates.pair_point_offset[p]; i < candidates.pair_point_offset[p + 1]; ++i) {
-      const PointBond& bond = contact.bond[static_cast<std::size_t>(i)];
-      if (!bond.exists() && bond.spent == 0) continue;
-      const auto n = static_cast<std::size_t>(candidates.point_node[static_cast<std::size_t>(i)]);
-      const auto file_node = static_cast<std::size_t>(model.file_node[n]);
-      const double d = bond.exists() ? 1.0 - bond.remaining : 1.0;
-      sum[file_node] += d;
-      count[file_node] += 1.0;
-      node.push_back(model.file_node[n]);
-      grain.push_back(candidates.pair_second[p]);
-      damage.push_back(static_cast<float>(d));
-      area.push_back(model.reference_area[n]);
-      law.push_back(bond.law);
-      dissipation.push_back(bond_dissipation(model, contact, static_cast<std::int32_t>(p), i));
-      const double sliding = std::sqrt(std::max(bond.separation * bond.separation - bond.opening * bond.opening, 0.0));
-      separation.insert(separation.end(), {static_cast<float>(bond.opening), static_cast<float>(sliding)});
-    }
-  std::vector<float> nodal(nodes, -1.0F);
-  for (std::size_t n = 0; n < nodes; ++n)
-    if (count[n] > 0) nodal[n] = static_cast<float>(sum[n] / count[n]);
-  write_rows(file, name, run::snapshots_damage, nodal, nodes);
-  write_rows(file, name, run::snapshots_bond_node, node, node.size());
-  write_rows(file, name, run::snapshots_bond_grain, grain, node.size());
-  write_rows(file, name, run::snapshots_bond_damage, damage, node.size());
-  write_rows(file, name, run::snapshots_bond_area, area, node.size());
-  write_rows(file, name, run::snapshots_bond_dissipation, dissipation, node.size());
-  write_rows(file, name, run::snapshots_bond_separation, separation, node.size());
+  for (Index pair = candidates.outgoing_offset[at(grain)]; pair < candidates.outgoing_offset[at(grain) + 1]; ++pair)
+    for (Index i = candidates.pair_point_offset[at(pair)]; i < candidates.pair_point_offset[at(pair) + 1]; ++i)
+      if (const PointBond& bond = contact.bond[at(i)]; bond.exists() || bond.spent != 0) bonds.push_back({pair, i});
+  return bonds;
+}
+
+double damage_of(const PointBond& bond) {
+  return bond.exists() ? 1.0 - bond.remaining : 1.0;
+}
+
+/// Writes the mean damage of the bonds at each node, -1 where it has none.
+void write_nodal_damage(GatheredFile& file, const std::string& name, const Model& model, const Contact& contact) {
+  file.write_grains(
+      run::snapshots_damage, rows_of_grains(model.node_offset),
+      [&](Index grain, std::span<float> nodal) {
+        std::vector<double> sum(nodal.size(), 0.0), count(nodal.size(), 0.0);
+        for (const PointOfBond& of_bond : bonds_of(contact, grain)) {
+          const std::size_t place = place_in_grain(model, grain, at(contact.candidates.point_node[at(of_bond.point)]));
+          sum[place] += damage_of(contact.bond[at(of_bond.point)]);
+          count[place] += 1.0;
+        }
+        for (std::size_t n = 0; n < nodal.size(); ++n)
+          nodal[n] = count[n] > 0 ? static_cast<float>(sum[n] / count[n]) : -1.0F;
+      },
+      name);
+}
+
+/// Writes every bond of a snapshot.
+void write_bonds(GatheredFile& file, const std::string& name, const Model& model, const Contact& contact) {
+  const ContactCandidates& candidates = contact.candidates;
+  const auto of_grain = [&](Index grain) { return bonds_of(contact, grain); };
+  const auto node_of = [&](const PointOfBond& of_bond) { return at(candidates.point_node[at(of_bond.point)]); };
+  const auto bond_of = [&](const PointOfBond& of_bond) -> const auto& {
+    return contact.bond[at(of_bond.point)];
+  };
+  const Counts counts = count_of_grains(file.ranks(), model, [&](Index grain) { return of_grain(grain).size(); });
+  const auto write = [&](const auto& dataset, auto&& set) {
+    write_entries(file, name, dataset, counts, of_grain, set);
+  };
+  write(run::snapshots_bond_node,
+        [&](const PointOfBond& of_bond, std::span<Index> node) { node[0] = model.file_node[node_of(of_bond)]; });
+  write(run::snapshots_bond_grain, [&](const PointOfBond& of_bond, std::span<Index> grain) {
+    grain[0] = candidates.pair_second[at(of_bond.pair)];
+  });
+  write(run::snapshots_bond_damage, [&](const PointOfBond& of_bond, std::span<float> damage) {
+    damage[0] = static_cast<float>(damage_of(bond_of(of_bond)));
+  });
+  write(run::snapshots_bond_area,
+        [&](const PointOfBond& of_bond, std::span<double> area) { area[0] = model.reference_area[node_of(of_bond)]; });
+  write(run::snapshots_bond_dissipation, [&](const PointOfBond& of_bond, std::span<double> dissipation) {
+    dissipation[0] = bond_dissipation(model, contact, of_bond.pair, of_bond.point);
+  });
+  write(run::snapshots_bond_separation, [&](const PointOfBond& of_bond, std::span<float> separation) {
+    const PointBond& bond = bond_of(of_bond);
+    const double sliding = std::sqrt(std::max(bond.separation * bond.separation - bond.opening * bond.opening, 0.0));
+    separation[0] = static_cast<float>(bond.opening), separation[1] = static_cast<float>(sliding);
+  });
   if (contact.bond_laws.size() > 1) {
-    write_rows(file, name, run::snapshots_bond_law, law, node.size());
-    write_rows(file, name, run::snapshots_bond_laws, flatten(contact.bond_laws), contact.bond_laws.size());
+    write(run::snapshots_bond_law,
+          [&](const PointOfBond& of_bond, std::span<Index> law) { law[0] = bond_of(of_bond).law; });
+    file.write(run::snapshots_bond_laws, flatten(contact.bond_laws), contact.bond_laws.size(), name);
   }
 }
 
 /// Connectivity, back in file order.
-void write_mesh(schema::FileWriter& file, const Model& model) {
-  std::vector<std::int32_t> tet(4 * static_cast<std::size_t>(model.tets()));
-  for (int grain = 0; grain < model.grains; ++grain) {
-    const auto g = static_cast<std::size_t>(grain);
-    for (std::int32_t t = model.tet_offset[g]; t < model.tet_offset[g + 1]; ++t) {
-      const auto corner = model.nodes_of_tet(grain, t - model.tet_offset[g]);
+void write_mesh(GatheredFile& file, const Model& model) {
+  file.write_grains(run::mesh_tet, rows_of_grains(model.tet_offset), [&](Index grain, std::span<Index> corners) {
+    const Index first = model.tet_offset[at(grain)];
+    for (Index t = first; t < model.tet_offset[at(grain) + 1]; ++t) {
+      const auto corner = model.nodes_of_tet(grain, t - first);
       for (std::size_t c = 0; c < 4; ++c)
-        tet[4 * static_cast<std::size_t>(model.file_tet[static_cast<std::size_t>(t)]) + c] =
-            model.file_node[static_cast<std::size_t>(model.node_offset[g] + corner[c])];
+        corners[4 * at(model.file_tet[at(t)] - first) + c] =
+            model.file_node[at(model.node_offset[at(grain)] + corner[c])];
     }
-  }
-  file.write(run::mesh_tet, std::span<const std::int32_t>(tet), static_cast<std::size_t>(model.tets()));
-  file.write(run::mesh_grain_node_offset, std::span<const std::int32_t>(model.node_offset), model.node_offset.size());
-  file.write(run::mesh_grain_tet_offset, std::span<const std::int32_t>(model.tet_offset), model.tet_offset.size());
+  });
+  file.write(run::mesh_grain_node_offset, model.node_offset, model.node_offset.size());
+  file.write(run::mesh_grain_tet_offset, model.tet_offset, model.tet_offset.size());
 }
 
 void write_stages(schema::FileWriter& file, const std::vector<StageResult>& stages) {
@@ -199,6 +294,7 @@ void write_provenance(schema::FileWriter& file, const Model& model, const Proven
   file.write_scalar(run::provenance_seed, model.seed);
   file.write_scalar(run::provenance_host, physical_host());
   file.write_scalar(run::provenance_threads, std::int32_t{provenance.threads});
+  file.write_scalar(run::provenance_ranks, std::int32_t{provenance.ranks});
   file.write_scalar(run::provenance_wall_time, provenance.wall_time);
   file.write(run::provenance_profile_name, std::span<const std::string>(provenance.profile_name),
              provenance.profile_name.size());
@@ -217,62 +313,50 @@ std::vector<NamedTool> names_of(const Tools& tools) {
 
 } // namespace
 
-void write_snapshot_file(const std::string& path, const SnapshotState& state) {
+void write_snapshot_file(const std::string& path, const SnapshotState& state, const Communicator& ranks) {
   const Model& model = state.model;
   const std::string name = "0000";
-  schema::FileWriter file(path, schema::FileKind::run, fmt::format("mpfem {}", version_and_commit()));
-  file.write_scalar(run::snapshots_time, state.time, name);
-  file.write_scalar(run::snapshots_step, state.step, name);
-  file.write_scalar(run::snapshots_relative_density, state.relative_density, name);
-  file.write_scalar(run::snapshots_mean_stress, state.box.mean_stress(), name);
-  file.write(run::snapshots_box_low, std::span<const double>(state.box.cell().low), 3, name);
-  file.write(run::snapshots_box_high, std::span<const double>(state.box.cell().high), 3, name);
-  const auto nodes = static_cast<std::size_t>(model.nodes()), tets = static_cast<std::size_t>(model.tets());
-  const auto position = in_file_order(model, model.position), velocity = in_file_order(model, model.velocity);
-  file.write(run::snapshots_node, std::span<const float>(position), nodes, name);
-  file.write(run::snapshots_velocity, std::span<const float>(velocity), nodes, name);
-  const TetFields fields = tet_fields(model);
-  file.write(run::snapshots_von_mises, std::span<const float>(fields.von_mises), tets, name);
-  file.write(run::snapshots_pressure, std::span<const float>(fields.pressure), tets, name);
-  file.write(run::snapshots_plastic_strain, std::span<const float>(fields.plastic_strain), tets, name);
-  const auto pressure = contact_pressure(state);
-  file.write(run::snapshots_contact_pressure, std::span<const float>(pressure), nodes, name);
-  std::vector<std::int32_t> grains;
-  std::vector<double> force, area;
-  const auto pairs = pair_contacts(model, state.contact);
-  for (const PairContact& pair : pairs) {
-    grains.insert(grains.end(), {pair.first, pair.second});
-    force.insert(force.end(), std::begin(pair.force), std::end(pair.force));
-    area.push_back(pair.area);
-  }
-  file.write(run::snapshots_pair_grains, std::span<const std::int32_t>(grains), area.size(), name);
-  file.write(run::snapshots_pair_force, std::span<const double>(force), area.size(), name);
-  file.write(run::snapshots_pair_area, std::span<const double>(area), area.size(), name);
+  GatheredFile file(ranks, model.ownership, path, schema::FileKind::run);
+  file.at_leader([&](schema::FileWriter& leader) {
+    leader.write_scalar(run::snapshots_time, state.time, name);
+    leader.write_scalar(run::snapshots_step, state.step, name);
+    leader.write_scalar(run::snapshots_relative_density, state.relative_density, name);
+    leader.write_scalar(run::snapshots_mean_stress, state.box.mean_stress(), name);
+    leader.write(run::snapshots_box_low, std::span<const double>(state.box.cell().low), 3, name);
+    leader.write(run::snapshots_box_high, std::span<const double>(state.box.cell().high), 3, name);
+    write_placed_tools(leader, name, state.tools);
+  });
+  write_node_rows(file, name, run::snapshots_node, model, model.position);
+  write_node_rows(file, name, run::snapshots_velocity, model, model.velocity);
+  write_tet_fields(file, name, model);
+  write_contact_pressure(file, name, state);
+  write_pairs(file, name, model, state.contact);
   write_wall_forces(file, name, model, state.box);
   if (state.wall_friction.present()) write_wall_friction(file, name, state.wall_friction);
-  write_placed_tools(file, name, state.tools);
-  if (state.contact.has_friction()) write_friction_of_pairs(file, name, pairs);
   if (state.contact.bonding()) {
-    write_bonds_of_pairs(file, name, pairs);
+    write_nodal_damage(file, name, model, state.contact);
     write_bonds(file, name, model, state.contact);
   }
   file.commit();
 }
 
 void write_run_file(const std::string& path, const Model& model, const RunHistory& history,
-                    const std::vector<std::string>& snapshot_files, const Provenance& provenance) {
-  schema::FileWriter file(path, schema::FileKind::run, fmt::format("mpfem {}", version_and_commit()));
-  write_history(file, history.rows, provenance.columns);
-  write_tool_history(file, names_of(history.tools), history.tool_rows);
-  write_tool_geometry(file, history.tools);
-
+                    const std::vector<std::string>& snapshot_files, const Provenance& provenance,
+                    const Communicator& ranks) {
+  GatheredFile file(ranks, model.ownership, path, schema::FileKind::run);
+  file.at_leader([&](schema::FileWriter& leader) {
+    write_history(leader, history.rows, provenance.columns);
+    write_tool_history(leader, names_of(history.tools), history.tool_rows);
+    write_tool_geometry(leader, history.tools);
+  });
   write_mesh(file, model);
-  for (std::size_t i = 0; i < snapshot_files.size(); ++i) {
-    const schema::FileReader from(snapshot_files[i], schema::FileKind::run);
-    file.copy_snapshot(from, "0000", fmt::format("{:04}", i));
-  }
-
-  write_provenance(file, model, provenance);
+  file.at_leader([&](schema::FileWriter& leader) {
+    for (std::size_t i = 0; i < snapshot_files.size(); ++i) {
+      const schema::FileReader from(snapshot_files[i], schema::FileKind::run);
+      leader.copy_snapshot(from, "0000", fmt::format("{:04}", i));
+    }
+    write_provenance(leader, model, provenance);
+  });
   file.commit();
 }
 

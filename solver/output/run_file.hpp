@@ -30,13 +30,16 @@ struct SnapshotState {
   double relative_density = 0;
 };
 
-/// Writes a snapshot to its own file. Throws StorageError.
-void write_snapshot_file(const std::string& path, const SnapshotState& state);
+/// Collective. Writes a snapshot to its own file, the same whatever the ranks. Throws StorageError on the first rank,
+/// where the others may wait for it (gathered_file.hpp).
+void write_snapshot_file(const std::string& path, const SnapshotState& state,
+                         const Communicator& ranks = Communicator());
 
 struct Provenance {
   std::string scenario_text;
   std::string status; ///< complete, failed: REASON, interrupted
-  int threads = 1;
+  int threads = 1;    ///< of each rank
+  int ranks = 1;
   double wall_time = 0; ///< s
   std::vector<std::string> profile_name;
   std::vector<double> profile_seconds;
@@ -52,9 +55,11 @@ struct RunHistory {
   const std::vector<ToolRow>& tool_rows; ///< of all tools for each row
 };
 
-/// Writes RUN.h5 from history, snapshot files and provenance. Throws StorageError.
+/// Collective. Writes RUN.h5 from history, snapshot files and provenance, those of the first rank. Throws StorageError
+/// as write_snapshot_file, and InputError where a snapshot file cannot be read.
 void write_run_file(const std::string& path, const Model& model, const RunHistory& history,
-                    const std::vector<std::string>& snapshot_files, const Provenance& provenance);
+                    const std::vector<std::string>& snapshot_files, const Provenance& provenance,
+                    const Communicator& ranks = Communicator());
 
 /// What a run file says of its run.
 struct RunSummary {

@@ -81,6 +81,8 @@ public:
   /// Starts messages to and from some ranks, at most one each way with each.
   Transfer start(const std::vector<Outgoing>& out, const std::vector<Incoming>& in) const;
 
+  /// Whether all ranks come to call this within a time (s). A rank that fails finds out by it whether all have failed.
+  bool all_come(double seconds) const;
   /// Ends all ranks at once, with this exit code, where one has failed and the others wait for it.
   [[noreturn]] void abort(int exit_code) const;
 

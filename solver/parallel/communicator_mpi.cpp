@@ -1,9 +1,12 @@
 // The only file that knows MPI.
 
+#include <algorithm>
 #include <array>
+#include <chrono>
 #include <cstdlib>
 #include <limits>
 #include <stdexcept>
+#include <thread>
 #include <utility>
 
 #include <mpi.h>
@@ -13,6 +16,9 @@
 namespace mpfem {
 
 namespace {
+
+/// For ranks that have failed: what they do must not meet what the others still do with each other.
+MPI_Comm failing = MPI_COMM_NULL;
 
 /// MPI counts in int: larger messages go in pieces.
 constexpr std::size_t largest_piece = std::size_t{1} << 30;
@@ -87,6 +93,7 @@ Communicator Communicator::of_launcher(int& argc, char**& argv) {
   communicator.ends_mpi_ = true;
   MPI_Comm_rank(MPI_COMM_WORLD, &communicator.rank_);
   MPI_Comm_size(MPI_COMM_WORLD, &communicator.size_);
+  MPI_Comm_dup(MPI_COMM_WORLD, &failing);
   return communicator;
 }
 bool Communicator::has_mpi() {
@@ -176,6 +183,19 @@ Communicator::Transfer Communicator::start(const std::vector<Outgoing>& out, con
     MPI_Isend(message.bytes.data(), count_of(message.bytes.size()), MPI_BYTE, message.rank, tag, MPI_COMM_WORLD,
               &request.emplace_back());
   return transfer;
+}
+
+bool Communicator::all_come(double seconds) const {
+  if (alone()) return true;
+  MPI_Request request = MPI_REQUEST_NULL;
+  MPI_Ibarrier(failing, &request);
+  const double end = MPI_Wtime() + seconds;
+  for (int come = 0;;) {
+    MPI_Test(&request, &come, MPI_STATUS_IGNORE);
+    if (come != 0) return true;
+    if (MPI_Wtime() > end) return false;
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  }
 }
 
 void Communicator::abort(int exit_code) const {

@@ -10,6 +10,7 @@
 #include "common/errors.hpp"
 #include "solver/model/bond_resolution.hpp"
 #include "solver/output/checkpoint.hpp"
+#include "solver/parallel/leader.hpp"
 #include "solver/run/needs.hpp"
 #include "solver/run/plan_text.hpp"
 #include "solver/run/programme.hpp"
@@ -78,7 +79,10 @@ MeasuredTimes measure(Simulation& simulation) {
   int steps = 0;
   const auto start = Profile::Clock::now();
   try {
-    for (; (steps < 20 || Profile::since(start) < 0.5) && steps < 200 && !simulation.stage_complete(); ++steps) {
+    const auto enough = [&] { // as the slowest rank has it
+      return simulation.ranks().largest(steps >= 20 && Profile::since(start) >= 0.5 ? 1 : 0) > 0;
+    };
+    for (; steps < 200 && !enough() && !simulation.stage_complete(); ++steps) {
       simulation.evaluate_forces();
       if (steps == 0) {
         const auto start_of_row = Profile::Clock::now();
@@ -134,9 +138,9 @@ void print_step(const StepEstimate::State& step) {
 
 void print_bonds(const Scenario& scenario, const Simulation& simulation) {
   const Model& model = simulation.model();
-  const auto warnings = check_bonds(model, scenario);
+  const auto warnings = check_bonds(model, scenario, simulation.ranks());
   if (scenario.bond) {
-    const BondResolution r = bond_resolution(model, *scenario.bond, scenario.contact);
+    const BondResolution r = bond_resolution(model, *scenario.bond, scenario.contact, BondPartner::grain, simulation.ranks());
     fmt::print(
         "bonds          cohesive zone {:.3g} mm, {:.2g} elements of {:.3g} mm; fracture energy {:g} N/mm, softening "
         "as steep as the elements at {:.3g}, none left at {:.3g} N/mm\n",
@@ -170,14 +174,20 @@ void print_stages(const Scenario& scenario, Simulation& simulation, int threads)
 
 } // namespace
 
-void check_scenario(const Scenario& scenario, int threads, const std::optional<std::string>& from) {
-  const Needs needs = needs_of(read_packing_counts(scenario.packing_file), scenario);
-  const std::string scarce =
-      check_needs(scenario.packing_file, needs, {available_memory(), std::numeric_limits<double>::infinity()});
+void check_scenario(const Scenario& scenario, int threads, const std::optional<std::string>& from,
+                    const Communicator& ranks) {
+  Needs needs;
+  std::string scarce;
+  leader_does(ranks, [&] {
+    needs = needs_of(read_packing_counts(scenario.packing_file), scenario);
+    scarce =
+        check_needs(scenario.packing_file, needs, {available_memory(), std::numeric_limits<double>::infinity()});
+  });
   ThreadTeam team(threads);
-  Simulation simulation(build_model(read_packing(scenario.packing_file), scenario, scenario.packing_file), scenario,
-                        team, from.has_value());
-  if (from) begin_branch(*from, simulation);
+  Simulation simulation(
+      build_model(read_packing(scenario.packing_file, ranks), scenario, scenario.packing_file, ranks), scenario, team,
+      from.has_value(), ranks);
+  if (from) begin_branch(*from, simulation, ranks);
   const StepEstimate::State& step = simulation.step_estimate().state();
   print_model(scenario, simulation, needs);
   if (!scarce.empty()) fmt::print("warning        {}\n", scarce);

@@ -7,6 +7,7 @@
 
 #include "common/errors.hpp"
 #include "common/one_line.hpp"
+#include "solver/parallel/leader.hpp"
 
 namespace mpfem {
 
@@ -48,6 +49,18 @@ void remove_snapshots(const std::string& run_file, const Wanted& wanted) {
   for (const fs::path& path : found) fs::remove(path, ignored);
 }
 
+/// Throws StorageError where a checkpoint cannot be read back, and removes it.
+void verify_written(const std::string& path, const std::string& rolling) {
+  try {
+    verify_checkpoint(path);
+  } catch (const InputError& error) {
+    std::error_code ignored;
+    fs::remove(path, ignored);
+    throw StorageError(fmt::format("{}: what was written cannot be read back ({}); the checkpoint before stays",
+                                   one_line(rolling), error.what()));
+  }
+}
+
 } // namespace
 
 std::string checkpoint_path(const std::string& run_file) {
@@ -81,21 +94,20 @@ bool is_checkpoint_of(const std::string& path, const RunIdentity& run) {
   }
 }
 
-void replace_rolling_checkpoint(const std::string& run_file, const std::function<void(const std::string&)>& write) {
+void replace_rolling_checkpoint(const Communicator& ranks, const std::string& run_file,
+                                const std::function<void(const std::string&)>& write) {
   const std::string rolling = checkpoint_path(run_file), previous = previous_checkpoint_path(run_file),
                     next = next_checkpoint_path(run_file);
-  std::error_code ignored;
-  fs::remove(previous, ignored); // two of them are on disk at most; the one that stays was read back
+  leader_does(ranks, [&] {
+    std::error_code ignored;
+    fs::remove(previous, ignored); // two of them are on disk at most; the one that stays was read back
+  });
   write(next);
-  try {
-    verify_checkpoint(next);
-  } catch (const InputError& error) {
-    fs::remove(next, ignored);
-    throw StorageError(fmt::format("{}: what was written cannot be read back ({}); the checkpoint before stays",
-                                   one_line(rolling), error.what()));
-  }
-  if (fs::exists(rolling)) fs::rename(rolling, previous);
-  fs::rename(next, rolling);
+  leader_does(ranks, [&] {
+    verify_written(next, rolling);
+    if (fs::exists(rolling)) fs::rename(rolling, previous);
+    fs::rename(next, rolling);
+  });
 }
 
 std::vector<std::string> promised_checkpoints(const Scenario& scenario, const std::string& run_file, std::int64_t stage,

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "solver/output/checkpoint.hpp"
+#include "solver/parallel/communicator.hpp"
 #include "solver/scenario/scenario.hpp"
 
 namespace mpfem {
@@ -34,9 +35,10 @@ struct RunIdentity {
 /// Whether a checkpoint stands at the path and was written by this run. Reads a few words of it, not its arrays.
 bool is_checkpoint_of(const std::string& path, const RunIdentity& run);
 
-/// Replaces the rolling checkpoint: `write` writes the new one to the path that it is given. Throws StorageError where
-/// what was written cannot be read back; the checkpoint before then stays.
-void replace_rolling_checkpoint(const std::string& run_file, const std::function<void(const std::string&)>& write);
+/// Collective. Replaces the rolling checkpoint: `write` writes the new one to the path that it is given, on all ranks
+/// together. Throws StorageError where what was written cannot be read back; the checkpoint before then stays.
+void replace_rolling_checkpoint(const Communicator& ranks, const std::string& run_file,
+                                const std::function<void(const std::string&)>& write);
 
 /// Checkpoints of stages and densities that a run must have written when it is in this stage. `densities_passed`: of
 /// output.checkpoint_relative_densities; `start_density`: relative density at which it began.

@@ -8,6 +8,7 @@
 
 #include "common/errors.hpp"
 #include "common/one_line.hpp"
+#include "solver/parallel/leader.hpp"
 
 namespace mpfem {
 
@@ -39,15 +40,16 @@ void catch_interrupts() {
   action.sa_flags = SA_RESTART; // reading a packing goes on
   sigaction(SIGINT, &action, nullptr);
   sigaction(SIGTERM, &action, nullptr);
+  sigaction(SIGUSR1, &action, nullptr); // mpirun passes it on, and then does not end the ranks as it does at SIGTERM
 }
 
 bool interrupt_requested() {
   return requested != 0;
 }
 
-void stop_before_first_step(const std::string& checkpoint) {
-  if (!interrupt_requested()) return;
-  if (std::filesystem::exists(checkpoint))
+void stop_before_first_step(const Communicator& ranks, const std::string& checkpoint) {
+  if (ranks.largest(interrupt_requested() ? 1 : 0) == 0) return;
+  if (leader_finds(ranks, [&] { return std::filesystem::exists(checkpoint); }))
     throw Interrupted(fmt::format("interrupted before the first step; {} is as it was, continue with --resume",
                                   one_line(checkpoint)));
   throw Interrupted("interrupted before the first step; nothing to resume");

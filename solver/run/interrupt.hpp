@@ -1,19 +1,21 @@
 #pragma once
-// SIGINT and SIGTERM as requests to stop, which the run answers where its state can be saved.
+// SIGINT, SIGTERM and SIGUSR1 as requests to stop, which the run answers where its state can be saved.
 
 #include <string>
 
+#include "solver/parallel/communicator.hpp"
+
 namespace mpfem {
 
-/// From now on the first SIGINT or SIGTERM is a request only. Another one some seconds later acts as usual. May be
-/// called again.
+/// From now on the first SIGINT, SIGTERM or SIGUSR1 is a request only. Another one some seconds later acts as usual. May
+/// be called again.
 void catch_interrupts();
 
 /// Whether a stop has been requested.
 bool interrupt_requested();
 
-/// Throws Interrupted where a stop has been requested before the first step. The message says whether
-/// the run can be resumed, which depends on whether `checkpoint` exists.
-void stop_before_first_step(const std::string& checkpoint);
+/// Collective. Throws Interrupted where a stop has been requested, of any rank, before the first step. The message says
+/// whether the run can be resumed, which depends on whether `checkpoint` exists.
+void stop_before_first_step(const Communicator& ranks, const std::string& checkpoint);
 
 } // namespace mpfem

@@ -9,6 +9,7 @@
 #include "common/one_line.hpp"
 #include "common/table_reader.hpp"
 #include "solver/output/other_scenario.hpp"
+#include "solver/parallel/agree.hpp"
 
 namespace mpfem {
 
@@ -52,18 +53,20 @@ void check_branch(const CheckpointReader& checkpoint, bool bonded, const Scenari
 
 /// Takes up the state, as that of the scenario's first stage where `branch`; `bonded`: with bonds.
 void restore(const CheckpointReader& checkpoint, bool bonded, const Scenario& before, Simulation& simulation,
-             RunRecord& record, bool branch) {
+             RunRecord& record, bool branch, const Communicator& ranks) {
   if (bonded && !before.bond)
     throw InputError(
         fmt::format("{}: the checkpoint is damaged: it has bonds, its scenario has none", one_line(checkpoint.path())));
   const FieldValues values = checkpoint.fields();
   FieldReader fields(values);
   try {
-    simulation.restore(fields, branch ? std::optional<std::int64_t>(0) : std::nullopt,
-                       [&](const Simulation::Arrays& arrays) {
-                         checkpoint.take_arrays(arrays.model, arrays.contact, arrays.wall_friction, arrays.tools,
-                                                arrays.grain_steps, arrays.grips, bonded ? before.bond : std::nullopt);
-                       });
+    simulation.restore(
+        fields, branch ? std::optional<std::int64_t>(0) : std::nullopt, [&](const Simulation::Arrays& arrays) {
+          agree(ranks, [&] { // what follows on all ranks needs all of them
+            checkpoint.take_arrays(arrays.model, arrays.contact, arrays.wall_friction, arrays.tools, arrays.grain_steps,
+                                   arrays.grips, bonded ? before.bond : std::nullopt);
+          });
+        });
     if (branch) return; // its record is its own
     RunRecord::for_each_field(record, fields);
     fields.finish();
@@ -75,35 +78,36 @@ void restore(const CheckpointReader& checkpoint, bool bonded, const Scenario& be
 
 } // namespace
 
-void save_checkpoint(const std::string& path, const Simulation& simulation, const RunRecord& record) {
+void save_checkpoint(const std::string& path, const Simulation& simulation, const RunRecord& record,
+                     const Communicator& ranks) {
   FieldWriter fields;
   simulation.write(fields);
   RunRecord::for_each_field(record, fields);
   write_checkpoint(path,
                    {simulation.model(), simulation.contact(), simulation.wall_friction(), simulation.tools(),
                     simulation.grips(), simulation.step_estimate().grain_steps(), fields.values()},
-                   record, simulation.scenario().text);
+                   record, simulation.scenario().text, ranks);
 }
 
-void resume(const std::string& path, Simulation& simulation, RunRecord& record) {
+void resume(const std::string& path, Simulation& simulation, RunRecord& record, const Communicator& ranks) {
   const CheckpointReader checkpoint(path);
-  checkpoint.check_model(simulation.model());
+  checkpoint.check_model(simulation.model(), ranks);
   if (checkpoint.scenario_text() != simulation.scenario().text)
     throw InputError(
         fmt::format("{}: the checkpoint belongs to another scenario{}; run without --resume to start again",
                     one_line(path), scenario_difference(checkpoint.scenario_text(), simulation.scenario().text)));
   record = checkpoint.record();
-  restore(checkpoint, checkpoint.has_bonds(), simulation.scenario(), simulation, record, false);
+  restore(checkpoint, checkpoint.has_bonds(), simulation.scenario(), simulation, record, false, ranks);
 }
 
-void begin_branch(const std::string& path, Simulation& simulation) {
+void begin_branch(const std::string& path, Simulation& simulation, const Communicator& ranks) {
   const CheckpointReader checkpoint(path);
-  checkpoint.check_model(simulation.model());
+  checkpoint.check_model(simulation.model(), ranks);
   const Scenario before = scenario_of(checkpoint);
   const bool bonded = checkpoint.has_bonds();
   check_branch(checkpoint, bonded, before, simulation.scenario());
   RunRecord earlier;
-  restore(checkpoint, bonded, before, simulation, earlier, true);
+  restore(checkpoint, bonded, before, simulation, earlier, true, ranks);
   simulation.begin_branch();
 }
 

@@ -1,5 +1,5 @@
 #pragma once
-// How a run goes on from a checkpoint, its own or that of another run.
+// How a run goes on from a checkpoint, its own or that of another run. All of it is collective.
 
 #include <string>
 
@@ -8,15 +8,17 @@
 
 namespace mpfem {
 
-/// Writes a checkpoint of the present state, after an advance(). Throws StorageError.
-void save_checkpoint(const std::string& path, const Simulation& simulation, const RunRecord& record);
+/// Writes a checkpoint of the present state, after an advance(). Throws StorageError as write_checkpoint.
+void save_checkpoint(const std::string& path, const Simulation& simulation, const RunRecord& record,
+                     const Communicator& ranks = Communicator());
 
 /// Goes on with the same scenario. Throws InputError where the checkpoint is damaged, belongs to another packing or
 /// scenario, or was written by a build that does not go on bitwise.
-void resume(const std::string& path, Simulation& simulation, RunRecord& record);
+void resume(const std::string& path, Simulation& simulation, RunRecord& record,
+            const Communicator& ranks = Communicator());
 
 /// Begins the scenario's first stage at the state of another run. Bonds keep the law by which they formed, the
 /// scenario's is that of bonds to come. Throws InputError as resume(), and where the scenario is one of other matter.
-void begin_branch(const std::string& path, Simulation& simulation);
+void begin_branch(const std::string& path, Simulation& simulation, const Communicator& ranks = Communicator());
 
 } // namespace mpfem

@@ -20,6 +20,7 @@
 #include "solver/output/history.hpp"
 #include "solver/output/run_file.hpp"
 #include "solver/output/run_lock.hpp"
+#include "solver/parallel/leader.hpp"
 #include "solver/run/checkpoints.hpp"
 #include "solver/run/energy_check.hpp"
 #include "solver/run/history_schedule.hpp"
@@ -63,27 +64,27 @@ std::vector<double> internal_energy(const std::vector<HistoryRow>& history) {
 }
 
 /// Reads the packing and makes the model. Both may take a while, so that a request to stop is looked for in between.
-Model load_model(const Scenario& scenario, const RunOptions& options) {
+Model load_model(const Scenario& scenario, const RunOptions& options, const Communicator& ranks) {
   const std::string checkpoint = checkpoint_path(options.output);
-  stop_before_first_step(checkpoint);
-  auto packing = read_packing(scenario.packing_file);
-  stop_before_first_step(checkpoint);
-  Model model = build_model(std::move(packing), scenario, scenario.packing_file);
-  stop_before_first_step(checkpoint);
+  stop_before_first_step(ranks, checkpoint);
+  auto packing = read_packing(scenario.packing_file, ranks);
+  stop_before_first_step(ranks, checkpoint);
+  Model model = build_model(std::move(packing), scenario, scenario.packing_file, ranks);
+  stop_before_first_step(ranks, checkpoint);
   return model;
 }
 
 /// The time loop and its records.
 class Runner {
 public:
-  Runner(const Scenario& scenario, const RunOptions& options)
-      : scenario_(scenario), options_(options), team_(options.threads),
-        simulation_(load_model(scenario, options), scenario, team_, options.from.has_value()),
+  Runner(const Scenario& scenario, const RunOptions& options, const Communicator& ranks)
+      : scenario_(scenario), options_(options), ranks_(ranks), team_(options.threads),
+        simulation_(load_model(scenario, options, ranks), scenario, team_, options.from.has_value(), ranks),
         energy_check_(stiffness_of(simulation_.model())), progress_("mpfem", options.quiet) {
-    const auto warnings = check_bonds(simulation_.model(), scenario_);
+    const auto warnings = check_bonds(simulation_.model(), scenario_, ranks_);
     begin();
     if (must_begin_anew_) return;
-    stop_before_first_step(checkpoint_path(options.output));
+    stop_before_first_step(ranks_, checkpoint_path(options.output));
     if (!options_.quiet && !already_complete_) {
       for (const std::string& warning : warnings) fmt::print(stderr, "mpfem: warning: {}\n", warning);
       if (const std::string text = mass_scaling_text(scenario_, simulation_.model()); !text.empty())
@@ -105,7 +106,7 @@ public:
   bool run() {
     if (must_begin_anew_) return false;
     if (already_complete_) return true;
-    if (begins_anew_) drop_unfinished_run();
+    if (begins_anew_) leader_does(ranks_, [this] { drop_unfinished_run(); });
     start_ = last_checkpoint_ = Profile::Clock::now();
     steps_at_start_ = simulation_.state().step;
     try {
@@ -121,9 +122,9 @@ public:
       }
       throw SimulationError(fmt::format("{}; history and last state are in {}{}", error.what(), options_.output, good));
     }
-    check_promises();
+    leader_does(ranks_, [this] { check_promises(); });
     write_result("complete");
-    remove_unfinished(options_.output);
+    leader_does(ranks_, [this] { remove_unfinished(options_.output); });
     progress_.finish(fmt::format("{} steps, D_r = {:.4f}, p = {:.4g} MPa, {}", simulation_.state().step,
                                  simulation_.relative_density(), simulation_.box().mean_stress(), options_.output));
     if (!options_.quiet) print_profile();
@@ -134,56 +135,62 @@ public:
 private:
   /// "; the last checkpoint before is FILE", or that there is none.
   std::string last_checkpoint_text() const {
-    RunIdentity itself = identity_;
-    itself.from = record_.from;
-    const auto checkpoints = resumable_checkpoints(scenario_, itself);
+    const auto checkpoints = leader_lists(ranks_, [this] { return resumable_checkpoints(scenario_, itself()); });
     return checkpoints.empty() ? "; there is no earlier checkpoint"
                                : fmt::format("; the last checkpoint before is {}", checkpoints.front());
   }
 
   void begin() {
-    const std::string from = options_.from ? checkpoint_checksum(*options_.from) : "packing";
+    const std::string from = leader_says(
+        ranks_, [this] { return options_.from ? checkpoint_checksum(*options_.from) : std::string("packing"); });
     identity_ = {options_.output, scenario_.text, hash_text(simulation_.model().mesh_hash), from};
     if (options_.resume && resume()) return;
     if (must_begin_anew_) return;
     if (options_.from) {
-      begin_branch(*options_.from, simulation_);
+      begin_branch(*options_.from, simulation_, ranks_);
       first_step_ = simulation_.state().step;
     }
     record_.from = from;
     begins_anew_ = true;
   }
 
+  /// This run, from wherever it began.
+  RunIdentity itself() const {
+    RunIdentity identity = identity_;
+    identity.from = record_.from;
+    return identity;
+  }
+
   /// Goes on from the best checkpoint that there is, or finds the run complete. False where there is nothing to go on
   /// from.
   bool resume() {
     std::vector<std::string> lost; // checkpoints that should stand on disk and do not
-    if (!rolling_checkpoint_exists() && is_complete(lost)) {
-      already_complete_ = true;
-      remove_unfinished(options_.output); // a run that was killed while it tidied up
+    already_complete_ = leader_finds(ranks_, [&] { return !rolling_checkpoint_exists() && is_complete(lost); });
+    if (already_complete_) {
+      leader_does(ranks_, [this] { remove_unfinished(options_.output); }); // of a run killed while it tidied up
       if (!options_.quiet) fmt::print(stderr, "mpfem: {} is complete already\n", options_.output);
       return true;
     }
+    lost = leader_lists(ranks_, [&] { return lost; });
     std::string damage;
-    for (const std::string& path : resumable_checkpoints(scenario_, identity_)) {
+    for (const std::string& path : leader_lists(ranks_, [this] { return resumable_checkpoints(scenario_, identity_); })) {
       try {
-        verify_checkpoint(path);
+        leader_does(ranks_, [&] { verify_checkpoint(path); });
       } catch (const InputError& error) {
-        fmt::print(stderr, "mpfem: warning: {}; looking for an earlier checkpoint\n", error.what());
+        warn(fmt::format("{}; looking for an earlier checkpoint", error.what()));
         if (damage.empty()) damage = error.what();
         continue;
       }
       if (!take_up(path, lost)) continue;
       if (path == previous_checkpoint_path(options_.output)) // whatever stands in the rolling one's place is worse
-        std::filesystem::rename(path, checkpoint_path(options_.output));
+        leader_does(ranks_, [&] { std::filesystem::rename(path, checkpoint_path(options_.output)); });
       if (!lost.empty())
-        fmt::print(stderr, "mpfem: warning: {} is missing; the run continues from {} to write it\n", lost.front(),
-                   path);
+        warn(fmt::format("{} is missing; the run continues from {} to write it", lost.front(), path));
       if (!options_.quiet) fmt::print(stderr, "mpfem: resumed {} at step {}\n", path, simulation_.state().step);
       return true;
     }
     if (!lost.empty())
-      fmt::print(stderr, "mpfem: warning: {} is missing; the run starts again to write it\n", lost.front());
+      warn(fmt::format("{} is missing; the run starts again to write it", lost.front()));
     else if (!damage.empty())
       throw InputError(fmt::format("{}; no earlier one can be used: run without --resume to start again", damage));
     must_begin_anew_ = taken_up_;
@@ -196,24 +203,34 @@ private:
     const bool rolling = path == checkpoint_path(options_.output);
     taken_up_ = true;
     record_ = {};
-    mpfem::resume(path, simulation_, record_);
+    mpfem::resume(path, simulation_, record_, ranks_);
     if (options_.from && !record_.from.empty() && record_.from != identity_.from)
       throw InputError(fmt::format("{}: the run did not begin at {}; run without --resume to start again", path,
                                    one_line(*options_.from)));
-    RunIdentity itself = identity_;
-    itself.from = record_.from;
-    const auto missing = missing_checkpoints(promised_now(), itself);
+    const auto missing = leader_lists(ranks_, [this] { return missing_checkpoints(promised_now(), itself()); });
     lost.insert(lost.end(), missing.begin(), missing.end());
     if (!missing.empty()) return false;
-    for (const std::string& name : record_.snapshot_files)
-      if (const std::string part = snapshot_path(name); !std::filesystem::exists(part)) {
-        if (!rolling || !lost.empty()) return false;
-        throw InputError(fmt::format(
-            "{}: the snapshot {} that was taken before the checkpoint is missing; run without --resume to start again",
-            path, part));
-      }
+    for (const std::string& part : leader_lists(ranks_, [this] { return missing_snapshots(); })) {
+      if (!rolling || !lost.empty()) return false;
+      throw InputError(fmt::format(
+          "{}: the snapshot {} that was taken before the checkpoint is missing; run without --resume to start again",
+          path, part));
+    }
     if (!record_.history.empty()) first_step_ = static_cast<std::int64_t>(record_.history.front().step);
     return true;
+  }
+
+  /// Files of snapshots that have been taken and are no longer there.
+  std::vector<std::string> missing_snapshots() const {
+    std::vector<std::string> missing;
+    for (const std::string& name : record_.snapshot_files)
+      if (!std::filesystem::exists(snapshot_path(name))) missing.push_back(snapshot_path(name));
+    return missing;
+  }
+
+  /// On the first rank, with --quiet too.
+  void warn(const std::string& text) const {
+    if (ranks_.leads()) fmt::print(stderr, "mpfem: warning: {}\n", text);
   }
 
   /// Checkpoints of stages and densities that must have been written by now.
@@ -226,9 +243,7 @@ private:
 
   /// Before a run is called complete: whatever it has written may have been taken away meanwhile.
   void check_promises() const {
-    RunIdentity itself = identity_;
-    itself.from = record_.from;
-    if (const auto missing = missing_checkpoints(promised_now(), itself); !missing.empty())
+    if (const auto missing = missing_checkpoints(promised_now(), itself()); !missing.empty())
       throw StorageError(fmt::format("{}: was written by this run and is missing at its end; --resume writes it again",
                                      one_line(missing.front())));
   }
@@ -376,39 +391,50 @@ private:
 
   void save_snapshot() {
     const auto start = Profile::Clock::now();
-    std::filesystem::create_directories(parts_folder(options_.output));
+    leader_does(ranks_, [this] { std::filesystem::create_directories(parts_folder(options_.output)); });
     const std::string name = snapshot_name(record_.snapshot_files.size());
     const RunState& state = simulation_.state();
     write_snapshot_file(snapshot_path(name),
                         {simulation_.model(), simulation_.contact(), simulation_.box(), simulation_.wall_friction(),
-                         simulation_.tools(), state.time, state.step, simulation_.relative_density()});
+                         simulation_.tools(), state.time, state.step, simulation_.relative_density()},
+                        ranks_);
     record_.snapshot_files.push_back(name); // the name alone: a run may be resumed from another folder
     simulation_.profile().add_serial(Part::output, Profile::since(start));
   }
 
+  /// Why a checkpoint is due though no stage or density asks for one; the largest of all ranks' reasons holds.
+  enum class Reason : int { none, interval, out_of_time, interrupted };
+
+  Reason reason_for_checkpoint() const {
+    Reason own = Reason::none;
+    if (interrupt_requested())
+      own = Reason::interrupted;
+    else if (options_.time_limit > 0 && Profile::since(start_) > options_.time_limit)
+      own = Reason::out_of_time;
+    else if (Profile::since(last_checkpoint_) >= scenario_.output.checkpoint_interval)
+      own = Reason::interval;
+    return static_cast<Reason>(static_cast<int>(ranks_.largest(static_cast<int>(own))));
+  }
+
   void save_checkpoints() {
     const bool stage_end = simulation_.stage_complete();
-    const bool interrupted = interrupt_requested();
+    const Reason reason = reason_for_checkpoint();
     const std::vector<double> passed = pass_densities();
-    const bool out_of_time = options_.time_limit > 0 && Profile::since(start_) > options_.time_limit;
     for (const double density : passed) save_checkpoint(density_checkpoint_path(options_.output, density));
-    if (!stage_end && !interrupted && !out_of_time && passed.empty() &&
-        Profile::since(last_checkpoint_) < scenario_.output.checkpoint_interval)
-      return;
+    if (!stage_end && reason == Reason::none && passed.empty()) return;
     const auto start = Profile::Clock::now();
     if (stage_end)
       save_checkpoint(stage_checkpoint_path(
           options_.output, scenario_.stages[static_cast<std::size_t>(simulation_.state().stage)].name));
     // Last: it counts stages and densities as done whose checkpoints stand by now.
-    replace_rolling_checkpoint(options_.output, [this](const std::string& path) { save_checkpoint(path); });
+    replace_rolling_checkpoint(ranks_, options_.output, [this](const std::string& path) { save_checkpoint(path); });
     last_checkpoint_ = Profile::Clock::now();
     simulation_.profile().add_serial(Part::output, Profile::since(start));
-    if (interrupted || out_of_time) {
-      write_result("interrupted");
-      throw Interrupted(fmt::format("{} at step {}, D_r = {:.4f}; continue with --resume",
-                                    interrupted ? "interrupted" : "out of time", simulation_.state().step,
-                                    simulation_.relative_density()));
-    }
+    if (reason == Reason::none || reason == Reason::interval) return;
+    write_result("interrupted");
+    throw Interrupted(fmt::format("{} at step {}, D_r = {:.4f}; continue with --resume",
+                                  reason == Reason::interrupted ? "interrupted" : "out of time",
+                                  simulation_.state().step, simulation_.relative_density()));
   }
 
   /// Densities of output.checkpoint_relative_densities that the packing has now passed for the first time.
@@ -425,7 +451,7 @@ private:
   void save_checkpoint(const std::string& path) {
     RunRecord record = record_;
     add_times(record);
-    mpfem::save_checkpoint(path, simulation_, record);
+    mpfem::save_checkpoint(path, simulation_, record, ranks_);
   }
 
   /// Adds this process's share of wall-clock time to what earlier parts of the run took.
@@ -441,6 +467,7 @@ private:
     Provenance provenance{scenario_.text,
                           status,
                           options_.threads,
+                          ranks_.size(),
                           record.wall_time,
                           {},
                           {},
@@ -458,7 +485,7 @@ private:
     std::vector<std::string> snapshots;
     for (const std::string& name : record_.snapshot_files) snapshots.push_back(snapshot_path(name));
     const RunHistory history{record_.history, simulation_.tools(), record_.tool_history};
-    write_run_file(options_.output, simulation_.model(), history, snapshots, provenance);
+    write_run_file(options_.output, simulation_.model(), history, snapshots, provenance, ranks_);
   }
 
   static std::string snapshot_name(std::size_t number) { return fmt::format("snapshot-{:04}.h5", number); }
@@ -553,6 +580,7 @@ private:
 
   const Scenario& scenario_;
   const RunOptions& options_;
+  const Communicator& ranks_;
   ThreadTeam team_;
   Simulation simulation_;
   EnergyCheck energy_check_;
@@ -610,17 +638,22 @@ void check_output(const Scenario& scenario, const RunOptions& options) {
 
 } // namespace
 
-void run_scenario(const Scenario& scenario, const RunOptions& options) {
-  check_output(scenario, options);
-  const std::string scarce = check_needs(options.output, needs_of(read_packing_counts(scenario.packing_file), scenario),
-                                         {.memory = available_memory(), .disk = available_disk_space(options.output)});
-  if (!scarce.empty() && !options.quiet) fmt::print(stderr, "mpfem: warning: {}\n", scarce);
-  const RunLock lock(options.output);
-  remove_partial_files(scenario, options.output);
-  if (Runner(scenario, options).run()) return;
-  RunOptions anew = options;
-  anew.resume = false;
-  Runner(scenario, anew).run();
+void run_scenario(const Scenario& scenario, const RunOptions& given, const Communicator& ranks) {
+  RunOptions options = given;
+  if (!ranks.leads()) options.quiet = true;
+  std::optional<RunLock> lock;
+  leader_does(ranks, [&] {
+    check_output(scenario, options);
+    const std::string scarce =
+        check_needs(options.output, needs_of(read_packing_counts(scenario.packing_file), scenario),
+                    {.memory = available_memory(), .disk = available_disk_space(options.output)});
+    if (!scarce.empty() && !options.quiet) fmt::print(stderr, "mpfem: warning: {}\n", scarce);
+    lock.emplace(options.output);
+    remove_partial_files(scenario, options.output);
+  });
+  if (Runner(scenario, options, ranks).run()) return;
+  options.resume = false;
+  Runner(scenario, options, ranks).run();
 }
 
 } // namespace mpfem

@@ -4,6 +4,7 @@
 #include <optional>
 #include <string>
 
+#include "solver/parallel/communicator.hpp"
 #include "solver/scenario/scenario.hpp"
 
 namespace mpfem {
@@ -18,8 +19,9 @@ struct RunOptions {
   double time_limit = 0; ///< s of wall-clock time, 0 none
 };
 
-/// Runs a scenario to its end and writes the run file. Throws SimulationError (a readable run file with the last state
-/// was written), Interrupted (checkpoint and run file written), StorageError, InputError.
-void run_scenario(const Scenario& scenario, const RunOptions& options);
+/// Collective. Runs a scenario to its end and writes the run file. All ranks have the same scenario and options. Throws
+/// SimulationError (a readable run file with the last state was written), Interrupted (checkpoint and run file written),
+/// StorageError, InputError, on all ranks alike.
+void run_scenario(const Scenario& scenario, const RunOptions& options, const Communicator& ranks = Communicator());
 
 } // namespace mpfem

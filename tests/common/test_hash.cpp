@@ -1,6 +1,8 @@
 // XXH64 against published values: those of xxHash's own self test (xsum_sanity_check.c of the reference
 // implementation) and of the texts that its bindings publish.
 
+#include <algorithm>
+#include <random>
 #include <vector>
 
 #include <catch2/catch.hpp>
@@ -74,5 +76,24 @@ TEST_CASE("The hash of numbers sees a change of any bit, the sign of zero and th
     std::vector<std::byte> flipped = bytes;
     flipped[bit / 8] ^= static_cast<std::byte>(1U << (bit % 8));
     CHECK(hash_bytes(flipped) != hash_bytes(bytes));
+  }
+}
+
+TEST_CASE("A hash of bytes that come in pieces is that of all of them, wherever the pieces end") {
+  const std::uint64_t seed = GENERATE(std::uint64_t{0}, std::uint64_t{prime_32});
+  std::mt19937 random(3);
+  for (const std::size_t size : {0U, 1U, 31U, 32U, 33U, 64U, 100U, 1000U}) {
+    const std::vector<std::byte> bytes = sanity_buffer(size);
+    for (int repeat = 0; repeat < 50; ++repeat) {
+      StreamingHash hash(seed);
+      // Pieces about as long as a stripe, empty ones among them; now and then longer than several.
+      for (std::span<const std::byte> rest(bytes); !rest.empty();) {
+        const std::size_t piece = std::min<std::size_t>(rest.size(), random() % (repeat % 2 == 0 ? 40 : 200));
+        hash.update(rest.first(piece));
+        rest = rest.subspan(piece);
+      }
+      REQUIRE(hash.value() == hash_bytes(bytes, seed));
+      REQUIRE(hash.value() == hash_bytes(bytes, seed)); // asking does not change it
+    }
   }
 }

@@ -79,7 +79,7 @@ inline std::pair<std::size_t, std::size_t> nodes_of(const Model& model, int grai
 }
 
 /// Of a component of the nodes' rows, weighted with their masses.
-inline double mean_of_grain(const Model& model, const AlignedVector<double>& rows, int grain, std::size_t axis) {
+inline double mean_of_grain(const Model& model, const LazyArray<double>& rows, int grain, std::size_t axis) {
   double sum = 0;
   for (auto [n, end] = nodes_of(model, grain); n < end; ++n) sum += rows[4 * n + axis] / model.inverse_mass[n];
   return sum / model.mass[static_cast<std::size_t>(grain)];

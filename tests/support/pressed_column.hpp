@@ -136,7 +136,7 @@ private:
 
   std::size_t first_node(std::size_t i) { return static_cast<std::size_t>(model().node_offset[grain(i)]); }
   std::size_t end_node(std::size_t i) { return static_cast<std::size_t>(model().node_offset[grain(i) + 1]); }
-  double mean(const AlignedVector<double>& rows, std::size_t i, std::size_t axis) {
+  double mean(const LazyArray<double>& rows, std::size_t i, std::size_t axis) {
     double sum = 0;
     for (std::size_t n = first_node(i); n < end_node(i); ++n) sum += rows[4 * n + axis] / model().inverse_mass[n];
     return sum / model().mass[grain(i)];

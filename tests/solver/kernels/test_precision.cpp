@@ -9,6 +9,7 @@
 #include "solver/kernels/element_step.hpp"
 #include "solver/kernels/grain_state.hpp"
 #include "solver/kernels/rows.hpp"
+#include "solver/model/aligned.hpp"
 #include "solver/physics/plasticity.hpp"
 #include "solver/run/simulation.hpp"
 #include "tests/support/meshes.hpp"

@@ -1,0 +1,55 @@
+#pragma once
+// What the first rank alone finds out or does, and all learn. The others do not look at the file system: on a shared one
+// they may see another state of it.
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "solver/parallel/agree.hpp"
+
+namespace mpfem {
+
+/// Collective. Calls `work` on the first rank; where it throws, all ranks throw that error.
+template <class Work>
+void leader_does(const Communicator& ranks, Work&& work) {
+  agree(ranks, [&] {
+    if (ranks.leads()) work();
+  });
+}
+
+/// Collective. The answer of the first rank to a question of yes or no.
+template <class Question>
+bool leader_finds(const Communicator& ranks, Question&& question) {
+  bool answer = false;
+  leader_does(ranks, [&] { answer = question(); });
+  return ranks.largest(answer ? 1 : 0) > 0;
+}
+
+/// Collective. The texts that the first rank finds.
+template <class Find>
+std::vector<std::string> leader_lists(const Communicator& ranks, Find&& find) {
+  std::vector<std::string> texts;
+  leader_does(ranks, [&] { texts = find(); });
+  Bytes message;
+  for (const std::string& text : texts) {
+    append(message, text.size());
+    append(message, std::span<const char>(text));
+  }
+  ranks.from_leader(message);
+  texts.clear();
+  for (MessageReader reader(message); !reader.done();) {
+    std::string text(reader.take<std::size_t>(), ' ');
+    reader.take(std::span<char>(text));
+    texts.push_back(std::move(text));
+  }
+  return texts;
+}
+
+/// Collective. One text of the first rank.
+template <class Find>
+std::string leader_says(const Communicator& ranks, Find&& find) {
+  return leader_lists(ranks, [&] { return std::vector<std::string>{find()}; }).front();
+}
+
+} // namespace mpfem
