@@ -1,5 +1,5 @@
-// compare-runs A B: whether two run files or checkpoints hold the same numbers to the bit, but for wall-clock times and
-// what is made of them (checksums). Exit code 0: they do.
+// compare-runs A B: whether two run files or checkpoints hold the same numbers to the bit, but for wall-clock times,
+// what is made of them (checksums), and the numbers of ranks and threads. Exit code 0: they do.
 
 #include <cstring>
 #include <string>
@@ -21,7 +21,8 @@ bool is_wall_time(std::size_t i, std::size_t count) {
 
 bool may_differ(std::string_view path) {
   for (const std::string_view name :
-       {"/provenance/wall_time", "/provenance/profile_seconds", "/provenance/from", "/run/from"})
+       {"/provenance/wall_time", "/provenance/profile_seconds", "/provenance/threads", "/provenance/ranks",
+        "/provenance/from", "/run/from"})
     if (path.find(name) != std::string_view::npos) return true;
   return false;
 }

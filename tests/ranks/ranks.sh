@@ -1,0 +1,104 @@
+#!/usr/bin/env bash
+# tests/ranks/ranks.sh BIN COMPARE MPIEXEC: runs of several ranks hold the numbers of a run of one, to the bit but for
+# wall-clock times; their checkpoints go on with any number of ranks; and whatever ends one rank ends all, with the exit
+# code and the one message that a single process would have. BIN: folder of the executables, COMPARE: compare-runs.
+set -euo pipefail
+bin=$(realpath "$1")
+compare=$(realpath "$2")
+mpiexec=$3
+here=$(realpath "$(dirname "${BASH_SOURCE[0]}")")
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+cp "$here"/*.toml "$here"/../reliability/*.toml "$work"
+cd "$work"
+export OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1
+export OMPI_MCA_rmaps_base_oversubscribe=1 OMPI_MCA_mpi_yield_when_idle=1 OMPI_MCA_hwloc_base_binding_policy=none
+
+fail() { printf 'ranks.sh: %s\n' "$*" >&2; exit 1; }
+# mpfem RANKS ARGUMENTS...
+mpfem() {
+  if [[ $1 == 1 ]]; then "$bin/mpfem" "${@:2}"; else "$mpiexec" -n "$1" "$bin/mpfem" "${@:2}"; fi
+}
+# run RANKS THREADS SCENARIO NAME OPTIONS...
+run() { mpfem "$1" run "$3.toml" -o "$4.h5" --threads "$2" --quiet "${@:5}"; }
+# alike NAME NAME: all files of two runs.
+alike() {
+  local file
+  for file in "$1".h5 "$1".*.checkpoint.h5; do
+    "$compare" "$file" "$2${file#"$1"}" || fail "$file and $2${file#"$1"} differ"
+  done
+}
+# ends CODE COMMAND...: the exit code, and one line of error.
+ends() {
+  local wanted=$1 code=0
+  "${@:2}" >log 2>&1 || code=$?
+  [[ $code == "$wanted" ]] || { cat log >&2; fail "exit code $code instead of $wanted: ${*:2}"; }
+  [[ $(grep -c '^mpfem: error: ' log) == 1 ]] || { cat log >&2; fail "not one line of error: ${*:2}"; }
+}
+
+"$bin/pack-gen" spheres packing.toml -o spheres.h5 --quiet
+"$bin/pack-gen" mesh spheres.h5 --size 0.05 -o packing.h5 --quiet
+
+for scenario in loadings grips friction tools; do
+  run 1 1 "$scenario" "$scenario-alone"
+  run 2 2 "$scenario" "$scenario-two"
+  alike "$scenario-alone" "$scenario-two"
+  run 4 1 "$scenario" "$scenario-four"
+  alike "$scenario-alone" "$scenario-four"
+  echo "$scenario: runs of one, two and four ranks are alike"
+done
+
+# More ranks than grains have nothing to do.
+run 13 1 friction crowd
+alike friction-alone crowd
+
+# A checkpoint is one file: three ranks begin, one and two go on; four branch from what two have written.
+for scenario in loadings friction tools; do
+  for share in 3 1 2; do
+    code=0
+    run "$share" 1 "$scenario" parts --resume --time-limit 0.15 2>/dev/null || code=$?
+    [[ $code == 5 || $code == 0 ]] || fail "exit code $code of a run with a time limit"
+  done
+  run 2 1 "$scenario" parts --resume
+  alike "$scenario-alone" parts
+  rm -rf parts*
+done
+run 1 1 branch branch-alone --from loadings-alone.cycles.checkpoint.h5
+run 4 1 branch branch-four --from loadings-two.cycles.checkpoint.h5
+alike branch-alone branch-four
+echo "checkpoints go on with other numbers of ranks"
+
+# A rank that is killed takes the others along, and the next call goes on.
+run 2 1 loadings killed >log 2>&1 &
+launcher=$!
+until [[ -e killed.checkpoint.h5 ]]; do sleep 0.02; done
+pkill -KILL -n -f "mpfem run loadings.toml -o killed.h5" || true
+code=0
+wait "$launcher" || code=$?
+[[ $code != 0 ]] || fail "a run with a killed rank ends well"
+run 2 1 loadings killed --resume
+alike loadings-alone killed
+
+# mpirun passes SIGUSR1 on: all save their state together.
+mpfem 2 run loadings.toml -o asked.h5 --threads 1 --quiet >log 2>&1 &
+launcher=$!
+until [[ -e asked.checkpoint.h5 ]]; do sleep 0.02; done
+kill -USR1 "$(pgrep -n -f "$mpiexec -n 2 $bin/mpfem run loadings.toml -o asked.h5")"
+code=0
+wait "$launcher" || code=$?
+[[ $code == 5 ]] || { cat log >&2; fail "exit code $code after SIGUSR1"; }
+run 1 1 loadings asked --resume
+alike loadings-alone asked
+echo "what ends one rank ends all, and the run goes on"
+
+# Mistakes are told once.
+ends 2 run 2 1 loadings bad --set stages.0.wall_speed=-1
+ends 2 mpfem 2 run missing.toml -o bad.h5
+ends 2 run 2 1 loadings bad --set packing=missing.h5
+ends 2 run 2 1 loadings missing/bad
+ends 2 mpfem 2 check loadings.toml --set element.type=hex8
+head -c 3000 packing.h5 >packing-cut.h5
+ends 2 run 2 1 loadings bad --set packing=packing-cut.h5
+[[ $(mpfem 2 check loadings.toml | grep -c '^packing ') == 1 ]] || fail "check prints more than once"
+[[ $(mpfem 2 bench --tets 2000 --grains 8 --steps 6 --quiet | grep -c '^total ') == 1 ]] || fail "bench fails"
+echo "mistakes are told once"
