@@ -80,7 +80,7 @@ function settings(group, i,   text, part) {
   split(group, part, SUBSEP)
   text = "`" element[group, i] "`, " sprintf(unit(part[1]), fineness[group, i])
   text = text moved(group, i)
-  if (lever[group, i] == "pace") text = text ", speed chosen"
+  if (lever[group, i] == "pace") text = text ", `quasi_static`"
   if (lever[group, i] == "precision") text = text ", mixed precision"
   if (lever[group, i] == "surface") text = text ", smooth surface"
   return text " (" thousands(tets[group, i]) " tets, " seconds(work[group, i]) ")"
@@ -124,13 +124,13 @@ function choice(   g, t, i, cell, mark, marks, e, first) {
       cell = ""
       first = t == 1 ? title(part[1], part[2]) : ""
       if (mark[t] < doubt[group_of[g]]) {
-        printf "| %s | %d %% | the reference is known to %s only | | | |\n", first, 100 * mark[t] + 0.5, \
+        printf "| %s | %d %% | uncertainty of the reference: %s | | | |\n", first, 100 * mark[t] + 0.5, \
                percent(doubt[group_of[g]])
         break
       }
       for (e = 1; e <= elements; ++e) {
         i = cheapest(group_of[g], type[e], mark[t])
-        cell = cell " | " (i ? mesh_and_work(group_of[g], i) : "finer than run")
+        cell = cell " | " (i ? mesh_and_work(group_of[g], i) : "none")
       }
       i = cheapest(group_of[g], "", mark[t])
       printf "| %s | %d %%%s | %s |\n", first, 100 * mark[t] + 0.5, cell, i ? settings(group_of[g], i) : "none"
@@ -184,7 +184,7 @@ function lever_and_value(group, i,   at) {
 }
 function levers(   g, i, d, part, key, k, many, what) {
   print "| scene and measure | mesh, element | default | K = 1 | 3 | 30 | 100 E/h | ½ × speed | 2 × | 4 ×" \
-        " | speed chosen | 4 × mass | 16 × | mixed precision |"
+        " | `quasi_static` | 4 × mass | 16 × | mixed precision |"
   print "|---|---|---|---|---|---|---|---|---|---|---|---|---|---|"
   many = split("penalty:1 penalty:3 penalty:30 penalty:100 speed:0.5 speed:2 speed:4 pace: mass:4 mass:16 " \
                "precision:mixed", what, " ")

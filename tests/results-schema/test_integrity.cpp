@@ -151,12 +151,13 @@ TEST_CASE("Values that another program changed do not match their checksum") {
   const std::string path = folder.file("file.h5");
   test::write_complete_file(path, FileKind::packing);
   test::remove_seal(path);
-  CHECK(FileReader(path).read(packing::spheres_radius).size() == 3); // copied without its seal: as good as before
+  const std::vector<double> radii = FileReader(path).read(packing::spheres_radius);
+  CHECK_FALSE(radii.empty()); // copied without its seal: as good as before
   SECTION("a value") {
     {
       const Handle file(H5Fopen(path.c_str(), H5F_ACC_RDWR, H5P_DEFAULT), H5Fclose);
       const Handle set(H5Dopen2(file, "/spheres/radius", H5P_DEFAULT), H5Dclose);
-      const std::vector<double> values(3, 0.5);
+      const std::vector<double> values(radii.size(), 0.5);
       H5Dwrite(set, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data());
     }
     CHECK(input_error([&] { FileReader(path).read(packing::spheres_radius); }) ==

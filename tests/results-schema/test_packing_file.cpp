@@ -120,7 +120,7 @@ TEST_CASE("A packing that means nothing is refused with its dataset, index, what
          c.node_offset = c.tet_offset = {0};
        },
        "/spheres/radius: found no sphere, allowed: at least one"},
-      {[](Contents& c) { c.shape = "cone\n"; }, "/box/shape: found 'cone\\n', allowed: box, cylinder"},
+      {[](Contents& c) { c.shape = "cone\n"; }, "/box/shape: found 'cone\\n', allowed: box, cylinder, surface"},
       {[](Contents& c) { c.shape = "cylinder"; },
        "/box/lengths: found 1 and 2 at index 0 and 1, allowed: the same, the diameter of the cylinder"},
       {[](Contents& c) {
