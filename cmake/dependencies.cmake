@@ -11,9 +11,6 @@ if(MPFEM_MPI)
 endif()
 # Debian's plain hdf5 becomes the one with MPI as soon as something (VTK) brings that in.
 pkg_search_module(HDF5 REQUIRED IMPORTED_TARGET hdf5-serial hdf5)
-if(MPFEM_MPI)
-  find_package(MPI REQUIRED COMPONENTS CXX)
-endif()
 pkg_check_modules(TOMLPLUSPLUS REQUIRED IMPORTED_TARGET tomlplusplus)
 if(MPFEM_FUZZ)
   # From its headers: a fuzzer sees only what it compiles. An assertion of toml++ that fails for "[[/" stands before the

@@ -17,8 +17,8 @@ namespace mpfem {
 
 /// How the system is to back an array.
 enum class Pages {
-  any,  ///< of any size, as the system likes
-  small ///< single pages: for arrays with holes, where a large page would fill these
+  large, ///< large ones, where the system has them: fewer of them have to be looked up
+  small  ///< single pages: for arrays with holes, where a large page would fill these
 };
 
 template <class T>
@@ -30,7 +30,7 @@ public:
 
   LazyArray() = default;
   /// Throws std::bad_alloc.
-  explicit LazyArray(std::size_t size, Pages pages = Pages::any) : size_(size), pages_(pages) { allocate(); }
+  explicit LazyArray(std::size_t size, Pages pages = Pages::large) : size_(size), pages_(pages) { allocate(); }
   LazyArray(const LazyArray& other) : LazyArray(other.size_, other.pages_) {
     std::copy(other.begin(), other.end(), begin());
   }
@@ -75,7 +75,7 @@ private:
     const int flags = MAP_PRIVATE | MAP_ANONYMOUS | (pages_ == Pages::small ? MAP_NORESERVE : 0);
     void* const memory = mmap(nullptr, bytes(), PROT_READ | PROT_WRITE, flags, -1, 0);
     if (memory == MAP_FAILED) throw std::bad_alloc();
-    if (pages_ == Pages::small) madvise(memory, bytes(), MADV_NOHUGEPAGE);
+    madvise(memory, bytes(), pages_ == Pages::small ? MADV_NOHUGEPAGE : MADV_HUGEPAGE);
     data_ = static_cast<T*>(memory);
   }
   void swap(LazyArray& other) noexcept {
@@ -86,7 +86,7 @@ private:
 
   T* data_ = nullptr;
   std::size_t size_ = 0;
-  Pages pages_ = Pages::any;
+  Pages pages_ = Pages::large;
 };
 
 } // namespace mpfem

@@ -80,7 +80,7 @@ struct Model {
   /// Grains that this rank computes, ascending.
   const std::vector<std::int32_t>& own() const { return ownership.own; }
   /// How arrays of nodes, tets and facets are to be backed.
-  Pages pages() const { return own().size() == static_cast<std::size_t>(grains) ? Pages::any : Pages::small; }
+  Pages pages() const { return own().size() == static_cast<std::size_t>(grains) ? Pages::large : Pages::small; }
   std::int32_t nodes() const { return node_offset.back(); }
   std::int32_t tets() const { return tet_offset.back(); }
   std::int32_t facets() const { return facet_offset.back(); }

@@ -21,6 +21,7 @@
 #include "solver/output/run_file.hpp"
 #include "solver/output/run_lock.hpp"
 #include "solver/parallel/leader.hpp"
+#include "solver/run/balance.hpp"
 #include "solver/run/checkpoints.hpp"
 #include "solver/run/energy_check.hpp"
 #include "solver/run/history_schedule.hpp"
@@ -63,23 +64,32 @@ std::vector<double> internal_energy(const std::vector<HistoryRow>& history) {
   return stage_internal_energy(rows);
 }
 
+/// Which rank owns each grain ([grains]); none: by the number of tets.
+using Owners = std::optional<std::vector<std::int32_t>>;
+
 /// Reads the packing and makes the model. Both may take a while, so that a request to stop is looked for in between.
-Model load_model(const Scenario& scenario, const RunOptions& options, const Communicator& ranks) {
+Model load_model(const Scenario& scenario, const RunOptions& options, const Communicator& ranks, const Owners& owners) {
   const std::string checkpoint = checkpoint_path(options.output);
   stop_before_first_step(ranks, checkpoint);
-  auto packing = read_packing(scenario.packing_file, ranks);
+  auto packing = read_packing(scenario.packing_file, ranks, owners);
   stop_before_first_step(ranks, checkpoint);
   Model model = build_model(std::move(packing), scenario, scenario.packing_file, ranks);
   stop_before_first_step(ranks, checkpoint);
   return model;
 }
 
+enum class RunEnd {
+  complete,
+  must_begin_anew, ///< what there is to resume cannot be used: without --resume
+  divided_anew     ///< the checkpoint just written goes on with other owners of grains
+};
+
 /// The time loop and its records.
 class Runner {
 public:
-  Runner(const Scenario& scenario, const RunOptions& options, const Communicator& ranks)
-      : scenario_(scenario), options_(options), ranks_(ranks), team_(options.threads),
-        simulation_(load_model(scenario, options, ranks), scenario, team_, options.from.has_value(), ranks),
+  Runner(const Scenario& scenario, const RunOptions& options, const Communicator& ranks, const Owners& owners)
+      : scenario_(scenario), options_(options), ranks_(ranks), made_(Profile::Clock::now()), team_(options.threads),
+        simulation_(load_model(scenario, options, ranks, owners), scenario, team_, options.from.has_value(), ranks),
         energy_check_(stiffness_of(simulation_.model())), progress_("mpfem", options.quiet) {
     const auto warnings = check_bonds(simulation_.model(), scenario_, ranks_);
     begin();
@@ -102,15 +112,16 @@ public:
     if (begins_anew_) pass_densities();
   }
 
-  /// False where what there is to resume cannot be used: the run has to begin anew, without --resume.
-  bool run() {
-    if (must_begin_anew_) return false;
-    if (already_complete_) return true;
+  RunEnd run() {
+    if (must_begin_anew_) return RunEnd::must_begin_anew;
+    if (already_complete_) return RunEnd::complete;
     if (begins_anew_) leader_does(ranks_, [this] { drop_unfinished_run(); });
     start_ = last_checkpoint_ = Profile::Clock::now();
+    reload_seconds_ = age();
+    done_at_start_ = fraction_done();
     steps_at_start_ = simulation_.state().step;
     try {
-      loop();
+      if (!loop()) return RunEnd::divided_anew;
     } catch (const SimulationError& error) {
       const std::string good = last_checkpoint_text();
       // The failed state is worth looking at: a snapshot of it, and everything recorded so far.
@@ -129,8 +140,13 @@ public:
                                  simulation_.relative_density(), simulation_.box().mean_stress(), options_.output));
     if (!options_.quiet) print_profile();
     if (!options_.quiet) print_quality();
-    return true;
+    return RunEnd::complete;
   }
+
+  /// After divided_anew.
+  const Owners& new_owners() const { return new_owners_; }
+  /// s of wall-clock time since this was made.
+  double age() const { return Profile::since(made_); }
 
 private:
   /// "; the last checkpoint before is FILE", or that there is none.
@@ -279,7 +295,8 @@ private:
     return lost.empty();
   }
 
-  void loop() {
+  /// To the end of the last stage, or, false, to a checkpoint after which the grains have new owners.
+  bool loop() {
     for (;;) {
       simulation_.evaluate_forces();
       warn_of_slowest_speed();
@@ -288,11 +305,12 @@ private:
       take_snapshots(stage_end);
       if (stage_end) {
         report_stage_end();
-        if (simulation_.state().stage + 1 == static_cast<std::int64_t>(scenario_.stages.size())) return;
+        if (simulation_.state().stage + 1 == static_cast<std::int64_t>(scenario_.stages.size())) return true;
         begin_next_stage();
       }
       simulation_.advance();
       save_checkpoints();
+      if (new_owners_) return false;
       report_progress();
     }
   }
@@ -430,11 +448,29 @@ private:
     replace_rolling_checkpoint(ranks_, options_.output, [this](const std::string& path) { save_checkpoint(path); });
     last_checkpoint_ = Profile::Clock::now();
     simulation_.profile().add_serial(Part::output, Profile::since(start));
+    if (reason == Reason::interval) balance();
     if (reason == Reason::none || reason == Reason::interval) return;
     write_result("interrupted");
     throw Interrupted(fmt::format("{} at step {}, D_r = {:.4f}; continue with --resume",
                                   reason == Reason::interrupted ? "interrupted" : "out of time",
                                   simulation_.state().step, simulation_.relative_density()));
+  }
+
+  /// Where ranks have unequal work and it pays, finds new owners for the grains.
+  void balance() {
+    if (ranks_.alone()) return;
+    double busy = 0;
+    for (const Part part : {Part::elements, Part::contact, Part::integration, Part::surface})
+      busy += simulation_.profile().seconds(part);
+    const Balance balance = measure_balance(ranks_, simulation_.model(), busy - busy_before_);
+    busy_before_ = busy;
+    const double done = fraction_done(), reload = reload_seconds_;
+    const double remaining = done > done_at_start_ ? Profile::since(start_) * (1 - done) / (done - done_at_start_) : 0;
+    if (!leader_finds(ranks_, [&] { return pays(balance, remaining, reload); })) return;
+    new_owners_ = divide_anew(ranks_, simulation_.model(), balance);
+    if (!options_.quiet)
+      fmt::print(stderr, "mpfem: the busiest rank has {:.0f} % more work than the mean: grains are divided anew\n",
+                 100 * (balance.imbalance - 1));
   }
 
   /// Densities of output.checkpoint_relative_densities that the packing has now passed for the first time.
@@ -581,6 +617,7 @@ private:
   const Scenario& scenario_;
   const RunOptions& options_;
   const Communicator& ranks_;
+  Profile::Clock::time_point made_;
   ThreadTeam team_;
   Simulation simulation_;
   EnergyCheck energy_check_;
@@ -595,6 +632,10 @@ private:
   int reported_lines_ = 0;
   double first_stable_step_ = 0; ///< s
   bool warned_of_step_ = false;
+  double reload_seconds_ = 0; ///< that reading and preparing took
+  double done_at_start_ = 0;  ///< fraction of the run
+  double busy_before_ = 0;    ///< s, at the last look at the balance of ranks
+  Owners new_owners_;
   RunIdentity identity_;
   bool already_complete_ = false, begins_anew_ = false, warned_of_energy_ = false;
   bool taken_up_ = false;        ///< a checkpoint has replaced the state of the simulation
@@ -651,9 +692,14 @@ void run_scenario(const Scenario& scenario, const RunOptions& given, const Commu
     lock.emplace(options.output);
     remove_partial_files(scenario, options.output);
   });
-  if (Runner(scenario, options, ranks).run()) return;
-  options.resume = false;
-  Runner(scenario, options, ranks).run();
+  for (Owners owners;;) {
+    Runner runner(scenario, options, ranks, owners);
+    const RunEnd end = runner.run();
+    if (end == RunEnd::complete) return;
+    options.resume = end == RunEnd::divided_anew;
+    owners = runner.new_owners();
+    if (options.time_limit > 0) options.time_limit = std::max(options.time_limit - runner.age(), 1e-9);
+  }
 }
 
 } // namespace mpfem

@@ -128,7 +128,7 @@ TEST_CASE("settle keeps the shape, and --fit-height lowers the container to the 
   CHECK(bed.box[2] < 0.42);
   CHECK(smallest_gap(bed).gap >= smallest_gap(read_spheres(folder / "s.h5").packing).gap * (1 - 1e-9));
   CHECK(pack_gen(fmt::format("mesh {} --size 0.04 -o {} --quiet", folder / "b.h5", folder / "m.h5")).exit_code == 0);
-  const Outcome refused = pack_gen(fmt::format("settle {} --gap 0.2 -o {}", folder / "s.h5", folder / "c.h5"));
+  const Outcome refused = pack_gen(fmt::format("settle {} --gap 0.2 -o {} --quiet", folder / "s.h5", folder / "c.h5"));
   CHECK(refused.exit_code == 2);
   CHECK(refused.one_error_line("pack-gen"));
   CHECK_FALSE(std::filesystem::exists(folder / "c.h5"));

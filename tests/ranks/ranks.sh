@@ -20,7 +20,7 @@ mpfem() {
   if [[ $1 == 1 ]]; then "$bin/mpfem" "${@:2}"; else "$mpiexec" -n "$1" "$bin/mpfem" "${@:2}"; fi
 }
 # run RANKS THREADS SCENARIO NAME OPTIONS...
-run() { mpfem "$1" run "$3.toml" -o "$4.h5" --threads "$2" --quiet "${@:5}"; }
+run() { mpfem "$1" run "$3.toml" -o "$4.h5" --threads "$2" --quiet --set output.checkpoint_interval=0.5 "${@:5}"; }
 # alike NAME NAME: all files of two runs.
 alike() {
   local file
@@ -80,7 +80,7 @@ run 2 1 loadings killed --resume
 alike loadings-alone killed
 
 # mpirun passes SIGUSR1 on: all save their state together.
-mpfem 2 run loadings.toml -o asked.h5 --threads 1 --quiet >log 2>&1 &
+run 2 1 loadings asked >log 2>&1 &
 launcher=$!
 until [[ -e asked.checkpoint.h5 ]]; do sleep 0.02; done
 kill -USR1 "$(pgrep -n -f "$mpiexec -n 2 $bin/mpfem run loadings.toml -o asked.h5")"

@@ -18,6 +18,7 @@
 #include "solver/output/checkpoint.hpp"
 #include "solver/output/run_file.hpp"
 #include "solver/run/simulation.hpp"
+#include "tests/solver/parallel/test_ranks.hpp"
 #include "tests/support/folder.hpp"
 #include "tests/support/material_text.hpp"
 #include "tests/support/packing_file.hpp"
@@ -29,13 +30,6 @@ using namespace mpfem::test;
 namespace {
 
 using Index = std::int32_t;
-
-const Communicator& test_ranks() {
-  static int no_arguments = 0;
-  static char** none = nullptr;
-  static const Communicator ranks = Communicator::of_launcher(no_arguments, none);
-  return ranks;
-}
 
 /// The same folder on all ranks.
 class SharedFolder {

@@ -1,0 +1,55 @@
+#include "solver/run/balance.hpp"
+
+#include <algorithm>
+#include <array>
+#include <numeric>
+
+#include "common/index.hpp"
+#include "solver/parallel/grain_values.hpp"
+
+namespace mpfem {
+
+namespace {
+
+/// Less than this is left to chance: bisection cuts between grains, not through them.
+constexpr double even = 1.05;
+
+double tets_of(const Model& model, std::int32_t grain) {
+  return model.tet_offset[at(grain) + 1] - model.tet_offset[at(grain)];
+}
+
+} // namespace
+
+Balance measure_balance(const Communicator& ranks, const Model& model, double busy) {
+  std::vector<double> busy_of_rank, tets(at(ranks.size()), 0.0);
+  for (const Bytes& message : ranks.all_of(bytes_of(std::span<const double>(&busy, 1))))
+    busy_of_rank.push_back(MessageReader(message).take<double>());
+  for (std::int32_t g = 0; g < model.grains; ++g) tets[at(model.ownership.owner[at(g)])] += tets_of(model, g);
+  const double sum = std::accumulate(busy_of_rank.begin(), busy_of_rank.end(), 0.0);
+  Balance balance;
+  if (sum > 0) balance.imbalance = *std::ranges::max_element(busy_of_rank) * ranks.size() / sum;
+  for (std::size_t rank = 0; rank < tets.size(); ++rank)
+    balance.busy_of_tet.push_back(tets[rank] > 0 ? busy_of_rank[rank] / tets[rank] : 0.0);
+  return balance;
+}
+
+std::vector<std::int32_t> divide_anew(const Communicator& ranks, const Model& model, const Balance& balance) {
+  std::vector<std::array<double, 3>> centre(at(model.grains));
+  std::vector<double> weight(at(model.grains));
+  for (const std::int32_t grain : model.own()) {
+    const auto first = at(model.node_offset[at(grain)]), end = first + at(model.surface_node_count[at(grain)]);
+    for (std::size_t n = first; n < end; ++n)
+      for (std::size_t axis = 0; axis < 3; ++axis)
+        centre[at(grain)][axis] += model.position[4 * n + axis] / static_cast<double>(end - first);
+  }
+  share_of_grains(ranks, model.ownership, std::span<std::array<double, 3>>(centre));
+  for (std::int32_t g = 0; g < model.grains; ++g)
+    weight[at(g)] = tets_of(model, g) * balance.busy_of_tet[at(model.ownership.owner[at(g)])];
+  return divide_among_ranks(centre, weight, ranks.size());
+}
+
+bool pays(const Balance& balance, double remaining, double reload) {
+  return balance.imbalance > even && remaining * (1 - even / balance.imbalance) > 2 * reload;
+}
+
+} // namespace mpfem

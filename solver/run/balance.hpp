@@ -1,0 +1,29 @@
+#pragma once
+// Whether ranks have equal shares of the work, as measured, and how the grains are divided anew where they have not.
+
+#include <cstdint>
+#include <vector>
+
+#include "solver/model/model.hpp"
+#include "solver/parallel/communicator.hpp"
+
+namespace mpfem {
+
+/// How the work was divided for some time.
+struct Balance {
+  double imbalance = 1;            ///< busy time of the busiest rank over the mean of all
+  std::vector<double> busy_of_tet; ///< [ranks], s per tet
+};
+
+/// Collective. `busy`: s that this rank has worked, without waiting for others.
+Balance measure_balance(const Communicator& ranks, const Model& model, double busy);
+
+/// Collective. The owner of each grain ([grains]) by recursive bisection, where a grain weighs what its tets have cost
+/// its present owner, at the place where it is now.
+std::vector<std::int32_t> divide_anew(const Communicator& ranks, const Model& model, const Balance& balance);
+
+/// Whether dividing anew pays: what it saves in the rest of the run, `remaining` s as long as nothing changes, is more
+/// than twice what it costs, `reload` s.
+bool pays(const Balance& balance, double remaining, double reload);
+
+} // namespace mpfem

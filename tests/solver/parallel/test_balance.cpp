@@ -1,0 +1,65 @@
+// Ranks that have more work than others give grains away. Run with mpirun, see CMakeLists.txt.
+
+#include <algorithm>
+#include <numeric>
+
+#include <catch2/catch.hpp>
+
+#include "common/table_reader.hpp"
+#include "solver/run/balance.hpp"
+#include "solver/scenario/scenario.hpp"
+#include "tests/solver/parallel/test_ranks.hpp"
+#include "tests/support/material_text.hpp"
+#include "tests/support/packing_file.hpp"
+
+using namespace mpfem;
+using namespace mpfem::test;
+
+namespace {
+
+Model model_of_eight_grains() {
+  const Scenario scenario = read_scenario(TomlDocument::from_text(material_text + R"([[stages]]
+name = "hold"
+type = "hold"
+duration = 1
+)",
+                                                                  "test"));
+  MeshedPacking packing = eight_grains(4);
+  divide(packing, test_ranks());
+  return build_model(packing, scenario, "test", test_ranks());
+}
+
+} // namespace
+
+TEST_CASE("The imbalance of ranks is the largest share of the work over the mean") {
+  const Model model = model_of_eight_grains();
+  const int ranks = test_ranks().size();
+  const Balance even = measure_balance(test_ranks(), model, 2.0);
+  CHECK(even.imbalance == Approx(1));
+  CHECK_FALSE(pays(even, 1e9, 0));
+  // The first rank works three times as long: 3 over (3 + (n - 1)) / n.
+  const Balance uneven = measure_balance(test_ranks(), model, test_ranks().leads() ? 3.0 : 1.0);
+  CHECK(uneven.imbalance == Approx(3.0 * ranks / (2 + ranks)));
+  if (ranks == 1) return;
+  CHECK(pays(uneven, 100, 1));
+  CHECK_FALSE(pays(uneven, 1, 1));
+}
+
+TEST_CASE("A rank that is three times as slow gets fewer grains") {
+  const Model model = model_of_eight_grains();
+  const int ranks = test_ranks().size();
+  const Balance balance = measure_balance(test_ranks(), model, test_ranks().leads() ? 3.0 : 1.0);
+  const auto owner = divide_anew(test_ranks(), model, balance);
+  REQUIRE(owner.size() == 8);
+  const auto grains_of = [](const std::vector<std::int32_t>& owners, int rank) {
+    return std::count(owners.begin(), owners.end(), rank);
+  };
+  if (ranks == 1) {
+    CHECK(grains_of(owner, 0) == 8);
+    return;
+  }
+  // Of two ranks: weights 3, 3, 3, 3, 1, 1, 1, 1. Three grains have 9 of 16, the others 7.
+  if (ranks == 2) CHECK(grains_of(owner, 0) == 3);
+  CHECK(grains_of(owner, 0) <= grains_of(model.ownership.owner, 0));
+  for (int rank = 0; rank < ranks; ++rank) CHECK(grains_of(owner, rank) > 0);
+}
