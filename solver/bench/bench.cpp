@@ -213,8 +213,7 @@ BenchScene describe(Simulation& simulation, const Scenario& scenario, const Benc
 Model make_model(const BenchOptions& options, Scenario& scenario, const Communicator& ranks) {
   if (options.scenario) {
     scenario = *options.scenario;
-    Model model =
-        build_model(read_packing(scenario.packing_file, ranks), scenario, scenario.packing_file, ranks);
+    Model model = build_model(read_packing(scenario.packing_file, ranks), scenario, scenario.packing_file, ranks);
     check_bonds(model, scenario, ranks);
     return model;
   }

@@ -25,8 +25,8 @@ struct BenchOptions {
   bool quiet = false;
 };
 
-/// Collective. Measures and prints a table, or with `json` one object. With several ranks: the step and the output alone;
-/// times of parts are the first rank's. Throws InputError.
+/// Collective. Measures and prints a table, or with `json` one object. With several ranks: the step and the output
+/// alone; times of parts are the first rank's. Throws InputError.
 void run_bench(const BenchOptions& options, const Communicator& ranks = Communicator());
 
 } // namespace mpfem

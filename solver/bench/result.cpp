@@ -124,8 +124,8 @@ void add_fields_of_ranks(Fields& fields, const BenchResult& r) {
 
 std::string scene_of_ranks_text(const BenchResult& r) {
   const BenchScene& s = r.scene;
-  return fmt::format("scene          {} ranks of {} threads; {} {} tets ({} precision) in {} grains, D_r {:.3f}\n", s.ranks,
-                     s.threads, s.tets, s.element, s.precision, s.grains, s.relative_density) +
+  return fmt::format("scene          {} ranks of {} threads; {} {} tets ({} precision) in {} grains, D_r {:.3f}\n",
+                     s.ranks, s.threads, s.tets, s.element, s.precision, s.grains, s.relative_density) +
          fmt::format("memory         {:.2f} GB at most in the first rank\n", 1e-9 * r.memory) +
          fmt::format("messages       {:.1f} kB a step from the rank that sends most\n\n", 1e-3 * r.sent);
 }

@@ -16,7 +16,7 @@ struct BenchScene {
   std::string element, precision;
   int ranks = 1;
   int threads = 1; ///< of each rank
-  int lanes = 1; ///< tets in a pack
+  int lanes = 1;   ///< tets in a pack
   std::int32_t tets = 0;
   int grains = 0;
   int steps = 0; ///< requested

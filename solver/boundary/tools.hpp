@@ -88,9 +88,9 @@ public:
   double push_on_node(const Model& model, std::size_t node, int grain) const;
 
   // ---- tools that go and come
-  /// Collective. From now on these tools and no others are away, and bonds to them are cut. Returns the energy (mJ) that those
-  /// which leave take along. Planes that come back stand where they touch no grain. Throws SimulationError where
-  /// another tool comes back into grains.
+  /// Collective. From now on these tools and no others are away, and bonds to them are cut. Returns the energy (mJ)
+  /// that those which leave take along. Planes that come back stand where they touch no grain. Throws SimulationError
+  /// where another tool comes back into grains.
   double set_away(std::span<const std::size_t> away, const Model& model, const Communicator& ranks);
   /// Name and depth (mm) of the tool that a surface node is deepest behind; none where it is behind none.
   std::optional<std::pair<std::string, double>> behind(const Model& model, std::size_t node) const;

@@ -29,8 +29,9 @@ enum class BondPartner {
 BondResolution bond_resolution(const Model& model, const BondParameters& bond, const ContactParameters& contact,
                                BondPartner partner = BondPartner::grain, const Communicator& ranks = Communicator());
 
-/// Collective. Bonds between grains and to tools. Throws InputError where their stiffness leaves no softening branch; warns, one
-/// line each, where the cohesive zone has fewer than three elements or the softening is steeper than the elements.
+/// Collective. Bonds between grains and to tools. Throws InputError where their stiffness leaves no softening branch;
+/// warns, one line each, where the cohesive zone has fewer than three elements or the softening is steeper than the
+/// elements.
 std::vector<std::string> check_bonds(const Model& model, const Scenario& scenario,
                                      const Communicator& ranks = Communicator());
 

@@ -21,9 +21,9 @@
 
 namespace mpfem {
 
-/// Node arrays hold rows of four doubles (x, y, z, spare); the surface nodes of a grain are its first ones. With several
-/// ranks all number grains, nodes, tets and facets alike, and arrays of grains are the same on all. Arrays of nodes, tets
-/// and facets are set for the rank's own grains, and what contact needs of them for grains near these.
+/// Node arrays hold rows of four doubles (x, y, z, spare); the surface nodes of a grain are its first ones. With
+/// several ranks all number grains, nodes, tets and facets alike, and arrays of grains are the same on all. Arrays of
+/// nodes, tets and facets are set for the rank's own grains, and what contact needs of them for grains near these.
 struct Model {
   int grains = 0;
   Ownership ownership;                      ///< the grains that this rank computes

@@ -242,7 +242,8 @@ void ArrayReader::take_friction(Contact& contact) const {
   require(grains.size() == 2 * lost.size());
   require(std::ranges::all_of(grains, [&](Index grain) { return grain >= 0 && grain < model_.grains; }));
   for (std::size_t i = 0; i < lost.size(); ++i)
-    if (model_.ownership.owns(grains[2 * i])) contact.friction_left_behind[{grains[2 * i], grains[2 * i + 1]}] = lost[i];
+    if (model_.ownership.owns(grains[2 * i]))
+      contact.friction_left_behind[{grains[2 * i], grains[2 * i + 1]}] = lost[i];
 }
 
 /// Which rows have nodes of each grain; they stand by grain.

@@ -1,6 +1,6 @@
 #pragma once
-// What the first rank alone finds out or does, and all learn. The others do not look at the file system: on a shared one
-// they may see another state of it.
+// What the first rank alone finds out or does, and all learn. The others do not look at the file system: on a shared
+// one they may see another state of it.
 
 #include <string>
 #include <utility>

@@ -140,7 +140,8 @@ void print_bonds(const Scenario& scenario, const Simulation& simulation) {
   const Model& model = simulation.model();
   const auto warnings = check_bonds(model, scenario, simulation.ranks());
   if (scenario.bond) {
-    const BondResolution r = bond_resolution(model, *scenario.bond, scenario.contact, BondPartner::grain, simulation.ranks());
+    const BondResolution r =
+        bond_resolution(model, *scenario.bond, scenario.contact, BondPartner::grain, simulation.ranks());
     fmt::print(
         "bonds          cohesive zone {:.3g} mm, {:.2g} elements of {:.3g} mm; fracture energy {:g} N/mm, softening "
         "as steep as the elements at {:.3g}, none left at {:.3g} N/mm\n",
@@ -180,13 +181,11 @@ void check_scenario(const Scenario& scenario, int threads, const std::optional<s
   std::string scarce;
   leader_does(ranks, [&] {
     needs = needs_of(read_packing_counts(scenario.packing_file), scenario);
-    scarce =
-        check_needs(scenario.packing_file, needs, {available_memory(), std::numeric_limits<double>::infinity()});
+    scarce = check_needs(scenario.packing_file, needs, {available_memory(), std::numeric_limits<double>::infinity()});
   });
   ThreadTeam team(threads);
-  Simulation simulation(
-      build_model(read_packing(scenario.packing_file, ranks), scenario, scenario.packing_file, ranks), scenario, team,
-      from.has_value(), ranks);
+  Simulation simulation(build_model(read_packing(scenario.packing_file, ranks), scenario, scenario.packing_file, ranks),
+                        scenario, team, from.has_value(), ranks);
   if (from) begin_branch(*from, simulation, ranks);
   const StepEstimate::State& step = simulation.step_estimate().state();
   print_model(scenario, simulation, needs);

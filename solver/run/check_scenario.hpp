@@ -9,8 +9,9 @@
 
 namespace mpfem {
 
-/// Collective. Prints what a run would do: grains, tets, memory, stages, steps, estimated time from steps measured here; where
-/// `from` names a checkpoint, of a branch that begins there. Throws InputError where the run would be refused.
+/// Collective. Prints what a run would do: grains, tets, memory, stages, steps, estimated time from steps measured
+/// here; where `from` names a checkpoint, of a branch that begins there. Throws InputError where the run would be
+/// refused.
 void check_scenario(const Scenario& scenario, int threads, const std::optional<std::string>& from,
                     const Communicator& ranks = Communicator());
 

@@ -1,9 +1,9 @@
 #pragma once
-// Grains at the border between ranks. A rank computes its own grains. Of other ranks' grains that lie near these it holds
-// the surfaces, its ghosts: positions come in every step, while the elements of grains inside are at work. The force of
-// a contact point is computed once, by the owner of the point's node, and its record goes to the owner of the facet.
-// So a rank's contact is a part of what a rank alone would have: the pairs that touch its own grains, in the same order,
-// with the same numbers; and sums over them are the same to the last bit.
+// Grains at the border between ranks. A rank computes its own grains. Of other ranks' grains that lie near these it
+// holds the surfaces, its ghosts: positions come in every step, while the elements of grains inside are at work. The
+// force of a contact point is computed once, by the owner of the point's node, and its record goes to the owner of the
+// facet. So a rank's contact is a part of what a rank alone would have: the pairs that touch its own grains, in the
+// same order, with the same numbers; and sums over them are the same to the last bit.
 
 #include <cstdint>
 #include <memory>

@@ -11,12 +11,12 @@
 
 namespace mpfem {
 
-/// Collective. Gives all grains the scenario's initial velocities. Returns their kinetic energy, mJ. Throws InputError where there
-/// is not one velocity for each grain.
+/// Collective. Gives all grains the scenario's initial velocities. Returns their kinetic energy, mJ. Throws InputError
+/// where there is not one velocity for each grain.
 double set_initial_velocities(Model& model, const Scenario& scenario, const Communicator& ranks);
 
-/// Collective. Throws InputError where two grains overlap or a grain reaches through a wall. Evaluates contact forces, which are
-/// left in the model.
+/// Collective. Throws InputError where two grains overlap or a grain reaches through a wall. Evaluates contact forces,
+/// which are left in the model.
 void check_apart(Model& model, Contact& contact, const Box& box, const std::vector<Bounds>& bounds,
                  const std::string& packing_file, const Communicator& ranks);
 

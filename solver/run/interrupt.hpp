@@ -7,8 +7,8 @@
 
 namespace mpfem {
 
-/// From now on the first SIGINT, SIGTERM or SIGUSR1 is a request only. Another one some seconds later acts as usual. May
-/// be called again.
+/// From now on the first SIGINT, SIGTERM or SIGUSR1 is a request only. Another one some seconds later acts as usual.
+/// May be called again.
 void catch_interrupts();
 
 /// Whether a stop has been requested.

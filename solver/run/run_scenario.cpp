@@ -189,7 +189,8 @@ private:
     }
     lost = leader_lists(ranks_, [&] { return lost; });
     std::string damage;
-    for (const std::string& path : leader_lists(ranks_, [this] { return resumable_checkpoints(scenario_, identity_); })) {
+    for (const std::string& path :
+         leader_lists(ranks_, [this] { return resumable_checkpoints(scenario_, identity_); })) {
       try {
         leader_does(ranks_, [&] { verify_checkpoint(path); });
       } catch (const InputError& error) {
@@ -200,8 +201,7 @@ private:
       if (!take_up(path, lost)) continue;
       if (path == previous_checkpoint_path(options_.output)) // whatever stands in the rolling one's place is worse
         leader_does(ranks_, [&] { std::filesystem::rename(path, checkpoint_path(options_.output)); });
-      if (!lost.empty())
-        warn(fmt::format("{} is missing; the run continues from {} to write it", lost.front(), path));
+      if (!lost.empty()) warn(fmt::format("{} is missing; the run continues from {} to write it", lost.front(), path));
       if (!options_.quiet) fmt::print(stderr, "mpfem: resumed {} at step {}\n", path, simulation_.state().step);
       return true;
     }

@@ -20,8 +20,8 @@ struct RunOptions {
 };
 
 /// Collective. Runs a scenario to its end and writes the run file. All ranks have the same scenario and options. Throws
-/// SimulationError (a readable run file with the last state was written), Interrupted (checkpoint and run file written),
-/// StorageError, InputError, on all ranks alike.
+/// SimulationError (a readable run file with the last state was written), Interrupted (checkpoint and run file
+/// written), StorageError, InputError, on all ranks alike.
 void run_scenario(const Scenario& scenario, const RunOptions& options, const Communicator& ranks = Communicator());
 
 } // namespace mpfem

@@ -20,9 +20,8 @@ bool is_wall_time(std::size_t i, std::size_t count) {
 }
 
 bool may_differ(std::string_view path) {
-  for (const std::string_view name :
-       {"/provenance/wall_time", "/provenance/profile_seconds", "/provenance/threads", "/provenance/ranks",
-        "/provenance/from", "/run/from"})
+  for (const std::string_view name : {"/provenance/wall_time", "/provenance/profile_seconds", "/provenance/threads",
+                                      "/provenance/ranks", "/provenance/from", "/run/from"})
     if (path.find(name) != std::string_view::npos) return true;
   return false;
 }
