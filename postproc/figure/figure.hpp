@@ -133,7 +133,7 @@ struct InsetSpec {
 };
 
 struct PlotSpec {
-  std::string name, title, key, key_title;
+  std::string name, title, key, key_title, caption; ///< caption: on the report, a sentence
   AxisSpec x, y, z;
   std::vector<SeriesSpec> series;
   std::vector<LineSpec> lines;
@@ -145,6 +145,7 @@ struct PlotSpec {
 /// A file that a command makes.
 struct CommandSpec {
   std::string name, run, command; ///< "{run}" in the command is the run's file
+  std::string caption;            ///< of a picture on the report
   std::vector<std::string> series;
   std::vector<Filter> where;
   Place place;

@@ -140,8 +140,9 @@ struct FigureCommands::State {
     std::vector<ReportEntry> entries;
     for (const std::string& file : files) {
       const Figure f = read_figure(file, programmes);
-      entries.push_back({f.name, f.name == f.title ? f.title : fmt::format("{}: {}", f.name, f.title), f.question, file,
-                         runs_of_figure(f, {results, mesh})});
+      const std::string question = f.source.empty() ? f.question : fmt::format("{} Source: {}.", f.question, f.source);
+      entries.push_back({f.name, f.name == f.title ? f.title : fmt::format("{}: {}", f.name, f.title), question, file,
+                         runs_of_figure(f, {results, mesh}), captions_of_figure(f, {results, mesh})});
     }
     const std::string page_folder = std::filesystem::path(output).parent_path().string();
     deliver(report_page(entries, {results, title, view_of(run), beside, page_folder}));

@@ -348,6 +348,7 @@ PlotSpec read_plot(Texts& t) {
   plot.title = t.optional("title");
   plot.key = t.optional("key", "left top");
   plot.key_title = t.optional("key_title");
+  plot.caption = t.optional("caption");
   plot.x = read_axis(r.table("x"), t.words());
   plot.y = read_axis(r.table("y"), t.words());
   if (auto z = r.optional_table("z")) {
@@ -371,6 +372,7 @@ CommandSpec read_command(Texts& t, std::string (*read_run)(Texts&)) {
   spec.name = t.required("name");
   spec.run = read_run(t);
   spec.command = t.required("command");
+  spec.caption = t.optional("caption");
   spec.series = t.list("series");
   spec.where = t.filters("where");
   return spec;

@@ -13,6 +13,7 @@
 #include "common/errors.hpp"
 #include "common/one_line.hpp"
 #include "postproc/base64.hpp"
+#include "postproc/figure/run_graph.hpp"
 #include "postproc/view/view_page.hpp"
 
 namespace mpfem {
@@ -38,7 +39,8 @@ constexpr const char* style =
   figure { margin: 0; width: 36rem; max-width: 100%; }
   img { width: 100%; }
   .view { width: 100%; height: 56rem; max-height: 95vh; border: 1px solid #ccc; }
-  figcaption { font-size: 0.85rem; color: #555; }
+  figcaption { font-size: 0.9rem; color: #333; }
+  .files { white-space: nowrap; font-size: 0.85em; }
   @media (max-width: 48rem) { /* a statement's cells below each other */
     .statements tr:first-child { display: none; }
     .statements tr { display: block; border: 1px solid #bbb; margin-bottom: 0.7rem; }
@@ -153,17 +155,36 @@ std::string table_of_page(const ReportRequest& request) {
                      html_text(title), rows, link_to(request.beside, request.page_folder, "all tables and conditions"));
 }
 
+/// The file's name as words.
+std::string words_of(const std::filesystem::path& file) {
+  std::string words = file.stem().string();
+  std::replace(words.begin(), words.end(), '-', ' ');
+  return words;
+}
+
+/// The PNG files of a figure with their captions: those that its file gives a caption, in its order, then the others.
+std::vector<CaptionedPicture> pictures_in(const std::filesystem::path& folder, const ReportEntry& entry) {
+  std::vector<CaptionedPicture> pictures;
+  for (const CaptionedPicture& picture : entry.captions)
+    if (std::filesystem::exists(folder / picture.file)) pictures.push_back(picture);
+  for (const auto& file : files_with(folder, ".png")) {
+    const auto has_caption = [&](const CaptionedPicture& p) { return p.file == file.filename(); };
+    if (std::none_of(entry.captions.begin(), entry.captions.end(), has_caption))
+      pictures.push_back({file.filename().string(), words_of(file)});
+  }
+  return pictures;
+}
+
 /// A picture, with links to what a reader may want to take along.
-std::string picture_of(const std::filesystem::path& picture, const std::filesystem::path& page_folder) {
+std::string picture_of(const std::filesystem::path& picture, const std::string& caption,
+                       const std::filesystem::path& page_folder) {
   std::filesystem::path vector = picture;
   vector.replace_extension(".svg");
   std::string links = link_to(picture, page_folder, "PNG");
   if (std::filesystem::exists(vector)) links += fmt::format(" {}", link_to(vector, page_folder, "SVG"));
-  std::string name = picture.stem().string();
-  std::replace(name.begin(), name.end(), '-', ' ');
-  return fmt::format("<figure><img alt=\"{0}\" src=\"data:image/png;base64,{1}\"><figcaption>{0} ({2})</figcaption>"
-                     "</figure>\n",
-                     html_text(name), base64(content_of(picture)), links);
+  return fmt::format("<figure><img alt=\"{0}\" src=\"data:image/png;base64,{1}\"><figcaption>{2} <span "
+                     "class=\"files\">{3}</span></figcaption></figure>\n",
+                     html_text(words_of(picture)), base64(content_of(picture)), html_text(caption), links);
 }
 
 /// Tables and verdicts as files.
@@ -178,6 +199,23 @@ std::string links_of(const ReportEntry& entry, const std::filesystem::path& fold
 }
 
 } // namespace
+
+std::vector<CaptionedPicture> captions_of_figure(const Figure& figure, const ResultsFolder& results) {
+  std::vector<CaptionedPicture> captions;
+  for (const PlotSpec& plot : figure.plots)
+    if (!plot.caption.empty()) captions.push_back({plot.name + ".png", plot.caption});
+  std::vector<CommandSpec> commands(figure.pictures.begin(), figure.pictures.end());
+  commands.insert(commands.end(), figure.scripts.begin(), figure.scripts.end());
+  for (const CommandSpec& command : commands) {
+    if (command.caption.empty()) continue;
+    for (const Case& row : cases_of(figure, command.series, command.where, results.mesh, command.place)) {
+      const std::string file = filled_at(command.place, command.name, row.values);
+      if (std::none_of(captions.begin(), captions.end(), [&](const auto& c) { return c.file == file; }))
+        captions.push_back({file, filled_at(command.place, command.caption, row.values)});
+    }
+  }
+  return captions;
+}
 
 std::string report_page(const std::vector<ReportEntry>& entries, const ReportRequest& request) {
   std::string page =
@@ -197,7 +235,8 @@ std::string report_page(const std::vector<ReportEntry>& entries, const ReportReq
     const std::filesystem::path folder = std::filesystem::path(request.results) / entry.name;
     page += fmt::format("<h2 id=\"{}\">{}</h2>\n<p>{}</p>\n<div class=\"pictures\">\n", entry.name,
                         html_text(entry.title), html_text(entry.question));
-    for (const auto& picture : files_with(folder, ".png")) page += picture_of(picture, request.page_folder);
+    for (const CaptionedPicture& picture : pictures_in(folder, entry))
+      page += picture_of(folder / picture.file, picture.caption, request.page_folder);
     page += "</div>\n" + statements_table(folder) +
             fmt::format("<p>Numbers:{}</p>\n", links_of(entry, folder, request.page_folder)) +
             runs_table(entry.runs, request.page_folder);

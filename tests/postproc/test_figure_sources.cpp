@@ -404,6 +404,47 @@ TEST_CASE("a report has settings and quality of each run, and links that are rel
   CHECK_THAT(page, Contains("<a href=\"../../programmes/press.toml\">scenario</a>"));
 }
 
+TEST_CASE("pictures of a report have the captions of the figure's file, in its order, and else their file's name") {
+  const Studies studies;
+  const Figure figure = studies.figure(R"([[cases]]
+load = [5, 7]
+[[runs]]
+name = "press"
+programme = "press"
+settings = { "stages.0.mean_stress" = "{load}" }
+[[tables]]
+name = "t"
+columns = ["load = {load}"]
+[[plots]]
+for_each = [{ law = "energy" }]
+name = "strength-{law}"
+caption = "Strength <MPa> of law {law}."
+x = {}
+y = {}
+series = [{ table = "t", x = "load", y = "load" }]
+[[pictures]]
+name = "section-{load}.png"
+caption = "Section at {load} MPa."
+run = "press"
+command = "section {run}"
+)");
+  const auto captions = captions_of_figure(figure, studies.results());
+  REQUIRE(captions.size() == 3);
+  CHECK(captions[2].file == "section-7.png");
+  for (const char* name : {"a-b", "section-5", "section-7", "strength-energy"})
+    write_text(studies.path(fmt::format("out/study/{}.png", name)), "");
+  write_text(studies.path("out/study/verdict.json"), "[]");
+  const std::string page = report_page({{"study", "s", "q", "", {}, captions}}, {studies.path("out"), "S"});
+  std::size_t at = 0;
+  for (const char* caption : {"Strength &lt;MPa&gt; of law energy.", "Section at 5 MPa.", "Section at 7 MPa.", "a b"}) {
+    const std::size_t found = page.find(fmt::format("<figcaption>{} <span", caption));
+    INFO(caption);
+    REQUIRE(found != std::string::npos);
+    CHECK(found > at);
+    at = found;
+  }
+}
+
 TEST_CASE("a report shows the first table of a page beside the verdicts") {
   const Studies studies;
   write_text(studies.path("out/fig03/verdict.json"), "[]");
