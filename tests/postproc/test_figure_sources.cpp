@@ -448,6 +448,22 @@ command = "section {run}"
   }
 }
 
+TEST_CASE("a report raises exponents and lowers the indices of symbols, and leaves names as they are") {
+  const Studies studies;
+  write_text(studies.path("out/fig03/verdict.json"), "[]");
+  const auto question = [&](const std::string& text) {
+    const std::string page = report_page({{"fig03", "bonds", text}}, {studies.path("out"), "S"});
+    const std::size_t at = page.find("<p>", page.find("id=\"fig03\""));
+    return page.substr(at + 3, page.find("</p>", at) - at - 3);
+  };
+  CHECK(question("G^c, R^2.") == "G<sup>c</sup>, R<sup>2</sup>.");
+  CHECK(question("160 MPa ε^0.4, E^−0.80 and D_r^{max}") ==
+        "160 MPa ε<sup>0.4</sup>, E<sup>−0.80</sup> and D<sub>r</sub><sup>max</sup>");
+  CHECK(question("(σ_0 < p_c)") == "(σ<sub>0</sub> &lt; p<sub>c</sub>)");
+  CHECK(question("`a_b^c` of p_c") == "<code>a_b^c</code> of p<sub>c</sub>");
+  CHECK(question("run_1, kinetic_energy, a ^ b, x^ y_") == "run_1, kinetic_energy, a ^ b, x^ y_");
+}
+
 TEST_CASE("a report shows the first table of a page beside the verdicts") {
   const Studies studies;
   write_text(studies.path("out/fig03/verdict.json"), "[]");
