@@ -29,7 +29,8 @@ cp "$package" "$root/mpfem.deb"
 in_root() { chroot "$root" env -i PATH=/usr/sbin:/usr/bin:/sbin:/bin HOME=/root LC_ALL=C.UTF-8 "$@"; }
 
 in_root apt-get update -q >/dev/null
-in_root env DEBIAN_FRONTEND=noninteractive apt-get install -q -y --no-install-recommends --reinstall ./mpfem.deb >/dev/null
+in_root env DEBIAN_FRONTEND=noninteractive apt-get install -q -y --no-install-recommends --reinstall ./mpfem.deb \
+  >/dev/null
 
 # Registers ymm and zmm are of AVX and AVX-512.
 for program in mpfem pack-gen postproc; do
@@ -53,7 +54,8 @@ in_root sh -eu -c '
   pack-gen mesh spheres.h5 --size 0.04 -o packing.h5 >/dev/null
   for level in "$@"; do
     MPFEM_INSTRUCTION_SET=$level mpfem run /usr/share/mpfem/studies/branches/press-and-crush.toml \
-      --set packing=packing.h5 --set stages.0.mean_stress=2 --set stages.3.axial_strain=0.02 --set bond.fracture_energy=0.05 \
+      --set packing=packing.h5 --set stages.0.mean_stress=2 --set stages.3.axial_strain=0.02 \
+      --set bond.fracture_energy=0.05 \
       --threads 1 -o run-$level.h5 >/dev/null
     postproc curve run-$level.h5 --quiet -o curve-$level.csv
     echo "mpfem-$level: $(tail -n 1 curve-$level.csv | cut -c1-60)"

@@ -79,13 +79,13 @@ struct TableSpec {
   std::vector<Filter> where;
   std::vector<ColumnSpec> columns;
   std::vector<std::string> curves; ///< runs whose histories follow one another; empty: a row a case
-  std::string list;                ///< "RUN/METRIC": all rows of the CSV file that the metric writes beside its JSON
+  std::string list;                ///< "RUN/METRIC": all rows of the CSV file that the metric writes next to its JSON
   std::vector<Filter> keep;        ///< by columns: the other rows are left out
   std::optional<int> stage;        ///< of the curves; none: all rows
   int digits = 6;                  ///< of the curves' numbers
   bool distinct = false;           ///< equal rows, or curves of the same runs, once
   std::string file;                ///< a CSV file with these columns in place of all this
-  bool beside = false;             ///< it lies beside the figure's file, else in the folder of its results
+  bool beside = false;             ///< it lies next to the figure's file, else in the folder of its results
   std::vector<std::string> spread; ///< columns whose mean and deviation over packings are drawn
   Place place;
 };

@@ -165,7 +165,7 @@ FigureCommands::FigureCommands(CLI::App& app) : state_(std::make_unique<State>()
                   [&s] { s.powder(); });
   CLI::App& table =
       s.add_on_figure(app, "table",
-                      "Make a table of a figure from its runs.\nColumns of curves beside those of the "
+                      "Make a table of a figure from its runs.\nColumns of curves in addition to those of the "
                       "history:\n" +
                           curve_help() +
                           "Example: postproc table studies/fig12/figure.toml modulus --results out/smoke --mesh smoke "
@@ -201,7 +201,7 @@ FigureCommands::FigureCommands(CLI::App& app) : state_(std::make_unique<State>()
   report.add_option("figures", s.files, "Figures' files (TOML)")->required();
   s.add_common(report);
   report.add_option("--title", s.title, "Title of the page")->required();
-  report.add_option("--beside", s.beside, "A page (Markdown) whose first table stands beside the verdicts");
+  report.add_option("--beside", s.beside, "A page (Markdown) whose first table is shown next to the verdicts");
   report.add_option("--view", s.run, "A run to turn in three dimensions on the page (HDF5)");
 }
 

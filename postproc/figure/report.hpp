@@ -31,11 +31,11 @@ struct ReportEntry {
 struct ReportRequest {
   std::string results, title;
   std::string view = {};   ///< a page of its own (view_page), shown below the tables; empty: none
-  std::string beside = {}; ///< Markdown file whose title and first table stand beside the verdicts; empty: none
+  std::string beside = {}; ///< Markdown file whose title and first table are shown next to the verdicts; empty: none
   std::string page_folder = {};
 };
 
-/// The page, pictures included. Throws InputError where a verdict is missing, or the file beside has no table.
+/// The page, pictures included. Throws InputError where a verdict is missing, or the other file has no table.
 std::string report_page(const std::vector<ReportEntry>& entries, const ReportRequest& request);
 
 } // namespace mpfem

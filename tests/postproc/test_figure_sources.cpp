@@ -145,7 +145,7 @@ columns = ["tets = mesh/quality.tets", "p = pressed/strength.value:.2f", "z = fi
 TEST_CASE("a packing is a size or a command, and a run begins at one") {
   const Studies studies;
   CHECK_THROWS_WITH(studies.figure("[[packings]]\nname = \"p\"\nsize = \"1\"\ncommand = \"spheres\"\n"),
-                    Contains("study.toml:5") && Contains("found beside 'size'"));
+                    Contains("study.toml:5") && Contains("cannot be used with 'size'"));
   CHECK_THROWS_WITH(studies.figure("[[runs]]\nname = \"r\"\nprogramme = \"press\"\npacking = \"r\"\n"),
                     Contains("'r' is a run, allowed: one of [[packings]]"));
 }
