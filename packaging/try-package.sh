@@ -10,10 +10,15 @@ set -euo pipefail
 
 package=$(realpath "$1")
 root=${2:-}
-if [[ -z $root ]]; then
-  root=$(mktemp -d)
-  trap 'rm -rf "$root"' EXIT
-fi
+temporary=
+[[ -n $root ]] || temporary=$(mktemp -d)
+root=${root:-$temporary}
+# mpfem finds the executables of newer processors next to its own by /proc.
+clean_up() {
+  ! mountpoint -q "$root/proc" || umount "$root/proc"
+  [[ -z $temporary ]] || rm -rf "$temporary"
+}
+trap clean_up EXIT
 fail() {
   printf 'try-package: %s\n' "$*" >&2
   exit 1
@@ -23,10 +28,12 @@ if [[ ! -e $root/etc/debian_version ]]; then
   debootstrap --variant=minbase bookworm "$root" http://deb.debian.org/debian >"$root.debootstrap.log"
   rm -f "$root.debootstrap.log"
 fi
-# resolv.conf and the processor's list are all that the bare system takes from this one.
+# All that the bare system takes from this one besides the package.
 cp /etc/resolv.conf "$root/etc/resolv.conf"
 cp "$package" "$root/mpfem.deb"
 in_root() { chroot "$root" env -i PATH=/usr/sbin:/usr/bin:/sbin:/bin HOME=/root LC_ALL=C.UTF-8 "$@"; }
+
+mountpoint -q "$root/proc" || mount -t proc proc "$root/proc"
 
 in_root apt-get update -q >/dev/null
 in_root env DEBIAN_FRONTEND=noninteractive apt-get install -q -y --no-install-recommends --reinstall ./mpfem.deb \
@@ -35,16 +42,15 @@ in_root env DEBIAN_FRONTEND=noninteractive apt-get install -q -y --no-install-re
 # Registers ymm and zmm are of AVX and AVX-512.
 for program in mpfem pack-gen postproc; do
   in_root "$program" --version
-  if objdump -d --no-show-raw-insn "$root/usr/bin/$program" | grep -qE '%[yz]mm'; then
-    fail "$program has instructions beyond x86-64-v2"
-  fi
+  wide=$(objdump -d --no-show-raw-insn "$root/usr/bin/$program" | grep -cE '%[yz]mm' || true)
+  ((wide == 0)) || fail "$program has $wide instructions beyond x86-64-v2"
 done
 for level in v3 v4; do [[ -x $root/usr/bin/mpfem-$level ]] || fail "mpfem-$level is missing"; done
 
 levels=(v2)
+known=$(in_root /lib64/ld-linux-x86-64.so.2 --help) # the loader names the levels that this processor has
 for level in v3 v4; do
-  # The loader names the levels that this processor has.
-  ! in_root /lib64/ld-linux-x86-64.so.2 --help | grep -q "x86-64-$level (supported" || levels+=("$level")
+  [[ $known != *"x86-64-$level (supported"* ]] || levels+=("$level")
 done
 # shellcheck disable=SC2016 # these expand in the shell of the bare system
 in_root sh -eu -c '
