@@ -56,16 +56,18 @@ done
 in_root sh -eu -c '
   mkdir -p /root/try && cd /root/try
   example=/usr/share/mpfem/studies/packings/mcc_ph102_smoke.toml
-  pack-gen spheres $example -o spheres.h5 >/dev/null
-  pack-gen mesh spheres.h5 --size 0.04 -o packing.h5 >/dev/null
+  quietly() { "$@" >log.txt 2>&1 || { cat log.txt >&2; exit 1; }; }
+  quietly pack-gen spheres $example -o spheres.h5
+  quietly pack-gen mesh spheres.h5 --size 0.04 -o packing.h5
   for level in "$@"; do
-    MPFEM_INSTRUCTION_SET=$level mpfem run /usr/share/mpfem/studies/branches/press-and-crush.toml \
+    export MPFEM_INSTRUCTION_SET=$level
+    quietly mpfem run /usr/share/mpfem/studies/branches/press-and-crush.toml \
       --set packing=packing.h5 --set stages.0.mean_stress=2 --set stages.3.axial_strain=0.02 \
       --set bond.fracture_energy=0.05 \
-      --threads 1 -o run-$level.h5 >/dev/null
-    postproc curve run-$level.h5 --quiet -o curve-$level.csv
-    echo "mpfem-$level: $(tail -n 1 curve-$level.csv | cut -c1-60)"
+      --threads 1 -o run-$level.h5
+    quietly postproc curve run-$level.h5 -o curve-$level.csv
+    echo "$level: $(grep -c . curve-$level.csv) rows of a curve"
   done
-  postproc view run-v2.h5 -o view.html >/dev/null
+  quietly postproc view run-v2.h5 -o view.html
   test -s view.html' sh "${levels[@]}"
 echo "try-package: $(basename "$package") installs and runs, with ${levels[*]}"
