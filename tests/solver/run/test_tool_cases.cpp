@@ -1,5 +1,5 @@
-// Tools in hard cases: pressed from both ends, tools in each other, heavy nodes under weight, a press that is taken away
-// under load.
+// Tools in hard cases: pressing from both ends, tools in each other, weight with scaled masses, a press that is taken
+// away under load.
 
 #include <algorithm>
 #include <array>
