@@ -182,13 +182,33 @@ double Tools::push_on_node(const Model& model, std::size_t node, int grain) cons
   return push;
 }
 
-double Tools::set_away(std::span<const std::size_t> away, const Model& model) {
+double Tools::take_off(Model& model, std::size_t index, const Bounds& bounds, double last_step, int grain) {
+  const auto g = static_cast<std::size_t>(grain);
+  const auto first = 4 * static_cast<std::ptrdiff_t>(model.node_offset[g]),
+             end = 4 * static_cast<std::ptrdiff_t>(model.node_offset[g + 1]);
+  const AlignedVector<double> all(model.force.begin() + first, model.force.begin() + end);
+  std::fill(model.force.begin() + first, model.force.begin() + end, 0.0);
+  add_tool(model, index, bounds, last_step, grain);
+  double power = 0;
+  for (std::ptrdiff_t i = first; i < end; ++i) {
+    const auto row = static_cast<std::size_t>(i);
+    power += model.velocity[row] * model.force[row];
+    model.force[row] = all[static_cast<std::size_t>(i - first)] - model.force[row];
+  }
+  return 0.5 * last_step * power;
+}
+
+double Tools::set_away(std::span<const std::size_t> away, Model& model, std::span<const Bounds> bounds,
+                       double last_step) {
   double taken = 0;
   for (std::size_t index = 0; index < size(); ++index) {
     Tool& tool = tools_[index];
     const bool leaves = std::find(away.begin(), away.end(), index) != away.end();
     if (leaves && !tool.away) {
-      const double own = load_[index].energy + load_[index].friction_energy + load_[index].adhesion_energy;
+      double own = load_[index].energy + load_[index].friction_energy + load_[index].adhesion_energy;
+      for (int grain = 0; grain < grains_; ++grain)
+        if (of_grain_[slot(grain, index)].acts())
+          own += take_off(model, index, bounds[static_cast<std::size_t>(grain)], last_step, grain);
       taken += own;
       tool.work -= own;
       load_[index] = {};
