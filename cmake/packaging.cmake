@@ -22,7 +22,7 @@ set(CPACK_DEBIAN_PACKAGE_SECTION science)
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
 set(CPACK_DEBIAN_PACKAGE_DEPENDS "make") # the studies' rules
 set(CPACK_DEBIAN_PACKAGE_RECOMMENDS "gnuplot-nox") # their plots
-if(NOT MPFEM_PORTABLE) # runs on processors like this machine's alone
-  set(CPACK_DEBIAN_PACKAGE_RELEASE "1+native")
+if(NOT MPFEM_PORTABLE) # a package travels: one whose programs stop at the first unknown instruction is not made
+  set(CPACK_PRE_BUILD_SCRIPTS ${PROJECT_SOURCE_DIR}/packaging/refuse-native.cmake)
 endif()
 include(CPack)

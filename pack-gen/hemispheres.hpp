@@ -38,7 +38,7 @@ Hemispheres mesh_hemispheres(const HemisphereRequest& request);
 /// Where the tets of both hemispheres went.
 struct Refinement {
   double smallest_edge = 0;  ///< mm
-  std::size_t tets_near = 0; ///< tets in whose middle an edge below twice the contact size was asked for
+  std::size_t tets_near = 0; ///< tets in whose middle an edge below twice the contact size was requested
 };
 Refinement refinement(const HemisphereRequest& request, const Hemispheres& pair);
 

@@ -172,13 +172,15 @@ void check_container(const Arguments& arguments) {
   const auto refuse = [](const char* option, const char* allowed) {
     throw InputError(fmt::format("{}: allowed: {}", option, allowed));
   };
-  if (cylinder && !arguments.box.empty()) refuse("--box: found beside --container cylinder", "--diameter and --height");
+  if (cylinder && !arguments.box.empty())
+    refuse("--box: cannot be used with --container cylinder", "--diameter and --height");
   if (cylinder && !(arguments.diameter && arguments.height))
     refuse("--container cylinder: found no diameter or no height", "--diameter D --height H");
   if (!cylinder && (arguments.diameter || arguments.height || !arguments.bottom_center.empty()))
     refuse("--diameter, --height, --bottom-center: found without a cylinder", "--container cylinder");
   const bool surface = arguments.container == "surface";
-  if (surface && !arguments.box.empty()) refuse("--box: found beside --container surface", "--surface and --scale");
+  if (surface && !arguments.box.empty())
+    refuse("--box: cannot be used with --container surface", "--surface and --scale");
   if (surface && (arguments.surface.empty() || !arguments.scale))
     refuse("--container surface: found no file or no scale", "--surface FILE.stl --scale MM");
   if (!surface && (!arguments.surface.empty() || arguments.scale))

@@ -55,7 +55,7 @@ public:
     evaluate();
   }
 
-  /// Lets the spheres sink until each bears its weight, but for this share of it (true), or `steps` are used (false).
+  /// Lets the spheres sink until each carries its weight, but for this share of it (true), or `steps` are used (false).
   template <class Report>
   bool sink(double share, int steps, Report report) {
     for (Point& v : velocity_) v = {};

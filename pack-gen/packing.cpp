@@ -88,7 +88,7 @@ private:
     listed_ = site_;
   }
 
-  /// Whether a sphere of (inflated, full) radius r fits at p beside all neighbours of site i but `except`.
+  /// Whether a sphere of (inflated, full) radius r fits at p next to all neighbours of site i but `except`.
   bool fits(std::size_t i, const Point& p, double r, std::size_t except) const {
     if (!container_.holds(p, growth_ * r)) return false;
     for (std::size_t m = near_offset_[i]; m < near_offset_[i + 1]; ++m) {

@@ -27,7 +27,7 @@ Columns read_columns(TableReader& table, const std::string& description_file, bo
     return columns;
   }
   for (const char* key : {"values", "cumulative"})
-    if (table.has(key)) table.fail(key, "found beside key 'file', allowed: one of the two");
+    if (table.has(key)) table.fail(key, "cannot be used with key 'file', allowed: one of the two");
   const auto path = std::filesystem::path(description_file).parent_path() / table.string("file");
   std::vector<CsvColumn> names = {{"size", length}};
   if (with_cumulative) names.push_back({"cumulative", Range::between(0, 1)});
@@ -75,7 +75,7 @@ PackingContainer read_container(TableReader& root, const std::string& descriptio
   const std::string shape = root.choice_or("container", "box", {"box", "cylinder", "surface"});
   const auto refuse = [&](std::initializer_list<const char*> keys, const char* allowed) {
     for (const char* key : keys)
-      if (root.has(key)) root.fail(key, fmt::format("found beside a {}, allowed: {}", shape, allowed));
+      if (root.has(key)) root.fail(key, fmt::format("cannot be used with a {}, allowed: {}", shape, allowed));
   };
   if (shape == "box") {
     refuse({"diameter", "height"}, "box, or container = \"cylinder\"");

@@ -2,7 +2,7 @@
 // Spheres that sink under their weight until they rest on each other and on the bottom, without friction.
 //
 // Method: as in packing.hpp spheres are soft and repel each other; each is pulled down in proportion to its volume. The
-// least energy is searched with FIRE, with ever smaller weights, until what overlap bears them with is within the
+// least energy is searched with FIRE, with ever smaller weights, until the overlap that carries them is within the
 // margin that the gaps leave: then nothing overlaps, and the bed is the one of hard spheres but for that margin.
 
 #include <functional>

@@ -77,7 +77,7 @@ public:
   }
 
   double quantile(double cumulative) const override {
-    // Bisection in ln d: monotone, and only a few thousand quantiles are ever asked for.
+    // Bisection in ln d: monotone, and only a few thousand quantiles are ever needed.
     const double target = below_ + cumulative * inside_;
     double low = smallest_ > 0 ? normal(smallest_) : -9, high = std::isfinite(largest_) ? normal(largest_) : 9;
     for (int i = 0; i < 80; ++i) {

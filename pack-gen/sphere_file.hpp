@@ -11,7 +11,7 @@
 
 namespace mpfem {
 
-/// What a packing file says beside spheres and mesh.
+/// What a packing file says in addition to spheres and mesh.
 struct PackingOrigin {
   std::optional<std::int64_t> seed;
   std::string description; ///< text of the description, or the source of an import

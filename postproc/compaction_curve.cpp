@@ -58,7 +58,7 @@ Measurement measure_stress_at_densities(const schema::FileReader& file, const st
   Measurement m = of_rows("stress-at-densities", history, 0);
   m.unit = "MPa";
   m.uncertainty_meaning = "none: between two rows of the history";
-  m.method = "mean stress where the relative density is passed first, linear between the rows beside it";
+  m.method = "mean stress where the relative density is passed first, linear between the neighbouring rows";
   if (!found.back())
     throw InputError(fmt::format("{}: a relative density of {} is not passed", one_line(file.path()), wanted.back()));
   m.value = *found.back();

@@ -10,7 +10,7 @@
 
 namespace mpfem {
 
-/// Mean stress (MPa) at each of these relative densities (ascending), between the rows beside each; nothing for one
+/// Mean stress (MPa) at each of these relative densities (ascending), between the rows around each; nothing for one
 /// that the run has not passed. A run that ends a rounding (1e-6) below a density has reached it.
 std::vector<std::optional<double>> stress_at_densities(const std::vector<double>& density,
                                                        const std::vector<double>& stress,

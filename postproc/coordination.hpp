@@ -34,8 +34,8 @@ std::vector<double> contacts_of(const ContactGraph& graph, const std::vector<boo
 /// bond, and walls that push. Throws InputError where the snapshot does not tell the walls' forces.
 ContactGraph contact_graph(const schema::FileReader& file, int snapshot);
 
-/// The mean number of contacts of a grain that is no rattler, walls included; the other three ways of counting beside
-/// it. Uncertainty: half of the 95 % interval of a mean over grains, taken as independent. Throws InputError.
+/// The mean number of contacts of a grain that is no rattler, walls included, and the other three ways of counting it.
+/// Uncertainty: half of the 95 % interval of a mean over grains, taken as independent. Throws InputError.
 Measurement measure_coordination(const schema::FileReader& file, int snapshot, int fewest);
 
 } // namespace mpfem

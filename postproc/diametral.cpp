@@ -27,6 +27,18 @@ double flat_correction(double half_angle) {
   return std::sin(2 * half_angle) / half_angle - 1;
 }
 
+std::vector<double> disc_force(std::span<const double> a, std::span<const double> b) {
+  std::vector<double> force(a.size());
+  double largest = 0;
+  for (std::size_t row = 0; row < force.size(); ++row) {
+    force[row] = 0.5 * std::abs(a[row] - b[row]);
+    largest = std::max(largest, force[row]);
+  }
+  for (std::size_t row = 0; row < force.size() && std::min(std::abs(a[row]), std::abs(b[row])) < 0.1 * largest; ++row)
+    force[row] = 0;
+  return force;
+}
+
 FirstPeak first_peak(const std::vector<double>& values, double drop) {
   const double largest = *std::max_element(values.begin(), values.end());
   FirstPeak peak;
@@ -90,7 +102,7 @@ struct Test {
   StageRows stage;
   std::vector<std::string> plates;
   int axis = 0;
-  std::vector<double> force; ///< N, mean of both, a value a row of the stage
+  std::vector<double> force; ///< N, of disc_force, a value a row of the stage
 };
 
 std::vector<std::string> plates_of(const schema::FileReader& file, const DiametralRule& rule) {
@@ -139,8 +151,7 @@ Test read_test(const schema::FileReader& file, const HistoryTable& history, cons
   const auto part = [&](const std::string& plate) {
     return test.stage.rows().of(history[fmt::format("tools/{}/force_{}", plate, test.axis)]);
   };
-  const auto a = part(test.plates[0]), b = part(test.plates[1]);
-  for (std::size_t row = 0; row < a.size(); ++row) test.force.push_back(0.5 * std::abs(a[row] - b[row]));
+  test.force = disc_force(part(test.plates[0]), part(test.plates[1]));
   const std::size_t needed = 2 * smoothing_half_rows(test.force.size()) + 1;
   if (test.force.size() < needed)
     throw InputError(fmt::format("{}: stage {} has {} rows, needed for a peak of the force: {}", path,

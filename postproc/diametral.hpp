@@ -2,6 +2,7 @@
 // Tensile strength of a disc by diametral compression (Brazilian test) between two plates.
 
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -19,6 +20,10 @@ double diametral_stress(double force, double diameter, double thickness);
 /// disc no longer breaks from its centre.
 double flat_correction(double half_angle);
 inline constexpr double largest_flat_angle = 30; ///< degrees, 2 alpha
+
+/// N, the load on a disc in each row from the forces of both plates on one axis: their mean. It is 0 until each plate
+/// bears a tenth of the largest mean: before, one of them pushes the disc against the other.
+std::vector<double> disc_force(std::span<const double> a, std::span<const double> b);
 
 /// The largest value before the first fall by a share of it, of values that were smoothed before. Falls of values below
 /// a tenth of the largest of all do not count: there a disc seats.

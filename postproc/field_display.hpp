@@ -7,7 +7,7 @@
 
 namespace mpfem {
 
-/// "von Mises stress" for von_mises; of pressure and plastic_strain likewise.
+/// "von Mises stress" for von_mises; the same for pressure and plastic_strain.
 std::string field_label(const std::string& field);
 
 /// "LABEL (UNIT)", without the unit where it is 1.

@@ -52,7 +52,7 @@ std::string fit_help();
 ///   kawakita              x/y = x/a + 1/(a b), y = (V_0 - V)/V_0 the loss of volume (Kawakita and Luedde 1971)
 ///   walker                100/y = c - W log10 x, y relative density (Walker 1923)
 ///   gurnham               1 - y = d - c ln x, y relative density (Gurnham and Masson 1946)
-///   pc-gc-surface         y = A - B exp(-x / C) exp(-z / D), x = p_c, z = G^c (Eq. 13 with the sign of p_c mended)
+///   pc-gc-surface         y = A - B exp(-x / C) exp(-z / D), x = p_c, z = G^c (Eq. 13 with the sign of p_c corrected)
 /// Models that are not linear in their coefficients are searched on a grid of those that enter otherwise, the rest
 /// solved linearly, then refined by Levenberg and Marquardt from the best grid points: no start values are needed.
 /// Throws InputError: unknown model, too few points, values outside a model's domain, points that do not determine a

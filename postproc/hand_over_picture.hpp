@@ -3,7 +3,7 @@
 
 namespace mpfem {
 
-/// Where the first argument is "picture", goes on as the executable that stands beside this one and is called
+/// Where the first argument is "picture", goes on as the executable that lies next to this one and is called
 /// postproc-picture, with the same arguments. Where it is missing, returns for --help and else throws
 /// SimulationError. Returns for all other first arguments.
 void hand_over_picture(int argc, char** argv);

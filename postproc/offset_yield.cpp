@@ -104,7 +104,7 @@ Measurement offset_yield(const StageCurve& c, const OffsetYieldRule& rule) {
   m.uncertainty_meaning = "half of the change between two rows, the change with the elastic slope's uncertainty, and "
                           "95 % of the rows' scatter, as hypotenuse";
   m.window = axial_window(c, {at->row, at->row + 1}, c.unconfined ? "axial_stress" : "deviatoric_stress", column);
-  m.method = fmt::format("{} against {}: first point with a plastic strain of {:g}, beside an elastic slope of {:.5g} "
+  m.method = fmt::format("{} against {}: first point with a plastic strain of {:g}, with an elastic slope of {:.5g} "
                          "MPa{}",
                          path.stress_name, path.strain_name, rule.offset, line.slope,
                          rule.slope ? ", given" : " read by the rule of `modulus`");

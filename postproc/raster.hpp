@@ -29,7 +29,7 @@ struct Band {
   std::int32_t grain = 0;
 };
 
-/// What is drawn over the polygons, and beside them.
+/// What is drawn over the polygons, and next to them.
 struct Lines {
   bool mesh = false;          ///< thin ones between tets
   Colour outline{25, 25, 25}; ///< between different grains and around them

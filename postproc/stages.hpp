@@ -58,12 +58,12 @@ std::optional<StageRows> stage_by_name(const std::vector<StageRows>& stages, std
 StageRows need_stage(const std::vector<StageRows>& stages, std::string_view name, std::string_view option,
                      std::string_view path);
 
-/// The stage asked for, else the last of one of these types, else the last of all.
+/// The stage that was named, else the last of one of these types, else the last of all.
 const StageRows& choose_stage(const std::vector<StageRows>& stages, std::optional<int> number,
                               const std::vector<std::string>& types, std::string_view path);
 
-/// The stage asked for, else the last of type isotropic_unloading, else the first after the densest row of all in which
-/// density and mean stress both fall. Throws InputError where there is none.
+/// The stage that was named, else the last of type isotropic_unloading, else the first after the densest row of all in
+/// which density and mean stress both fall. Throws InputError where there is none.
 const StageRows& choose_unloading(const std::vector<StageRows>& stages, std::optional<int> number,
                                   const HistoryTable& history, std::string_view path);
 

@@ -111,7 +111,7 @@ struct BandNode {
   Eigen::Vector2d outward, moved;
 };
 
-/// How far the band moved outwards, by grain: less the translation that fits best beside an even growth.
+/// How far the band moved outwards, by grain: less the translation that fits best together with an even growth.
 GrainSums growth_of(const std::vector<BandNode>& band) {
   Eigen::MatrixXd basis(static_cast<Eigen::Index>(band.size()), 3);
   Eigen::VectorXd outward(basis.rows());

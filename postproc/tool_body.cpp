@@ -28,7 +28,7 @@ void add_arc(std::vector<ProfilePoint>& profile, const ProfilePoint& centre, dou
              int chords) {
   for (int i = 0; i <= chords; ++i) {
     const double angle = from + (to - from) * i / chords;
-    // Poles lie on the axis, not beside it by rounding.
+    // Poles lie on the axis, not next to it by rounding.
     const double across = std::abs(std::cos(angle)) < 1e-14 ? 0.0 : std::cos(angle);
     profile.push_back({centre.radius + radius * across, centre.along + radius * std::sin(angle)});
   }

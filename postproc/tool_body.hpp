@@ -29,7 +29,7 @@ struct Revolved {
   std::size_t axis = 2;
   std::array<double, 3> centre{};    ///< mm, where the axis has `along` 0
   std::vector<ProfilePoint> profile; ///< convex, or a strip
-  bool strip = false;                ///< the profile's second half runs back beside its first, point by point
+  bool strip = false;                ///< the profile's second half runs back along its first, point by point
 };
 
 /// A closed surface.

@@ -41,7 +41,7 @@ std::vector<ProfilePoint> beyond(const std::vector<ProfilePoint>& profile, doubl
   return kept;
 }
 
-/// The profile on either side of the axis, bent where the plane stands beside it.
+/// The profile on either side of the axis, bent where the plane stands next to it.
 std::vector<OutlinePiece> along_axis(const Revolved& body, const CutPlane& plane) {
   const auto normal = static_cast<std::size_t>(plane.axis);
   const bool axis_first = (normal + 1) % 3 == body.axis; // of the plane's two coordinates

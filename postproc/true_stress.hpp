@@ -1,5 +1,5 @@
 #pragma once
-// Unconfined stress over the face that the sample has, beside that over the face that it had.
+// Unconfined stress over the face that the sample has, and over the face that it had.
 
 #include <vector>
 

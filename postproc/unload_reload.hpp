@@ -19,7 +19,7 @@ std::vector<UnloadReloadLoop> unload_reload_loops(const StageCurve& curve);
 
 /// Unload-reload modulus (MPa) of loop `number` (from 0; negative from the end): the mean of the slopes of its two
 /// branches by Theil and Sen. In a loop without ringing that is the line through the points at which it turns, by which
-/// pressuremeter and triaxial tests are read (ISO 22476-4), and which stands beside it. Also the loop's area and what
+/// pressuremeter and triaxial tests are read (ISO 22476-4), and which is given as well. Also the loop's area and what
 /// was dissipated in it. Uncertainty: half of the 95 % interval of the mean, and half of the difference of both slopes,
 /// as hypotenuse. Throws InputError where there is no such loop.
 Measurement unload_reload_modulus(const StageCurve& curve, int number);

@@ -27,7 +27,7 @@ public:
         ->capture_default_str();
     add_number(options(), "--layers", rule_.layers, parts, "", "Layers of equal height between the punches")
         ->capture_default_str();
-    add_output("--data", data_, "CSV file to write beside a picture");
+    add_output("--data", data_, "CSV file to write in addition to a picture");
     options().add_option("--title", title_, "Title of the picture (default: the solid fraction of the whole)");
     add_number(options(), "--pixels", pixels_, Range::between(50, 4000), "", "Pixels along the picture's longer side")
         ->capture_default_str();

@@ -20,7 +20,7 @@ public:
                            "Young's modulus of a compact from a loop of unloading and reloading: the mean slope of its "
                            "two branches.\n"
                            "Example: postproc unload-reload-modulus run.h5 -o modulus.json",
-                           "the last unconfined_compression; stages of its type beside it belong to the curve") {
+                           "the last unconfined_compression; adjacent stages of its type belong to the curve") {
     add_number(options(), "--loop", loop_, whole_numbers, "", "Number of the loop, from 0; -1 is the last")
         ->capture_default_str();
   }
@@ -79,7 +79,7 @@ public:
   explicit InnerStressCommand(CLI::App& app)
       : MetricCommand(
             app, "inner-stress",
-            "Mean stress of the inner part of the box by the forces between grains (Love and Weber), beside the "
+            "Mean stress of the inner part of the box by the forces between grains (Love and Weber), together with the "
             "walls'.\n"
             "Example: postproc inner-stress run.h5 --share 0.5 -o inner.json") {
     add_snapshot(options(), snapshot_);

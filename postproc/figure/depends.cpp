@@ -91,7 +91,7 @@ private:
   }
 
   void add_table(const TableSpec& table) {
-    if (!table.file.empty()) return; // beside the figure's file, or made by a script
+    if (!table.file.empty()) return; // next to the figure's file, or made by a script
     rule(path_of_table(table, folder_), fmt::format("{} {}", sources_, fmt::join(needs_of(table), " ")), "table_files");
     if (table.spread.empty()) return;
     const std::string file = fmt::format("{}/{}.spread.csv", folder_, table.name);

@@ -13,7 +13,7 @@ struct DependsRequest {
 };
 
 /// Lines for make (docs/figure-file.md, "What make does"): for all figures together, so that they share runs. Where the
-/// settings of a run differ from those written beside it, that file of settings depends on FORCE.
+/// settings of a run differ from those written next to it, that file of settings depends on FORCE.
 /// Throws InputError: runs that two figures describe differently.
 std::string make_rules(const std::vector<Figure>& figures, const DependsRequest& request);
 

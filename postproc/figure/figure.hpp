@@ -79,13 +79,13 @@ struct TableSpec {
   std::vector<Filter> where;
   std::vector<ColumnSpec> columns;
   std::vector<std::string> curves; ///< runs whose histories follow one another; empty: a row a case
-  std::string list;                ///< "RUN/METRIC": all rows of the CSV file that the metric writes beside its JSON
+  std::string list;                ///< "RUN/METRIC": all rows of the CSV file that the metric writes next to its JSON
   std::vector<Filter> keep;        ///< by columns: the other rows are left out
   std::optional<int> stage;        ///< of the curves; none: all rows
   int digits = 6;                  ///< of the curves' numbers
   bool distinct = false;           ///< equal rows, or curves of the same runs, once
   std::string file;                ///< a CSV file with these columns in place of all this
-  bool beside = false;             ///< it lies beside the figure's file, else in the folder of its results
+  bool beside = false;             ///< it lies next to the figure's file, else in the folder of its results
   std::vector<std::string> spread; ///< columns whose mean and deviation over packings are drawn
   Place place;
 };
@@ -133,7 +133,7 @@ struct InsetSpec {
 };
 
 struct PlotSpec {
-  std::string name, title, key, key_title;
+  std::string name, title, key, key_title, caption; ///< caption: on the report, a sentence
   AxisSpec x, y, z;
   std::vector<SeriesSpec> series;
   std::vector<LineSpec> lines;
@@ -145,6 +145,7 @@ struct PlotSpec {
 /// A file that a command makes.
 struct CommandSpec {
   std::string name, run, command; ///< "{run}" in the command is the run's file
+  std::string caption;            ///< of a picture on the report
   std::vector<std::string> series;
   std::vector<Filter> where;
   Place place;

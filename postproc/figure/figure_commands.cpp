@@ -140,8 +140,9 @@ struct FigureCommands::State {
     std::vector<ReportEntry> entries;
     for (const std::string& file : files) {
       const Figure f = read_figure(file, programmes);
-      entries.push_back({f.name, f.name == f.title ? f.title : fmt::format("{}: {}", f.name, f.title), f.question, file,
-                         runs_of_figure(f, {results, mesh})});
+      const std::string question = f.source.empty() ? f.question : fmt::format("{} Source: {}.", f.question, f.source);
+      entries.push_back({f.name, f.name == f.title ? f.title : fmt::format("{}: {}", f.name, f.title), question, file,
+                         runs_of_figure(f, {results, mesh}), captions_of_figure(f, {results, mesh})});
     }
     const std::string page_folder = std::filesystem::path(output).parent_path().string();
     deliver(report_page(entries, {results, title, view_of(run), beside, page_folder}));
@@ -164,7 +165,7 @@ FigureCommands::FigureCommands(CLI::App& app) : state_(std::make_unique<State>()
                   [&s] { s.powder(); });
   CLI::App& table =
       s.add_on_figure(app, "table",
-                      "Make a table of a figure from its runs.\nColumns of curves beside those of the "
+                      "Make a table of a figure from its runs.\nColumns of curves in addition to those of the "
                       "history:\n" +
                           curve_help() +
                           "Example: postproc table studies/fig12/figure.toml modulus --results out/smoke --mesh smoke "
@@ -200,7 +201,7 @@ FigureCommands::FigureCommands(CLI::App& app) : state_(std::make_unique<State>()
   report.add_option("figures", s.files, "Figures' files (TOML)")->required();
   s.add_common(report);
   report.add_option("--title", s.title, "Title of the page")->required();
-  report.add_option("--beside", s.beside, "A page (Markdown) whose first table stands beside the verdicts");
+  report.add_option("--beside", s.beside, "A page (Markdown) whose first table is shown next to the verdicts");
   report.add_option("--view", s.run, "A run to turn in three dimensions on the page (HDF5)");
 }
 

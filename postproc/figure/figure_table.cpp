@@ -111,7 +111,7 @@ const std::vector<CurveColumn>& curve_columns() {
        [](const HistoryRow& r) { return r.then("box_lengths_2") - r("box_lengths_2"); }},
       {"stage_axial_strain", "logarithmic, since the stage began; compression positive",
        [](const HistoryRow& r) { return std::log(r.then("box_lengths_2") / r("box_lengths_2")); }},
-      {"stage_volumetric_strain", "likewise of the volume",
+      {"stage_volumetric_strain", "the same for the volume",
        [](const HistoryRow& r) {
          return std::log(r.history.container_volume(r.begin) / r.history.container_volume(r.row));
        }},
@@ -211,7 +211,7 @@ void add_curves(TextTable& table, const Figure& figure, const TableSpec& spec, c
     }
 }
 
-/// All rows of the CSV file beside a metric's JSON.
+/// All rows of the CSV file next to a metric's JSON.
 void add_list(TextTable& table, const Figure& figure, const TableSpec& spec, const ResultsFolder& results,
               const Case& row) {
   const std::size_t slash = spec.list.find('/');

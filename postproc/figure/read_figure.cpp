@@ -211,7 +211,7 @@ ConditionSpec read_condition(TableReader reader, const Words& words) {
   for (const std::string& predicate : predicates()) {
     if (!reader.has(predicate)) continue;
     if (!c.predicate.empty())
-      reader.fail(predicate, fmt::format("found beside '{}', allowed: one predicate", c.predicate));
+      reader.fail(predicate, fmt::format("cannot be used with '{}', allowed: one predicate", c.predicate));
     c.predicate = predicate;
   }
   if (c.predicate.empty())
@@ -279,7 +279,7 @@ TableSpec read_table(Texts& t, const ColumnLists& lists) {
   return spec;
 }
 
-/// A CSV file: of the figure's results, where a script makes it, else beside the figure's file.
+/// A CSV file: of the figure's results, where a script makes it, else next to the figure's file.
 TableSpec read_table_of_file(Texts& t, const filesystem::path& folder) {
   TableSpec spec;
   spec.place = Place(t.reader(), "columns");
@@ -348,6 +348,7 @@ PlotSpec read_plot(Texts& t) {
   plot.title = t.optional("title");
   plot.key = t.optional("key", "left top");
   plot.key_title = t.optional("key_title");
+  plot.caption = t.optional("caption");
   plot.x = read_axis(r.table("x"), t.words());
   plot.y = read_axis(r.table("y"), t.words());
   if (auto z = r.optional_table("z")) {
@@ -371,6 +372,7 @@ CommandSpec read_command(Texts& t, std::string (*read_run)(Texts&)) {
   spec.name = t.required("name");
   spec.run = read_run(t);
   spec.command = t.required("command");
+  spec.caption = t.optional("caption");
   spec.series = t.list("series");
   spec.where = t.filters("where");
   return spec;
@@ -511,7 +513,7 @@ private:
     packing.command = r.string_or("command", "");
     packing.series = r.strings_or("series", {});
     if (!packing.size.empty() && !packing.command.empty())
-      r.fail("command", "found beside 'size', allowed: one of both");
+      r.fail("command", "cannot be used with 'size', allowed: one of both");
     r.finish();
     figure_.runs.push_back(std::move(packing));
   }

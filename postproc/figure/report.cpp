@@ -13,6 +13,7 @@
 #include "common/errors.hpp"
 #include "common/one_line.hpp"
 #include "postproc/base64.hpp"
+#include "postproc/figure/run_graph.hpp"
 #include "postproc/view/view_page.hpp"
 
 namespace mpfem {
@@ -32,13 +33,16 @@ constexpr const char* style =
   .wide { overflow-x: auto; }
   .runs { font-size: 0.8rem; }
   summary { cursor: pointer; }
+  .statements td:nth-child(4) { white-space: nowrap; }
   tr.true td:nth-child(4) { background: #dbe9f6; }
   tr.false td:nth-child(4) { background: #fde0c5; font-weight: bold; }
   .pictures { display: flex; flex-wrap: wrap; gap: 1rem; }
   figure { margin: 0; width: 36rem; max-width: 100%; }
   img { width: 100%; }
   .view { width: 100%; height: 56rem; max-height: 95vh; border: 1px solid #ccc; }
-  figcaption { font-size: 0.85rem; color: #555; }
+  figcaption { font-size: 0.9rem; color: #333; }
+  sup, sub { line-height: 0; }
+  .files { white-space: nowrap; font-size: 0.85em; }
   @media (max-width: 48rem) { /* a statement's cells below each other */
     .statements tr:first-child { display: none; }
     .statements tr { display: block; border: 1px solid #bbb; margin-bottom: 0.7rem; }
@@ -70,6 +74,59 @@ nlohmann::json statements_in(const std::filesystem::path& folder) {
   auto list = nlohmann::json::parse(content_of(path), nullptr, false);
   if (!list.is_array()) throw InputError(fmt::format("{}: is not a list of statements", one_line(path.string())));
   return list;
+}
+
+bool is_letter(char c) {
+  return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z');
+}
+
+bool is_word(char c) {
+  return is_letter(c) || (c >= '0' && c <= '9') || c == '_';
+}
+
+/// Whether the text ends in a symbol of one letter, Latin or Greek, and not in a word.
+bool ends_in_symbol(const std::string& text) {
+  const std::size_t size = text.size();
+  if (size >= 2 && (text[size - 2] == '\xCE' || text[size - 2] == '\xCF')) return true;
+  return size >= 1 && is_letter(text[size - 1]) && (size == 1 || !is_word(text[size - 2]));
+}
+
+/// Where an exponent or index that begins at `at` ends: "{…}", or a number or letters, with a sign.
+std::size_t end_of_script(const std::string& text, std::size_t at) {
+  if (at < text.size() && text[at] == '{') return std::min(text.find('}', at), text.size() - 1) + 1;
+  std::size_t end = at;
+  if (text.compare(end, 1, "-") == 0) ++end;
+  if (text.compare(end, 3, "−") == 0) end += 3;
+  const std::size_t first = end;
+  while (end < text.size() && (is_word(text[end]) || text[end] == '.')) ++end;
+  while (end > first && text[end - 1] == '.') --end; // of the sentence
+  return end > first ? end : at;
+}
+
+/// Text of a page in which exponents ("G^c", "10^{-3}") are raised and indices of symbols ("D_r", not "run_1") lowered;
+/// `code` of Markdown becomes an element, in which nothing else is changed.
+std::string formatted(const std::string& plain) {
+  const std::string text = html_text(plain);
+  std::string page;
+  bool code = false;
+  for (std::size_t at = 0; at < text.size();) {
+    if (text[at] == '`') {
+      page += (code = !code) ? "<code>" : "</code>";
+      ++at;
+      continue;
+    }
+    const bool raised = !code && text[at] == '^' && at > 0, lowered = !code && text[at] == '_' && ends_in_symbol(page);
+    const std::size_t end = raised || lowered ? end_of_script(text, at + 1) : 0;
+    if (end <= at + 1) {
+      page += text[at++];
+      continue;
+    }
+    const bool braces = text[at + 1] == '{';
+    page += fmt::format("<{0}>{1}</{0}>", raised ? "sup" : "sub",
+                        text.substr(at + 1 + (braces ? 1 : 0), end - at - 1 - (braces ? 2 : 0)));
+    at = end;
+  }
+  return page;
 }
 
 /// How many statements of each figure agree, differ and are not judged, with links to them.
@@ -106,23 +163,11 @@ std::string statements_table(const std::filesystem::path& folder) {
     const auto& agrees = s.at("agrees");
     const char* word = agrees.is_null() ? "not judged" : agrees.get<bool>() ? "✓ agrees" : "✗ differs";
     const char* row = agrees.is_null() ? "null" : agrees.get<bool>() ? "true" : "false";
-    const auto cell = [&](const char* key) { return html_text(s.at(key).get<std::string>()); };
+    const auto cell = [&](const char* key) { return formatted(s.at(key).get<std::string>()); };
     text += fmt::format("<tr class=\"{}\"><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td></tr>\n", row,
-                        cell("statement"), cell("paper"), cell("ours"), word, html_text(note_of(s)));
+                        cell("statement"), cell("paper"), cell("ours"), word, formatted(note_of(s)));
   }
   return text + "</table></div>\n";
-}
-
-/// `code` of Markdown becomes an element; all else is text.
-std::string cell_text(const std::string& markdown) {
-  std::string text;
-  bool code = false;
-  for (const char c : html_text(markdown))
-    if (c == '`')
-      text += (code = !code) ? "<code>" : "</code>";
-    else
-      text += c;
-  return text;
 }
 
 /// The cells of a row "| a | b |" of Markdown.
@@ -145,7 +190,7 @@ std::string table_of_page(const ReportRequest& request) {
     if (!line.starts_with('|') || line.starts_with("|-")) continue;
     const char* element = rows.empty() ? "th" : "td";
     rows += "<tr>";
-    for (const std::string& cell : cells_of(line)) rows += fmt::format("<{0}>{1}</{0}>", element, cell_text(cell));
+    for (const std::string& cell : cells_of(line)) rows += fmt::format("<{0}>{1}</{0}>", element, formatted(cell));
     rows += "</tr>\n";
   }
   if (rows.empty()) throw InputError(fmt::format("{}: found no table, allowed: Markdown", one_line(request.beside)));
@@ -153,17 +198,36 @@ std::string table_of_page(const ReportRequest& request) {
                      html_text(title), rows, link_to(request.beside, request.page_folder, "all tables and conditions"));
 }
 
+/// The file's name as words.
+std::string words_of(const std::filesystem::path& file) {
+  std::string words = file.stem().string();
+  std::replace(words.begin(), words.end(), '-', ' ');
+  return words;
+}
+
+/// The PNG files of a figure with their captions: those that its file gives a caption, in its order, then the others.
+std::vector<CaptionedPicture> pictures_in(const std::filesystem::path& folder, const ReportEntry& entry) {
+  std::vector<CaptionedPicture> pictures;
+  for (const CaptionedPicture& picture : entry.captions)
+    if (std::filesystem::exists(folder / picture.file)) pictures.push_back(picture);
+  for (const auto& file : files_with(folder, ".png")) {
+    const auto has_caption = [&](const CaptionedPicture& p) { return p.file == file.filename(); };
+    if (std::none_of(entry.captions.begin(), entry.captions.end(), has_caption))
+      pictures.push_back({file.filename().string(), words_of(file)});
+  }
+  return pictures;
+}
+
 /// A picture, with links to what a reader may want to take along.
-std::string picture_of(const std::filesystem::path& picture, const std::filesystem::path& page_folder) {
+std::string picture_of(const std::filesystem::path& picture, const std::string& caption,
+                       const std::filesystem::path& page_folder) {
   std::filesystem::path vector = picture;
   vector.replace_extension(".svg");
   std::string links = link_to(picture, page_folder, "PNG");
   if (std::filesystem::exists(vector)) links += fmt::format(" {}", link_to(vector, page_folder, "SVG"));
-  std::string name = picture.stem().string();
-  std::replace(name.begin(), name.end(), '-', ' ');
-  return fmt::format("<figure><img alt=\"{0}\" src=\"data:image/png;base64,{1}\"><figcaption>{0} ({2})</figcaption>"
-                     "</figure>\n",
-                     html_text(name), base64(content_of(picture)), links);
+  return fmt::format("<figure><img alt=\"{0}\" src=\"data:image/png;base64,{1}\"><figcaption>{2} <span "
+                     "class=\"files\">{3}</span></figcaption></figure>\n",
+                     html_text(words_of(picture)), base64(content_of(picture)), formatted(caption), links);
 }
 
 /// Tables and verdicts as files.
@@ -179,14 +243,31 @@ std::string links_of(const ReportEntry& entry, const std::filesystem::path& fold
 
 } // namespace
 
+std::vector<CaptionedPicture> captions_of_figure(const Figure& figure, const ResultsFolder& results) {
+  std::vector<CaptionedPicture> captions;
+  for (const PlotSpec& plot : figure.plots)
+    if (!plot.caption.empty()) captions.push_back({plot.name + ".png", plot.caption});
+  std::vector<CommandSpec> commands(figure.pictures.begin(), figure.pictures.end());
+  commands.insert(commands.end(), figure.scripts.begin(), figure.scripts.end());
+  for (const CommandSpec& command : commands) {
+    if (command.caption.empty()) continue;
+    for (const Case& row : cases_of(figure, command.series, command.where, results.mesh, command.place)) {
+      const std::string file = filled_at(command.place, command.name, row.values);
+      if (std::none_of(captions.begin(), captions.end(), [&](const auto& c) { return c.file == file; }))
+        captions.push_back({file, filled_at(command.place, command.caption, row.values)});
+    }
+  }
+  return captions;
+}
+
 std::string report_page(const std::vector<ReportEntry>& entries, const ReportRequest& request) {
   std::string page =
       fmt::format("<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n<meta name=\"viewport\" "
                   "content=\"width=device-width, initial-scale=1\">\n<link rel=\"icon\" href=\"data:,\">\n"
                   "<title>{0}</title>\n<style>\n{1}</style>\n</head>\n<body>\n<h1>{0}</h1>\n",
                   html_text(request.title), style);
-  page += "<p>Each table sets what was stated or expected beside what was computed here. The verdict is computed from "
-          "the data.</p>\n<div class=\"top\">\n<section><h3>Verdicts</h3>\n";
+  page += "<p>The tables compare what was stated or expected with the results computed here. Verdicts follow from the "
+          "data.</p>\n<div class=\"top\">\n<section><h3>Verdicts</h3>\n";
   page += summary_table(entries, request.results) + "</section>\n";
   if (!request.beside.empty()) page += table_of_page(request);
   page += "</div>\n";
@@ -196,8 +277,9 @@ std::string report_page(const std::vector<ReportEntry>& entries, const ReportReq
   for (const ReportEntry& entry : entries) {
     const std::filesystem::path folder = std::filesystem::path(request.results) / entry.name;
     page += fmt::format("<h2 id=\"{}\">{}</h2>\n<p>{}</p>\n<div class=\"pictures\">\n", entry.name,
-                        html_text(entry.title), html_text(entry.question));
-    for (const auto& picture : files_with(folder, ".png")) page += picture_of(picture, request.page_folder);
+                        html_text(entry.title), formatted(entry.question));
+    for (const CaptionedPicture& picture : pictures_in(folder, entry))
+      page += picture_of(folder / picture.file, picture.caption, request.page_folder);
     page += "</div>\n" + statements_table(folder) +
             fmt::format("<p>Numbers:{}</p>\n", links_of(entry, folder, request.page_folder)) +
             runs_table(entry.runs, request.page_folder);

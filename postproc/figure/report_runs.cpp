@@ -90,9 +90,22 @@ std::string link_to(const fs::path& file, const fs::path& page_folder, const std
 
 std::vector<ReportRun> runs_of_figure(const Figure& figure, const ResultsFolder& results) {
   RunGraph graph;
-  for (const Case& row : cases_of(figure, {}, {}, results.mesh, {}))
-    for (const RunTemplate& from : figure.runs)
-      if (belongs_to(from, row)) add_run(graph, figure, from, row);
+  const auto add = [&](const std::vector<std::string>& names, const std::vector<Case>& cases, const Place& place) {
+    for (const Case& row : cases)
+      for (const std::string& name : names) {
+        const RunTemplate& run = figure.run(name, place);
+        if (belongs_to(run, row)) add_run(graph, figure, run, row);
+      }
+  };
+  for (const TableSpec& table : figure.tables)
+    if (const auto names = runs_of(table); !names.empty())
+      add(names, available_cases(figure, table.series, table.where, names, results, table.place), table.place);
+  for (const PictureSpec& picture : figure.pictures)
+    add({picture.run}, available_cases(figure, picture.series, picture.where, {picture.run}, results, picture.place),
+        picture.place);
+  for (const ScriptSpec& script : figure.scripts)
+    if (!script.run.empty())
+      add({script.run}, cases_of(figure, script.series, script.where, results.mesh, script.place), script.place);
   std::vector<ReportRun> runs;
   for (const auto& [folder, instance] : graph)
     if (!instance.is_packing && instance.is_made)

@@ -16,7 +16,8 @@ struct ReportRun {
   std::string programme; ///< scenario that it began with
 };
 
-/// In the order of their folders, each once; runs of other meshes and packings are left out.
+/// Those that its tables, pictures and scripts ask for, and what they begin at, in the order of their folders, each
+/// once; runs of other meshes and packings are left out.
 std::vector<ReportRun> runs_of_figure(const Figure& figure, const ResultsFolder& results);
 
 /// A table of settings and provenance (mesh, element, surface, seed, energies, cost), with links to scenario, settings

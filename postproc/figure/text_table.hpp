@@ -23,7 +23,7 @@ struct TextTable {
   std::vector<std::size_t> rows_of(const std::vector<Filter>& filters, const Place& place) const;
 };
 
-/// Where a table of a figure lies: in the folder of its results, or beside the figure's file.
+/// Where a table of a figure lies: in the folder of its results, or next to the figure's file.
 std::string path_of_table(const TableSpec& spec, const std::string& folder);
 
 /// Throws InputError with file and line: no such file, rows of another length than the heading.

@@ -44,7 +44,7 @@ public:
             "Example: postproc picture run.h5 --snapshot 3 --color plastic-strain --cut z --cut-at 0.6 -o z.png\n"
             "Example: postproc picture run.h5 --frames film\n"
             "Stresses and strains are averaged around nodes; postproc section shows them tet by tet.",
-            "PNG file to write (default: RUN.png beside RUN.h5)", OutputKind::binary) {
+            "PNG file to write (default: RUN.png next to RUN.h5)", OutputKind::binary) {
     add_snapshot(options(), snapshot_);
     options().add_option("--frames", frames_, "Instead every snapshot as FOLDER/NNNN.png, all in one scale");
     add_choices();

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <numeric>
 
 #include <fmt/format.h>
 
@@ -187,13 +188,42 @@ double Tools::push_on_node(const Model& model, std::size_t node, int grain) cons
   return push;
 }
 
-double Tools::set_away(std::span<const std::size_t> away, const Model& model, const Communicator& ranks) {
+double Tools::take_off(Model& model, std::size_t index, const Bounds& bounds, double last_step, int grain) {
+  const auto g = static_cast<std::size_t>(grain);
+  const auto first = 4 * static_cast<std::ptrdiff_t>(model.node_offset[g]),
+             end = 4 * static_cast<std::ptrdiff_t>(model.node_offset[g + 1]);
+  const AlignedVector<double> all(model.force.begin() + first, model.force.begin() + end);
+  std::fill(model.force.begin() + first, model.force.begin() + end, 0.0);
+  add_tool(model, index, bounds, last_step, grain);
+  double power = 0;
+  for (std::ptrdiff_t i = first; i < end; ++i) {
+    const auto row = static_cast<std::size_t>(i);
+    power += model.velocity[row] * model.force[row];
+    model.force[row] = all[static_cast<std::size_t>(i - first)] - model.force[row];
+  }
+  return 0.5 * last_step * power;
+}
+
+/// Of all grains, added up in their order.
+double Tools::take_off_all(Model& model, std::size_t index, std::span<const Bounds> bounds, double last_step,
+                           const Communicator& ranks) {
+  std::vector<double> of_grain(static_cast<std::size_t>(grains_), 0.0);
+  for (const std::int32_t grain : model.own())
+    if (const auto g = static_cast<std::size_t>(grain); of_grain_[slot(grain, index)].acts())
+      of_grain[g] = take_off(model, index, bounds[g], last_step, grain);
+  share_of_grains(ranks, model.ownership, std::span<double>(of_grain));
+  return std::accumulate(of_grain.begin(), of_grain.end(), 0.0);
+}
+
+double Tools::set_away(std::span<const std::size_t> away, Model& model, std::span<const Bounds> bounds,
+                       double last_step, const Communicator& ranks) {
   double taken = 0;
   for (std::size_t index = 0; index < size(); ++index) {
     Tool& tool = tools_[index];
     const bool leaves = std::find(away.begin(), away.end(), index) != away.end();
     if (leaves && !tool.away) {
-      const double own = load_[index].energy + load_[index].friction_energy + load_[index].adhesion_energy;
+      const double own = load_[index].energy + load_[index].friction_energy + load_[index].adhesion_energy +
+                         take_off_all(model, index, bounds, last_step, ranks);
       taken += own;
       tool.work -= own;
       load_[index] = {};

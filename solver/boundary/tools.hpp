@@ -32,6 +32,8 @@ struct ToolLoad {
   double penetration = 0;          ///< largest over the element size
 
   void add(const ToolLoad& other);
+  /// Whether it has any force on a node.
+  bool acts() const { return penetration > 0 || adhesion_energy > 0; }
 };
 
 /// One tool at a time level.
@@ -88,10 +90,13 @@ public:
   double push_on_node(const Model& model, std::size_t node, int grain) const;
 
   // ---- tools that go and come
-  /// Collective. From now on these tools and no others are away, and bonds to them are cut. Returns the energy (mJ)
-  /// that those which leave take along. Planes that come back stand where they touch no grain. Throws SimulationError
-  /// where another tool comes back into grains.
-  double set_away(std::span<const std::size_t> away, const Model& model, const Communicator& ranks);
+  /// Collective. From now on these tools and no others are away, and bonds to them are cut. Those which leave take
+  /// their forces of this time level out of model.force; `last_step` (s) led to it. Returns the energy (mJ) that they
+  /// take along: what they store, and what of the kinetic energy (node_motion.hpp) goes with their forces. Planes that
+  /// come back stand where they touch no grain. `bounds` [grains], of their surfaces. Throws SimulationError where
+  /// another tool comes back into grains.
+  double set_away(std::span<const std::size_t> away, Model& model, std::span<const Bounds> bounds, double last_step,
+                  const Communicator& ranks);
   /// Name and depth (mm) of the tool that a surface node is deepest behind; none where it is behind none.
   std::optional<std::pair<std::string, double>> behind(const Model& model, std::size_t node) const;
 
@@ -112,6 +117,9 @@ public:
 private:
   std::size_t slot(int grain, std::size_t tool) const { return static_cast<std::size_t>(grain) * size() + tool; }
   ToolLoad add_tool(Model& model, std::size_t tool, const Bounds& bounds, double last_step, int grain);
+  double take_off(Model& model, std::size_t tool, const Bounds& bounds, double last_step, int grain);
+  double take_off_all(Model& model, std::size_t tool, std::span<const Bounds> bounds, double last_step,
+                      const Communicator& ranks);
   void come_back(Tool& tool, const Model& model, const Communicator& ranks) const;
 
   int grains_ = 0;

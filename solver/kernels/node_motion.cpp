@@ -52,12 +52,14 @@ double add_weight(Model& model, const std::array<double, 3>& gravity, int grain)
   const auto g = static_cast<std::size_t>(grain);
   double work = 0;
   for (auto n = static_cast<std::size_t>(model.node_offset[g]); n < static_cast<std::size_t>(model.node_offset[g + 1]);
-       ++n)
+       ++n) {
+    const double inverse_own_mass = model.inverse_mass[n] * (model.mass_factor.empty() ? 1.0 : model.mass_factor[n]);
     for (std::size_t axis = 0; axis < 3; ++axis) {
-      const double weight = gravity[axis] / model.inverse_mass[n];
+      const double weight = gravity[axis] / inverse_own_mass;
       model.force[4 * n + axis] += weight;
       work += weight * model.position[4 * n + axis];
     }
+  }
   return work;
 }
 

@@ -22,8 +22,8 @@ AdvanceSums advance(Model& model, int grain, const Advance& parameters);
 /// with the v+ that `advance` would reach from the present forces without damping. `step_mean` in s.
 double kinetic_energy(const Model& model, int grain, double step_mean);
 
-/// Adds the weights of a grain's nodes to model.force. `gravity` in mm/s^2, of the model's masses. Returns the work
-/// (mJ) of gravity on the way from the origin to where the nodes are.
+/// Adds the weights of a grain's nodes to model.force: `gravity` (mm/s^2) times their masses before mass_factor.
+/// Returns the work (mJ) of gravity on the way from the origin to where the nodes are.
 double add_weight(Model& model, const std::array<double, 3>& gravity, int grain);
 
 /// What the total forces on a grain's nodes add up to: zero in equilibrium, both of them, over all grains.

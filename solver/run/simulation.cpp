@@ -379,7 +379,7 @@ void Simulation::change_walls(const Axes& withdrawn) {
 void Simulation::change_tools() {
   const auto* loading = std::get_if<ToolLoading>(&scenario_->stages[static_cast<std::size_t>(state_.stage)].type);
   if (loading == nullptr) return;
-  energies_.external_work -= tools_.set_away(loading->away, model_, *ranks_);
+  energies_.external_work -= tools_.set_away(loading->away, model_, bounds_, state_.last_step, *ranks_);
   if (container_) box_.set_cell(container_->cell(tools_, box_.cell()));
 }
 

@@ -7,7 +7,7 @@
 set -euo pipefail
 cd "${1:-$(dirname "${BASH_SOURCE[0]}")/../..}"
 
-# FOLDER: the folders that it may include.
+# FOLDER: the folders that it may include; several lines of one folder add up.
 allowed='
 common:
 results-schema: common
@@ -20,9 +20,12 @@ solver/parallel: common
 solver/model: common results-schema solver/physics solver/scenario solver/parallel
 solver/kernels: common solver/physics solver/parallel solver/model
 solver/boundary: common surfaces solver/physics solver/parallel solver/model
-solver/output: common results-schema solver/physics solver/scenario solver/parallel solver/model solver/kernels solver/boundary
-solver/run: common surfaces solver/physics solver/scenario solver/parallel solver/model solver/kernels solver/boundary solver/output
-solver/bench: common solver/physics solver/scenario solver/parallel solver/model solver/kernels solver/boundary solver/output solver/run
+solver/output: common results-schema solver/physics solver/scenario solver/parallel solver/model
+solver/output: solver/kernels solver/boundary
+solver/run: common surfaces solver/physics solver/scenario solver/parallel solver/model solver/kernels
+solver/run: solver/boundary solver/output
+solver/bench: common solver/physics solver/scenario solver/parallel solver/model solver/kernels
+solver/bench: solver/boundary solver/output solver/run
 solver: common surfaces solver/scenario solver/parallel solver/model solver/output solver/run solver/bench
 '
 # FOLDER FOLDER: an include that is still there and shall go.

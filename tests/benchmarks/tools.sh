@@ -1,23 +1,26 @@
 #!/usr/bin/env bash
-# What tools and friction cost: tests/benchmarks/tools.sh [BIN] > tools.md
+# What tools and friction cost: tests/benchmarks/tools.sh [BIN [SIZE [THREADS [TURNS]]]] > tools.md
 #
-# The 329 grains of the examples, in the box and in the round die, meshed at 0.03 mm, are pressed along z to a relative
-# density of 0.85, and steps of what follows are measured: between walls of the box, between tools, with friction, with
-# the die as triangles. Every case is measured three times, in turn with the others, and the medians are printed. Some
-# five minutes.
+# The 329 grains of the examples, in the box and in the round die, meshed at SIZE (0.03 mm), are pressed along z to a
+# relative density of 0.85, and steps of what follows are measured: between walls of the box, between tools, with
+# friction, with the die as triangles. Every case is measured TURNS times (3), in turn with the others, on THREADS (all
+# cores); the medians are printed. Some five minutes.
 set -euo pipefail
 
 bin=${1:-build/bin}
 top=$(realpath "$(dirname "${BASH_SOURCE[0]}")/../..")
 mpfem=$bin/mpfem
-readonly repetitions=3
+size=${2:-0.03}
+threads=()
+[[ -z ${3:-} ]] || threads=(--threads "$3")
+repetitions=${4:-3}
 
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 
 for shape in ph102 ph102_die; do
   "$bin/pack-gen" spheres --quiet "$top/pack-gen/examples/mcc_$shape.toml" -o "$work/spheres.h5"
-  "$bin/pack-gen" mesh --quiet "$work/spheres.h5" --size 0.03 -o "$work/$shape.h5"
+  "$bin/pack-gen" mesh --quiet "$work/spheres.h5" --size "$size" -o "$work/$shape.h5"
 done
 
 # A round die as triangles, mm: 128 sides about x = y = 0.5, from z = -0.2 to 1.3. Tools keep grains inside.
@@ -90,7 +93,7 @@ travel=$(awk 'BEGIN { print 0.5 * 1.0917 * (1 - 0.552 / 0.85) }')
 press() {
   local stages=${3/DENSITY/0.85}
   scenario "$2" "${stages/TRAVEL/$travel}" >"$work/first.toml"
-  "$mpfem" run --quiet "$work/first.toml" -o "$work/$1.h5" "${@:4}" >/dev/null
+  "$mpfem" run --quiet "$work/first.toml" -o "$work/$1.h5" "${threads[@]}" "${@:4}" >/dev/null
   stages=${3/DENSITY/0.95}
   scenario "$2" "${stages/TRAVEL/0.1}" >"$work/$1.toml"
   for option in "${@:4}"; do [[ $option == --set ]] || echo "--set $option"; done >"$work/$1.options"
@@ -123,11 +126,12 @@ for ((repetition = 1; repetition <= repetitions; ++repetition)); do
   while IFS='|' read -r _ scene; do
     # shellcheck disable=SC2046 # options are several words
     "$mpfem" bench "$work/$scene.toml" --from "$work/$scene.press.checkpoint.h5" --quiet --json --steps 400 \
-      $(cat "$work/$scene.options") >"$work/$scene.$repetition.json"
+      "${threads[@]}" $(cat "$work/$scene.options") >"$work/$scene.$repetition.json"
   done <<<"$cases"
 done
 
-printf 'ns per tet and step, medians of %s, %s tets, all cores\n\n' "$repetitions" "$(value "$work/die.1.json" tets)"
+printf 'ns per tet and step, medians of %s, %s tets, %s\n\n' "$repetitions" "$(value "$work/die.1.json" tets)" \
+  "${3:-all} threads"
 printf '| case | whole step | elements | contact | surface | step estimate | integration |\n'
 printf '|---|---|---|---|---|---|---|\n'
 while IFS='|' read -r name scene; do

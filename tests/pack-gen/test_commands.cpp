@@ -186,8 +186,9 @@ TEST_CASE("containers that are mixed or incomplete are refused with one line and
   const std::string cylinder = cylinder_description();
   for (const auto& [text, expected] : std::vector<std::pair<std::string, std::string>>{
            {replaced(cylinder, "height = 0.42\n", ""), "height"},
-           {replaced(cylinder, "height = 0.42\n", "height = 0.42\nbox = [1, 1, 1]\n"), "found beside a cylinder"},
-           {replaced(description, "smallest_gap", "diameter = 1\nsmallest_gap"), "found beside a box"},
+           {replaced(cylinder, "height = 0.42\n", "height = 0.42\nbox = [1, 1, 1]\n"),
+            "cannot be used with a cylinder"},
+           {replaced(description, "smallest_gap", "diameter = 1\nsmallest_gap"), "cannot be used with a box"},
            {replaced(cylinder, "\"cylinder\"", "\"cone\""), "cone"},
            {replaced(cylinder, "relative_density = 0.3", "relative_density = 0.7"), "diameter and height"},
            {replaced(cylinder, "smallest_gap = 0.002", "smallest_gap = 0.08"), "jam"}}) {

@@ -145,7 +145,7 @@ columns = ["tets = mesh/quality.tets", "p = pressed/strength.value:.2f", "z = fi
 TEST_CASE("a packing is a size or a command, and a run begins at one") {
   const Studies studies;
   CHECK_THROWS_WITH(studies.figure("[[packings]]\nname = \"p\"\nsize = \"1\"\ncommand = \"spheres\"\n"),
-                    Contains("study.toml:5") && Contains("found beside 'size'"));
+                    Contains("study.toml:5") && Contains("cannot be used with 'size'"));
   CHECK_THROWS_WITH(studies.figure("[[runs]]\nname = \"r\"\nprogramme = \"press\"\npacking = \"r\"\n"),
                     Contains("'r' is a run, allowed: one of [[packings]]"));
 }
@@ -393,6 +393,9 @@ TEST_CASE("a report has settings and quality of each run, and links that are rel
   const auto runs = runs_of_figure(figure, studies.results());
   REQUIRE(runs.size() == 3);
   CHECK(runs[0].name == "first");
+  // A run that nothing asks for may need values that the cases do not have.
+  const std::string unused = "[[runs]]\nname = \"unused\"\nfolder = \"p{pressure}\"\nprogramme = \"press\"\n";
+  CHECK(runs_of_figure(studies.figure(chain + unused), studies.results()).size() == 3);
   const std::string page = report_page({{"study", "s", "q", studies.path("study.toml"), runs}},
                                        {studies.path("out"), "Studies", "", "", studies.path("out/report")});
   CHECK_THAT(page, Contains("Settings and provenance of 3 runs"));
@@ -402,6 +405,63 @@ TEST_CASE("a report has settings and quality of each run, and links that are rel
   CHECK_THAT(page, Contains("<a href=\"../first/work/log.txt\">log</a>"));
   CHECK_THAT(page, Contains("<a href=\"../study/t.csv\">t.csv</a>") && Contains("\"../study/verdict.json\""));
   CHECK_THAT(page, Contains("<a href=\"../../programmes/press.toml\">scenario</a>"));
+}
+
+TEST_CASE("pictures of a report have the captions of the figure's file, in its order, and else their file's name") {
+  const Studies studies;
+  const Figure figure = studies.figure(R"([[cases]]
+load = [5, 7]
+[[runs]]
+name = "press"
+programme = "press"
+settings = { "stages.0.mean_stress" = "{load}" }
+[[tables]]
+name = "t"
+columns = ["load = {load}"]
+[[plots]]
+for_each = [{ law = "energy" }]
+name = "strength-{law}"
+caption = "Strength <MPa> of law {law}."
+x = {}
+y = {}
+series = [{ table = "t", x = "load", y = "load" }]
+[[pictures]]
+name = "section-{load}.png"
+caption = "Section at {load} MPa."
+run = "press"
+command = "section {run}"
+)");
+  const auto captions = captions_of_figure(figure, studies.results());
+  REQUIRE(captions.size() == 3);
+  CHECK(captions[2].file == "section-7.png");
+  for (const char* name : {"a-b", "section-5", "section-7", "strength-energy"})
+    write_text(studies.path(fmt::format("out/study/{}.png", name)), "");
+  write_text(studies.path("out/study/verdict.json"), "[]");
+  const std::string page = report_page({{"study", "s", "q", "", {}, captions}}, {studies.path("out"), "S"});
+  std::size_t at = 0;
+  for (const char* caption : {"Strength &lt;MPa&gt; of law energy.", "Section at 5 MPa.", "Section at 7 MPa.", "a b"}) {
+    const std::size_t found = page.find(fmt::format("<figcaption>{} <span", caption));
+    INFO(caption);
+    REQUIRE(found != std::string::npos);
+    CHECK(found > at);
+    at = found;
+  }
+}
+
+TEST_CASE("a report raises exponents and lowers the indices of symbols, and leaves names as they are") {
+  const Studies studies;
+  write_text(studies.path("out/fig03/verdict.json"), "[]");
+  const auto question = [&](const std::string& text) {
+    const std::string page = report_page({{"fig03", "bonds", text}}, {studies.path("out"), "S"});
+    const std::size_t at = page.find("<p>", page.find("id=\"fig03\""));
+    return page.substr(at + 3, page.find("</p>", at) - at - 3);
+  };
+  CHECK(question("G^c, R^2.") == "G<sup>c</sup>, R<sup>2</sup>.");
+  CHECK(question("160 MPa ε^0.4, E^−0.80 and D_r^{max}") ==
+        "160 MPa ε<sup>0.4</sup>, E<sup>−0.80</sup> and D<sub>r</sub><sup>max</sup>");
+  CHECK(question("(σ_0 < p_c)") == "(σ<sub>0</sub> &lt; p<sub>c</sub>)");
+  CHECK(question("`a_b^c` of p_c") == "<code>a_b^c</code> of p<sub>c</sub>");
+  CHECK(question("run_1, kinetic_energy, a ^ b, x^ y_") == "run_1, kinetic_energy, a ^ b, x^ y_");
 }
 
 TEST_CASE("a report shows the first table of a page beside the verdicts") {

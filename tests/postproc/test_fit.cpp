@@ -43,7 +43,7 @@ bool holds(const Fit& result, const std::string& name, double value) {
   return c.low <= value && value <= c.high;
 }
 
-/// The paper's Eq. 13 with the sign of p_c mended, at 4 x 4 confining pressures and fracture energies.
+/// The paper's Eq. 13 with the sign of p_c corrected, at 4 x 4 confining pressures and fracture energies.
 FitPoints surface_points(double noise_level, unsigned seed) {
   Noise noise(seed);
   FitPoints points;

@@ -93,7 +93,7 @@ TEST_CASE("a section's damage is weighted by length, and what was never bonded d
   CHECK(s.share_above == Approx(0.25).epsilon(1e-12));
 }
 
-TEST_CASE("the stress at a density lies between the rows beside it, and there is none where it was not passed") {
+TEST_CASE("the stress at a density lies between the rows around it, and there is none where it was not passed") {
   const std::vector<double> density = {0.62, 0.7, 0.7, 0.8}, stress = {1, 5, 6, 16};
   const auto found = stress_at_densities(density, stress, {0.60, 0.62, 0.66, 0.75, 0.8000005, 0.9});
   CHECK_FALSE(found[0]); // it began denser

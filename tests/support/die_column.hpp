@@ -30,10 +30,14 @@ inline GrainMesh quarter_cylinder(int n, double radius, double height) {
 struct Settings {
   int n = 12; ///< cells along the radius, and along the axis
   ElementType element = ElementType::tet4;
+  bool both_ends = false; ///< each punch moves half of the way
 };
 
 struct Pressed {
   double transmission = 0;  ///< force of the lower punch over that of the upper
+  double upper_force = 0;   ///< N
+  double die_force = 0;     ///< N, along the axis, of the column on the die
+  double approach = 0;      ///< mm, of the punches to each other at the end
   double lost_at_tools = 0; ///< mJ, friction's dissipation, tool by tool
   HistoryRow row{};         ///< the last
 };
@@ -53,22 +57,28 @@ inline Pressed press(const Settings& settings, double nu, double mu) {
                     plane("symmetry-x", {0, 0, 0}, {1, 0, 0}),
                     plane("symmetry-y", {0, 0, 0}, {0, 1, 0})};
   const double transit = column_height * std::sqrt(1.55e-9 / 5000);
-  const ToolDrive upper{
-      .tool = 2, .velocity = {0, 0, -strain * column_height / (30 * transit)}, .direction = {0, 0, -1}};
-  scenario.stages = {driven({upper}, 33 * transit)};
+  const double speed = strain * column_height / (30 * transit) * (settings.both_ends ? 0.5 : 1);
+  std::vector<ToolDrive> drives = {{.tool = 2, .velocity = {0, 0, -speed}, .direction = {0, 0, -1}}};
+  if (settings.both_ends) drives.push_back({.tool = 1, .velocity = {0, 0, speed}, .direction = {0, 0, 1}});
+  scenario.stages = {driven(drives, 33 * transit)};
   GrainMesh column = quarter_cylinder(settings.n, column_radius, column_height);
   move(column, {0, 0, 0.5 * column_height});
   ThreadTeam team(1);
   Simulation simulation(build_model(pack({column}, {column_radius, column_radius, column_height}), scenario, "test"),
                         scenario, team);
   Pressed pressed;
-  double low = 0, high = 0;
+  double low = 0, high = 0, die = 0, levels = 0;
   for (simulation.evaluate_forces(); !simulation.stage_complete(); simulation.evaluate_forces()) {
-    if (simulation.state().time > 25 * transit)
+    if (simulation.state().time > 25 * transit) {
       low -= simulation.tools()[1].force[2], high += simulation.tools()[2].force[2];
+      die += simulation.tools()[0].force[2], levels += 1;
+    }
     simulation.advance();
   }
   pressed.transmission = low / high;
+  pressed.upper_force = high / levels;
+  pressed.die_force = die / levels;
+  pressed.approach = simulation.tools()[1].moved[2] - simulation.tools()[2].moved[2];
   pressed.row = simulation.observe();
   for (std::size_t tool = 0; tool < simulation.tools().size(); ++tool)
     pressed.lost_at_tools += simulation.tools()[tool].friction_dissipation;
