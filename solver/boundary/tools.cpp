@@ -192,7 +192,7 @@ double Tools::take_off(Model& model, std::size_t index, const Bounds& bounds, do
   const auto g = static_cast<std::size_t>(grain);
   const auto first = 4 * static_cast<std::ptrdiff_t>(model.node_offset[g]),
              end = 4 * static_cast<std::ptrdiff_t>(model.node_offset[g + 1]);
-  const AlignedVector<double> all(model.force.begin() + first, model.force.begin() + end);
+  const std::vector<double> all(model.force.begin() + first, model.force.begin() + end);
   std::fill(model.force.begin() + first, model.force.begin() + end, 0.0);
   add_tool(model, index, bounds, last_step, grain);
   double power = 0;
