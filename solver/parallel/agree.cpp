@@ -1,6 +1,6 @@
 #include "solver/parallel/agree.hpp"
 
-#include <new>
+#include <stdexcept>
 
 #include "common/errors.hpp"
 
@@ -8,7 +8,7 @@ namespace mpfem {
 
 namespace {
 
-enum class Kind : std::int32_t { none, input, simulation, storage, interrupted, memory, other };
+enum class Kind : std::int32_t { none, input, simulation, storage, interrupted, other };
 
 struct Outcome {
   Kind failure = Kind::none;
@@ -16,22 +16,30 @@ struct Outcome {
   std::string message;
 };
 
+Kind kind_of(ExitCode code) {
+  switch (code) {
+  case ExitCode::bad_input:
+    return Kind::input;
+  case ExitCode::storage_failed:
+    return Kind::storage;
+  case ExitCode::interrupted:
+    return Kind::interrupted;
+  case ExitCode::done:
+  case ExitCode::simulation_failed:
+    break;
+  }
+  return Kind::other;
+}
+
 Outcome outcome_of(const std::function<void()>& work) {
   try {
     work();
     return {};
-  } catch (const InputError& error) {
-    return {Kind::input, 0, error.what()};
-  } catch (const SimulationError& error) {
+  } catch (const SimulationError& error) { // whoever catches it saves the state: not so of other failures of that code
     return {Kind::simulation, 0, error.what()};
-  } catch (const StorageError& error) {
-    return {Kind::storage, 0, error.what()};
-  } catch (const Interrupted& error) {
-    return {Kind::interrupted, 0, error.what()};
-  } catch (const std::bad_alloc& error) {
-    return {Kind::memory, 0, error.what()};
-  } catch (const std::exception& error) {
-    return {Kind::other, 0, error.what()};
+  } catch (...) {
+    const Failure failure = present_failure();
+    return {kind_of(failure.code), 0, failure.message};
   }
 }
 
@@ -45,8 +53,6 @@ Outcome outcome_of(const std::function<void()>& work) {
     throw StorageError(outcome.message);
   case Kind::interrupted:
     throw Interrupted(outcome.message);
-  case Kind::memory:
-    throw std::bad_alloc();
   case Kind::none:
   case Kind::other:
     break;
