@@ -101,11 +101,6 @@ void divide(MeshedPacking& packing, const Communicator& ranks) {
   packing.ownership = ownership_of(owners(point, packing.grain_tet_offset, ranks.size()), ranks.rank());
   packing.node_start.assign(packing.grain_node_offset.begin(), packing.grain_node_offset.end() - 1);
   packing.tet_start.assign(packing.grain_tet_offset.begin(), packing.grain_tet_offset.end() - 1);
-  StreamingHash nodes;
-  nodes.update(std::as_bytes(std::span(packing.node)));
-  StreamingHash tets(nodes.value());
-  tets.update(std::as_bytes(std::span(packing.tet)));
-  packing.hash = hash_of_mesh(tets.value(), packing);
 }
 
 MeshedPacking read_packing(const std::string& path, const Communicator& ranks,
