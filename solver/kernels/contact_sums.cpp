@@ -1,8 +1,7 @@
 #include "solver/kernels/contact_sums.hpp"
 
 #include <algorithm>
-#include <optional>
-#include <tuple>
+#include <utility>
 
 #include "common/index.hpp"
 #include "solver/physics/penalty.hpp"
@@ -79,6 +78,13 @@ struct HalfContact {
   bool shown = false; ///< they touch or have had bonds; else it is only friction of the past
 };
 
+using GrainPair = std::pair<std::int32_t, std::int32_t>;
+
+/// The two grains, the lower number first.
+GrainPair grains_of(const HalfContact& half) {
+  return std::minmax(half.pair.first, half.pair.second);
+}
+
 /// Force on the grain, half of the area, bonds and friction at its nodes.
 HalfContact half_contact(const Model& model, const Contact& contact, std::int32_t pair) {
   const auto p = at(pair);
@@ -140,18 +146,15 @@ void add_half(HalfContact& both, const HalfContact& half) {
 
 std::vector<PairContact> pair_contacts(const Model& model, const Contact& contact, const Communicator& ranks) {
   std::vector<HalfContact> halves = halves_of_own(model, contact, ranks);
-  const auto grains = [](const HalfContact& half) { return std::minmax(half.pair.first, half.pair.second); };
   // Of both halves that of the first grain's nodes comes first, so that sums do not depend on who owns the grains.
   std::stable_sort(halves.begin(), halves.end(), [&](const HalfContact& a, const HalfContact& b) {
-    return std::tuple(grains(a), a.pair.first) < std::tuple(grains(b), b.pair.first);
+    return std::pair(grains_of(a), a.pair.first) < std::pair(grains_of(b), b.pair.first);
   });
   std::vector<PairContact> pairs;
   for (std::size_t i = 0; i < halves.size();) {
-    const auto [first, second] = grains(halves[i]);
-    HalfContact both{{first, second, {}, 0, {}, {}}};
-    for (; i < halves.size() && grains(halves[i]) == std::pair<const std::int32_t&, const std::int32_t&>(first, second);
-         ++i)
-      add_half(both, halves[i]);
+    const GrainPair grains = grains_of(halves[i]);
+    HalfContact both{{grains.first, grains.second, {}, 0, {}, {}}};
+    for (; i < halves.size() && grains_of(halves[i]) == grains; ++i) add_half(both, halves[i]);
     if (both.shown) pairs.push_back(both.pair);
   }
   return pairs;
