@@ -464,9 +464,9 @@ private:
       busy += simulation_.profile().seconds(part);
     const Balance balance = measure_balance(ranks_, simulation_.model(), busy - busy_before_);
     busy_before_ = busy;
-    const double done = fraction_done(), reload = reload_seconds_;
+    const double done = fraction_done();
     const double remaining = done > done_at_start_ ? Profile::since(start_) * (1 - done) / (done - done_at_start_) : 0;
-    if (!leader_finds(ranks_, [&] { return pays(balance, remaining, reload); })) return;
+    if (!leader_finds(ranks_, [&] { return pays(balance, remaining, reload_seconds_); })) return;
     new_owners_ = divide_anew(ranks_, simulation_.model(), balance);
     if (!options_.quiet)
       fmt::print(stderr, "mpfem: the busiest rank has {:.0f} % more work than the mean: grains are divided anew\n",
