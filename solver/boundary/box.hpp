@@ -15,6 +15,12 @@ struct BoxSums {
   std::array<SurfaceLoad, 6> wall{};
   double energy = 0; ///< mJ, of all walls
   double penetration() const;
+
+  template <class Self, class Visitor>
+  static void for_each_term(Self& s, Visitor&& visit) {
+    for (auto& load : s.wall) SurfaceLoad::for_each_term(load, visit);
+    visit.sum(s.energy);
+  }
 };
 
 class Box {

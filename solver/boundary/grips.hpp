@@ -38,6 +38,12 @@ struct GripSums {
   std::array<double, 2> force{}; ///< N, push of the low and the high grip towards the middle
   double work_behind = 0;        ///< mJ, half of the forces times the step that led here
   double work_ahead = 0;         ///< mJ, half of the forces times the step that follows
+
+  template <class Self, class Visitor>
+  static void for_each_term(Self& s, Visitor&& visit) {
+    for (auto& push : s.force) visit.sum(push);
+    visit.sum(s.work_behind), visit.sum(s.work_ahead);
+  }
 };
 
 /// Sets model.force of the gripped nodes so that the velocity update with these parameters takes them to where the

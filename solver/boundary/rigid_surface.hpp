@@ -44,6 +44,11 @@ struct SurfaceLoad {
   double force = 0;       ///< N, sum of the normal forces
   double penetration = 0; ///< largest over the element size
   double energy = 0;      ///< mJ, in the penalty
+
+  template <class Self, class Visitor>
+  static void for_each_term(Self& s, Visitor&& visit) {
+    visit.sum(s.force), visit.largest(s.penetration), visit.sum(s.energy);
+  }
 };
 
 /// The push on one node.

@@ -9,6 +9,7 @@
 
 #include "common/errors.hpp"
 #include "solver/parallel/grain_values.hpp"
+#include "solver/parallel/totals.hpp"
 
 namespace mpfem {
 
@@ -119,15 +120,14 @@ void Tools::add_forces(Model& model, const Bounds& bounds, double last_step, int
     of_grain_[slot(grain, tool)] = tools_[tool].away ? ToolLoad{} : add_tool(model, tool, bounds, last_step, grain);
 }
 
-void Tools::share_loads(const Communicator& ranks, const Ownership& ownership) {
-  share_of_grains(ranks, ownership, std::span(of_grain_), size());
-}
-
-double Tools::take_loads() {
+double Tools::take_loads(const Communicator& ranks, const Ownership& ownership) {
+  Totals<ToolLoad> totals(size());
+  for (const std::int32_t grain : ownership.own)
+    for (std::size_t index = 0; index < size(); ++index) totals.add(of_grain_[slot(grain, index)], index);
+  totals.combine(ranks);
   double work = 0;
   for (std::size_t index = 0; index < size(); ++index) {
-    ToolLoad sum;
-    for (int grain = 0; grain < grains_; ++grain) sum.add(of_grain_[slot(grain, index)]);
+    const ToolLoad sum = totals[index];
     Tool& tool = tools_[index];
     const double own_work = -0.5 * dot(sum.force + vector_of(tool.force), vector_of(tool.movement));
     work += own_work;

@@ -31,6 +31,13 @@ struct ToolLoad {
   double bonded_area = 0;          ///< mm^2, of bonds that are not broken
   double penetration = 0;          ///< largest over the element size
 
+  template <class Self, class Visitor>
+  static void for_each_term(Self& s, Visitor&& visit) {
+    for (auto* vector : {&s.force, &s.moment}) visit.sum(vector->x), visit.sum(vector->y), visit.sum(vector->z);
+    visit.sum(s.normal_force), visit.sum(s.energy), visit.sum(s.friction_energy), visit.sum(s.friction_dissipation);
+    visit.sum(s.adhesion_energy), visit.sum(s.adhesion_dissipation), visit.sum(s.bonded_area);
+    visit.largest(s.penetration);
+  }
   void add(const ToolLoad& other);
   /// Whether it has any force on a node.
   bool acts() const { return penetration > 0 || adhesion_energy > 0; }
@@ -71,11 +78,9 @@ public:
   /// Adds the tools' forces on a grain to model.force. `bounds`: the present bounding box of the grain's surface;
   /// `last_step` in s. Different grains may be at work at once.
   void add_forces(Model& model, const Bounds& bounds, double last_step, int grain);
-  /// Collective. Brings what the tools bear of each grain to all ranks.
-  void share_loads(const Communicator& ranks, const Ownership& ownership);
-  /// Adds up what the tools bear at this time level, in the order of grains. Returns their work (mJ) on the grains
-  /// since the level before, by the trapezoidal rule.
-  double take_loads();
+  /// Collective. Adds up what the tools bear at this time level. Returns their work (mJ) on the grains since the level
+  /// before, by the trapezoidal rule.
+  double take_loads(const Communicator& ranks, const Ownership& ownership);
   /// What a tool bears, as last added up.
   const ToolLoad& load(std::size_t tool) const { return load_[tool]; }
   /// Of all tools.

@@ -14,6 +14,12 @@ struct WallFrictionSums {
   std::array<double, 6> energy{}; ///< mJ, of each wall
   double dissipation = 0;         ///< mJ, since the time level before
   double stored() const;
+
+  template <class Self, class Visitor>
+  static void for_each_term(Self& s, Visitor&& visit) {
+    for (auto& of_wall : s.energy) visit.sum(of_wall);
+    visit.sum(s.dissipation);
+  }
 };
 
 class WallFriction {

@@ -230,11 +230,12 @@ void add_pairs(const Model& model, const ContactCandidates& others, Contact& con
   take_over(std::move(joined), model.grains, contact);
 }
 
-bool search_is_due(const Contact& contact) {
-  double largest = 0;
-  for (std::size_t g = 0; g < contact.travel.size(); ++g)
-    largest = std::max(largest, contact.travel[g] - contact.travel_at_search[g]);
-  return 2.0 * largest > 0.9 * contact.margin;
+double travel_since_search(const Contact& contact, std::size_t grain) {
+  return contact.travel[grain] - contact.travel_at_search[grain];
+}
+
+bool search_is_due(const Contact& contact, double travel) {
+  return 2.0 * travel > 0.9 * contact.margin;
 }
 
 } // namespace mpfem

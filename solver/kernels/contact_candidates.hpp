@@ -20,8 +20,11 @@ struct SearchRange {
 /// those of grains in range.near.
 void renew_candidates(const Model& model, const SearchRange& range, ThreadTeam& team, Contact& contact);
 
-/// True when two nodes may have approached by more than the candidates' margin.
-bool search_is_due(const Contact& contact);
+/// mm, bound of the path of any node of a grain since the search.
+double travel_since_search(const Contact& contact, std::size_t grain);
+/// True when two nodes may have approached by more than the candidates' margin; `travel` (mm) is the largest of all
+/// grains since the search.
+bool search_is_due(const Contact& contact, double travel);
 
 /// Leaves the pairs whose first grain is the rank's own, with the state of their points.
 void leave_own_pairs(const Model& model, Contact& contact);

@@ -52,7 +52,6 @@ public:
       }
       contact_.active[at(p)] = pair.active;
       if constexpr (bonding) contact_.pulling[at(p)] = pair.pulling;
-      sums.active_points += pair.active;
     }
     return sums;
   }

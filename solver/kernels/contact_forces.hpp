@@ -18,7 +18,12 @@ struct ContactSums {
   double penetration = 0;          ///< largest penetration over h
   double friction_energy = 0;      ///< mJ stored in stick springs
   double friction_dissipation = 0; ///< mJ, since the time level before
-  int active_points = 0;
+
+  template <class Self, class Visitor>
+  static void for_each_term(Self& s, Visitor&& visit) {
+    visit.sum(s.energy), visit.largest(s.penetration);
+    visit.sum(s.friction_energy), visit.sum(s.friction_dissipation);
+  }
 };
 
 /// Evaluates the contact points of a grain's own nodes and adds their forces to model.force. Throws SimulationError,

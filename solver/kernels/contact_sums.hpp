@@ -21,6 +21,11 @@ struct BondSums {
   double damaged_area = 0; ///< mm^2, integral of the damage over formed_area
   std::int64_t bonds = 0;  ///< unbroken
 
+  template <class Self, class Visitor>
+  static void for_each_term(Self& s, Visitor&& visit) {
+    visit.sum(s.stored), visit.sum(s.dissipated);
+    visit.sum(s.bonded_area), visit.sum(s.formed_area), visit.sum(s.damaged_area), visit.count(s.bonds);
+  }
   void add(const BondSums& other) {
     stored += other.stored;
     dissipated += other.dissipated;

@@ -11,6 +11,12 @@ struct ElementSums {
   double viscous_work = 0;   ///< mJ, in this step
   double largest_strain = 0; ///< largest norm of a strain increment
   bool admissible = true;    ///< false where a tet is inverted or a value is not finite
+
+  template <class Self, class Visitor>
+  static void for_each_term(Self& s, Visitor&& visit) {
+    visit.sum(s.plastic_work), visit.sum(s.viscous_work);
+    visit.largest(s.largest_strain), visit.every(s.admissible);
+  }
 };
 
 /// Advances stresses over the step that led to the present positions and writes the internal forces (N) of the grain's

@@ -13,6 +13,11 @@ struct AdvanceSums {
   double damping_work = 0;  ///< mJ dissipated in this update
   double damping_force = 0; ///< N, sum of nodal magnitudes
   double largest_speed = 0; ///< mm/s
+
+  template <class Self, class Visitor>
+  static void for_each_term(Self& s, Visitor&& visit) {
+    visit.sum(s.damping_work), visit.sum(s.damping_force), visit.largest(s.largest_speed);
+  }
 };
 
 /// v+ = v- + dt f/m with damping (solver/physics/damping.hpp), then x + dt v+.
@@ -30,6 +35,11 @@ double add_weight(Model& model, const std::array<double, 3>& gravity, int grain)
 struct ForceMoments {
   std::array<double, 3> force{};  ///< N
   std::array<double, 3> moment{}; ///< N mm: along each axis, force times distance from `centre`
+
+  template <class Self, class Visitor>
+  static void for_each_term(Self& s, Visitor&& visit) {
+    for (std::size_t axis = 0; axis < 3; ++axis) visit.sum(s.force[axis]), visit.sum(s.moment[axis]);
+  }
 };
 /// With `centre` in mm, after contact and walls were added.
 ForceMoments force_moments(const Model& model, const std::array<double, 3>& centre, int grain);
@@ -39,6 +49,12 @@ struct MassMoments {
   double mass = 0;                ///< tonne
   std::array<double, 3> first{};  ///< tonne mm: mass times distance from `centre`
   std::array<double, 3> second{}; ///< tonne mm^2: mass times its square
+
+  template <class Self, class Visitor>
+  static void for_each_term(Self& s, Visitor&& visit) {
+    visit.sum(s.mass);
+    for (std::size_t axis = 0; axis < 3; ++axis) visit.sum(s.first[axis]), visit.sum(s.second[axis]);
+  }
 };
 /// With `centre` in mm, near the grains: distances from far away would cost digits.
 MassMoments mass_moments(const Model& model, const std::array<double, 3>& centre, int grain);

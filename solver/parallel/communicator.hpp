@@ -47,6 +47,9 @@ public:
   std::vector<Bytes> exchange(const std::vector<Bytes>& to) const;
   /// Collective. The largest of all ranks' numbers; none may be NaN.
   double largest(double own) const;
+  /// Collective. Makes of each of `sums` the sum of all ranks' numbers, and of each of `largest` the largest, which may
+  /// not be NaN.
+  void combine(std::span<std::int64_t> sums, std::span<double> largest) const;
   /// Collective. Copies what the first rank has to all others.
   void from_leader(Bytes& bytes) const;
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <chrono>
 #include <cstdlib>
 #include <limits>
@@ -49,6 +50,24 @@ std::vector<Bytes> divided(const Bytes& all, const std::vector<int>& offsets, co
   for (std::size_t rank = 0; rank < counts.size(); ++rank)
     parts.emplace_back(all.begin() + offsets[rank], all.begin() + offsets[rank] + counts[rank]);
   return parts;
+}
+
+/// A message of combine(): the number of sums, the sums, and the largest numbers as their bits.
+using Numbers = std::vector<std::int64_t>;
+
+/// Combines messages of this kind; MPI calls it with whole ones, since they are one element each.
+extern "C" void combine_numbers(void* own, void* all, int* messages, MPI_Datatype* type) {
+  int bytes = 0;
+  MPI_Type_size(*type, &bytes);
+  const std::size_t size = static_cast<std::size_t>(bytes) / sizeof(std::int64_t);
+  const auto* from = static_cast<const std::int64_t*>(own);
+  auto* to = static_cast<std::int64_t*>(all);
+  for (int message = 0; message < *messages; ++message, from += size, to += size) {
+    const auto sums = static_cast<std::size_t>(from[0]);
+    for (std::size_t i = 1; i <= sums; ++i) to[i] += from[i];
+    for (std::size_t i = sums + 1; i < size; ++i)
+      to[i] = std::bit_cast<std::int64_t>(std::max(std::bit_cast<double>(to[i]), std::bit_cast<double>(from[i])));
+  }
 }
 
 } // namespace
@@ -150,6 +169,26 @@ double Communicator::largest(double own) const {
   double largest = own;
   MPI_Allreduce(&own, &largest, 1, MPI_DOUBLE, MPI_MAX, MPI_COMM_WORLD);
   return largest;
+}
+
+void Communicator::combine(std::span<std::int64_t> sums, std::span<double> largest) const {
+  if (alone()) return;
+  Numbers own{static_cast<std::int64_t>(sums.size())};
+  own.insert(own.end(), sums.begin(), sums.end());
+  for (const double number : largest) own.push_back(std::bit_cast<std::int64_t>(number));
+  Numbers all(own.size());
+  MPI_Datatype message = MPI_DATATYPE_NULL;
+  MPI_Type_contiguous(static_cast<int>(own.size()), MPI_INT64_T, &message);
+  MPI_Type_commit(&message);
+  MPI_Op combination = MPI_OP_NULL;
+  MPI_Op_create(combine_numbers, 1, &combination);
+  MPI_Allreduce(own.data(), all.data(), 1, message, combination, MPI_COMM_WORLD);
+  MPI_Op_free(&combination);
+  MPI_Type_free(&message);
+  const auto end_of_sums = all.begin() + 1 + static_cast<std::ptrdiff_t>(sums.size());
+  std::copy(all.begin() + 1, end_of_sums, sums.begin());
+  std::transform(end_of_sums, all.end(), largest.begin(),
+                 [](std::int64_t bits) { return std::bit_cast<double>(bits); });
 }
 
 void Communicator::from_leader(Bytes& bytes) const {

@@ -2,13 +2,9 @@
 
 namespace mpfem {
 
-void EnergyLedger::add_grips(const std::vector<GripSums>& grains) {
-  external_work += grip_work_ahead;
-  grip_work_ahead = 0;
-  for (const GripSums& sums : grains) {
-    external_work += sums.work_behind;
-    grip_work_ahead += sums.work_ahead;
-  }
+void EnergyLedger::add_grips(const GripSums& grips) {
+  external_work += grip_work_ahead + grips.work_behind;
+  grip_work_ahead = grips.work_ahead;
 }
 
 void EnergyLedger::add_walls(const std::array<double, 6>& work) {

@@ -2,7 +2,6 @@
 // The energies that are summed up over time, and the balance of all energies.
 
 #include <array>
-#include <vector>
 
 #include "solver/boundary/grips.hpp"
 #include "solver/boundary/wall_friction.hpp"
@@ -43,12 +42,12 @@ struct EnergyLedger {
   }
 
   /// Adds what the grips did at this time level.
-  void add_grips(const std::vector<GripSums>& grains);
+  void add_grips(const GripSums& grips);
   /// Adds the work (mJ) of the walls since the time level before.
   void add_walls(const std::array<double, 6>& work);
-  /// Adds what friction dissipated at one grain since the time level before.
+  /// Adds what friction dissipated since the time level before.
   void add_friction(const ContactSums& contact, const WallFrictionSums& walls);
-  /// Adds what one grain dissipated in a step.
+  /// Adds what was dissipated in a step.
   void add_step(const ElementSums& elements, const AdvanceSums& advance);
   /// mJ that are not accounted for.
   double residual(const StoredEnergies& stored) const;

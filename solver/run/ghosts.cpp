@@ -41,7 +41,7 @@ constexpr auto appended_to = [](Bytes& message) {
 };
 
 std::size_t bytes_of_motion(const Model& model, std::span<const Index> grains, bool velocities) {
-  std::size_t bytes = 0;
+  std::size_t bytes = grains.size() * sizeof(double); // travel
   for (const Index g : grains)
     for_each_moving_part(model, g, velocities, [&](auto values) { bytes += values.size_bytes(); });
   return bytes;
@@ -205,22 +205,28 @@ Communicator::Transfer Ghosts::start(bool (Partner::*concerns)() const) {
   return ranks_->start(out, in);
 }
 
-void Ghosts::start_motion(const Model& model) {
+void Ghosts::start_motion(const Model& model, const Contact& contact) {
   if (partners_.empty()) return;
   for (Partner& p : partners_) {
     p.out.clear();
-    for (const Index g : p.sent_grains) for_each_moving_part(model, g, velocities_, appended_to(p.out));
+    for (const Index g : p.sent_grains) {
+      for_each_moving_part(model, g, velocities_, appended_to(p.out));
+      append(p.out, contact.travel[at(g)]);
+    }
     p.in.resize(bytes_of_motion(model, p.ghosts, velocities_));
   }
   transfer_ = start(&Partner::has_surfaces);
 }
 
-void Ghosts::finish_motion(Model& model) {
+void Ghosts::finish_motion(Model& model, Contact& contact) {
   if (partners_.empty()) return;
   transfer_.finish();
   for (const Partner& p : partners_) {
     MessageReader reader(p.in);
-    for (const Index g : p.ghosts) for_each_moving_part(model, g, velocities_, [&](auto part) { reader.take(part); });
+    for (const Index g : p.ghosts) {
+      for_each_moving_part(model, g, velocities_, [&](auto part) { reader.take(part); });
+      contact.travel[at(g)] = reader.take<double>();
+    }
   }
 }
 

@@ -33,10 +33,10 @@ public:
   bool is_at_border(std::int32_t grain) const {
     return !at_border_.empty() && at_border_[static_cast<std::size_t>(grain)] != 0;
   }
-  /// Positions and velocities of own grains at the border go, those of ghosts come.
-  void start_motion(const Model& model);
-  /// Sets the ghosts' positions and velocities; not their normals (update_surface).
-  void finish_motion(Model& model);
+  /// Positions, velocities and travel of own grains at the border go, those of ghosts come.
+  void start_motion(const Model& model, const Contact& contact);
+  /// Sets the ghosts' positions, velocities and travel; not their normals (update_surface).
+  void finish_motion(Model& model, Contact& contact);
   /// Records of forces on ghosts go, those on own grains come.
   void start_forces(const Contact& contact);
   void finish_forces(Contact& contact);

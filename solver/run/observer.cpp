@@ -5,7 +5,7 @@
 #include <set>
 
 #include "common/index.hpp"
-#include "solver/parallel/grain_values.hpp"
+#include "solver/parallel/totals.hpp"
 
 namespace mpfem {
 
@@ -17,7 +17,26 @@ struct GrainObservation {
   double volume = 0;                         ///< mm^3, current
   double surface_area = 0, contact_area = 0; ///< mm^2
   MassMoments mass;                          ///< about the cell's centre
-  std::int32_t touched = 0;                  ///< grains of larger number that it touches
+  std::int64_t touched = 0;                  ///< grains of larger number that it touches
+
+  template <class Self, class Visitor>
+  static void for_each_term(Self& s, Visitor&& visit) {
+    visit.sum(s.kinetic), visit.sum(s.elastic), visit.sum(s.volume);
+    visit.sum(s.surface_area), visit.sum(s.contact_area), visit.count(s.touched);
+    MassMoments::for_each_term(s.mass, visit);
+  }
+};
+
+/// What is measured on every grain for the control of the loading rate.
+struct LoadingOfGrain {
+  double kinetic = 0, elastic = 0; ///< mJ
+  ForceMoments moments;
+
+  template <class Self, class Visitor>
+  static void for_each_term(Self& s, Visitor&& visit) {
+    visit.sum(s.kinetic), visit.sum(s.elastic);
+    ForceMoments::for_each_term(s.moments, visit);
+  }
 };
 
 std::array<double, 3> centre_of(const Cell& cell) {
@@ -25,7 +44,7 @@ std::array<double, 3> centre_of(const Cell& cell) {
 }
 
 /// How many grains of larger number a grain touches, with points of either.
-std::int32_t touched_later_grains(const Contact& contact, std::int32_t grain) {
+std::int64_t touched_later_grains(const Contact& contact, std::int32_t grain) {
   const ContactCandidates& c = contact.candidates;
   const auto g = static_cast<std::size_t>(grain);
   std::set<std::int32_t> touched;
@@ -36,27 +55,27 @@ std::int32_t touched_later_grains(const Contact& contact, std::int32_t grain) {
   for (std::int32_t pair = c.outgoing_offset[g]; pair < c.outgoing_offset[g + 1]; ++pair) look(pair, c.pair_second);
   for (std::int32_t i = c.incoming_offset[g]; i < c.incoming_offset[g + 1]; ++i)
     look(c.incoming_pair[static_cast<std::size_t>(i)], c.pair_first);
-  return static_cast<std::int32_t>(touched.size());
+  return static_cast<std::int64_t>(touched.size());
 }
 
-/// Calls observe(grain) for own grains and brings what it returns to all ranks, [grains].
+/// Collective. The total of what observe(grain) returns for the grains of all ranks.
 template <class Observe>
-auto of_all_grains(const Simulation& simulation, ThreadTeam& team, Observe&& observe) {
+auto total_of_grains(const Simulation& simulation, ThreadTeam& team, Observe&& observe) {
+  using Sums = decltype(observe(0));
   const Model& model = simulation.model();
-  std::vector<decltype(observe(0))> values(static_cast<std::size_t>(model.grains));
+  std::vector<Sums> values(static_cast<std::size_t>(model.grains));
   team.for_each(static_cast<int>(model.own().size()), [&](int item, int) {
     const std::int32_t grain = model.own()[static_cast<std::size_t>(item)];
     values[static_cast<std::size_t>(grain)] = observe(grain);
   });
-  share_of_grains(simulation.ranks(), model.ownership, std::span(values));
-  return values;
+  return total_of<Sums>(simulation.ranks(), model.own(), values);
 }
 
-std::vector<GrainObservation> observe_grains(const Simulation& simulation, double step_mean, ThreadTeam& team) {
+GrainObservation observe_grains(const Simulation& simulation, double step_mean, ThreadTeam& team) {
   const Model& model = simulation.model();
   const Contact& contact = simulation.contact();
   const std::array<double, 3> centre = centre_of(simulation.box().cell());
-  return of_all_grains(simulation, team, [&](std::int32_t grain) {
+  return total_of_grains(simulation, team, [&](std::int32_t grain) {
     return GrainObservation{.kinetic = kinetic_energy(model, grain, step_mean),
                             .elastic = elastic_energy(model, grain),
                             .volume = current_volume(model, grain),
@@ -68,27 +87,13 @@ std::vector<GrainObservation> observe_grains(const Simulation& simulation, doubl
 }
 
 /// Standard deviation (mm) of all mass along each axis.
-std::array<double, 3> mass_spread(std::span<const GrainObservation> grains) {
-  MassMoments all;
-  for (const GrainObservation& grain : grains) {
-    all.mass += grain.mass.mass;
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      all.first[axis] += grain.mass.first[axis];
-      all.second[axis] += grain.mass.second[axis];
-    }
-  }
+std::array<double, 3> mass_spread(const MassMoments& all) {
   std::array<double, 3> spread{};
   for (std::size_t axis = 0; axis < 3; ++axis) {
     const double mean = all.first[axis] / all.mass;
     spread[axis] = std::sqrt(std::max(0.0, all.second[axis] / all.mass - mean * mean));
   }
   return spread;
-}
-
-double coordination_number(std::span<const GrainObservation> grains) {
-  std::int64_t touching = 0;
-  for (const GrainObservation& grain : grains) touching += grain.touched;
-  return 2.0 * static_cast<double>(touching) / static_cast<double>(grains.size());
 }
 
 /// Stresses and strains of the box.
@@ -126,51 +131,40 @@ BondSums total_bonds(const Simulation& simulation, ThreadTeam& team) {
   const Contact& contact = simulation.contact();
   if (!contact.bonding()) return {};
   const ContactCandidates& candidates = contact.candidates;
-  BondSums total;
-  for (const BondSums& grain : of_all_grains(simulation, team, [&](std::int32_t g) {
-         BondSums sums;
-         for (std::int32_t pair = candidates.outgoing_offset[at(g)]; pair < candidates.outgoing_offset[at(g) + 1];
-              ++pair)
-           sums.add(bond_sums(simulation.model(), contact, pair));
-         return sums;
-       }))
-    total.add(grain);
-  return total;
+  return total_of_grains(simulation, team, [&](std::int32_t g) {
+    BondSums sums;
+    for (std::int32_t pair = candidates.outgoing_offset[at(g)]; pair < candidates.outgoing_offset[at(g) + 1]; ++pair)
+      sums.add(bond_sums(simulation.model(), contact, pair));
+    return sums;
+  });
 }
 
-HistoryRow observe_row(const Simulation& simulation, std::span<const ForceSums> sums, ThreadTeam& team) {
+HistoryRow observe_row(const Simulation& simulation, const ForceSums& sums, ThreadTeam& team) {
   const Model& model = simulation.model();
   const RunState& state = simulation.state();
   const double next_step = simulation.stage_run().next_step(simulation.step_estimate().stable_step(), state.last_step);
   // At the very first time level the velocity is that of the level itself.
   const double step_mean = state.last_step > 0 ? 0.5 * (state.last_step + next_step) : 0.0;
-  const auto grains = observe_grains(simulation, step_mean, team);
+  const GrainObservation grains = observe_grains(simulation, step_mean, team);
 
   HistoryRow row{};
   row.time = state.time;
   row.step = static_cast<double>(state.step);
   row.stage = static_cast<double>(state.stage);
   row.time_step = state.last_step;
-  double total_volume = 0;
-  for (std::size_t g = 0; g < grains.size(); ++g) {
-    row.kinetic_energy += grains[g].kinetic;
-    row.elastic_energy += grains[g].elastic;
-    total_volume += grains[g].volume;
-    row.surface_area += grains[g].surface_area;
-    row.contact_area += grains[g].contact_area;
-    row.contact_energy += sums[g].contact.energy + sums[g].box.energy;
-    row.friction_energy += sums[g].contact.friction_energy + sums[g].wall_friction.stored();
-    row.max_penetration = std::max({row.max_penetration, sums[g].contact.penetration, sums[g].box.penetration()});
-  }
+  row.kinetic_energy = grains.kinetic;
+  row.elastic_energy = grains.elastic;
+  row.surface_area = grains.surface_area;
+  row.contact_area = grains.contact_area;
   const ToolLoad of_tools = simulation.tools().total();
-  row.contact_energy += of_tools.energy;
-  row.friction_energy += of_tools.friction_energy;
-  row.max_penetration = std::max(row.max_penetration, of_tools.penetration);
-  row.mass_spread = mass_spread(grains);
+  row.contact_energy = sums.contact.energy + sums.box.energy + of_tools.energy;
+  row.friction_energy = sums.contact.friction_energy + sums.wall_friction.stored() + of_tools.friction_energy;
+  row.max_penetration = std::max({sums.contact.penetration, sums.box.penetration(), of_tools.penetration});
+  row.mass_spread = mass_spread(grains.mass);
   observe_box(row, simulation.box(), state);
   const double cell_volume = simulation.box().cell().volume();
   row.relative_density = model.total_reference_volume() / cell_volume;
-  row.relative_density_current = total_volume / cell_volume;
+  row.relative_density_current = grains.volume / cell_volume;
   observe_bonds(row, total_bonds(simulation, team));
   row.bond_energy += of_tools.adhesion_energy;
   row.damage_dissipation += simulation.tools().adhesion_dissipation();
@@ -181,7 +175,7 @@ HistoryRow observe_row(const Simulation& simulation, std::span<const ForceSums> 
                                                         .bonds = row.bond_energy,
                                                         .friction = row.friction_energy,
                                                         .damage_dissipation = row.damage_dissipation});
-  row.coordination_number = coordination_number(grains);
+  row.coordination_number = 2.0 * static_cast<double>(grains.touched) / static_cast<double>(model.grains);
   double wall_force = 0;
   for (const double force : simulation.box().force()) wall_force += force;
   row.damping_drag_ratio = wall_force > 0 ? state.damping_force / wall_force : 0.0;
@@ -212,26 +206,20 @@ LoadingRateObservation observe_loading_rate(const Simulation& simulation, Thread
   const Cell& cell = simulation.box().cell();
   const RunState& state = simulation.state();
   const std::array<double, 3> centre = centre_of(cell);
-  struct OfGrain {
-    double kinetic, elastic; ///< mJ
-    ForceMoments moments;
-  };
-  const std::vector<OfGrain> grains = of_all_grains(simulation, team, [&](std::int32_t grain) {
-    return OfGrain{kinetic_energy(model, grain, state.last_step), elastic_energy(model, grain),
-                   force_moments(model, centre, grain)};
+  const LoadingOfGrain grains = total_of_grains(simulation, team, [&](std::int32_t grain) {
+    return LoadingOfGrain{kinetic_energy(model, grain, state.last_step), elastic_energy(model, grain),
+                          force_moments(model, centre, grain)};
   });
   LoadingRateObservation seen;
   seen.elapsed = LoadingRateControl::steps_between_observations * state.last_step;
   seen.plastic_dissipation = simulation.energies().plastic_dissipation;
   const double cell_volume = cell.volume();
   const std::array<double, 6> stress = simulation.box().stress();
-  for (const OfGrain& grain : grains) {
-    seen.kinetic_energy += grain.kinetic;
-    seen.elastic_energy += grain.elastic;
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      seen.imbalance[axis] += grain.moments.force[axis] * cell.length(axis) / cell_volume;
-      seen.dynamic[axis] += grain.moments.moment[axis] / cell_volume;
-    }
+  seen.kinetic_energy = grains.kinetic;
+  seen.elastic_energy = grains.elastic;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    seen.imbalance[axis] = grains.moments.force[axis] * cell.length(axis) / cell_volume;
+    seen.dynamic[axis] = grains.moments.moment[axis] / cell_volume;
   }
   for (std::size_t axis = 0; axis < 3; ++axis) seen.wall_stress[axis] = 0.5 * (stress[2 * axis] + stress[2 * axis + 1]);
   seen.stopping = simulation.stage_run().is_stopping(simulation.box().mean_stress());

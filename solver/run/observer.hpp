@@ -14,7 +14,7 @@ namespace mpfem {
 BondSums total_bonds(const Simulation& simulation, ThreadTeam& team);
 
 /// Collective. One row of the history, between evaluate_forces() and advance(). `sums` [grains], of the last pass.
-HistoryRow observe_row(const Simulation& simulation, std::span<const ForceSums> sums, ThreadTeam& team);
+HistoryRow observe_row(const Simulation& simulation, const ForceSums& sums, ThreadTeam& team);
 
 /// What the tools bear, after evaluate_forces().
 std::vector<ToolRow> observe_tools(const Tools& tools);

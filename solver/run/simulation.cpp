@@ -1,7 +1,7 @@
 #include "solver/run/simulation.hpp"
 
 #include <algorithm>
-#include <exception>
+#include <stdexcept>
 
 #include <fmt/format.h>
 
@@ -11,6 +11,7 @@
 #include "solver/model/smooth_surface.hpp"
 #include "solver/parallel/agree.hpp"
 #include "solver/parallel/grain_values.hpp"
+#include "solver/parallel/totals.hpp"
 #include "solver/physics/smooth_step.hpp"
 #include "solver/run/failure_report.hpp"
 #include "solver/run/initial_state.hpp"
@@ -62,6 +63,7 @@ Simulation::Simulation(Model model, const Scenario& scenario, ThreadTeam& team, 
     contact_.rebond_on_contact = scenario.bond->rebond_on_contact;
   }
   contact_.friction = friction_of_pairs(scenario.contact, model_.material.size());
+  contact_.travel.assign(bounds_.size(), 0.0);
   margin_ = scenario.contact.search_margin * *std::max_element(model_.element_size.begin(), model_.element_size.end());
 
   order_grains();
@@ -93,10 +95,10 @@ void Simulation::order_grains() {
 
 void Simulation::evaluate_forces() {
   damping_rate_ = damping_rate(); // one for the grips' forces and the advance that they are for
-  if (search_is_due(contact_)) search();
+  if (search_is_due(contact_, travel_since_search_)) search();
   contact_.last_step = state_.last_step;
   add_contact_and_walls();
-  for (const ForceSums& sums : force_sums_) energies_.add_friction(sums.contact, sums.wall_friction);
+  energies_.add_friction(force_total_.contact, force_total_.wall_friction);
   if (scenario_->has_gravity()) add_work_of_gravity();
   check_penetration();
   if (tools_.present()) measure_tools();
@@ -112,7 +114,7 @@ void Simulation::advance() {
   box_.move_to(plan.cell);
   tools_.move(stage_run_->control().tool_velocities(), plan.step);
   move_and_strain(update);
-  const double strain = add_up_step(plan.step);
+  const double strain = add_up_step();
   stage_run_->advance(plan);
   state_.time += plan.step;
   state_.last_step = plan.step;
@@ -129,6 +131,8 @@ void Simulation::search() {
 /// Searches for candidates among own grains and those of other ranks near them.
 void Simulation::find_candidates() {
   share_of_grains(*ranks_, model_.ownership, std::span(bounds_));
+  share_of_grains(*ranks_, model_.ownership, std::span(contact_.travel));
+  travel_since_search_ = 0;
   const double reach = margin_ + ranks_->largest(max_contact_offset(model_));
   const NearGrains near = find_near_grains(bounds_, reach, model_.own());
   if (!ranks_->alone()) {
@@ -157,11 +161,18 @@ void Simulation::add_contact_and_walls() {
   unless_failed([&] { add_contact(in_space_.inside); });
   ghosts_.finish_forces(contact_);
   unless_failed([&] { add_reactions_and_walls(); });
-  agree(*ranks_, [&] {
-    if (failure) std::rethrow_exception(failure);
-  });
-  share_of_grains(*ranks_, model_.ownership, std::span(force_sums_));
-  if (tools_.present()) tools_.share_loads(*ranks_, model_.ownership);
+  add_up_forces(failure);
+}
+
+/// `failure` of this rank, or none. Throws on all ranks where one has failed.
+void Simulation::add_up_forces(const std::exception_ptr& failure) {
+  Totals<ForceSums> totals;
+  for (const std::int32_t grain : model_.own()) totals.add(force_sums_[at(grain)]);
+  if (totals.combine(*ranks_, failure != nullptr))
+    agree(*ranks_, [&] {
+      if (failure) std::rethrow_exception(failure);
+    });
+  force_total_ = totals[0];
 }
 
 /// Forces of the contact points of these grains' nodes.
@@ -195,12 +206,14 @@ void Simulation::add_reactions_and_walls() {
 }
 
 void Simulation::check_penetration() const {
-  for (std::size_t g = 0; g < force_sums_.size(); ++g)
-    if (const double penetration = force_sums_[g].box.penetration(); penetration > deepest_penetration)
-      throw SimulationError(fmt::format(
-          "step {}, D_r = {:.4f}: a node of grain {} is {:.2f} of the element size behind a wall, allowed up to "
-          "{:g}: raise contact.stiffness_factor or lower the speed",
-          state_.step, relative_density(), g, penetration, deepest_penetration));
+  if (force_total_.box.penetration() <= deepest_penetration) return;
+  fail_at_first_grain([&](std::int32_t grain) -> std::string {
+    const double penetration = force_sums_[at(grain)].box.penetration();
+    if (penetration <= deepest_penetration) return {};
+    return fmt::format("step {}, D_r = {:.4f}: a node of grain {} is {:.2f} of the element size behind a wall, allowed "
+                       "up to {:g}: raise contact.stiffness_factor or lower the speed",
+                       state_.step, relative_density(), grain, penetration, deepest_penetration);
+  });
 }
 
 /// Forces that take the gripped nodes where the grips will be; N, push of both grips towards the middle.
@@ -212,24 +225,19 @@ std::array<double, 2> Simulation::add_grips() {
     const std::int32_t grain = model_.own()[at(item)];
     sums[at(grain)] = grip_forces(model_, grips_, plan_->cell, plan_->sliding, update, state_.last_step, grain);
   });
-  share_of_grains(*ranks_, model_.ownership, std::span(sums));
-  energies_.add_grips(sums);
-  std::array<double, 2> force{};
-  for (const GripSums& grain : sums)
-    for (std::size_t side = 0; side < 2; ++side) force[side] += grain.force[side];
-  return force;
+  const auto total = total_of<GripSums>(*ranks_, model_.own(), sums);
+  energies_.add_grips(total);
+  return total.force;
 }
 
 void Simulation::add_work_of_gravity() {
-  double potential = 0;
-  for (const ForceSums& sums : force_sums_) potential += sums.weight_potential;
-  if (state_.last_step > 0) energies_.external_work += potential - state_.weight_potential;
-  state_.weight_potential = potential;
+  if (state_.last_step > 0) energies_.external_work += force_total_.weight_potential - state_.weight_potential;
+  state_.weight_potential = force_total_.weight_potential;
 }
 
 /// What the tools bear and did since the time level before.
 void Simulation::measure_tools() {
-  energies_.external_work += tools_.take_loads();
+  energies_.external_work += tools_.take_loads(*ranks_, model_.ownership);
   energies_.friction_dissipation += tools_.total().friction_dissipation;
   for (std::size_t tool = 0; tool < tools_.size(); ++tool)
     if (const double penetration = tools_.load(tool).penetration; penetration > deepest_penetration)
@@ -243,8 +251,7 @@ void Simulation::measure_tools() {
 void Simulation::measure_walls(const std::array<double, 2>& grip_force) {
   std::array<double, 6> contact{}, grip{};
   for (std::size_t side = 0; side < 2; ++side) grip[2 * grips_.axis + side] = grip_force[side];
-  for (const ForceSums& sums : force_sums_)
-    for (std::size_t side = 0; side < 6; ++side) contact[side] += sums.box.wall[side].force;
+  for (std::size_t side = 0; side < 6; ++side) contact[side] = force_total_.box.wall[side].force;
   if (container_) contact = container_->face_forces(tools_);
   energies_.add_walls(box_.take_loads(contact, grip));
 }
@@ -289,15 +296,14 @@ Advance Simulation::velocity_update(const StepPlan& plan) const {
 
 void Simulation::move_and_strain(const Advance& update) {
   move_and_strain(by_number_.border, update);
-  ghosts_.start_motion(model_);
+  ghosts_.start_motion(model_, contact_);
   move_and_strain(by_number_.inside, update);
-  ghosts_.finish_motion(model_);
+  ghosts_.finish_motion(model_, contact_);
   team_->for_each(static_cast<int>(ghosts_.grains().size()), [&](int item, int thread) {
     Stopwatch watch(profile_, thread);
     update_surface(model_, ghosts_.grains()[at(item)]);
     watch.mark(Part::surface);
   });
-  share_of_grains(*ranks_, model_.ownership, std::span(motion_sums_));
 }
 
 void Simulation::move_and_strain(std::span<const std::int32_t> grains, const Advance& update) {
@@ -306,6 +312,8 @@ void Simulation::move_and_strain(std::span<const std::int32_t> grains, const Adv
     MotionSums& sums = motion_sums_[at(grain)];
     Stopwatch watch(profile_, thread);
     sums.advance = mpfem::advance(model_, grain, update);
+    contact_.travel[at(grain)] += sums.advance.largest_speed * update.step;
+    sums.travel = travel_since_search(contact_, at(grain));
     watch.mark(Part::integration);
     bounds_[at(grain)] = update_surface(model_, grain);
     watch.mark(Part::surface);
@@ -314,19 +322,14 @@ void Simulation::move_and_strain(std::span<const std::int32_t> grains, const Adv
   });
 }
 
-/// Adds up what the grains did in a step (s); returns the largest strain of a tet in it.
-double Simulation::add_up_step(double step) {
-  double strain = 0;
-  state_.damping_force = 0;
-  for (std::size_t g = 0; g < motion_sums_.size(); ++g) {
-    const MotionSums& sums = motion_sums_[g];
-    if (!sums.elements.admissible) report_bad_grain(static_cast<int>(g));
-    energies_.add_step(sums.elements, sums.advance);
-    state_.damping_force += sums.advance.damping_force;
-    contact_.travel[g] += sums.advance.largest_speed * step;
-    strain = std::max(strain, sums.elements.largest_strain);
-  }
-  return strain;
+/// Adds up what the grains did in a step; returns the largest strain of a tet in it.
+double Simulation::add_up_step() {
+  const auto total = total_of<MotionSums>(*ranks_, model_.own(), motion_sums_);
+  if (!total.elements.admissible) report_bad_grain();
+  energies_.add_step(total.elements, total.advance);
+  state_.damping_force = total.advance.damping_force;
+  travel_since_search_ = total.travel;
+  return total.elements.largest_strain;
 }
 
 void Simulation::renew_step_estimate(const Box& box, bool anew) {
@@ -335,13 +338,27 @@ void Simulation::renew_step_estimate(const Box& box, bool anew) {
   profile_.add_serial(Part::step_estimate, Profile::since(start));
 }
 
-void Simulation::report_bad_grain(int grain) const {
-  agree(*ranks_, [&] { // its owner knows
-    if (model_.ownership.owns(grain))
-      throw SimulationError(fmt::format("step {}, t = {:.4g} s, D_r = {:.4f}: {}", state_.step, state_.time,
-                                        relative_density(), failed_grain_text(model_, grain)));
+void Simulation::report_bad_grain() const {
+  fail_at_first_grain([&](std::int32_t grain) -> std::string {
+    if (motion_sums_[at(grain)].elements.admissible) return {};
+    return fmt::format("step {}, t = {:.4g} s, D_r = {:.4f}: {}", state_.step, state_.time, relative_density(),
+                       failed_grain_text(model_, grain));
   });
-  throw SimulationError(fmt::format("step {}: grain {} failed", state_.step, grain)); // unless nobody owns it
+  throw std::logic_error("no grain has failed");
+}
+
+/// Collective. Throws SimulationError with what `text(grain)` says of the first grain of all ranks for which it is not
+/// empty.
+void Simulation::fail_at_first_grain(const std::function<std::string(std::int32_t)>& text) const {
+  std::int32_t failed = 0;
+  const auto fail = [&] {
+    for (const std::int32_t grain : model_.own())
+      if (const std::string message = text(grain); !message.empty()) {
+        failed = grain;
+        throw SimulationError(message);
+      }
+  };
+  agree(*ranks_, fail, [&] { return static_cast<double>(failed); });
 }
 
 // ---------------------------------------------------------------------------------------------- stages
@@ -366,9 +383,8 @@ void Simulation::begin_stage(std::int64_t stage) {
 void Simulation::change_walls(const Axes& withdrawn) {
   for (std::size_t axis = 0; axis < 3; ++axis) {
     if (withdrawn[axis] && box_.has_walls(axis))
-      for (const ForceSums& sums : force_sums_)
-        for (std::size_t side = 2 * axis; side < 2 * axis + 2; ++side)
-          energies_.external_work -= sums.box.wall[side].energy + sums.wall_friction.energy[side];
+      for (std::size_t side = 2 * axis; side < 2 * axis + 2; ++side)
+        energies_.external_work -= force_total_.box.wall[side].energy + force_total_.wall_friction.energy[side];
     if (!withdrawn[axis] && !box_.has_walls(axis)) return_walls(axis);
   }
   box_.withdraw(withdrawn);
@@ -415,7 +431,7 @@ StageResult Simulation::stage_result() const {
 // ---------------------------------------------------------------------------------------------- observation
 
 HistoryRow Simulation::observe() const {
-  return observe_row(*this, force_sums_, *team_);
+  return observe_row(*this, force_total_, *team_);
 }
 
 double Simulation::relative_density() const {
@@ -471,6 +487,9 @@ Grips* Simulation::prepare_grips() {
 
 void Simulation::take_up(GrainSteps grain_steps) {
   step_estimate_.restore(std::move(grain_steps));
+  travel_since_search_ = 0; // of all grains, which a checkpoint has
+  for (std::size_t grain = 0; grain < contact_.travel.size(); ++grain)
+    travel_since_search_ = std::max(travel_since_search_, travel_since_search(contact_, grain));
   update_surfaces();
   ghosts_.share_pairs(model_, contact_);
   order_grains();

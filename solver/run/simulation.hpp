@@ -8,8 +8,11 @@
 
 #include <array>
 #include <cstdint>
+#include <exception>
+#include <functional>
 #include <optional>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "solver/boundary/box.hpp"
@@ -53,18 +56,34 @@ struct RunState {
   }
 };
 
-/// Sums of one grain over the last evaluation of forces.
+/// Sums over the last evaluation of forces, of one grain or of all.
 struct ForceSums {
   double weight_potential = 0; ///< mJ, work of gravity from the origin to where the nodes are; 0 without gravity
   ContactSums contact;
   BoxSums box;
   WallFrictionSums wall_friction;
+
+  template <class Self, class Visitor>
+  static void for_each_term(Self& s, Visitor&& visit) {
+    visit.sum(s.weight_potential);
+    ContactSums::for_each_term(s.contact, visit);
+    BoxSums::for_each_term(s.box, visit);
+    WallFrictionSums::for_each_term(s.wall_friction, visit);
+  }
 };
 
-/// Sums of one grain over the last advance.
+/// Sums over the last advance, of one grain or of all.
 struct MotionSums {
   AdvanceSums advance;
   ElementSums elements;
+  double travel = 0; ///< mm, largest path of a node since the search
+
+  template <class Self, class Visitor>
+  static void for_each_term(Self& s, Visitor&& visit) {
+    AdvanceSums::for_each_term(s.advance, visit);
+    ElementSums::for_each_term(s.elements, visit);
+    visit.largest(s.travel);
+  }
 };
 
 class Simulation {
@@ -150,6 +169,7 @@ private:
   void find_candidates();
   void search();
   void add_contact_and_walls();
+  void add_up_forces(const std::exception_ptr& failure);
   void add_contact(std::span<const std::int32_t> grains);
   void add_reactions_and_walls();
   void check_penetration() const;
@@ -159,7 +179,7 @@ private:
   Advance velocity_update(const StepPlan& plan) const;
   void move_and_strain(const Advance& update);
   void move_and_strain(std::span<const std::int32_t> grains, const Advance& update);
-  double add_up_step(double step);
+  double add_up_step();
   void update_surfaces();
   void change_walls(const Axes& withdrawn);
   void change_tools();
@@ -170,7 +190,8 @@ private:
   void renew_step_estimate(const Box& box, bool anew);
   StageObservation observation() const;
   double damping_rate() const;
-  [[noreturn]] void report_bad_grain(int grain) const;
+  [[noreturn]] void report_bad_grain() const;
+  void fail_at_first_grain(const std::function<std::string(std::int32_t)>& text) const;
 
   const Scenario* scenario_;
   const Communicator* ranks_;
@@ -194,8 +215,10 @@ private:
   };
   Order in_space_, by_number_;
   std::vector<Bounds> bounds_;          ///< [grains], of own grains and ghosts; of all after a search
-  std::vector<ForceSums> force_sums_;   ///< [grains]
-  std::vector<MotionSums> motion_sums_; ///< [grains]
+  std::vector<ForceSums> force_sums_;   ///< [grains], of own grains
+  std::vector<MotionSums> motion_sums_; ///< [grains], of own grains
+  ForceSums force_total_;               ///< of all grains of all ranks
+  double travel_since_search_ = 0;      ///< mm, the largest of all grains
   std::optional<StepPlan> plan_;        ///< of the next step, where grips need it before
   double margin_ = 0;                   ///< mm, of the contact search
   double damping_rate_ = 0;             ///< 1/s, of the next advance

@@ -1,0 +1,86 @@
+#include <catch2/catch.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <random>
+#include <vector>
+
+#include "common/exact_sum.hpp"
+
+using namespace mpfem;
+
+namespace {
+
+double sum_of(const std::vector<double>& terms) {
+  ExactSum sum;
+  for (const double term : terms) sum.add(term);
+  return sum.value();
+}
+
+/// Doubles of both signs with exponents of 2 up to +-`spread`.
+std::vector<double> random_terms(int count, int spread, unsigned seed) {
+  std::mt19937_64 random(seed);
+  std::uniform_real_distribution<double> mantissa(-1, 1);
+  std::uniform_int_distribution<int> exponent(-spread, spread);
+  std::vector<double> terms;
+  for (int i = 0; i < count; ++i) terms.push_back(std::ldexp(mantissa(random), exponent(random)));
+  return terms;
+}
+
+} // namespace
+
+TEST_CASE("An exact sum of one term is the term, of two what the processor's correctly rounded addition gives") {
+  for (const int spread : {3, 30, 60, 120}) {
+    const std::vector<double> terms = random_terms(20000, spread, 1);
+    for (std::size_t i = 0; i + 1 < terms.size(); i += 2) {
+      REQUIRE(sum_of({terms[i]}) == terms[i]);
+      REQUIRE(sum_of({terms[i], terms[i + 1]}) == terms[i] + terms[i + 1]);
+      REQUIRE(sum_of({terms[i], -terms[i]}) == 0);
+    }
+  }
+}
+
+TEST_CASE("An exact sum keeps what cancels in doubles") {
+  CHECK(sum_of({1e30, 1, -1e30}) == 1);
+  CHECK(sum_of({1e60, 1e-60, -1e60, -3e-60}) == 1e-60 - 3e-60);
+  // Half of the last place, rounded to even, and just above half.
+  const double last = std::ldexp(1, -52);
+  CHECK(sum_of({1, last / 2}) == 1);
+  CHECK(sum_of({1, last / 2, 1e-70}) == 1 + last);
+  CHECK(sum_of({-1, -last / 2, -1e-70}) == -1 - last);
+}
+
+TEST_CASE("An exact sum does not depend on the order of its terms nor on who adds which") {
+  std::vector<double> terms = random_terms(5000, 100, 2);
+  const double whole = sum_of(terms);
+  std::mt19937_64 random(3);
+  for (int repetition = 0; repetition < 20; ++repetition) {
+    std::shuffle(terms.begin(), terms.end(), random);
+    REQUIRE(sum_of(terms) == whole);
+    ExactSum part[3];
+    for (const double term : terms) part[random() % 3].add(term);
+    for (std::size_t word = 0; word < ExactSum::words; ++word)
+      part[0].data()[word] += part[1].data()[word] + part[2].data()[word];
+    REQUIRE(part[0].value() == whole);
+  }
+}
+
+TEST_CASE("An exact sum is NaN where a term is not finite, and where it is too large to be one of energies") {
+  const double infinite = std::numeric_limits<double>::infinity();
+  for (const double bad : {infinite, -infinite, std::numeric_limits<double>::quiet_NaN(), 1e80, -1e300}) {
+    ExactSum sum;
+    sum.add(1);
+    sum.add(bad);
+    CHECK(std::isnan(sum.value()));
+  }
+  CHECK(sum_of({1e73, 1e73}) == 2e73);
+}
+
+TEST_CASE("An exact sum cuts bits off below 2^-256") {
+  CHECK(sum_of({1e-300, std::numeric_limits<double>::denorm_min()}) == 0);
+  const double low = std::ldexp(1, -256);
+  CHECK(sum_of({low}) == low);
+  CHECK(sum_of({1.5 * low}) == low);
+  CHECK(sum_of({-1.5 * low}) == -low);
+}
