@@ -453,7 +453,7 @@ private:
                                   simulation_.state().step, simulation_.relative_density()));
   }
 
-  /// Finds new owners for the grains if the ranks have unequal work and it pays.
+  /// Where ranks have unequal work and it pays, finds new owners for the grains.
   void balance() {
     if (ranks_.alone()) return;
     double busy = 0;
