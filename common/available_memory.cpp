@@ -13,7 +13,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// The number behind a word at the start of a line, or the file's first where the word is empty.
+/// The number after a word at the start of a line, or the file's first number if the word is empty.
 std::optional<double> number_in(const fs::path& path, const std::string& word = {}) {
   std::ifstream file(path);
   for (std::string line; std::getline(file, line);) {
@@ -27,7 +27,7 @@ std::optional<double> number_in(const fs::path& path, const std::string& word = 
   return std::nullopt;
 }
 
-/// What a control group leaves. Files that it has read count as used, but give way.
+/// Bytes that a control group leaves. Files that it has read count as used, but can be dropped.
 double left_by_group(const fs::path& group, const char* limit_name, const char* usage_name, const char* files_name) {
   const auto limit = number_in(group / limit_name), usage = number_in(group / usage_name);
   if (!limit || !usage) return std::numeric_limits<double>::infinity();
@@ -48,7 +48,7 @@ double available_memory(const fs::path& processes, const fs::path& control_group
     if (!controllers.empty() && controllers != "memory") continue;
     const bool version1 = !controllers.empty();
     const fs::path root = version1 ? control_groups / "memory" : control_groups;
-    // Limits hold for all groups inside. In a container the group's own path may not be there, only the root.
+    // Limits hold for all groups inside. In a container the group's own path may be missing; only the root is there.
     for (fs::path group = fs::path(line.substr(second + 1)).relative_path();; group = group.parent_path()) {
       available =
           std::min(available, version1 ? left_by_group(root / group, "memory.limit_in_bytes", "memory.usage_in_bytes",

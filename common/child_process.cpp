@@ -16,7 +16,7 @@ namespace mpfem {
 
 namespace {
 
-/// Of the child: never returns, and leaves alone what the parent has yet to write or to clear up.
+/// Runs in the child: never returns, and does not touch what the parent has yet to write or clean up.
 [[noreturn]] void be_child(const std::function<void(const std::function<void(std::string_view)>&)>& body, int pipe) {
   constexpr rlimit no_core{0, 0};
   setrlimit(RLIMIT_CORE, &no_core);
@@ -35,7 +35,7 @@ namespace {
   _exit(0);
 }
 
-/// Everything that comes through the pipe until its end. False where that takes longer than `seconds`.
+/// Reads everything from the pipe until its end. False if that takes longer than `seconds`.
 bool read_until_end(int pipe, double seconds, std::string& output) {
   using Clock = std::chrono::steady_clock;
   const auto end = Clock::now() + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(seconds));

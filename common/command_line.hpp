@@ -12,7 +12,7 @@
 
 namespace mpfem {
 
-/// Refuses what is no finite number of the range. `unit` stands in the message and in the help; empty: none.
+/// Refuses anything but a finite number in the range. `unit` appears in the message and in the help; empty: none.
 CLI::Validator finite_number_in(const Range& range, const std::string& unit);
 /// The same for whole numbers.
 CLI::Validator whole_number_in(const Range& range, const std::string& unit);
@@ -32,7 +32,7 @@ struct NumberOf<std::vector<T>> {
 };
 
 /// Adds an option that is a number, or a list of numbers. Every such option of the programs is added here, so that no
-/// number is taken that is not finite, out of its range, or followed by other text.
+/// number is accepted that is not finite, is out of its range, or is followed by other text.
 template <class Variable>
 CLI::Option* add_number(CLI::App& command, const std::string& name, Variable& variable, const Range& range,
                         const std::string& unit, const std::string& help) {
@@ -56,7 +56,7 @@ constexpr Range densities = Range::between(1e-18, 1e3);
 /// Any coordinate, strain, angle…
 constexpr Range coordinates = Range::between(-1e9, 1e9);
 
-/// Parses the command line. Gives the exit code where nothing is left to do, since help or version was printed. Throws
+/// Parses the command line. Returns the exit code if nothing is left to do because help or version was printed. Throws
 /// InputError for a mistake; its message ends with the command that prints the help.
 std::optional<int> parse_command_line(CLI::App& app, const std::string& program, int argc, char** argv);
 

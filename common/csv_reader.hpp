@@ -1,5 +1,5 @@
 #pragma once
-// Tables of comma-separated values: lines of cells, '#' begins a comment, blank lines do not count.
+// Tables of comma-separated values: lines of cells; '#' begins a comment; blank lines are skipped.
 
 #include <cstddef>
 #include <optional>
@@ -13,7 +13,7 @@ namespace mpfem {
 
 /// A column as a heading names it: "radius [mm]" or radius.
 struct CsvHeading {
-  std::string name, unit; ///< the unit is empty where there is none
+  std::string name, unit; ///< the unit is empty if there is none
 };
 
 /// One line of a table. Cells are trimmed of blanks and quotes, and live as long as the reader.
@@ -37,7 +37,7 @@ public:
   [[noreturn]] void fail(const CsvRow& row, std::string_view message) const;
   /// Throws "FILE: " + message.
   [[noreturn]] void fail(std::string_view message) const;
-  /// Throws where the row has another number of cells.
+  /// Throws if the row has another number of cells.
   void expect_columns(const CsvRow& row, std::size_t columns) const;
   /// The finite number in a cell. `column` names it in the message.
   double number(const CsvRow& row, std::size_t cell, std::string_view column, const Range& range = {}) const;

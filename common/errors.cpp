@@ -16,7 +16,7 @@ namespace mpfem {
 
 namespace {
 
-/// A write beyond the file size limit, or to a pipe that nobody reads, is to fail instead of ending the program.
+/// Makes a write beyond the file size limit, or to a pipe that nobody reads, fail instead of ending the program.
 void let_writes_fail() {
   std::signal(SIGXFSZ, SIG_IGN);
   std::signal(SIGPIPE, SIG_IGN);
@@ -28,7 +28,7 @@ bool is_of_storage(const std::error_code& code) {
          (number == EPIPE || number == EFBIG || number == ENOSPC || number == EIO || number == EDQUOT);
 }
 
-/// The code of a body that has ended, or storage_failed where its last output could not be written.
+/// The exit code of a body that has ended, or storage_failed if its last output could not be written.
 int after_output(const char* program, int code) {
   if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0) return code;
   std::clearerr(stdout); // it is reported once
@@ -62,7 +62,7 @@ Failure present_failure() {
 }
 
 int report(const char* program, const Failure& failure) {
-  constexpr std::size_t longest = 500; // characters; whoever throws shortens the parts that are long
+  constexpr std::size_t longest = 500; // characters; code that throws shortens long parts itself
   const std::string line = fmt::format("{}: error: {}\n", program, shortened(failure.message, longest));
   std::fputs(line.c_str(), stderr); // nobody may be there to read it
   return static_cast<int>(failure.code);

@@ -21,13 +21,13 @@ public:
   using std::runtime_error::runtime_error;
 };
 
-/// The simulation cannot go on (inverted element, no finite values, unreachable target…).
+/// The simulation cannot continue (inverted element, values not finite, unreachable target…).
 class SimulationError : public std::runtime_error {
 public:
   using std::runtime_error::runtime_error;
 };
 
-/// A file could not be written or read back because of the storage, not of its content.
+/// A file could not be written or read back because of the storage, not because of its content.
 class StorageError : public std::runtime_error {
 public:
   using std::runtime_error::runtime_error;
@@ -39,7 +39,7 @@ public:
   using std::runtime_error::runtime_error;
 };
 
-/// A failure as a program tells it.
+/// A failure as a program reports it.
 struct Failure {
   std::string message;
   ExitCode code;

@@ -17,7 +17,7 @@ constexpr int mantissa_bits = 52, bias = 1023 + mantissa_bits;
 constexpr std::uint64_t hidden_bit = std::uint64_t{1} << mantissa_bits, exponent_mask = 0x7ff;
 constexpr int first_place_too_high = digit_bits * (static_cast<int>(digits) - 2); // a term spans three digits
 
-/// Makes every digit 0 … 2^32 - 1; returns what is carried beyond the last.
+/// Brings every digit into 0 … 2^32 - 1; returns the carry beyond the last.
 std::int64_t carry(std::array<std::int64_t, digits>& digit) {
   std::int64_t carried = 0;
   for (std::int64_t& d : digit) {

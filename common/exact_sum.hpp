@@ -1,6 +1,6 @@
 #pragma once
-// A sum without rounding errors: it depends neither on the order of its terms nor on who adds which of them. Sums over
-// grains are made with it, so that results are the same for any number of threads and processes.
+// A sum without rounding errors: it depends neither on the order of its terms nor on which thread or process adds which
+// of them. Sums over grains use it, so that results are the same for any number of threads and processes.
 
 #include <array>
 #include <cstddef>
@@ -12,7 +12,7 @@ namespace mpfem {
 /// cut off. At most 2^31 terms.
 class ExactSum {
 public:
-  /// What is above 2^244 (3e73) or not finite makes the sum NaN.
+  /// A term above 2^244 (3e73) or not finite makes the sum NaN.
   void add(double term);
   /// The double nearest to the sum.
   double value() const;

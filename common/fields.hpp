@@ -53,7 +53,7 @@ public:
   /// `values` must outlive the reader.
   explicit FieldReader(const FieldValues& values) : values_(values) {}
 
-  /// Throws std::invalid_argument where the next field has another name or no value.
+  /// Throws std::invalid_argument if the next field has another name or no value.
   template <class Field>
   void operator()(std::string_view name, Field& field) {
     if (next_name_ >= values_.name.size() || values_.name[next_name_] != name)
@@ -61,7 +61,7 @@ public:
     ++next_name_;
     take(field);
   }
-  /// Throws std::invalid_argument where values are left over.
+  /// Throws std::invalid_argument if values are left over.
   void finish() const {
     if (next_name_ != values_.name.size() || next_number_ != values_.number.size() ||
         next_integer_ != values_.integer.size())

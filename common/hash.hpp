@@ -16,7 +16,7 @@ namespace mpfem {
 inline constexpr std::uint64_t hash_seed = 0;
 
 /// XXH64 of the bytes with the given seed. Chain arrays by passing the hash of the one before as the seed:
-/// hash_bytes(b, hash_bytes(a)). The order counts, and so does the place where one array ends and the next begins.
+/// hash_bytes(b, hash_bytes(a)). Both the order of the arrays and the boundaries between them matter.
 std::uint64_t hash_bytes(std::span<const std::byte> bytes, std::uint64_t seed = hash_seed);
 
 /// The same of bytes that come piece by piece: update(a), update(b), value() is hash_bytes of a and b joined.
@@ -30,7 +30,7 @@ private:
   void take_stripe(const std::byte* at);
   std::uint64_t seed_;
   std::array<std::uint64_t, 4> lane_;
-  std::array<std::byte, 32> rest_{}; ///< of the last stripe, not yet whole
+  std::array<std::byte, 32> rest_{}; ///< the last stripe, not yet complete
   std::size_t left_ = 0, size_ = 0;
 };
 

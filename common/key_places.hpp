@@ -7,13 +7,13 @@
 
 namespace mpfem {
 
-/// Where the keys of a table stand, for refusals that need more than the file itself to be found.
+/// Where the keys of a table are, for errors that cannot be found from the file alone.
 class KeyPlaces {
 public:
   KeyPlaces() = default;
   KeyPlaces(std::string table, std::map<std::string, std::string> keys)
       : table_(std::move(table)), keys_(std::move(keys)) {}
-  /// "FILE:LINE:COLUMN: " of a key, or of the table where it has no such key; empty where there is no file.
+  /// "FILE:LINE:COLUMN: " of a key, or of the table if it has no such key; empty if there is no file.
   std::string prefix(const std::string& key) const;
 
 private:

@@ -1,5 +1,5 @@
 #pragma once
-// The word that someone who mistyped another probably meant.
+// The known word that was probably meant by a mistyped one.
 
 #include <optional>
 #include <string>
@@ -12,8 +12,8 @@ namespace mpfem {
 /// (optimal string alignment distance).
 std::size_t edit_distance(std::string_view a, std::string_view b);
 
-/// The nearest of `known` when it is at most a third of the longer word's letters (and at least one) away, else
-/// nothing; nor is a word that shares no letter with it. The first of equals wins.
+/// The nearest of `known`, if its distance is at most a third of the longer word's letters (at least one) and it shares
+/// a letter with `word`; else nothing. The first of equals wins.
 std::optional<std::string> nearest_word(std::string_view word, const std::vector<std::string>& known);
 
 } // namespace mpfem

@@ -7,10 +7,10 @@
 
 namespace mpfem {
 
-/// The number that the whole text is, as "-1.5e-3". Nothing where there is other text, or no finite number.
+/// The number that the whole text represents, such as "-1.5e-3". Nothing if there is other text, or no finite number.
 std::optional<double> finite_number(std::string_view text);
 
-/// The whole number that the whole text is, without decimal point. Nothing where it has more than 64 bits.
+/// The whole number that the whole text represents, without decimal point. Nothing if it has more than 64 bits.
 std::optional<std::int64_t> whole_number(std::string_view text);
 
 } // namespace mpfem

@@ -10,7 +10,7 @@ bool continues(unsigned char byte) {
   return (byte & 0xC0U) == 0x80U;
 }
 
-/// Bytes of the UTF-8 character that begins the text; 0 where none does.
+/// Bytes of the UTF-8 character that begins the text; 0 if there is none.
 std::size_t character_size(std::string_view text) {
   const auto first = static_cast<unsigned char>(text[0]);
   const std::size_t size = first < 0x80   ? 1
@@ -25,7 +25,7 @@ std::size_t character_size(std::string_view text) {
   return size;
 }
 
-/// U+0080 … U+009F steer terminals as those below U+0020 do.
+/// U+0080 … U+009F control terminals, as characters below U+0020 do.
 bool is_control(std::string_view character) {
   const auto first = static_cast<unsigned char>(character[0]);
   return first < 0x20 || first == 0x7f || (first == 0xC2 && static_cast<unsigned char>(character[1]) < 0xA0);

@@ -14,7 +14,7 @@ std::string one_line(std::string_view text);
 /// One line of at most `longest` characters: one_line(text), with "…" for the middle of a longer text.
 std::string shortened(std::string_view text, std::size_t longest = 80);
 
-/// A path for a message: one line, and so long that usual paths are whole.
+/// A path for a message: one line, long enough for usual paths to be shown whole.
 std::string shown_path(std::string_view path);
 
 } // namespace mpfem

@@ -20,7 +20,7 @@ namespace mpfem {
 
 namespace {
 
-/// What stands under a path, links followed.
+/// What is at a path; links are followed.
 std::optional<struct stat> found_at(const std::string& path) {
   struct stat found {};
   if (stat(path.c_str(), &found) != 0) return {};
@@ -50,7 +50,7 @@ std::string folder_of(const std::string& path) {
   return folder.empty() ? "." : folder;
 }
 
-/// Waits until the content of a file or folder is on the disk. File systems that know no such thing say EINVAL.
+/// Waits until the content of a file or folder is on the disk. File systems without this operation report EINVAL.
 bool reaches_disk(const std::string& path) {
   const int file = open(path.c_str(), O_RDONLY | O_CLOEXEC);
   if (file < 0) return false;
@@ -102,9 +102,9 @@ void replace_file(const std::string& partial, const std::string& path) {
       throw StorageError(fmt::format("{}: the complete file {} could not be {}: {}", one_line(path), one_line(partial),
                                      what, std::strerror(errno)));
   };
-  check(reaches_disk(partial), "brought to the disk");
+  check(reaches_disk(partial), "written to disk");
   check(std::rename(partial.c_str(), path.c_str()) == 0, "renamed");
-  // The file is complete under its name: where the folder cannot be read, that is all that can be done.
+  // The file is complete under its name: if the folder cannot be read, no more can be done.
   reaches_disk(folder_of(path));
 }
 

@@ -1,5 +1,5 @@
 #pragma once
-// Outputs: what may stand under the name of one, and how a complete file comes to its place.
+// Outputs: what may exist under the name of one, and how a complete file is put in its place.
 
 #include <string>
 #include <string_view>
@@ -11,20 +11,20 @@ enum class OutputKind { text, binary };
 
 /// Refuses what cannot become this output: a folder, a socket, a block device, a name that ends with '/', and for
 /// binary outputs also a character device and a FIFO. `option` begins the message ("--output"). Symbolic links are
-/// followed. Throws InputError. A path that does not exist is good.
+/// followed. Throws InputError. A path that does not exist is fine.
 void refuse_special_file(std::string_view option, const std::string& path, OutputKind kind);
 
 /// The same, and the folder must exist. To be called before hours of work. An empty path is refused.
 void check_output_path(std::string_view option, const std::string& path, OutputKind kind);
 
-/// Where an output is written: the path itself or, where that is a symbolic link, what the link leads to.
+/// Where an output is written: the path itself or, if that is a symbolic link, the target of the link.
 std::string output_target(const std::string& path);
 
-/// Removes what a killed program left under the name of a partial file. Throws StorageError where that is a folder.
+/// Removes what a killed program left under the name of a partial file. Throws StorageError if that is a folder.
 void remove_stale_partial(const std::string& partial);
 
-/// Brings a complete file to its place: its content reaches the disk before the name does (fsync, rename, fsync of the
-/// folder). Throws StorageError; the partial file is left then.
+/// Puts a complete file in its place: its content reaches the disk before its name does (fsync, rename, fsync of the
+/// folder). Throws StorageError; then the partial file is left.
 void replace_file(const std::string& partial, const std::string& path);
 
 /// A text file that appears under its name when it is complete. A character device or a FIFO, or the file that standard
@@ -43,12 +43,12 @@ private:
   [[noreturn]] void fail() const;
   std::string path_;    ///< as named, for messages
   std::string target_;  ///< where it goes
-  std::string partial_; ///< empty where it is written directly
+  std::string partial_; ///< empty if it is written directly
   int file_ = -1;
   bool complete_ = false;
 };
 
-/// Writes a whole TextFile. Bytes of other kinds (a picture) are written as they are.
+/// Writes a whole TextFile. Binary content (a picture) is written as it is.
 void write_file(const std::string& path, std::string_view content);
 
 } // namespace mpfem

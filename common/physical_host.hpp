@@ -5,7 +5,7 @@
 namespace mpfem {
 
 /// Operating system, architecture, processor model and number of logical processors, in one line; no host name.
-/// What the system does not tell is "unknown".
+/// Anything that the system does not tell is "unknown".
 std::string physical_host();
 
 } // namespace mpfem

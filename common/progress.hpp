@@ -16,8 +16,8 @@ std::string duration_text(double seconds);
 std::string progress_line(std::string_view label, double fraction, std::string_view detail, double elapsed,
                           std::optional<double> remaining);
 
-/// Reports a job's progress. Cheap enough to call every step: it looks at the clock and writes only when a line is due
-/// (on a terminal five times a second; otherwise after 10 % of the job or 5 s, later after 1 % of the time spent).
+/// Reports a job's progress. Cheap enough to call every step: it reads the clock and writes only when a line is due (on
+/// a terminal five times a second; otherwise after 10 % of the job or 5 s, later after 1 % of the time spent).
 class Progress {
 public:
   /// Writes nothing at all when `quiet`. `stream` stays open as long as this object lives.
@@ -28,7 +28,7 @@ public:
   Progress& operator=(const Progress&) = delete;
 
   /// `fraction` of the whole job done, clamped to 0 … 1. A job resumed in the middle may begin at any fraction: the
-  /// time left is judged from what was done since the first call.
+  /// time left is estimated from what was done since the first call.
   void update(double fraction, std::string_view detail);
   /// Last line: "LABEL  done in 1:02  SUMMARY". Further calls write nothing.
   void finish(std::string_view summary);

@@ -10,7 +10,7 @@ namespace mpfem {
 
 namespace {
 
-/// The shorter of "1e+12" and "1000000000000", where both are the same number.
+/// The shorter of "1e+12" and "1000000000000" if both are the same number.
 std::string limit_text(double limit) {
   std::string whole = fmt::format("{}", limit), short_text = fmt::format("{:g}", limit);
   const bool same = finite_number(short_text) == limit;

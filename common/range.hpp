@@ -18,7 +18,7 @@ struct Range {
   static constexpr Range non_negative() { return {.low = 0}; }
   static constexpr Range between(double low, double high) { return {.low = low, .high = high}; }
   bool contains(double value) const;
-  std::string text() const; ///< "> 0", "0 … 1", …; empty where every number is allowed
+  std::string text() const; ///< "> 0", "0 … 1", …; empty if every number is allowed
 };
 
 } // namespace mpfem

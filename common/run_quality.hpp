@@ -14,7 +14,7 @@ struct QualityRow {
   double internal_energy = 0; ///< of the row's stage (common/stage_energy.hpp)
   double mean_stress = 0;
   double penetration = 0;     ///< over the element size
-  double current_density = 0; ///< volume of the grains as they are over the box's: overlaps count twice
+  double current_density = 0; ///< present volume of the grains over the box's: overlaps count twice
   double time_step = 0;       ///< 0: none yet
 };
 
@@ -22,7 +22,7 @@ inline constexpr double doubtful_residual = 0.01; ///< of the largest work
 inline constexpr double doubtful_kinetic =
     0.1; ///< of the stage's internal energy, while p is above a tenth of its largest
 inline constexpr double doubtful_penetration = 0.2; ///< of the element size
-inline constexpr double doubtful_density = 0.995;   ///< no pores are left: what follows squeezes solid, or overlaps
+inline constexpr double doubtful_density = 0.995;   ///< no pores are left: beyond, solid is squeezed, or overlaps
 inline constexpr double doubtful_step_share = 1e-3; ///< of the first step
 
 /// One line for each thing that makes a run doubtful; empty for a good run.

@@ -22,13 +22,13 @@ namespace {
 constexpr std::string_view assignment_mark = "--set ";
 constexpr std::size_t longest_word = 60;     // of a key or value in a message
 constexpr std::size_t longest_place = 120;   // characters of an assignment in a message
-constexpr std::size_t longest_finding = 160; // of what the parser says, which repeats parts of the text
+constexpr std::size_t longest_finding = 160; // of the parser's message, which repeats parts of the text
 
 [[noreturn]] void throw_input_error(std::string_view place, std::string_view message) {
   throw InputError(one_line(fmt::format("{}: {}", place, message)));
 }
 
-/// "FILE:LINE:COLUMN", or the assignment that a value comes from, or the file alone where nothing else is known.
+/// "FILE:LINE:COLUMN", or the assignment that a value comes from, or the file alone if nothing else is known.
 std::string place_text(const std::string& file, const toml::source_region& source) {
   if (source.path && source.path->starts_with(assignment_mark)) return shortened(*source.path, longest_place);
   if (!source.begin) return shown_path(file);
@@ -58,7 +58,7 @@ std::string_view type_text(const toml::node& node) {
   }
 }
 
-/// "the string 'abc'", "a table"…: what a message says was found.
+/// "the string 'abc'", "a table"…: what a message reports as found.
 std::string found_text(const toml::node& node) {
   if (const auto* value = node.as_string())
     return fmt::format("the string '{}'", shortened(value->get(), longest_word));
@@ -152,7 +152,7 @@ std::size_t element_index(const toml::array& array, const std::string& index, co
                                               shortened(index, longest_word), array.size() - 1));
 }
 
-/// The table or array element below `parent`, made where a table has none.
+/// The table or array element below `parent`; created if a table has none.
 toml::node& child(toml::node& parent, const std::string& part, const toml::source_region& source) {
   if (toml::array* array = parent.as_array()) return *array->get(element_index(*array, part, *source.path));
   toml::table* table = parent.as_table();
@@ -261,7 +261,7 @@ void TableReader::fail(std::string_view key, const std::string& message) const {
   fail_at(node != nullptr ? node->source() : table_->source(), key, message);
 }
 
-// Values of one node. `key` is the name for messages, with the element's number where the node is in an array.
+// Values of one node. `key` is the name for messages, with the element's number if the node is in an array.
 
 double TableReader::read_number(const toml::node& node, std::string_view key, const Range& range) const {
   const std::optional<double> value = node.is_number() ? node.value<double>() : std::nullopt;
@@ -375,7 +375,7 @@ std::vector<double> TableReader::numbers(std::string_view key, Range range) {
 
 std::vector<std::int64_t> TableReader::integers(std::string_view key, Range range) {
   const toml::node& node = require(key, "an array of whole numbers");
-  constexpr double largest = 9007199254740992.0; // 2^53: beyond it a number does not tell which integer it is
+  constexpr double largest = 9007199254740992.0; // 2^53: beyond it a double no longer identifies one integer
   range.low = std::max(range.low, -largest), range.high = std::min(range.high, largest);
   std::vector<std::int64_t> values;
   for (const double number : read_numbers(node, key, range)) {

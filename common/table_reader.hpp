@@ -1,6 +1,6 @@
 #pragma once
-// A strict, typed view of one TOML table: every key must be asked for, every value has a range, and each mistake
-// becomes one line "FILE:LINE:COLUMN: key 'a.b': found …, allowed …" (InputError, exit code 2).
+// A strict, typed view of one TOML table: every key must be read, every value has a range, and each mistake becomes one
+// line "FILE:LINE:COLUMN: key 'a.b': found …, allowed …" (InputError, exit code 2).
 
 #include <array>
 #include <cstdint>
@@ -18,8 +18,8 @@
 
 namespace mpfem {
 
-/// A TOML document with the values of `--set key=value` laid over it. It can be moved, not copied: copies would lose
-/// the lines and columns of its values.
+/// A TOML document, overridden by the values of `--set key=value`. It can be moved, not copied: copies would lose the
+/// lines and columns of its values.
 class TomlDocument {
 public:
   TomlDocument(TomlDocument&&) = default;
@@ -35,9 +35,9 @@ public:
 
   static constexpr std::size_t most_bytes = std::size_t{8} << 20U;
 
-  /// Applies "a.b.c=value" (value: TOML syntax; what is no TOML value, as a bare word or a path, is taken as a string;
-  /// array elements by number: "stages.0.wall_speed=…"). Tables that do not exist yet are made; array elements are not.
-  /// Messages about the value name the assignment in place of line and column. Throws InputError.
+  /// Applies "a.b.c=value" (value: TOML syntax; anything else, such as a bare word or a path, is taken as a string;
+  /// array elements by number: "stages.0.wall_speed=…"). Missing tables are created; missing array elements are not.
+  /// Messages about the value name the assignment instead of line and column. Throws InputError.
   void set(std::string_view assignment);
 
   const toml::table& root() const { return root_; }
@@ -52,7 +52,7 @@ private:
   std::string name_;
 };
 
-/// Strict reader of one table of a document that must outlive it. Call `finish()` when all known keys were asked for:
+/// Strict reader of one table of a document that must outlive it. Call `finish()` when all known keys have been read:
 /// it throws on unknown keys and names the nearest known one. Numbers are finite: "nan" and "inf" are refused. Every
 /// function throws InputError.
 class TableReader {
@@ -62,7 +62,7 @@ public:
   bool has(std::string_view key) const;
   /// All keys of the table, in the order of the file.
   std::vector<std::string> keys() const;
-  /// The value as it stands, for keys that take several types; nothing where it is absent.
+  /// The raw value, for keys that take several types; nothing if it is absent.
   const toml::node* value(std::string_view key) { return find(key); }
 
   double number(std::string_view key, Range range = {});                     ///< required
@@ -94,9 +94,9 @@ public:
 
   /// "FILE:LINE:COLUMN: key 'a.b': " + message, thrown as InputError; for checks across keys.
   [[noreturn]] void fail(std::string_view key, const std::string& message) const;
-  /// Where the table's own keys stand.
+  /// Where the table's own keys are in the file.
   KeyPlaces places() const;
-  /// Throws on the first key that nobody asked for, with the nearest known key.
+  /// Throws on the first key that was not read, and names the nearest known key.
   void finish() const;
 
 private:

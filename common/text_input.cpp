@@ -32,7 +32,7 @@ std::string read_text_file(const std::string& path, std::size_t most_bytes) {
   std::error_code error;
   const auto size = std::filesystem::file_size(path, error);
   if (error) fail(fmt::format("cannot be read: {}", error.message()));
-  // A file of /proc says that it has no bytes, so the limit holds while reading, too.
+  // Files of /proc report a size of zero, so the limit is checked while reading, too.
   std::string text;
   if (size <= most_bytes) text.reserve(static_cast<std::size_t>(size));
   constexpr std::size_t piece = 1 << 16;

@@ -1,5 +1,5 @@
 #pragma once
-// What tells two TOML documents apart.
+// The first difference between two TOML documents.
 
 #include <optional>
 #include <string>
@@ -11,10 +11,10 @@ namespace mpfem {
 /// The first key, in alphabetical order, whose values differ.
 struct TomlDifference {
   std::string key;           ///< "stages.0.wall_speed"
-  std::string first, second; ///< its values, shortened; "nothing" where the key is missing
+  std::string first, second; ///< its values, shortened; "nothing" if the key is missing
 };
 
-/// Nothing where the tables hold the same.
+/// Nothing if the tables have the same content.
 std::optional<TomlDifference> first_difference(const toml::table& first, const toml::table& second);
 
 } // namespace mpfem

@@ -7,7 +7,7 @@ namespace mpfem {
 
 namespace {
 
-/// Walks over a TOML text, past strings and comments. It need not refuse what is no TOML: the parser does.
+/// Walks over a TOML text, past strings and comments. It need not refuse invalid TOML: the parser does.
 class TomlScan {
 public:
   explicit TomlScan(std::string_view text) : text_(text) {

@@ -33,7 +33,7 @@ std::vector<Point> spiral(int count) {
   return points;
 }
 
-/// Body-centred cubic lattice whose mean tetrahedron is that of a regular one with this edge, cut to a radius.
+/// Body-centred cubic lattice, cut to a radius. Its tetrahedra have the volume of a regular one with this edge.
 std::vector<Point> cut_lattice(double edge, double radius, std::uint64_t seed) {
   Random random(seed);
   const double cube = edge * std::cbrt(12 / (6 * std::numbers::sqrt2)); // twelve tetrahedra fill a cube
@@ -59,7 +59,7 @@ Vector3d circumcentre(const Vector3d& a, const Vector3d& b, const Vector3d& c, c
   return a + edges.inverse() * half_squares;
 }
 
-/// Facets on the sphere. Only tets with three surface nodes can have one, which spares sorting the facets of all.
+/// Facets on the sphere. Only tets with three surface nodes can have one, so the facets of other tets need no sorting.
 std::vector<Facet> sphere_facets(const std::vector<Tet>& tet, std::size_t surface_nodes) {
   const auto on_surface = [&](std::int32_t node) { return static_cast<std::size_t>(node) < surface_nodes; };
   std::vector<Tet> outer;

@@ -10,7 +10,7 @@
 
 namespace mpfem {
 
-/// Delaunay tetrahedra of points, positive volume, in an order that depends on the points only.
+/// Delaunay tetrahedra of points, with positive volume, in an order that depends only on the points.
 using Tetrahedralize = std::function<std::vector<Tet>(const std::vector<Point>&)>;
 
 /// How a ball's points are laid out.

@@ -1,5 +1,5 @@
 #pragma once
-// Walls about the spheres: how far points and spheres are from them.
+// Walls around the spheres, and the distances of points and spheres from them.
 
 #include <algorithm>
 #include <cmath>
@@ -30,14 +30,14 @@ struct SurfaceContainer {
   double volume = 0;           ///< mm^3
 };
 
-/// Where a surface stands, in a file and in the packing made in it.
+/// Where a surface is in its file and in the packing made in it.
 struct PlacedSurface {
   std::shared_ptr<const SurfaceContainer> container;
   Point lengths{};        ///< mm, of the box that bounds it
-  Point corner_in_file{}; ///< mm: what is the origin of the packing
+  Point corner_in_file{}; ///< mm: the point that is the origin of the packing
 };
 
-/// Moves a closed surface to the origin. Throws InputError where it is not closed and oriented.
+/// Moves a closed surface to the origin. Throws InputError if it is not closed and oriented.
 PlacedSurface place_surface(TriangleMesh mesh);
 /// That of an STL file; `scale`: mm in its unit of length. Throws InputError as read_stl does.
 PlacedSurface read_surface(const std::string& path, double scale);
@@ -48,7 +48,7 @@ struct PackingContainer {
   Point lengths{}; ///< mm
   ContainerShape shape = ContainerShape::box;
   std::shared_ptr<const SurfaceContainer> surface{}; ///< of a surface
-  // A surface is not made anew where walls move inwards and lengths are in another unit.
+  // A surface is not rebuilt when walls move inwards or lengths are in another unit.
   double unit = 1;  ///< mm of the surface in the present unit of length
   double inset = 0; ///< mm, by which the walls have moved inwards; the origin has moved with the box
 
@@ -92,7 +92,7 @@ struct PackingContainer {
     return nearest;
   }
 
-  /// Calls visit(overlap, inward) for each wall and a sphere of radius r at p: by how much it reaches beyond the wall
+  /// Calls visit(overlap, inward) for each wall and a sphere of radius r at p: how far it reaches beyond the wall
   /// (negative: not at all), and the wall's normal. A surface is one wall, at its nearest place.
   template <class Visit>
   void for_each_overlap(const Point& p, double r, Visit visit) const {

@@ -16,7 +16,7 @@ Vector3d nearest_to_origin(std::vector<Vector3d>& simplex) {
   double best = std::numeric_limits<double>::infinity();
   Vector3d nearest = simplex.front();
   unsigned kept = 1;
-  // At most fifteen faces: all are tried. A face counts where the foot of the perpendicular lies inside it.
+  // At most fifteen faces: all are tried. A face counts if the foot of the perpendicular lies inside it.
   for (unsigned face = 1; face < (1U << n); ++face) {
     std::vector<Vector3d> corner;
     for (unsigned k = 0; k < n; ++k)

@@ -1,5 +1,5 @@
 #pragma once
-// Distance between two convex bodies given by points, with a separating plane as its proof.
+// Distance between two convex bodies given by points, proven by a separating plane.
 
 #include <vector>
 
@@ -9,7 +9,7 @@ namespace mpfem {
 
 /// Two bounds of a distance. `lower` is proven by the plane normal to `direction`: every point of the second body lies
 /// at least `lower` beyond every point of the first. `upper` is the distance between two points of the hulls. Both <= 0
-/// where no separating plane was found.
+/// if no separating plane was found.
 struct ConvexDistance {
   double lower = 0, upper = 0; ///< mm
   Eigen::Vector3d direction = Eigen::Vector3d::Zero();

@@ -15,8 +15,8 @@ struct CsvColumn {
   Range range;
 };
 
-/// Rows of a CSV table with exactly these columns, in this order. A first line that is no numbers is the heading and
-/// must name the columns (a unit in brackets may follow each name). Throws InputError "FILE:LINE: …".
+/// Rows of a CSV table with exactly these columns, in this order. A first line that does not hold numbers is the
+/// heading and must name the columns (a unit in brackets may follow each name). Throws InputError "FILE:LINE: …".
 std::vector<std::vector<double>> read_csv(CsvReader reader, const std::vector<CsvColumn>& columns);
 
 } // namespace mpfem

@@ -63,7 +63,7 @@ std::vector<Tet> gmsh_tetrahedralize(const std::vector<Point>& points) {
   std::vector<std::size_t> tags;
   {
     const std::lock_guard lock(Gmsh::session());
-    // Gmsh shakes the points a little with rand(), so that points on one sphere make no trouble: always the same way.
+    // Gmsh perturbs the points a little with rand(), so that points on one sphere cause no trouble: always alike.
     std::srand(1);
     gmsh::model::mesh::tetrahedralize(coordinates, tags);
   }
@@ -119,7 +119,7 @@ TetMesh gmsh_half_ball(double radius, const std::function<double(const Point&)>&
   try {
     gmsh::model::add("half ball");
     // The poles of the sphere's parametrisation, where triangles are poor, lie on the rim: the tip is an ordinary
-    // place.
+    // point.
     constexpr double right_angle = std::numbers::pi / 2;
     gmsh::model::occ::addSphere(0, 0, 0, radius, 1, -right_angle, right_angle, 2 * right_angle);
     gmsh::model::occ::rotate({{3, 1}}, 0, 0, 0, 1, 0, 0, right_angle);
@@ -167,7 +167,7 @@ public:
   int failures() const { return failures_; }
   const std::string& last_defect() const { return last_defect_; }
 
-  /// The candidate's mesh with nearly the wanted number of tets; none where that was not met.
+  /// The candidate's mesh with nearly the wanted number of tets; an empty one if that was not met.
   BallMesh find(std::size_t candidate) {
     fit_size(candidate);
     // Laid out anew until the count is within 1.5 %; or the best count so far is taken for small balls, where one node
@@ -192,7 +192,7 @@ private:
   /// Tets over those wanted.
   double ratio(const BallMesh& ball) const { return static_cast<double>(ball.mesh.tet.size()) / wanted_; }
 
-  /// After two rounds of smoothing the count is nearly that of the end: the size is corrected there, where it is cheap.
+  /// After two rounds of smoothing the count is nearly final: the size is corrected then, while that is cheap.
   void fit_size(std::size_t candidate) {
     for (int fit = 0; fit < 3; ++fit) {
       const BallMesh trial = lay_out(candidate, 2, 0);
@@ -202,7 +202,7 @@ private:
     }
   }
 
-  /// Empty where gmsh failed; then the next size is 1 % smaller.
+  /// Empty if gmsh failed; then the next size is 1 % smaller.
   BallMesh lay_out(std::size_t number, int smoothing, std::uint64_t shift) {
     const Candidate& candidate = candidates[number % std::size(candidates)];
     BallMesh trial;
@@ -290,7 +290,7 @@ void report(const MeshRequest& request, double fraction, const std::string& what
 
 using Library = std::map<int, UnitBall>;
 
-/// Library key of every sphere. Throws InputError where a sphere is too small for the size, or tets cannot be numbered.
+/// Library key of every sphere. Throws InputError if a sphere is too small for the size, or tets cannot be numbered.
 std::vector<int> library_keys(const SpherePacking& packing, double size) {
   std::vector<int> key(packing.radius.size());
   double tets_wanted = 0;

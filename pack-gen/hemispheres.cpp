@@ -33,7 +33,7 @@ double size_at(const HemisphereRequest& r, const Point& p) {
   return std::min({r.size, r.contact_size + r.growth * from_patch, r.bulk_size + r.growth * from_bulk});
 }
 
-/// Tets that the sizes will give, by the mean tetrahedron h^3/11.05, integrated over rings of the hemisphere.
+/// Number of tets that these sizes will give: mean volume h^3/11.05, integrated over rings of the hemisphere.
 double expected_tets(const HemisphereRequest& r) {
   constexpr int rings = 200;
   double tets = 0;
@@ -80,8 +80,8 @@ void check(const HemisphereRequest& r) {
         fmt::format("these sizes would give {:.3g} tetrahedra a hemisphere, allowed: at most {:.3g}", tets, most_tets));
 }
 
-/// The lower hemisphere, its worst tetrahedra improved. Nodes of the surface stay where gmsh put them: moved as well,
-/// they would raise the step further, but by enlarging the triangles of the contact up to twofold.
+/// The lower hemisphere, with its worst tetrahedra improved. Surface nodes stay where gmsh put them: moving them would
+/// raise the step further, but enlarge the triangles of the contact up to twofold.
 TetMesh mesh_lower(const HemisphereRequest& r) {
   TetMesh mesh = gmsh_half_ball(1, [&](const Point& p) {
     return size_at(r, {r.radius * p[0], r.radius * p[1], r.radius * p[2]}) / r.radius;

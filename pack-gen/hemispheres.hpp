@@ -19,7 +19,7 @@ struct HemisphereRequest {
   double contact_size = 0;   ///< on the curved face up to contact_radius from the tip, mm
   double contact_radius = 0; ///< along the face, mm
   double bulk_size = 0;      ///< in the half-ball of 1.5 contact_radius under the tip, mm
-  double growth = 0.3;       ///< of the size per distance from both
+  double growth = 0.3;       ///< of the size per distance from both regions
   double gap = 0;            ///< mm, > 0
   double rotation = 37;      ///< of the upper hemisphere about the axis, degrees
   double box_width = 0;      ///< in x and y, mm; 0: 2.4 R
@@ -32,13 +32,13 @@ struct Hemispheres {
       0; ///< mm, proven distance of the two meshes: the request's gap, and how far facets lie inside the tips
 };
 
-/// Throws InputError for sizes that make no sense together or too many tets, SimulationError where gmsh fails.
+/// Throws InputError for inconsistent sizes or too many tets, SimulationError if gmsh fails.
 Hemispheres mesh_hemispheres(const HemisphereRequest& request);
 
-/// Where the tets of both hemispheres went.
+/// How the tets of both hemispheres are distributed.
 struct Refinement {
   double smallest_edge = 0;  ///< mm
-  std::size_t tets_near = 0; ///< tets in whose middle an edge below twice the contact size was requested
+  std::size_t tets_near = 0; ///< tets at whose middle an edge below twice the contact size was requested
 };
 Refinement refinement(const HemisphereRequest& request, const Hemispheres& pair);
 

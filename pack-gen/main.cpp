@@ -42,7 +42,7 @@ struct Arguments {
   bool quiet = false;
 };
 
-/// Looked at before hours of work, not after them.
+/// Checked before hours of work, not after them.
 void check_output(const Arguments& arguments, OutputKind kind) {
   check_output_path("--output", arguments.output, kind);
   std::error_code ignored;
@@ -51,7 +51,7 @@ void check_output(const Arguments& arguments, OutputKind kind) {
         fmt::format("--output {}: found the input itself, allowed: another file", shown_path(arguments.output)));
 }
 
-/// The description with what the command line says in place of it.
+/// The description, overridden by the command line.
 PackingDescription description_of(const Arguments& arguments) {
   TomlDocument document = TomlDocument::from_file(arguments.input);
   for (const std::string& assignment : arguments.assignments) document.set(assignment);
@@ -91,7 +91,7 @@ void spheres(const Arguments& arguments) {
                               arguments.output));
 }
 
-/// Meshes the spheres and writes the packing. Throws SimulationError where a gap between facets cannot be proven.
+/// Meshes the spheres and writes the packing. Throws SimulationError if a gap between facets cannot be proven.
 void write_meshed(const Arguments& arguments, const SpherePacking& packing, const PackingOrigin& origin) {
   Progress progress("pack-gen", arguments.quiet);
   const PackingMesh mesh = mesh_packing(
@@ -166,7 +166,7 @@ void hemispheres(const Arguments& arguments) {
         report.smallest_step * arguments.material.wave_speed() / request.contact_size, report.median_step);
 }
 
-/// Throws InputError where options of a box and of a cylinder are mixed, or those of a cylinder are incomplete.
+/// Throws InputError if options of different containers are mixed, or those of one are incomplete.
 void check_container(const Arguments& arguments) {
   const bool cylinder = arguments.container == "cylinder";
   const auto refuse = [](const char* option, const char* allowed) {
@@ -212,7 +212,7 @@ void import(const Arguments& arguments) {
                relative_density(packing), smallest_gap(packing).gap, arguments.output);
 }
 
-/// What would be a failure of the mesher is a mistake of the file here.
+/// A defect that would be a failure of the mesher is here a mistake in the file.
 MeshReport report_of_file(const Arguments& arguments, const SpherePacking& packing) {
   const MeshFromFile mesh = read_mesh(arguments.input);
   try {
@@ -241,7 +241,7 @@ void quality(const Arguments& arguments) {
 void add_quality_outputs(CLI::App& command, Arguments& arguments) {
   command.add_option("-o,--output", arguments.output, "JSON file to write: the report's numbers by name");
   command.add_option("--description", arguments.description,
-                     "What the packing was made from (TOML): also how far its sizes are from it");
+                     "Description of the packing (TOML); reports how far its sizes are from it");
   command.add_option("--sizes", arguments.sizes, "CSV file to write: diameters with their cumulative fraction");
   command.add_option("--target", arguments.target, "CSV file to write: the size table of --description")
       ->needs("--description");
@@ -272,20 +272,20 @@ constexpr const char* help_text =
 
 void add_threads(CLI::App& command, Arguments& arguments) {
   add_number(command, "--threads", arguments.threads, thread_numbers, "",
-             "Threads (default: all cores that it may use); the result does not depend on it");
+             "Threads (default: all cores available to it); the result does not depend on them");
 }
 
-/// --container and what belongs to each; `otherwise`: what holds without them.
+/// --container and the options of each; `otherwise`: the default without them.
 void add_container(CLI::App& command, Arguments& arguments, const std::string& otherwise) {
   command
       .add_option("--container", arguments.container,
                   "box, cylinder: its axis is z, or surface: a closed one from an STL file (default: " + otherwise +
                       ")")
       ->check(CLI::IsMember({"box", "cylinder", "surface"}));
-  add_number(command, "--diameter", arguments.diameter, lengths, "mm", "Of the cylinder");
-  add_number(command, "--height", arguments.height, lengths, "mm", "Of the cylinder");
+  add_number(command, "--diameter", arguments.diameter, lengths, "mm", "Diameter of the cylinder");
+  add_number(command, "--height", arguments.height, lengths, "mm", "Height of the cylinder");
   command.add_option("--surface", arguments.surface, "STL file of the surface; its lowest corner becomes the origin");
-  add_number(command, "--scale", arguments.scale, Range::between(1e-9, 1e9), "mm", "In the unit of the STL file");
+  add_number(command, "--scale", arguments.scale, Range::between(1e-9, 1e9), "mm", "Length of the STL file's unit");
 }
 
 /// A command that reads a file, described by `input`.
@@ -303,7 +303,7 @@ void add_output(CLI::App& command, Arguments& arguments) {
 CLI::App* add_spheres(CLI::App& app, Arguments& arguments) {
   CLI::App* command =
       add_command(app, arguments, "spheres",
-                  "Pack spheres as a description says.\n"
+                  "Pack spheres as described in a TOML file.\n"
                   "Example: pack-gen spheres powder.toml -o spheres.h5\n"
                   "         pack-gen spheres powder.toml --container cylinder --diameter 1 --height 1.2 -o spheres.h5",
                   "Description of the packing (TOML)");
@@ -336,7 +336,7 @@ CLI::App* add_mesh(CLI::App& app, Arguments& arguments) {
   add_number(*command, "--size", arguments.size, lengths, "mm", "Nominal element size")->required();
   add_number(*command, "--seed", arguments.seed, seed_numbers, "", "Seed of the meshes' orientations (default: 1)");
   command->add_flag("!--no-optimise", arguments.optimise,
-                    "Meshes as they were first laid out, not chosen and moved for a larger time step");
+                    "Keep meshes as first laid out, without optimising them for a larger time step");
   add_threads(*command, arguments);
   add_material(*command, arguments.material);
   return command;
@@ -344,7 +344,7 @@ CLI::App* add_mesh(CLI::App& app, Arguments& arguments) {
 
 CLI::App* add_import(CLI::App& app, Arguments& arguments) {
   CLI::App* command = add_command(app, arguments, "import",
-                                  "Spheres from a table x,y,z,radius (mm), e.g. of a DEM code.\n"
+                                  "Read spheres from a table x,y,z,radius (mm), e.g. of a DEM code.\n"
                                   "Example: pack-gen import spheres.csv --box 1,1,1 -o spheres.h5\n"
                                   "         pack-gen import spheres.csv --size 0.03 -o packing.h5\n"
                                   "         pack-gen import spheres.csv --container cylinder --diameter 1 --height "
@@ -368,7 +368,7 @@ CLI::App* add_import(CLI::App& app, Arguments& arguments) {
 CLI::App* add_export(CLI::App& app, Arguments& arguments) {
   CLI::App* command =
       add_command(app, arguments, "export",
-                  "Spheres to a table x,y,z,radius (mm).\nExample: pack-gen export spheres.h5 -o spheres.csv",
+                  "Write spheres to a table x,y,z,radius (mm).\nExample: pack-gen export spheres.h5 -o spheres.csv",
                   "Packing (HDF5), meshed or not");
   add_output(*command, arguments);
   return command;

@@ -1,5 +1,5 @@
 #pragma once
-// What a packing's mesh is worth: counts, volume error, quality, facet gaps, critical step.
+// Quality of a packing's mesh: counts, volume error, tet quality, facet gaps, critical step.
 
 #include <string>
 
@@ -7,10 +7,10 @@
 
 namespace mpfem {
 
-/// Smallest facet gap between grains, or a grain and a wall, with its proof's place. `second` as in SphereGap.
+/// Smallest facet gap between grains, or a grain and a wall, and where it was proven. `second` as in SphereGap.
 /// Each mesh is bounded by the convex hull of its nodes (for the meshes of mesh_packing it is that hull), so a
-/// separating plane between the hulls is a lower bound of the distance of any two facets. Grains farther apart than
-/// their bounding spheres' bound need no plane.
+/// separating plane between the hulls is a lower bound of the distance of any two facets. For grains whose bounding
+/// spheres prove a larger gap no plane is needed.
 SphereGap smallest_facet_gap(const SpherePacking& packing, const PackingMesh& mesh, int threads = 1);
 
 struct MeshReport {

@@ -14,7 +14,7 @@ struct CellGrid {
   CellGrid(const std::vector<Point>& center, const Point& box, double cell_size) {
     const auto n = static_cast<double>(center.size());
     for (std::size_t k = 0; k < 3; ++k) {
-      // No more cells than spheres along an axis: a tiny size must not exhaust the memory.
+      // No more cells than spheres along an axis: a tiny cell size must not exhaust the memory.
       const double most = std::clamp(std::cbrt(n) * 4, 1.0, 512.0);
       cells[k] = static_cast<int>(std::clamp(std::floor(box[k] / cell_size), 1.0, most));
       inverse_size[k] = cells[k] / box[k];
@@ -35,7 +35,7 @@ struct CellGrid {
   }
 
   int coordinate(const Point& p, std::size_t k) const {
-    // Points far outside belong to the last cell; no integer holds their own.
+    // Points far outside belong to the last cell; their own cell number would overflow.
     return static_cast<int>(std::clamp(std::floor(p[k] * inverse_size[k]), 0.0, cells[k] - 1.0));
   }
   std::size_t index(int x, int y, int z) const {

@@ -37,7 +37,7 @@ public:
       if (largest_overlap_ <= allowed) return true;
       if (step % 100 == 0) {
         report(largest_overlap_);
-        // Jammed when what is left of the forces no longer moves anything.
+        // Jammed when the remaining forces no longer move anything.
         if (step > 0 && energy_ > 0.9995 * energy_before && fire.downhill > 20 && residual_ < 1e-3 * pressure_)
           return false;
         energy_before = energy_;
@@ -49,17 +49,17 @@ public:
     return largest_overlap_ <= allowed;
   }
 
-  /// Gives the spheres a weight, downwards along z: this much for a radius of 1, as their volume for others.
+  /// Gives the spheres a weight, downwards along z: this much for a radius of 1, in proportion to volume for others.
   void weigh(double weight) {
     weight_ = weight;
     evaluate();
   }
 
-  /// Lets the spheres sink until each carries its weight, but for this share of it (true), or `steps` are used (false).
+  /// Lets the spheres sink until each carries its weight, up to this share of it (true), or `steps` are used (false).
   template <class Report>
   bool sink(double share, int steps, Report report) {
     for (Point& v : velocity_) v = {};
-    // Below 2 over the largest frequency of a sphere held by twelve others: beyond it rest is never quite reached.
+    // Below 2 over the largest frequency of a sphere held by twelve others: above that, rest is never quite reached.
     Fire fire{.largest_dt = 0.3};
     for (int step = 0; step < steps; ++step) {
       if (step % 100 == 0) report(unbalanced_share());
@@ -92,7 +92,7 @@ private:
     double power = 0, speed2 = 0, force2 = 0;
   };
 
-  /// What a step does to the velocities: kept, turned along the forces, driven by them.
+  /// What a step does to the velocities: keeps part, turns part along the forces, accelerates.
   struct Step {
     double keep, along, dt;
   };
@@ -203,7 +203,7 @@ private:
   double weight_ = 0; ///< of a sphere of radius 1
   double largest_ = 0, travel_ = 0, energy_ = 0, largest_overlap_ = 0;
   double pressure_ = 0; ///< sum of overlaps
-  double residual_ = 0; ///< sum of the components of what force is unbalanced
+  double residual_ = 0; ///< sum of the components of unbalanced forces
 };
 
 } // namespace mpfem

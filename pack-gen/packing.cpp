@@ -115,7 +115,7 @@ private:
   void exchange(std::size_t i, std::size_t j) {
     const double a = radius_[sphere_at_[i]], b = radius_[sphere_at_[j]];
     if (i == j || a == b) return;
-    // Only the site that receives the larger sphere can come to overlap, but for the pair itself.
+    // Apart from the pair itself, only the site that receives the larger sphere can overlap.
     const std::size_t grows = a < b ? i : j;
     if (!fits(grows, site_[grows], std::max(a, b), a < b ? j : i)) return;
     if (point_distance(site_[i], site_[j]) < growth_ * (a + b)) return;
@@ -148,7 +148,7 @@ private:
   std::uint64_t accepted_ = 0, tried_ = 1;
 };
 
-/// Largest factor on all radii for which the gap is kept at these centres.
+/// Largest factor on all radii that keeps the gap at these centres.
 double largest_radius_factor(const SpherePacking& packing, double gap) {
   double factor = std::numeric_limits<double>::infinity();
   const double largest = *std::max_element(packing.radius.begin(), packing.radius.end());
@@ -212,10 +212,10 @@ void refuse_spheres_beyond_the_box(const PackingRequest& request) {
                       request.box[k]));
 }
 
-/// A place for a sphere, inflated to radius r: uniform in the box less r on every side; of a cylinder or surface again
-/// until it is within.
+/// A place for a sphere, inflated to radius r: uniform in the box less r on every side; in a cylinder or surface, drawn
+/// again until it is inside.
 Point random_place(Random& random, const PackingContainer& container, double r) {
-  constexpr int most_trials = 100000; // a surface may have less room than its box by far
+  constexpr int most_trials = 100000; // a surface may have far less room than its box
   Point place{}, deepest{};
   double depth = -std::numeric_limits<double>::infinity();
   for (int trial = 0;; ++trial) {
@@ -224,7 +224,7 @@ Point random_place(Random& random, const PackingContainer& container, double r) 
       const double distance = container.distance(place);
       if (distance >= r) return place;
       if (distance > depth) depth = distance, deepest = place;
-      if (trial == most_trials) return deepest; // what jams is told by what follows
+      if (trial == most_trials) return deepest; // a jam is reported later
     } else if (container.shape == ContainerShape::box || container.radius() <= r ||
                container.from_axis(place) <= container.radius() - r) {
       return place;
@@ -270,7 +270,7 @@ SpherePacking pack_spheres(const PackingRequest& request) {
   });
   std::vector<Point> best = minimiser.position();
 
-  // 4. What jams is shrunk until nothing overlaps, and grown again among random moves and exchanges.
+  // 4. A jammed packing is shrunk until nothing overlaps, and grown again during random moves and exchanges.
   if (!done) {
     HardSphereCompaction compaction(std::move(best), inflated, inner, random);
     const auto moves = static_cast<double>(request.moves);

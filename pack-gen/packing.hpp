@@ -4,8 +4,8 @@
 //
 // Method: spheres inflated by half the wanted gap repel each other and the walls where they overlap; from random points
 // the overlap energy is minimised with FIRE (Bitzek et al., Phys. Rev. Lett. 97, 170201, 2006). Below random close
-// packing (about 0.64 in the bulk, less between walls) the energy reaches zero. What jams first is shrunk and grown
-// again by Monte Carlo moves and exchanges of spheres, which packs denser still; what jams then is refused.
+// packing (about 0.64 in the bulk, less between walls) the energy reaches zero. A packing that jams is shrunk and grown
+// again by Monte Carlo moves and exchanges of spheres, which packs still denser; if it jams then, it is refused.
 
 #include <array>
 #include <cstdint>

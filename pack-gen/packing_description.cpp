@@ -12,7 +12,7 @@ namespace mpfem {
 
 namespace {
 
-// A larger box, or one of smaller spheres, has volumes that are no numbers any more.
+// In larger boxes, or with smaller spheres, volumes overflow or underflow.
 constexpr Range length = Range::between(1e-12, 1e9); // mm
 
 /// Sizes, and for a table their cumulative fractions, from the keys themselves or from a CSV file.
@@ -89,7 +89,7 @@ PackingContainer read_container(TableReader& root, const std::string& descriptio
   if (shape == "surface") {
     refuse({"diameter", "height"}, "surface_file and surface_scale");
     const auto path = std::filesystem::path(description_file).parent_path() / root.string("surface_file");
-    // No default: STL files do not tell their unit.
+    // No default: STL files do not state their unit.
     const PlacedSurface placed = read_surface(path.string(), root.number("surface_scale", Range::between(1e-9, 1e9)));
     return {placed.lengths, ContainerShape::surface, placed.container};
   }

@@ -18,18 +18,18 @@ struct PackingDescription {
   PackingContainer container; ///< a box, a cylinder, or a surface
   double smallest_gap = 0;
   std::uint64_t seed = 1;
-  double size_scale_tolerance = 0; ///< how far from 1 the factor on all sizes may be that makes count and density agree
+  double size_scale_tolerance = 0; ///< largest distance from 1 of the factor on sizes that fits count to density
   std::unique_ptr<SizeDistribution> distribution;
   KeyPlaces places; ///< of its keys
   std::string text; ///< the file's text with the assignments
 };
 
-/// Reads a description; keys and defaults stand in packing_description.cpp only. Its key `box` does not count
-/// `without_box`: where the command line has a cylinder in place of it. Throws InputError.
+/// Reads a description; keys and defaults are in packing_description.cpp only. `without_box`: its key `box` is ignored,
+/// as the command line gives another container. Throws InputError.
 PackingDescription read_packing_description(const TomlDocument& document, bool without_box = false);
 
 /// Radii (mm) for the description: the distribution's quantiles, scaled by `scale` so that their volume is the wanted
-/// one. Throws InputError where the scale is further from 1 than the description allows.
+/// one. Throws InputError if the scale is further from 1 than the description allows.
 struct DrawnSizes {
   std::vector<double> radius;
   double scale = 1;

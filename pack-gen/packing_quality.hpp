@@ -1,5 +1,5 @@
 #pragma once
-// What a packing is like, as numbers by name and as tables: for `pack-gen quality -o`.
+// Properties of a packing, as numbers by name and as tables: for `pack-gen quality -o`.
 
 #include <optional>
 #include <string>
@@ -19,7 +19,7 @@ std::string quality_json(const SpherePacking& packing, const std::optional<MeshR
 /// CSV of diameter (mm) and cumulative fraction by number at each sphere's middle, ascending.
 std::string sizes_csv(const SpherePacking& packing);
 
-/// CSV of the points of a description's table. Throws InputError where its sizes are no table with values of its own.
+/// CSV of the points of a description's table. Throws InputError if its sizes are not a table with its own values.
 std::string target_csv(const TomlDocument& description);
 
 } // namespace mpfem

@@ -9,7 +9,7 @@
 
 namespace mpfem {
 
-/// Calls body(i) for i in 0 … count - 1, each once, in any order. The first exception is thrown again here.
+/// Calls body(i) for i in 0 … count - 1, each once, in any order. The first exception is rethrown here.
 template <class Body>
 void for_each_parallel(std::size_t count, int threads, Body body) {
   std::atomic<std::size_t> next{0};

@@ -54,7 +54,7 @@ public:
   const Eigen::Matrix3Xd& nodes(std::size_t grain) const { return node_[grain]; }
   const std::vector<int>& near(std::size_t grain) const { return near_[grain]; }
 
-  /// Proven gap of a grain with these nodes; of no interest once it is `enough` or less.
+  /// Proven gap of a grain with these nodes; the search ends once it is `enough` or less.
   Clearance clearance(std::size_t grain, const Eigen::Matrix3Xd& nodes, double enough) const {
     Clearance result;
     for_each_wall_gap(packing_.container(), nodes, [&](double gap, int wall) {
@@ -71,7 +71,7 @@ public:
   }
 
 private:
-  /// Mostly the plane across the line of centres does; only where it does not, the best plane is searched.
+  /// Usually the plane across the line of centres separates; only if it does not, the best plane is searched.
   static double separation(const Eigen::Matrix3Xd& first, const Eigen::Matrix3Xd& second, const Vector3d& axis) {
     const Vector3d direction = axis.normalized();
     const double gap = (direction.transpose() * second).minCoeff() - (direction.transpose() * first).maxCoeff();
@@ -83,10 +83,10 @@ private:
   std::vector<std::vector<int>> near_; ///< grains that some orientation could touch
 };
 
-// Both bounds are far above what packings need whose gap leaves any room; they end a search that is hopeless.
+// Both bounds are far above what is needed if the gap leaves any room; they end a hopeless search.
 constexpr int most_rounds = 60, orientations = 40;
 
-/// Of the grains that may touch since a neighbour or they themselves were turned; the others have no gap here.
+/// Gaps of the grains that may touch because they or a neighbour were turned; the others have no gap here.
 std::vector<Clearance> clearances_of(const Separation& grains, const std::vector<char>& suspect, int threads) {
   std::vector<Clearance> found(suspect.size());
   for_each_parallel(suspect.size(), threads, [&](std::size_t i) {
@@ -109,8 +109,8 @@ bool touches(const Clearance& clearance) {
       worst.other < 0 ? "a wall" : fmt::format("grain {}", worst.other)));
 }
 
-/// Turns a grain to the best of some orientations, the first without touch being good; true where it is another than
-/// before. `attempt` counts those that were tried.
+/// Turns a grain to the best of some orientations; the first without touch ends the search. True if the orientation
+/// changed. `attempt` counts the orientations tried.
 bool turn_apart(Separation& grains, std::size_t grain, int& attempt, const PlaceGrain& place) {
   Eigen::Matrix3Xd best = grains.nodes(grain);
   double best_gap = grains.clearance(grain, best, -std::numeric_limits<double>::infinity()).gap;

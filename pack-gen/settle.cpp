@@ -39,7 +39,7 @@ double top_of(const SpherePacking& packing) {
 
 SettledPacking settle(const SpherePacking& packing, const SettleRequest& request) {
   const double gap = request.smallest_gap;
-  // Spheres there feel the nearest place of the surface alone, and never rest between two.
+  // There spheres feel only the nearest place of the surface, and never come to rest between two places.
   if (packing.surface)
     throw InputError(
         "found a container that is a surface, allowed: a box or a cylinder; let grains settle in a run, by "
@@ -52,7 +52,7 @@ SettledPacking settle(const SpherePacking& packing, const SettleRequest& request
   constexpr double at_rest = 1e-4; // share of a weight; more lets spheres balance on one another
   constexpr int most_steps = 200000;
   bool rests = false;
-  // A heavy bed settles fast and is soft; lighter and lighter it becomes one of hard spheres.
+  // A heavy bed settles fast but is soft; as the weight decreases it becomes a bed of hard spheres.
   for (double weight = 1e-3; weight > 1e-8 && !(rests && bed.largest_overlap() <= allowed_overlap); weight *= 0.1) {
     bed.weigh(weight);
     rests = bed.sink(at_rest, most_steps, [&](double share) {

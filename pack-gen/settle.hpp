@@ -1,9 +1,9 @@
 #pragma once
 // Spheres that sink under their weight until they rest on each other and on the bottom, without friction.
 //
-// Method: as in packing.hpp spheres are soft and repel each other; each is pulled down in proportion to its volume. The
-// least energy is searched with FIRE, with ever smaller weights, until the overlap that carries them is within the
-// margin that the gaps leave: then nothing overlaps, and the bed is the one of hard spheres but for that margin.
+// Method: as in packing.hpp, spheres are soft and repel each other; each is pulled down in proportion to its volume.
+// The energy is minimised with FIRE, with ever smaller weights, until the overlap that carries them is within the
+// margin that the gaps leave. Then nothing overlaps, and up to that margin the bed is that of hard spheres.
 
 #include <functional>
 #include <string>
@@ -25,7 +25,7 @@ struct SettledPacking {
 };
 
 /// The spheres of a packing at rest under gravity along -z, order and radii kept. The same request gives the same bed.
-/// Throws InputError where they do not come to rest with these gaps.
+/// Throws InputError if they do not come to rest with these gaps.
 SettledPacking settle(const SpherePacking& packing, const SettleRequest& request);
 
 } // namespace mpfem

@@ -1,7 +1,7 @@
 #pragma once
 // Size distributions of spheres, as quantile functions of the number-cumulative fraction.
 //
-// A distribution may be stated by number or by volume, in diameters or in radii; everything is turned into diameters
+// A distribution may be stated by number or by volume, in diameters or in radii; everything is converted to diameters
 // by number. Sizes of a sample are the quantiles at (i + 1/2)/n, so that a sample of few spheres still follows the
 // curve: its empirical cumulative fraction differs from the target by at most 1/(2n).
 

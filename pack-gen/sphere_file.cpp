@@ -100,7 +100,7 @@ void write_packing_file(const std::string& path, const SpherePacking& packing, c
   for (const auto& c : packing.center) center.insert(center.end(), c.begin(), c.end());
   const std::size_t spheres = packing.radius.size();
   writer.write(file::box_lengths, Doubles(packing.box), 3);
-  // Files of boxes stay as they were, for programs that do not know of shapes.
+  // Files of boxes stay as before, for programs that do not know shapes.
   if (packing.shape != ContainerShape::box) writer.write_scalar(file::box_shape, std::string(name_of(packing.shape)));
   if (packing.surface) write_surface(writer, packing.surface->mesh);
   writer.write(file::spheres_center, Doubles(center), spheres);

@@ -11,11 +11,11 @@
 
 namespace mpfem {
 
-/// What a packing file says in addition to spheres and mesh.
+/// What a packing file contains besides spheres and mesh.
 struct PackingOrigin {
   std::optional<std::int64_t> seed;
   std::string description; ///< text of the description, or the source of an import
-  std::vector<double> target_diameter, target_cumulative_number; ///< the wanted distribution, empty where there is none
+  std::vector<double> target_diameter, target_cumulative_number; ///< the wanted distribution, empty if there is none
 };
 
 struct SphereFile {
@@ -31,7 +31,7 @@ SphereFile read_spheres(const std::string& path);
 /// Writes x, y, z, radius with units in the heading.
 void export_spheres(const std::string& path, const SpherePacking& packing);
 
-/// A mesh and what was found of it.
+/// A mesh and its measured properties.
 struct MeshForFile {
   const PackingMesh* mesh = nullptr;
   double nominal_size = 0, smallest_facet_gap = 0, smallest_quality = 0;
@@ -39,11 +39,11 @@ struct MeshForFile {
       false; ///< grains are halves of the spheres: half their density, and no gap to the walls that cut them
 };
 
-/// Writes spheres, and the mesh where there is one. Throws StorageError.
+/// Writes spheres, and the mesh if there is one. Throws StorageError.
 void write_packing_file(const std::string& path, const SpherePacking& packing, const PackingOrigin& origin,
                         const std::optional<MeshForFile>& mesh = {});
 
-/// The mesh of a meshed packing file, with its nominal size. Throws InputError where there is none.
+/// The mesh of a meshed packing file, with its nominal size. Throws InputError if there is none.
 struct MeshFromFile {
   PackingMesh mesh;
   double nominal_size = 0;

@@ -25,7 +25,7 @@ std::string body(const SpherePacking& packing, int index) {
 } // namespace
 
 void refuse_overlap(const SpherePacking& packing, const std::string& name) {
-  // Spheres that touch overlap by what the numbers are rounded to.
+  // Touching spheres overlap by the rounding of the numbers.
   double largest = 0;
   for (std::size_t i = 0; i < packing.radius.size(); ++i) {
     largest = std::max(largest, packing.radius[i]);

@@ -9,8 +9,8 @@
 
 namespace mpfem {
 
-/// Throws InputError, naming the spheres and the overlap, where two spheres or a sphere and a wall overlap by more than
-/// their numbers are rounded to. Ends at the first overlap of two spheres.
+/// Throws InputError, naming the spheres and the overlap, if two spheres or a sphere and a wall overlap by more than
+/// the rounding of their numbers. Ends at the first overlap of two spheres.
 void refuse_overlap(const SpherePacking& packing, const std::string& name);
 
 /// Spheres of a CSV table with the columns x, y, z, radius (mm). Without a box: the tightest around all spheres.
@@ -18,17 +18,17 @@ void refuse_overlap(const SpherePacking& packing, const std::string& name);
 SpherePacking import_spheres(const std::string& path, const std::optional<Point>& box);
 SpherePacking import_spheres(CsvReader table, const std::optional<Point>& box);
 
-/// A cylinder about z, and where the centre of its bottom stands in a table of spheres.
+/// A cylinder about z, and where the centre of its bottom is in a table of spheres.
 struct CylinderInTable {
   double diameter = 0, height = 0; ///< mm
   Point bottom_center{};           ///< mm
 };
 
-/// The same into a cylinder: spheres are moved so that the box that bounds it begins at the origin. Whether they are
-/// within it says refuse_overlap. Throws InputError.
+/// The same into a cylinder: spheres are moved so that the box that bounds it begins at the origin. refuse_overlap
+/// checks whether they are inside it. Throws InputError.
 SpherePacking import_spheres(const std::string& path, const CylinderInTable& cylinder);
 
-/// The same into a surface, which stands in the table's coordinates as it does in its file.
+/// The same into a surface, whose coordinates in its file are those of the table.
 SpherePacking import_spheres(const std::string& path, const PlacedSurface& surface);
 
 } // namespace mpfem

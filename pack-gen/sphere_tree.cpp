@@ -11,7 +11,7 @@ namespace {
 
 constexpr std::size_t leaf_size = 8;
 
-/// Spheres between two places of the tree's order, with the box of their centres and their largest radius.
+/// Spheres between two places in the order of the tree, with the box of their centres and their largest radius.
 struct Node {
   Point low{}, high{};
   double largest_radius = 0;

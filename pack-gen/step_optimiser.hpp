@@ -15,11 +15,11 @@ namespace mpfem {
 /// length.
 void raise_smallest_step(BallMesh& ball, double edge, int sweeps, double band, std::uint64_t seed);
 
-/// Where a node may be moved.
+/// Where a node may move.
 enum class NodeFreedom : char { fixed, on_unit_sphere, everywhere };
 
-/// The same for any mesh: one freedom for every node. Where sizes vary, `edge` is that of the smallest tetrahedra,
-/// which are the ones that have the smallest step.
+/// The same for any mesh: one freedom for every node. If sizes vary, `edge` is that of the smallest tetrahedra, which
+/// have the smallest step.
 void raise_smallest_step(TetMesh& mesh, const std::vector<NodeFreedom>& freedom, double edge, int sweeps, double band,
                          std::uint64_t seed);
 

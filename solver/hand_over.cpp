@@ -24,7 +24,7 @@ void hand_over_to_best_build(char** arguments) {
   std::error_code error;
   const std::filesystem::path self = std::filesystem::read_symlink("/proc/self/exe", error);
   if (error) return;
-  // execv comes back only where it fails: no such build, then.
+  // execv returns only if it fails: then there is no such build.
   for (int level = newest; level > 2; --level) execv(fmt::format("{}-v{}", self.string(), level).c_str(), arguments);
 }
 

@@ -32,8 +32,8 @@ struct Arguments {
   RunOptions run;
 };
 
-/// A packing named on the command line is relative to the working folder, one named in the scenario to the scenario's:
-/// the former is rewritten to the latter.
+/// A packing on the command line is relative to the working folder, one in the scenario to the scenario's folder: the
+/// former is rewritten to be like the latter.
 std::string relative_to_scenario(const std::string& assignment, const std::string& scenario) {
   constexpr std::string_view key = "packing=";
   if (!assignment.starts_with(key)) return assignment;
@@ -52,7 +52,7 @@ Scenario load_scenario(const Arguments& arguments) {
 
 void add_threads(CLI::App& command, Arguments& arguments) {
   add_number(command, "--threads", arguments.run.threads, thread_numbers, "",
-             "Threads (default: all cores that it may use), of each rank");
+             "Threads of each rank (default: all cores available to it)");
 }
 
 void add_common(CLI::App& command, Arguments& arguments) {
@@ -94,7 +94,7 @@ CLI::App* add_bond(CLI::App& app, BondProgrammeOptions& options) {
 CLI::App* add_bench(CLI::App& app, Arguments& arguments, BenchOptions& options) {
   CLI::App* bench = app.add_subcommand(
       "bench",
-      "Measure the cost of a step on this machine, part by part, beside the machine's limits.\n"
+      "Measure the cost of a step on this machine, part by part, compared with its limits.\n"
       "Examples:\n"
       "  mpfem bench                                    # 329 dense, bonded grains of 600 tets each\n"
       "  mpfem bench --tets 1600000 --threads 1 --json\n"
@@ -104,14 +104,18 @@ CLI::App* add_bench(CLI::App& app, Arguments& arguments, BenchOptions& options) 
   bench->add_option("--from", arguments.from, "Checkpoint whose state is measured")->check(CLI::ExistingFile);
   bench->add_option("--set", arguments.assignments, "Override a value of the scenario: KEY=VALUE")->take_all();
   add_threads(*bench, arguments);
-  add_number(*bench, "--tets", options.tets, Range::between(8, 4e8), "", "Tetrahedra of the built-in packing, about")
+  add_number(*bench, "--tets", options.tets, Range::between(8, 4e8), "",
+             "Approximate number of tetrahedra of the built-in packing")
       ->capture_default_str();
-  add_number(*bench, "--grains", options.grains, Range::between(1, 1e7), "", "Grains of the built-in packing, about")
+  add_number(*bench, "--grains", options.grains, Range::between(1, 1e7), "",
+             "Approximate number of grains of the built-in packing")
       ->capture_default_str();
   bench->add_option("--element", options.element, "Element of the built-in packing: tet4, tet4-anp, tet4-patch")
       ->transform(CLI::CheckedTransformer(std::map<std::string, ElementType>{
           {"tet4", ElementType::tet4}, {"tet4-anp", ElementType::tet4_anp}, {"tet4-patch", ElementType::tet4_patch}}));
-  bench->add_option("--precision", options.precision, "Of its tets: double, mixed (strains and stresses in single)")
+  bench
+      ->add_option("--precision", options.precision,
+                   "Precision of its tets: double or mixed (strains, stresses in single)")
       ->transform(CLI::CheckedTransformer(
           std::map<std::string, Precision>{{"double", Precision::full}, {"mixed", Precision::mixed}}));
   bench->add_flag("!--no-bonds", options.bonds, "Built-in packing without bonds");
@@ -211,8 +215,8 @@ int body(int argc, char** argv) {
 int main(int argc, char** argv) {
   if (argc > 1 && std::string_view(argv[1]) == "run") mpfem::catch_interrupts(); // before anything that takes time
 #ifdef __GLIBC__
-  // Arrays go back to the system when they are freed. By default the C library keeps those of up to 32 MB once one such
-  // has been freed: a tenth of the memory of a coarse packing.
+  // Arrays go back to the system when they are freed. By default the C library keeps arrays of up to 32 MB once one of
+  // that size has been freed: a tenth of the memory of a coarse packing.
   mallopt(M_MMAP_THRESHOLD, 1 << 18);
 #endif
   return mpfem::run_program("mpfem", body, argc, argv);

@@ -63,7 +63,7 @@ double median(std::vector<double> values) {
   return values.empty() ? 0.0 : values[values.size() / 2];
 }
 
-/// Gives the grains the hardening of a plastic strain, as grains of a compact have it.
+/// Gives the grains the hardening of an initial plastic strain, as in a compact.
 void set_initial_hardening(Model& model) {
   const auto* law = std::get_if<PowerLaw>(&model.material_of(0).flow);
   const double flow_stress = law->yield_stress + law->coefficient * std::pow(initial_plastic_strain, law->exponent);
@@ -77,7 +77,7 @@ void set_initial_hardening(Model& model) {
       model.blocks);
 }
 
-/// Walls and grains approach by one affine motion from the start on.
+/// Walls and grains move inwards by one affine motion from the start.
 void approach_affinely(Simulation& simulation, Scenario& scenario) {
   Model& model = simulation.model_to_disturb();
   const double rate = strain_per_step / simulation.step_estimate().stable_step();
@@ -209,7 +209,7 @@ BenchScene describe(Simulation& simulation, const Scenario& scenario, const Benc
           .candidate_points = contact.candidates.point_node.size()};
 }
 
-/// The model to measure. Sets the scenario, and its end where the packing is built in.
+/// The model to measure. Sets the scenario; if the packing is built in, also its end.
 Model make_model(const BenchOptions& options, Scenario& scenario, const Communicator& ranks) {
   if (options.scenario) {
     scenario = *options.scenario;

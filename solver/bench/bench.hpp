@@ -1,5 +1,5 @@
 #pragma once
-// `mpfem bench`: what a step costs here, part by part, beside what the machine can do.
+// `mpfem bench`: what a step costs on this machine, part by part, compared with what the machine can do.
 
 #include <cstdint>
 #include <optional>
@@ -25,8 +25,8 @@ struct BenchOptions {
   bool quiet = false;
 };
 
-/// Collective. Measures and prints a table, or with `json` one object. With several ranks: the step and the output
-/// alone; times of parts are the first rank's. Throws InputError.
+/// Collective. Measures and prints a table, or one object with `json`. With several ranks only the step and the output
+/// are measured; times of parts are those of the first rank. Throws InputError.
 void run_bench(const BenchOptions& options, const Communicator& ranks = Communicator());
 
 } // namespace mpfem

@@ -63,7 +63,7 @@ UnitBall make_unit_ball(int n) {
   const auto node_at = [&](const Lattice& lattice) {
     const auto [place, fresh] = index.try_emplace(lattice, static_cast<std::int32_t>(ball.node.size()));
     if (fresh) {
-      // Octahedra of the lattice become spheres of the same distance from the centre.
+      // Octahedral shells of the lattice become spheres at the same distance from the centre.
       const Point v(lattice[0], lattice[1], lattice[2]);
       const double length = v.norm();
       ball.node.push_back(length > 0 ? Point(v * (v.lpNorm<1>() / (length * n))) : Point::Zero());
@@ -121,7 +121,7 @@ std::vector<Point> cut_directions(const Site& site, const Site& layers) {
   return cut;
 }
 
-/// Appends the ball, turned, cut flat in the given directions, with its centre at `centre` (mm). Returns its volume,
+/// Appends the ball, turned and cut flat in the given directions, with its centre at `centre` (mm). Returns its volume,
 /// mm^3.
 double add_grain(const UnitBall& ball, const Eigen::Matrix3d& turn, const std::vector<Point>& cut, const Point& centre,
                  MeshedPacking& packing) {

@@ -1,7 +1,7 @@
 #pragma once
 // A packing for measurements, made without a mesher: grains on a face-centred cubic lattice, pressed flat against each
-// other as in a dense compact. Every contact exists from the first steps on, so that the cost of the dense state can be
-// measured at any size without compacting first.
+// other as in a dense compact. Every contact exists from the first steps on, so the cost of the dense state can be
+// measured at any size without compaction.
 
 #include <cstdint>
 

@@ -139,7 +139,7 @@ std::string scene_text(const BenchResult& r) {
                      "points of {} candidates, {:.0f} bonds\n",
                      s.tets, s.element, s.precision, s.lanes, s.grains, s.relative_density, s.contact_points,
                      s.candidate_points, s.bonds) +
-         fmt::format("memory         {:.0f} B a tet, {:.2f} GB at most, all in\n\n", r.memory / s.tets,
+         fmt::format("memory         {:.0f} B a tet, {:.2f} GB at most in total\n\n", r.memory / s.tets,
                      1e-9 * r.memory) +
          fmt::format("element pass alone, {:.0f} % of the tets hardening: {:.2f} ns per tet-step\n\n",
                      100 * r.elements.hardening, r.elements.nanoseconds);

@@ -36,7 +36,7 @@ struct StepCost {
 /// The element pass alone, over all grains, while most tets harden.
 struct ElementCost {
   double nanoseconds = 0; ///< per tet and step
-  double hardening = 0;   ///< part of the tets that yielded in the last pass
+  double hardening = 0;   ///< fraction of the tets that yielded in the last pass
 };
 
 /// A contact search.
@@ -51,7 +51,7 @@ struct OutputCost {
   double steps_per_row = 0, checkpoint_interval = 0; ///< s
 };
 
-/// What the machine does at best.
+/// The best that the machine does.
 struct MachineLimits {
   double triad = 0; ///< GB/s
   double fma = 0;   ///< GFlop/s
@@ -65,8 +65,8 @@ struct BenchResult {
   SearchCost search;
   OutputCost output;
   MachineLimits machine;
-  Work tet, contact, search_work, integration; ///< of a tet; of all points; of a search; of all nodes
-  double memory = 0;                           ///< bytes, at most, of the first rank
+  Work tet, contact, search_work, integration; ///< for a tet; all points; a search; all nodes
+  double memory = 0;                           ///< bytes, the peak of the first rank
   double sent = 0;                             ///< bytes a step, of the rank that sends most
 
   /// ns per tet, of some seconds.
@@ -84,7 +84,7 @@ struct BenchResult {
 /// One JSON object.
 std::string json_text(const BenchResult& result);
 
-/// Tables of the costs and of what was moved and computed beside the machine's limits.
+/// Tables of the costs, and of the bytes and operations compared with the machine's limits.
 std::string table_text(const BenchResult& result);
 
 } // namespace mpfem

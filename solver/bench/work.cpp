@@ -23,7 +23,7 @@ double operations_of(const Body& body) {
   return static_cast<double>(Counted::operations);
 }
 
-/// A facet and a node above its interior, which is the longest way through the regions of a triangle.
+/// A facet and a node above its interior: the longest path through the regions of a triangle.
 const Vector3<Counted> facet[3] = {{0.0, 0.0, 0.0}, {1.0, 0.0, 0.0}, {0.0, 1.0, 0.0}};
 const Vector3<Counted> node{0.25, 0.25, -0.1};
 
@@ -33,7 +33,7 @@ double operations_of_distance() {
 
 double operations_of_point() {
   return operations_of([] {
-    // As contact_forces() does it for a point without bond that touches,
+    // As contact_forces() does for a touching point without bond,
     const ClosestPoint<Counted> closest = closest_point_on_triangle(node, facet);
     const Vector3<Counted> offset = node - closest.point;
     const Counted distance = norm(offset), h = 1.0, pass_stiffness = 1.0, area = 1.0;
@@ -67,7 +67,7 @@ Work work_of_tet(const Model& model) {
     update_tet(law, TetConstants{moduli, {0.06, 1.2}, 2e6, 1.55e-9, 1e-4}, edge, velocity, state, Counted(6.0),
                Counted(1.0), [&](const Counted& ratio) { return mean_stress(moduli, ratio); });
   });
-  // A block read, deviator, flow stress and plastic strain written; positions and velocities of nodes read, forces
+  // Block read; deviator, flow stress and plastic strain written; positions and velocities of nodes read, forces
   // written.
   work.bytes = with_tet_numbers(model, [](auto number) {
     using Block = TetBlock<decltype(number)>;
@@ -82,13 +82,13 @@ Work work_of_tet(const Model& model) {
 Work work_of_contact(const Contact& contact) {
   const auto sum = [](const auto& counts) { return std::accumulate(counts.begin(), counts.end(), 0.0); };
   const double points = sum(contact.active), bonds = sum(contact.pulling);
-  // Of every candidate, when it is to be looked at again, and whether it has a bond.
+  // For every candidate: when it is to be checked again, and whether it has a bond.
   const double candidates = static_cast<double>(contact.candidates.point_node.size()) *
                             (sizeof(double) + (contact.bond.empty() ? 0 : sizeof(PointBond::facet) + sizeof(double)));
   // A record of a force is written, and read for the reactions.
   const double record = 2 * sizeof(ContactForce);
-  // Of a point: its node, facet and how long that is the closest; the node's position, force and area; the facet, its
-  // nodes' positions and forces. A bond lies on the same nodes as a rule, and adds its state.
+  // For a point: its node, its facet and how long that stays the closest; the node's position, force and area; the
+  // facet, its nodes' positions and forces. A bond usually lies on the same nodes, and adds its state.
   const double point =
       2 * sizeof(std::int32_t) + sizeof(double) + 3 * row_bytes + sizeof(double) + facet_bytes + 9 * row_bytes + record;
   const double bond = 2 * sizeof(PointBond) + record;

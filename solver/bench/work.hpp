@@ -1,10 +1,10 @@
 #pragma once
-// What the parts of a step have to do at least, in operations and bytes, so that their times can be compared with the
-// machine's limits.
+// The least that the parts of a step have to do, in operations and bytes, for comparing their times with the machine's
+// limits.
 //
 // Operations are additions, multiplications, divisions and square roots, counted by letting the laws of physics compute
-// with Counted. Bytes are what must be read and written when no part finds anything in a cache that another part
-// left there, and nothing is read that is not needed: records and rows are counted, not cache lines.
+// with Counted. Bytes are what must be read and written if no part finds data of another part in a cache, and nothing
+// unneeded is read: records and rows are counted, not cache lines.
 
 #include "solver/kernels/contact_forces.hpp"
 #include "solver/model/model.hpp"
@@ -20,8 +20,8 @@ struct Work {
 /// left out.
 Work work_of_tet(const Model& model);
 
-/// All points and bonds of one evaluation of contact forces, with their reactions. Operations: only
-/// those of the points that touch, inside a facet; those of bonds and of points that turn out to be open are left out.
+/// All points and bonds of one evaluation of contact forces, with their reactions. Operations: only those of points
+/// that touch inside a facet; those of bonds and of points that prove open are left out.
 Work work_of_contact(const Contact& contact);
 
 /// One contact search: both surfaces of every pair of grains that has candidates read once, candidates written.

@@ -1,6 +1,6 @@
 #pragma once
-// The box: a cell with a rigid plane at each of its six faces, a wall. Here alone one asks how large the packing's cell
-// is and which stress it bears; a cell of another kind answers the same questions.
+// The box: a cell with a rigid plane at each of its six faces, a wall. Only the box says how large the packing's cell
+// is and which stress it bears; another kind of cell would answer the same questions.
 
 #include <array>
 #include <span>
@@ -35,7 +35,7 @@ public:
   Plane wall(std::size_t side) const;
 
   // ---- a step
-  /// mm inward, of a wall in the step that led to the present; 0 after take_loads().
+  /// mm, inward movement of a wall in the step that led to the present; 0 after take_loads().
   double movement(std::size_t side) const { return movement_[side]; }
   /// Adds the walls' forces on a grain to model.force. `bounds`: the present bounding box of the grain's surface.
   BoxSums add_forces(Model& model, const Bounds& bounds, int grain) const;
@@ -45,13 +45,13 @@ public:
   std::array<double, 6> wall_forces_on_grain(const Model& model, int grain) const;
   /// Adds K A/m (1/s^2) of the walls that each node touches to `rate` [nodes].
   void add_stiffness_rate(const Model& model, const Bounds& bounds, int grain, std::span<double> rate) const;
-  /// Takes in what the faces bear at this time level: `contact` (N), the push of each wall, and `grip` (N), that of
+  /// Records what the faces bear at this time level: `contact` (N), the push of each wall, and `grip` (N), that of
   /// grips at the faces. Returns the work (mJ) of each wall since the level before, by the trapezoidal rule, which
   /// central differences conserve.
   std::array<double, 6> take_loads(const std::array<double, 6>& contact, const std::array<double, 6>& grip);
-  /// The cell after a step, in which the walls go with its faces.
+  /// Sets the cell after a step; the walls move with its faces.
   void move_to(const Cell& next);
-  /// The cell as its tools stand (tools.hpp); walls are not moved by it.
+  /// Sets the cell to where its tools stand (tools.hpp); this does not move walls.
   void set_cell(const Cell& cell) { cell_ = cell; }
 
   // ---- stress, compression positive
@@ -61,12 +61,12 @@ public:
   std::array<double, 3> axis_force() const;
   /// MPa, of each face.
   std::array<double, 6> stress() const;
-  /// MPa, of all faces when they last took in what they bear.
+  /// MPa, mean over the faces at the last take_loads().
   double mean_stress() const { return mean_stress_; }
 
-  // ---- walls that go and come
+  // ---- walls that leave and return
   void withdraw(const std::array<bool, 3>& axes) { withdrawn_ = axes; }
-  /// Moves the faces across an axis outwards to where they touch no grain, so that walls may stand there again.
+  /// Moves the faces across an axis outwards until they touch no grain, so that walls may stand there again.
   void move_clear(std::size_t axis, std::span<const Bounds> grains);
 
   template <class Self, class Visitor>

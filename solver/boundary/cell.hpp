@@ -11,15 +11,15 @@ namespace mpfem {
 struct Cell {
   std::array<double, 3> low{};  ///< mm
   std::array<double, 3> high{}; ///< mm
-  double section_share = 1;     ///< share of the block's cross-section along z that the cell fills: pi/4 of a cylinder
+  double section_share = 1;     ///< share of the block's cross-section along z that the cell fills: pi/4 for a cylinder
 
   double length(std::size_t axis) const { return high[axis] - low[axis]; }            ///< mm
   std::array<double, 3> lengths() const { return {length(0), length(1), length(2)}; } ///< mm
   double longest() const { return std::max({length(0), length(1), length(2)}); }      ///< mm
   double volume() const { return length(0) * length(1) * length(2) * section_share; } ///< mm^3
   double centre(std::size_t axis) const { return 0.5 * (low[axis] + high[axis]); }    ///< mm
-  /// mm^2, over which the forces of the faces across an axis are spread: of a cylinder its section along z, and
-  /// laterally the middle section through the axis.
+  /// mm^2, over which the forces of the faces across an axis are spread: for a cylinder, its cross-section along z and,
+  /// laterally, the middle section through the axis.
   double area(std::size_t axis) const {
     const double block = length((axis + 1) % 3) * length((axis + 2) % 3);
     return axis == 2 ? section_share * block : block;

@@ -16,7 +16,7 @@ namespace mpfem {
 struct GrippedNode {
   std::int32_t node;
   std::int32_t side;               ///< 0: the grip at the low face, 1: at the high face
-  std::array<double, 3> reference; ///< mm: along the grips' axis from the face, across it the position, when gripped
+  std::array<double, 3> reference; ///< mm, when gripped: distance from the face along the axis, position across it
 };
 
 /// The grips of a stage.
@@ -36,8 +36,8 @@ Grips grip_nodes(const Model& model, const Cell& cell, std::size_t axis, double 
 /// Forces and work of grips on one grain.
 struct GripSums {
   std::array<double, 2> force{}; ///< N, push of the low and the high grip towards the middle
-  double work_behind = 0;        ///< mJ, half of the forces times the step that led here
-  double work_ahead = 0;         ///< mJ, half of the forces times the step that follows
+  double work_behind = 0;        ///< mJ, half of the forces times the motion in the step that led here
+  double work_ahead = 0;         ///< mJ, half of the forces times the motion in the step that follows
 
   template <class Self, class Visitor>
   static void for_each_term(Self& s, Visitor&& visit) {
@@ -47,7 +47,7 @@ struct GripSums {
 };
 
 /// Sets model.force of the gripped nodes so that the velocity update with these parameters takes them to where the
-/// grips at `next` hold them, the high one having slid across the axis by `sliding` (mm) against the low one.
+/// grips at `next` hold them. The high grip has then slid across the axis by `sliding` (mm) relative to the low one.
 /// `last_step` in s, the step that led here.
 GripSums grip_forces(Model& model, const Grips& grips, const Cell& next, const std::array<double, 3>& sliding,
                      const Advance& parameters, double last_step, int grain);

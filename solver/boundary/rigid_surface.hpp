@@ -14,15 +14,15 @@
 
 namespace mpfem {
 
-/// Distance (mm) of a point from a surface, negative behind it, and the unit normal towards the grains. `Normal` tells
-/// the drivers by `push` how to add a force along it to a node, and by `vector` its components.
+/// Distance (mm) of a point from a surface, negative behind it, and the unit normal towards the grains. `Normal` has
+/// `push`, which adds a force along it to a node, and `vector`, which gives its components.
 template <class Normal>
 struct RigidGap {
   double distance;
   Normal normal;
 };
 
-/// The point at which a surface node touches; coordinates (mm) are found when they are read.
+/// The point at which a surface node touches; coordinates (mm) are computed when they are read.
 struct NodePoint {
   const Model& model;
   std::size_t node;
@@ -31,7 +31,7 @@ struct NodePoint {
 
 template <class Surface>
 concept RigidSurface = requires(const Surface& surface, const NodePoint& point, const Bounds& bounds, Model& model) {
-  /// False where no point within the bounds can lie behind the surface.
+  /// False if no point within the bounds can lie behind the surface.
   { surface.may_touch(bounds) } -> std::same_as<bool>;
   { surface.gap(point).distance } -> std::convertible_to<double>;
   /// Adds a force (N) along the normal to the contact point of a node.
@@ -42,7 +42,7 @@ concept RigidSurface = requires(const Surface& surface, const NodePoint& point, 
 /// What a surface bears and stores.
 struct SurfaceLoad {
   double force = 0;       ///< N, sum of the normal forces
-  double penetration = 0; ///< largest over the element size
+  double penetration = 0; ///< the largest, over the element size
   double energy = 0;      ///< mJ, in the penalty
 
   template <class Self, class Visitor>
@@ -68,14 +68,14 @@ void for_each_node_behind(const Model& model, const Surface& surface, int grain,
     if (const auto gap = surface.gap(NodePoint{model, node}); gap.distance < 0) visit(node, gap);
 }
 
-/// The same; looks at no node where the surface cannot touch `bounds`, those of the grain's surface.
+/// The same, but skips all nodes if the surface cannot touch `bounds`, those of the grain's surface.
 template <RigidSurface Surface, class Visitor>
 void for_each_node_behind(const Model& model, const Surface& surface, const Bounds& bounds, int grain,
                           Visitor&& visit) {
   if (surface.may_touch(bounds)) for_each_node_behind(model, surface, grain, visit);
 }
 
-/// N, with which a surface at `distance` < 0 (mm) pushes a node of a grain.
+/// Force (N) with which a surface at `distance` < 0 (mm) pushes a node of a grain.
 inline double surface_force(const Model& model, std::size_t node, int grain, double distance) {
   return wall_force(distance, model.penalty_stiffness[static_cast<std::size_t>(grain)], model.local_stiffness(node),
                     model.reference_area[node]);

@@ -2,8 +2,8 @@
 // Adhesion of a grain's nodes to one rigid surface: bonds (solver/physics/bond_kinematics.hpp) from a node to a point
 // of the surface, which is kept in the surface's own frame.
 //
-// A bond forms when its node first comes behind the surface, where it is closest to it then. It breaks for good, unless
-// its law says that a broken bond's node bonds anew after it has been in front of the surface.
+// A bond forms when its node first comes behind the surface, at the surface point that is closest to it then. A broken
+// bond stays broken, unless its law lets the node bond again after it has been in front of the surface.
 
 #include <algorithm>
 #include <cstdint>
@@ -54,7 +54,7 @@ public:
     bonds_.reserve(before.size());
   }
 
-  /// A node behind the surface: it bonds where it has never been there. By ascending node.
+  /// Handles a node behind the surface: it bonds if it has never been there. To be called by ascending node.
   template <class Gap>
   HeldNode hold(std::size_t node, const Gap& gap) {
     const auto number = static_cast<std::int32_t>(node);
@@ -79,7 +79,7 @@ public:
     return held;
   }
 
-  /// All bonds, with those whose nodes are in front of the surface.
+  /// All bonds, including those whose nodes are in front of the surface.
   std::vector<SurfaceBond> finish() {
     pull_before(std::numeric_limits<std::int32_t>::max());
     return std::move(bonds_);
@@ -90,7 +90,7 @@ public:
   double bonded_area = 0; ///< mm^2, of nodes whose bonds are not broken
 
 private:
-  /// Nodes in front of the surface.
+  /// Handles bonds whose nodes are in front of the surface, up to `node`.
   void pull_before(std::int32_t node) {
     for (; next_ != end_ && next_->node < node; ++next_) {
       if (!next_->intact()) {
@@ -102,7 +102,7 @@ private:
     }
   }
 
-  /// Takes an intact bond to this time level.
+  /// Updates an intact bond to this time level.
   template <class Gap>
   void pull(SurfaceBond& bond, const Gap& gap) {
     const auto node = static_cast<std::size_t>(bond.node);
@@ -130,7 +130,7 @@ private:
   Bear bear_;
 };
 
-/// Whether any of a grain's bonds has to be looked at where the surface cannot touch the grain.
+/// Whether any of a grain's bonds has to be updated even if the surface cannot touch the grain.
 inline bool any_to_follow(const Adhesion& adhesion, const std::vector<SurfaceBond>& bonds) {
   return adhesion.rebond_on_contact
              ? !bonds.empty()
@@ -138,7 +138,7 @@ inline bool any_to_follow(const Adhesion& adhesion, const std::vector<SurfaceBon
 }
 
 /// Adds to `rate` (1/s^2) [nodes] what a grain's bonds to a surface add to the frequency squared, beyond the penalty of
-/// nodes behind it. Push and drift of a point act across each other, so that the larger of both stiffnesses counts.
+/// nodes behind it. Push and drift of a point are perpendicular, so that the larger of both stiffnesses counts.
 template <RigidSurface Surface>
 void add_adhesion_stiffness_rate(const Model& model, const Adhesion& adhesion, const Surface& surface, int grain,
                                  const std::vector<SurfaceBond>& bonds, std::span<double> rate) {

@@ -1,8 +1,8 @@
 #pragma once
 // Coulomb friction of a grain's nodes against one rigid surface (solver/physics/friction.hpp).
 //
-// A node behind the surface has an anchor in it: a point of the surface, in the surface's own frame, to which a stick
-// spring with the stiffness of the penalty is tied. It is forgotten when the node comes in front of the surface.
+// A node behind the surface has an anchor: a point of the surface, in the surface's own frame, to which a stick spring
+// with the stiffness of the penalty is tied. The anchor is forgotten when the node comes in front of the surface.
 
 #include <algorithm>
 #include <cstdint>
@@ -48,8 +48,8 @@ public:
     anchors_.reserve(before.size());
   }
 
-  /// A node behind the surface, whose penalty and bond together push it with `push` (N). By ascending node. Returns the
-  /// friction force (N) on the node.
+  /// Handles a node behind the surface, which penalty and bond together push with `push` (N). To be called by ascending
+  /// node. Returns the friction force (N) on the node.
   template <class Gap>
   Vector3<double> rub(std::size_t node, const Gap& gap, double push, const RubbingShare& of_point = {}) {
     const auto number = static_cast<std::int32_t>(node);
@@ -90,11 +90,11 @@ public:
   double dissipation = 0; ///< mJ
 
 private:
-  /// Of a node at `depth` (mm) behind the surface, in the surface's frame.
+  /// The surface point closest to a node at `depth` (mm) behind it, in the surface's frame.
   Vector3<double> closest_point(std::size_t node, double depth, const Vector3<double>& normal) const {
     return model_.contact_point(node) + depth * normal - motion_.origin;
   }
-  /// A slip along the chord leaves a curved surface by the square of its length.
+  /// Puts an anchor back on the surface: a slip along the chord leaves a curved surface by the square of its length.
   Vector3<double> on_surface(const Vector3<double>& place) const {
     if constexpr (requires { requires !Surface::curved; }) {
       return place;
@@ -117,7 +117,7 @@ private:
     const Vector3<double> along = moved + closing * normal;
     return {share * along, (1.0 - share) * along};
   }
-  /// Nodes that have come in front of the surface: their anchors slip all the way.
+  /// Releases nodes that have come in front of the surface: their anchors slip all the way.
   void release_before(std::int32_t node) {
     for (; next_ != end_ && next_->node < node; ++next_) {
       const auto n = static_cast<std::size_t>(next_->node);

@@ -1,8 +1,8 @@
 #pragma once
 // Rigid surfaces of tools as signed distances: oriented plane, cylinder with rounded ends, sphere, cone, triangles.
 //
-// Each is a RigidSurface (rigid_surface.hpp) in its tool's own frame, which a tool that has moved shifts. The distance
-// is positive where the grains are, and its gradient is the normal.
+// Each is a RigidSurface (rigid_surface.hpp) in its tool's own frame, which shifts when the tool moves. The distance is
+// positive where the grains are, and its gradient is the normal.
 
 #include <algorithm>
 #include <array>
@@ -27,7 +27,7 @@ struct FreeNormal {
   }
 };
 
-/// Where a point lies about an axis.
+/// Where a point lies relative to an axis.
 struct AxialPosition {
   double along;           ///< mm, from the reference point
   double radius;          ///< mm, from the axis
@@ -88,8 +88,8 @@ struct OrientedPlane {
   }
 };
 
-/// A die, the matter around a bore, or a rod, both with rounded edges at their ends: in the plane of radius and axis
-/// each is a rectangle with round corners, whose signed distance is exact.
+/// A die (the material around a bore) or a rod, with rounded edges at the ends. In the plane of radius and axis, each
+/// is a rectangle with round corners, whose signed distance is exact.
 struct CylinderSurface {
   static constexpr bool curved = true;
   std::size_t axis;
@@ -108,7 +108,7 @@ struct CylinderSurface {
   template <class Point>
   RigidGap<FreeNormal> gap(const Point& x) const {
     const AxialPosition p(vector_of(x) - centre, axis);
-    const double sign = inside ? -1.0 : 1.0; // of the way out of the matter along the radius
+    const double sign = inside ? -1.0 : 1.0; // of the way out of the material along the radius
     // How far beyond the rectangle's straight edges, drawn in by the rounding.
     const double across = sign * (p.radius - radius) + rounding;
     const double beyond = std::abs(p.along) - (half_length - rounding);
@@ -141,7 +141,7 @@ struct SphereSurface {
   }
 };
 
-/// The distance is that from the cone's side; beyond its apex that of the side prolonged.
+/// The distance is that from the cone's side or, beyond its apex, from the side extended.
 struct ConeSurface {
   static constexpr bool curved = true;
   std::size_t axis;
@@ -150,7 +150,7 @@ struct ConeSurface {
   double sine, cosine;  ///< of the half angle
   bool inside;          ///< grains are inside
 
-  /// The region inside a cone is convex, so that a block lies in it where its corners do.
+  /// The region inside a cone is convex, so that a block lies in it if its corners do.
   bool may_touch(const Bounds& b) const {
     if (!inside) return true;
     for (unsigned corner = 0; corner < 8; ++corner) {
@@ -173,8 +173,8 @@ struct BodySurface {
   static constexpr bool curved = true;
   std::shared_ptr<const TriangulatedSurface> triangles;
   Vector3<double> centre;                     ///< mm, the middle of its bounds
-  double reach;                               ///< mm in front of it, up to where distances and normals are exact
-  std::shared_ptr<const TriangleMesh> mesh{}; ///< what the triangles were made of, for who draws them
+  double reach;                               ///< mm: up to so far in front, distances and normals are exact
+  std::shared_ptr<const TriangleMesh> mesh{}; ///< what the triangles were made from, for pictures
 
   bool may_touch(const Bounds& b) const { return triangles->may_touch(b); }
   template <class Point>

@@ -204,7 +204,7 @@ double Tools::take_off(Model& model, std::size_t index, const Bounds& bounds, do
   return 0.5 * last_step * power;
 }
 
-/// Of all grains, added up in their order.
+/// Takes a tool off all grains; the energies are added up in the order of grains.
 double Tools::take_off_all(Model& model, std::size_t index, std::span<const Bounds> bounds, double last_step,
                            const Communicator& ranks) {
   std::vector<double> of_grain(static_cast<std::size_t>(grains_), 0.0);
@@ -253,7 +253,7 @@ void Tools::come_back(Tool& tool, const Model& model, const Communicator& ranks)
   if (plane == nullptr)
     throw SimulationError(fmt::format(
         "tool '{}' comes back {:.4g} mm inside grains, allowed where it touches none: let grains move clear of it "
-        "before, or do not take it away",
+        "first, or do not take it away",
         tool.name, deepest));
   const std::array<double, 3> normal = array_of(plane->normal);
   for (std::size_t axis = 0; axis < 3; ++axis) tool.moved[axis] -= deepest * normal[axis];

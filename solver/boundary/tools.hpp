@@ -18,7 +18,7 @@ namespace mpfem {
 
 using ToolSurface = std::variant<OrientedPlane, CylinderSurface, SphereSurface, ConeSurface, BodySurface>;
 
-/// What a tool bears of grains.
+/// What a tool bears from grains.
 struct ToolLoad {
   Vector3<double> force{0, 0, 0};  ///< N, of the grains on the tool
   Vector3<double> moment{0, 0, 0}; ///< N mm, of these forces about the tool's reference point
@@ -29,7 +29,7 @@ struct ToolLoad {
   double adhesion_energy = 0;      ///< mJ, in bonds to the tool
   double adhesion_dissipation = 0; ///< mJ, by damage of these bonds since the time level before
   double bonded_area = 0;          ///< mm^2, of bonds that are not broken
-  double penetration = 0;          ///< largest over the element size
+  double penetration = 0;          ///< the largest, over the element size
 
   template <class Self, class Visitor>
   static void for_each_term(Self& s, Visitor&& visit) {
@@ -39,7 +39,7 @@ struct ToolLoad {
     visit.largest(s.penetration);
   }
   void add(const ToolLoad& other);
-  /// Whether it has any force on a node.
+  /// Whether the tool exerts a force on any node.
   bool acts() const { return penetration > 0 || adhesion_energy > 0; }
 };
 
@@ -76,14 +76,14 @@ public:
 
   // ---- a step
   /// Adds the tools' forces on a grain to model.force. `bounds`: the present bounding box of the grain's surface;
-  /// `last_step` in s. Different grains may be at work at once.
+  /// `last_step` in s. Different grains may be handled at the same time.
   void add_forces(Model& model, const Bounds& bounds, double last_step, int grain);
   /// Collective. Adds up what the tools bear at this time level. Returns their work (mJ) on the grains since the level
   /// before, by the trapezoidal rule.
   double take_loads(const Communicator& ranks, const Ownership& ownership);
-  /// What a tool bears, as last added up.
+  /// What a tool bears, as last summed.
   const ToolLoad& load(std::size_t tool) const { return load_[tool]; }
-  /// Of all tools.
+  /// What all tools bear together.
   ToolLoad total() const;
   /// mJ, lost so far by damage of bonds to tools.
   double adhesion_dissipation() const;
@@ -94,12 +94,12 @@ public:
   /// N, the normal pushes of all tools on the contact point of a surface node.
   double push_on_node(const Model& model, std::size_t node, int grain) const;
 
-  // ---- tools that go and come
-  /// Collective. From now on these tools and no others are away, and bonds to them are cut. Those which leave take
-  /// their forces of this time level out of model.force; `last_step` (s) led to it. Returns the energy (mJ) that they
-  /// take along: what they store, and what of the kinetic energy (node_motion.hpp) goes with their forces. Planes that
-  /// come back stand where they touch no grain. `bounds` [grains], of their surfaces. Throws SimulationError where
-  /// another tool comes back into grains.
+  // ---- tools that leave and return
+  /// Collective. From now on these tools and no others are away, and bonds to them are cut. The forces that leaving
+  /// tools exert at this time level are taken out of model.force; `last_step` (s) led to it. Returns the energy (mJ)
+  /// that they take along: what they store, and the part of the kinetic energy (node_motion.hpp) that goes with their
+  /// forces. Planes that return stand where they touch no grain. `bounds` [grains], of their surfaces. Throws
+  /// SimulationError if another tool would return inside grains.
   double set_away(std::span<const std::size_t> away, Model& model, std::span<const Bounds> bounds, double last_step,
                   const Communicator& ranks);
   /// Name and depth (mm) of the tool that a surface node is deepest behind; none where it is behind none.
@@ -135,7 +135,7 @@ private:
   std::vector<std::vector<SurfaceBond>> bonds_;     ///< [grains * tools]
 };
 
-/// The container that tools form: the cell between two punches, across it the bore of a die.
+/// The container that tools form: the cell between two punches, inside the bore of a die.
 class Container {
 public:
   /// Indices of tools.
@@ -143,10 +143,10 @@ public:
     std::size_t wall, lower, upper;
   };
   explicit Container(const Parts& parts) : parts_(parts) {}
-  /// The cell as the tools stand now; where a punch is away, the last one's height stays.
+  /// The cell where the tools stand now; if a punch is away, the cell keeps the height of `last`.
   Cell cell(const Tools& tools, const Cell& last) const;
-  /// N of each face, -x, +x, …: of the punches, and of the bore the force that drives its halves apart, over the four
-  /// lateral faces.
+  /// N of each face, -x, +x, …: the forces on the punches and, at the four lateral faces, the force that drives the
+  /// halves of the bore apart.
   std::array<double, 6> face_forces(const Tools& tools) const;
 
 private:

@@ -6,7 +6,7 @@ namespace mpfem {
 
 namespace {
 
-/// The frame of a wall goes with it along its normal.
+/// The frame of a wall moves with it along its normal.
 SurfaceMotion motion_of(const Plane& plane, double approach, double step) {
   const Vector3<double> normal = plane.normal.vector();
   return {(plane.normal.sign * plane.position) * normal, approach * normal, step};

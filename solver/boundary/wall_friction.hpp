@@ -29,12 +29,12 @@ public:
 
   bool present() const { return friction_ > 0; }
   /// Adds the walls' friction on a grain to model.force, before the box takes in its loads. `last_step` in s, the step
-  /// that led to the present. Different grains may be at work at once.
+  /// that led to the present. Different grains may be handled at the same time.
   WallFrictionSums add_forces(Model& model, const Box& box, const Bounds& bounds, double last_step, int grain);
   /// Forgets the anchors in the walls across these axes.
   void forget(const std::array<bool, 3>& axes);
 
-  /// N on a grain, of each wall along both axes.
+  /// N on a grain, of each wall along its two tangential axes.
   std::array<double, 12> forces_on_grain(int grain) const;
   /// By ascending node.
   const std::vector<SurfaceAnchor>& anchors(int grain, std::size_t side) const;

@@ -18,7 +18,7 @@ struct PointRange {
   bool left() const { return point < end; }
 };
 
-/// The node of the range's next point; larger than any node where none is left.
+/// The node of the range's next point; larger than any node if none is left.
 std::int32_t next_node(const ContactCandidates& candidates, const PointRange& range) {
   return range.left() ? candidates.point_node[at(range.point)] : std::numeric_limits<std::int32_t>::max();
 }
@@ -28,15 +28,15 @@ struct PairCursor {
   const ContactCandidates& candidates;
   std::size_t pair = 0;
 
-  /// The present pair; larger than any other where none is left.
+  /// The current pair; larger than any other if none is left.
   Pair grains() const {
     constexpr std::int32_t none = std::numeric_limits<std::int32_t>::max();
     return pair < candidates.pair_first.size() ? Pair(candidates.pair_first[pair], candidates.pair_second[pair])
                                                : Pair(none, none);
   }
   bool left() const { return pair < candidates.pair_first.size(); }
-  /// The points of these two grains, none where the present pair is another one. Moves on to the next pair where it is
-  /// not.
+  /// The points of these two grains, after which the cursor moves on to the next pair; none if the current pair is
+  /// another one.
   PointRange take(const Pair& wanted) {
     if (!left() || grains() != wanted) return {};
     ++pair;
@@ -51,7 +51,7 @@ struct BondedCandidates {
 };
 
 /// Appends the points of one pair, found and old, by ascending node. Old points without a bond and without the energy
-/// of former bonds are left out. A point that is in both lists has the found facets and the old bond.
+/// of former bonds are left out. A point that is in both lists gets the new facets and the old bond.
 void merge_points(const ContactCandidates& found, PointRange new_points, const ContactCandidates& old,
                   const std::vector<PointBond>& old_bond, PointRange old_points, BondedCandidates& merged) {
   const auto is_kept = [&](std::int32_t point) {
@@ -99,8 +99,8 @@ BondedCandidates keep_bonded_points(const ContactCandidates& found, const Contac
   return merged;
 }
 
-/// The friction of new points: what the old ones of the same node and grain had. These lose what they have dissipated,
-/// so that `friction` keeps that of points which are gone.
+/// The friction of new points, from the old points of the same node and grain. The dissipation of those old points is
+/// set to 0, so that `friction` keeps only that of points which are gone.
 std::vector<PointFriction> carried_friction(const ContactCandidates& now, const ContactCandidates& old,
                                             std::vector<PointFriction>& friction) {
   std::vector<PointFriction> carried(now.point_node.size());
@@ -120,7 +120,7 @@ std::vector<PointFriction> carried_friction(const ContactCandidates& now, const 
   return carried;
 }
 
-/// Puts friction on new candidates, and remembers what points that are gone have dissipated.
+/// Carries friction over to new candidates, and records what points that are gone have dissipated.
 void carry_friction(const ContactCandidates& now, Contact& contact) {
   const ContactCandidates& old = contact.candidates;
   std::vector<PointFriction> carried = carried_friction(now, old, contact.rubbing);
@@ -136,7 +136,7 @@ void carry_friction(const ContactCandidates& now, Contact& contact) {
 /// Memory for the records of forces of all points.
 void make_room_for_forces(Contact& contact) {
   const std::size_t points = contact.candidates.point_node.size(), pairs = contact.candidates.pair_first.size();
-  contact.force = {}; // before its successor: never both in memory
+  contact.force = {}; // freed before the new one is allocated: never both in memory
   contact.force.resize(points);
   contact.active.assign(pairs, 0);
   if (!contact.bonding()) return;
@@ -145,7 +145,7 @@ void make_room_for_forces(Contact& contact) {
   contact.pulling.assign(pairs, 0);
 }
 
-/// Candidates that are put together from pairs of others, and which old point each point was.
+/// Candidates assembled from pairs of other lists, and which old point each point was.
 struct CandidatesFromOld {
   ContactCandidates candidates;
   std::vector<std::int32_t> old_point; ///< [points]; -1: none

@@ -1,5 +1,5 @@
 #pragma once
-// When candidates are searched anew, and what points keep then.
+// When candidates are searched for again, and what their points keep.
 
 #include <span>
 
@@ -10,23 +10,23 @@ namespace mpfem {
 
 /// Where a search looks.
 struct SearchRange {
-  double margin = 0;              ///< mm, up to which candidates hold: Contact::margin
-  double reach = 0;               ///< mm, of nodes and facets: contact points lie behind their nodes
+  double margin = 0;              ///< mm, up to which candidates are valid: Contact::margin
+  double reach = 0;               ///< mm, from nodes to facets: larger, as contact points lie behind nodes
   std::span<const Bounds> bounds; ///< [grains], of the surfaces at present
-  const NearGrains& near;         ///< grains whose nodes are looked at, and the others near each
+  const NearGrains& near;         ///< grains whose nodes are searched, and the others near each
 };
 
-/// Searches anew and resets the points' running state, apart from bonds and friction. The pairs of `contact` must be
-/// those of grains in range.near.
+/// Searches again and resets the points' running state, except bonds and friction. The pairs of `contact` must be those
+/// of grains in range.near.
 void renew_candidates(const Model& model, const SearchRange& range, ThreadTeam& team, Contact& contact);
 
-/// mm, bound of the path of any node of a grain since the search.
+/// mm, bound of the path length of any node of a grain since the search.
 double travel_since_search(const Contact& contact, std::size_t grain);
 /// True when two nodes may have approached by more than the candidates' margin; `travel` (mm) is the largest of all
 /// grains since the search.
 bool search_is_due(const Contact& contact, double travel);
 
-/// Leaves the pairs whose first grain is the rank's own, with the state of their points.
+/// Keeps only the pairs whose first grain is the rank's own, with the state of their points.
 void leave_own_pairs(const Model& model, Contact& contact);
 
 /// Adds pairs whose first grain is another rank's, sorted as candidates are; their points begin without state.

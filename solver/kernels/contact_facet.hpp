@@ -33,8 +33,8 @@ inline Facet facet_geometry(const Model& model, std::int32_t facet) {
   return result;
 }
 
-/// True where a node is on the outer side of the facet's surface. `offset` is node minus closest point, mm. Nodal
-/// normals, which lie in memory of their own, are only read where the closest point is on an edge or corner.
+/// True if a node is on the outer side of the facet's surface. `offset` is node minus closest point, mm. Nodal normals
+/// lie elsewhere in memory; they are read only if the closest point is on an edge or corner.
 inline bool is_outside(const Model& model, const Vector3<double>& offset, const ClosestPoint<double>& closest,
                        const Facet& facet) {
   if (closest.inside) return dot(offset, facet_direction(facet.x)) >= 0;
@@ -43,7 +43,7 @@ inline bool is_outside(const Model& model, const Vector3<double>& offset, const 
   return dot(offset, edge_direction(closest, normal)) >= 0;
 }
 
-/// The closest of some facets, and how far the second closest is.
+/// The closest of some facets, and the distance of the second closest.
 struct ClosestFacet {
   std::int32_t facet = -1;                                          ///< -1 where there are none
   double distance = std::numeric_limits<double>::infinity();        ///< mm

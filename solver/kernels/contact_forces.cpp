@@ -23,7 +23,7 @@ void add_to_node(Model& model, const ContactForce& record) {
 struct PairOfGrains {
   std::size_t grain, other;
   double travel;            ///< mm, of both grains
-  double limit;             ///< mm: travel up to which the candidates hold
+  double limit;             ///< mm: travel up to which the candidates are valid
   double stiffness;         ///< MPa/mm, share of this pass
   double friction;          ///< mu
   std::int32_t first_point; ///< where the pair's records begin
@@ -98,7 +98,7 @@ private:
       return evaluate_open_point(pair, point, node, x, distance);
     }
     refuse_depth(pair, distance);
-    // 3. Inside: pushed back to the closest point. What a bond carries of the push is not left to the penalty.
+    // 3. Inside: pushed back to the closest point. The part of the push that a bond carries is not left to the penalty.
     const double k = pair.stiffness * model_.local_stiffness(at(node)) * model_.reference_area[at(node)];
     double pushed = k;
     if constexpr (bonding)
@@ -127,13 +127,13 @@ private:
     const ClosestFacet closest =
         closest_facet(model_, x, {candidates.point_facet.data() + first, static_cast<std::size_t>(last - first)});
     facet = closest.facet;
-    // Facets that are no candidates were further than the margin at the search.
+    // Facets that are not candidates were farther away than the margin at the search.
     const double others = std::min(closest.second_distance, pair.limit - pair.travel);
     contact_.point_facet_until[at(point)] = facet < 0 ? pair.limit : pair.travel + 0.5 * (others - closest.distance);
     return facet;
   }
 
-  /// A point that is only kept for its bond: the other surface is further than the margin.
+  /// A point that is kept only for its bond: the other surface is farther away than the margin.
   void evaluate_far_bond(PairOfGrains& pair, std::int32_t point, std::int32_t node, const Vector3<double>& x) {
     contact_.point_open_until[at(point)] = pair.limit;
     PointBond& bond = contact_.bond[at(point)];
@@ -157,8 +157,8 @@ private:
     }
   }
 
-  /// The bond of a point that is closed by `distance` (mm) at the closest point of `facet`: formed where there is none.
-  /// Gives the part of the penalty that the bond leaves to the point.
+  /// Updates the bond of a point that is closed by `distance` (mm) at the closest point of `facet`, or forms it if
+  /// there is none. Returns the part of the penalty that the bond leaves to the point.
   double evaluate_closed_bond(PairOfGrains& pair, PointBond& bond, std::int32_t node, const Vector3<double>& x,
                               std::int32_t facet, const ClosestPoint<double>& closest, double distance) {
     const bool normal_only = contact_.bond_laws.back().normal_only;
@@ -174,8 +174,8 @@ private:
     return bond.intact() ? pull(pair, bond, node, x, -distance) : 1.0;
   }
 
-  /// Takes a bond to the present position of its node and records its force. `gap` in mm, negative inside. Gives the
-  /// part of the penalty that the bond leaves to a closed point.
+  /// Updates a bond to the present position of its node and records its force. `gap` in mm, negative inside. Returns
+  /// the part of the penalty that the bond leaves to a closed point.
   double pull(PairOfGrains& pair, PointBond& bond, std::int32_t node, const Vector3<double>& x, double gap) {
     const Facet facet = facet_geometry(model_, bond.facet);
     const double penalty = 2 * pair.stiffness * model_.local_stiffness(at(node)); // of both passes
@@ -189,9 +189,9 @@ private:
     return penalty_left_by_bond(law, bond, penalty);
   }
 
-  /// The force of a closed point with friction, Coulomb's `coefficient`: one spring between the node and its anchor.
-  /// `penalty` k and `pushed`, what a bond leaves of it, N/mm. A branch may find bonds of an earlier law that are
-  /// stiffer than the penalty: until they are damaged nothing rubs.
+  /// The force of a closed point with friction (Coulomb's `coefficient`): one spring between the node and its anchor.
+  /// `penalty` is k, `pushed` what a bond leaves of it, N/mm. In a branch, bonds of an earlier law may be stiffer than
+  /// the penalty: until they are damaged, nothing rubs.
   ContactForce evaluate_friction(const ClosedPoint& closed, const Facet& closest_facet, std::int32_t point,
                                  double coefficient, double penalty, double pushed, ContactSums& sums) {
     PointFriction& friction = contact_.rubbing[at(point)];
@@ -206,7 +206,7 @@ private:
                        contact_.candidates.point_node[at(point)], step.on_closest ? closest_facet : anchor);
   }
 
-  /// mm, of a point's node against its closest point in the last step; nothing where friction has an anchor already.
+  /// mm, motion of a point's node relative to its closest point in the last step; 0 if friction already has an anchor.
   Vector3<double> motion(std::int32_t point, const ClosestPoint<double>& closest, const Facet& facet) const {
     if (contact_.rubbing[at(point)].exists()) return {0, 0, 0};
     const std::size_t node = at(contact_.candidates.point_node[at(point)]);
@@ -233,7 +233,7 @@ private:
         {force.x, force.y, force.z}, weight1, weight2, stiffness, node, {facet.node[0], facet.node[1], facet.node[2]}};
   }
 
-  /// Beyond the margin of the search, facets that are closer may be no candidates.
+  /// Beyond the margin of the search, closer facets may be missing from the candidates.
   void refuse_depth(const PairOfGrains& pair, double distance) const {
     const double allowed = 0.9 * contact_.margin;
     if (distance > allowed)

@@ -57,7 +57,7 @@ double safe(double margin) {
   return margin * (1 + 1e-9);
 }
 
-/// A grid of cells over all grains. A grain stands in every cell that its box meets.
+/// A grid of cells over all grains. A grain is listed in every cell that its box meets.
 class GrainGrid {
 public:
   explicit GrainGrid(std::span<const Bounds> bounds) : bounds_(bounds) {
@@ -71,7 +71,7 @@ public:
     const auto middle = extents.begin() + static_cast<std::ptrdiff_t>(extents.size() / 2);
     std::nth_element(extents.begin(), middle, extents.end());
     low_ = all.low;
-    // Cells as large as a usual grain; where grains have flown far apart larger ones, no more than some for each.
+    // Cells as large as a typical grain; larger if grains have flown far apart, so that there are only some per grain.
     const double most = std::max(2.0, 2 * std::cbrt(static_cast<double>(bounds.size())));
     for (std::size_t k = 0; k < 3; ++k) {
       const double length = all.high[k] - all.low[k], wanted = length / *middle;
@@ -80,7 +80,7 @@ public:
     }
     fill();
   }
-  /// Calls visit(grain) for every grain of the cells that a box meets; a grain may come more than once.
+  /// Calls visit(grain) for every grain of the cells that a box meets; a grain may be visited more than once.
   template <class Visit>
   void in(const Bounds& box, Visit visit) const {
     for_each_cell(box, [&](std::size_t cell) {
@@ -89,7 +89,7 @@ public:
   }
 
 private:
-  /// The first cell for what is no number.
+  /// Returns the first cell for NaN.
   int coordinate(double x, std::size_t k) const {
     const double place = (x - low_[k]) * inverse_size_[k];
     return place > 0 ? static_cast<int>(std::min(place, static_cast<double>(cells_[k] - 1))) : 0;
@@ -140,7 +140,7 @@ struct NodeGrid {
                static_cast<std::size_t>(cells[0]) +
            static_cast<std::size_t>(x);
   }
-  /// `cell` in mm; at most some 30 cells an axis.
+  /// `cell` in mm; at most 30 cells along each axis.
   void fill(const SurfaceView& surface, double cell) {
     for (std::size_t k = 0; k < 3; ++k) {
       const double length = std::max(region.high[k] - region.low[k], 0.0);
@@ -286,7 +286,7 @@ ContactCandidates find_contact_candidates(const SurfaceView& surface, double mar
     }
   });
 
-  // Joined in the grains' order, so that the result does not depend on who found what.
+  // Joined in the grains' order, so that the result does not depend on which thread found what.
   ContactCandidates result;
   result.pair_point_offset.push_back(0);
   result.point_facet_offset.push_back(0);

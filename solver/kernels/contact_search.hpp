@@ -37,11 +37,11 @@ struct NearGrains {
   std::vector<std::vector<std::int32_t>> other; ///< of each: ascending
 };
 
-/// The grains that come within the margin of some grains by their bounding boxes; a few more may be among them.
+/// For each of `grains`, the others whose bounding boxes come within the margin of its own; may include a few more.
 /// `bounds` [grains of the packing].
 NearGrains find_near_grains(std::span<const Bounds> bounds, double margin, std::vector<std::int32_t> grains);
 
-/// The same as above for pairs whose first grain and second grain are near.grain and among near.other; looks at no
+/// The same as above, only for pairs of a first grain in near.grain and a second grain in its near.other; looks at no
 /// other surfaces. `bounds` [grains of the packing] of the surfaces at present.
 ContactCandidates find_contact_candidates(const SurfaceView& surface, double margin, std::span<const Bounds> bounds,
                                           const NearGrains& near, ThreadTeam& team);

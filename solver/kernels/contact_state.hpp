@@ -19,13 +19,13 @@
 
 namespace mpfem {
 
-/// Force of one contact point, of the penalty or of its bond. With friction that of the penalty is the stick spring's,
-/// which acts at the anchor.
+/// Force of one contact point, from the penalty or from its bond. With friction, the penalty force is that of the stick
+/// spring, which acts at the anchor.
 struct ContactForce {
   double force[3];         ///< N, on the node
   double weight1, weight2; ///< shape functions of the facet's second and third node where the reaction acts
   double stiffness;        ///< N/mm
-  std::int32_t node;       ///< 64 bytes with the facet's nodes: one cache line, and no look-up where they react
+  std::int32_t node;       ///< 64 bytes with the facet's nodes: one cache line, and no look-up for reactions
   std::int32_t facet_node[3];
   double weight(int corner) const { return corner == 0 ? 1.0 - weight1 - weight2 : corner == 1 ? weight1 : weight2; }
 };
@@ -42,19 +42,19 @@ struct Contact {
   std::vector<double> point_facet_until; ///< [points], mm: point_facet is the closest until travel adds up to this
   std::vector<ContactForce> force;       ///< [points]: active points first within every pair's range
   std::vector<std::int32_t> active;      ///< [pairs]: number of active points
-  /// Laws by which bonds formed; empty: no bonds, and the arrays below stay empty. New bonds form by the last one,
-  /// which in a branch may differ from that of the bonds of its checkpoint. Their stiffness is 0 where it follows the
-  /// point's penalty (bond_law).
+  /// Laws by which bonds formed; empty: no bonds, and the arrays below stay empty. New bonds form by the last law; in a
+  /// branch it may differ from the law of the bonds in the checkpoint. A law's stiffness is 0 if it follows the point's
+  /// penalty (bond_law).
   std::vector<BondLaw> bond_laws;
-  bool rebond_on_contact = false;       ///< a broken bond's point bonds anew when it has opened and closes again
+  bool rebond_on_contact = false;       ///< a point with a broken bond bonds again once it has opened and closes
   std::vector<PointBond> bond;          ///< [points]
   std::vector<ContactForce> bond_force; ///< [points]: pulling bonds first within every pair's range
   std::vector<std::int32_t> pulling;    ///< [pairs]: number of pulling bonds
   PairFriction friction;                ///< without any, the array below stays empty
   std::vector<PointFriction> rubbing;   ///< [points]
-  /// mJ that friction has dissipated so far at points that are candidates no more, by ordered pair of grains.
+  /// mJ that friction has dissipated so far at points that are no longer candidates, by ordered pair of grains.
   std::map<std::pair<std::int32_t, std::int32_t>, double> friction_left_behind;
-  double last_step = 0;                 ///< s, that led to the present positions; friction asks where points came in
+  double last_step = 0;                 ///< s, of the step to the present positions; shows where points came in
   std::vector<double> travel;           ///< [grains], mm: bound of any node's path length since the run began
   std::vector<double> travel_at_search; ///< [grains], mm
 

@@ -36,8 +36,8 @@ void contact_stiffness_rate(const Model& model, const Contact& contact, int grai
 
 namespace {
 
-/// What bonds raise the stiffness of a point with this penalty (MPa/mm) to, over that penalty: a closed, intact bond
-/// with the stiffness ratio r counts |1 - r| + r.
+/// Stiffness to which bonds raise a point with this penalty (MPa/mm), over that penalty: a closed, intact bond with the
+/// stiffness ratio r counts |1 - r| + r.
 double raised_by_bonds(const Contact& contact, double penalty) {
   double largest = 1;
   for (const BondLaw& law : contact.bond_laws)

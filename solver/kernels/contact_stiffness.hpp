@@ -13,7 +13,7 @@ namespace mpfem {
 void contact_stiffness_rate(const Model& model, const Contact& contact, int grain, std::span<double> rate);
 
 /// Raises `rate` to what a node in contact usually has, so that the step does not jump when one comes into contact.
-/// Nodes near a coarser grain get what one of its nodes would add, which has a larger area.
+/// Nodes near a coarser grain get what one of that grain's nodes would add, since these have larger areas.
 void raise_to_expected_rate(const Model& model, const Contact& contact, int grain, std::span<double> rate);
 
 } // namespace mpfem

@@ -16,7 +16,7 @@ double penalty_of_pair(const Model& model, const ContactCandidates& candidates, 
                             model.penalty_stiffness[at(candidates.pair_second[at(pair)])]);
 }
 
-/// Of the bond at a point.
+/// Law of the bond at a point.
 BondLaw law_at_point(const Model& model, const Contact& contact, double penalty_of_pair, std::int32_t point) {
   const std::size_t node = at(contact.candidates.point_node[at(point)]);
   return bond_law(contact, contact.bond[at(point)], penalty_of_pair * model.local_stiffness(node));
@@ -75,7 +75,7 @@ namespace {
 /// What the nodes of one grain have with another grain.
 struct HalfContact {
   PairContact pair;   ///< first: the grain of the nodes; force on it
-  bool shown = false; ///< they touch or have had bonds; else it is only friction of the past
+  bool shown = false; ///< they touch or have had bonds; otherwise only past friction is left
 };
 
 using GrainPair = std::pair<std::int32_t, std::int32_t>;
@@ -116,7 +116,7 @@ std::vector<HalfContact> halves_at_own_nodes(const Model& model, const Contact& 
   return halves;
 }
 
-/// Of the halves of all ranks those where an own grain is the first of the two in number.
+/// From the halves of all ranks, those whose lower-numbered grain is an own grain.
 std::vector<HalfContact> halves_of_own(const Model& model, const Contact& contact, const Communicator& ranks) {
   std::vector<HalfContact> halves = halves_at_own_nodes(model, contact);
   if (ranks.alone()) return halves;
@@ -146,7 +146,7 @@ void add_half(HalfContact& both, const HalfContact& half) {
 
 std::vector<PairContact> pair_contacts(const Model& model, const Contact& contact, const Communicator& ranks) {
   std::vector<HalfContact> halves = halves_of_own(model, contact, ranks);
-  // Of both halves that of the first grain's nodes comes first, so that sums do not depend on who owns the grains.
+  // The half at the first grain's nodes comes first, so that sums do not depend on which rank owns the grains.
   std::stable_sort(halves.begin(), halves.end(), [&](const HalfContact& a, const HalfContact& b) {
     return std::pair(grains_of(a), a.pair.first) < std::pair(grains_of(b), b.pair.first);
   });

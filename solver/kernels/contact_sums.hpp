@@ -16,7 +16,7 @@ double contact_area(const Model& model, const Contact& contact, int grain);
 struct BondSums {
   double stored = 0;       ///< mJ
   double dissipated = 0;   ///< mJ, lost to damage so far
-  double bonded_area = 0;  ///< mm^2 of both sides carrying unbroken bonds, at the start of the run
+  double bonded_area = 0;  ///< mm^2 of both sides with unbroken bonds, as measured at the start of the run
   double formed_area = 0;  ///< mm^2 of both sides where a bond was ever formed
   double damaged_area = 0; ///< mm^2, integral of the damage over formed_area
   std::int64_t bonds = 0;  ///< unbroken
@@ -56,8 +56,8 @@ struct PairContact {
   BondSums bonds;
   FrictionSums friction;
 };
-/// Collective. Pairs in contact or bonded whose first is an own grain, first < second, in ascending order: the sum of
-/// what the nodes of both grains have.
+/// Collective. Pairs in contact or bonded whose first grain is the rank's own, first < second, in ascending order. Each
+/// is the sum over the nodes of both grains.
 std::vector<PairContact> pair_contacts(const Model& model, const Contact& contact,
                                        const Communicator& ranks = Communicator());
 

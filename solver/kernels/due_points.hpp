@@ -12,8 +12,8 @@ namespace mpfem {
 
 /// The points of a grain that must be evaluated in this step, their data prefetched. What a point needs lies scattered
 /// over the memory of two grains. Without prefetching, waiting for it takes two thirds of the time of contact. So the
-/// due points are listed first, and what their indices point at is prefetched. A few points before a point's turn that
-/// data has arrived, and the nodes of its facet are prefetched.
+/// due points are listed first, and what their indices point at is prefetched. A few points before a point's turn, when
+/// that data has arrived, the nodes of its facet are prefetched.
 class DuePoints {
 public:
   DuePoints(const Model& model, const Contact& contact, std::size_t expected) : model_(model), contact_(contact) {
@@ -32,7 +32,7 @@ public:
     prefetch_facet(contact_.point_facet[at(point)]);
     if (const std::int32_t facet = bond_facet(point); facet != contact_.point_facet[at(point)]) prefetch_facet(facet);
   }
-  /// To be called when it is the turn of point i.
+  /// Call this when it is the turn of point i.
   void prefetch_ahead_of(std::size_t i) const {
     constexpr std::size_t ahead = 4;
     if (i + ahead >= points_.size()) return;

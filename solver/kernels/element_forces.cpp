@@ -9,7 +9,7 @@ namespace mpfem {
 
 namespace {
 
-// flatten: everything below is inlined here. Called as functions, packs go through memory: 1.2 times the time.
+// flatten: everything below is inlined here. In calls, packs go through memory, which takes 1.2 times as long.
 template <class Real, class Law, class Pressure>
 MPFEM_FLATTEN ElementSums element_pass(Model& model, int grain, double time_step, const Law& law, Pressure pressure) {
   using S = TetPack<Real>;

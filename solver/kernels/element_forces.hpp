@@ -10,7 +10,7 @@ struct ElementSums {
   double plastic_work = 0;   ///< mJ, in this step
   double viscous_work = 0;   ///< mJ, in this step
   double largest_strain = 0; ///< largest norm of a strain increment
-  bool admissible = true;    ///< false where a tet is inverted or a value is not finite
+  bool admissible = true;    ///< false if a tet is inverted or a value is not finite
 
   template <class Self, class Visitor>
   static void for_each_term(Self& s, Visitor&& visit) {

@@ -10,7 +10,8 @@ namespace mpfem {
 
 namespace {
 
-/// For each tet of a block, `pick` of `start` and the values of its nodes. `values` [nodes of the model].
+/// For each tet of a block, the values of its nodes combined by `pick`, beginning with `start`. `values` [nodes of the
+/// model].
 template <class Real, class Values, class Pick>
 TetPack<Real> pick_of_nodes(const TetBlock<Real>& block, std::int32_t first_node, const Values& values, double start,
                             Pick pick) {
@@ -39,16 +40,15 @@ MPFEM_FLATTEN StableStep stable_step_in(Model& model, int grain, std::span<const
     S element = largest_frequency_squared(material.moduli, S(material.density) / ratio, geometry);
     S length = S(2.0 * material.wave_speed) / sqrt(element);
     if (!model.mass_factor.empty()) {
-      // By the same inequality: an element's share of its nodes' mass has grown at least as much as that of the least
-      // scaled node.
+      // By the same inequality, as an element's share of its nodes' mass has grown at least as much as the mass of the
+      // least scaled node.
       const S factor = pick_of_nodes(block, first_node, model.mass_factor, std::numeric_limits<double>::infinity(),
                                      [](Real x, Real y) { return std::min(x, y); });
       element = element / factor;
-      // Viscosity belongs to the true mass: it damps nodes less that were made heavier, and is reduced where nodes are
-      // lighter.
+      // Viscosity belongs to the true mass: it damps heavier nodes less, and it is reduced where nodes are lighter.
       length = length * sqrt(min(factor, S(1.0)));
     }
-    const S relative = S::load(block.length) / length; // of the frequencies, now to then
+    const S relative = S::load(block.length) / length; // ratio of the frequencies, now to then
     growth = max(growth, relative * relative);
     length.store(block.length);
     S contact(0.0);

@@ -8,14 +8,14 @@
 namespace mpfem {
 
 /// Stable step of a grain's tets, damping by bulk viscosity included; sets the tets' length. Viscosity damps a tet by
-/// up to b1 (lambda + 2 mu) / bulk modulus of the critical, where all of its motion is a change of volume.
+/// up to b1 (lambda + 2 mu) / bulk modulus of critical damping, if all of its motion is a change of volume.
 /// `nodal_stiffness_rate` holds for each node the contact's share kappa/m of the frequency squared (1/s^2) or is empty.
 /// By the element eigenvalue inequality omega^2 <= max over tets of (omega_e^2 + max over its nodes of kappa/m).
 /// `strain_rate` 1/s bounds the volumetric rate for the quadratic viscosity.
 struct StableStep {
   double step;            ///< s
   double step_no_contact; ///< s, of the elements alone
-  double growth; ///< largest factor by which a tet's frequency squared has grown since the call before, at least 1
+  double growth; ///< largest factor by which a tet's frequency squared has grown since the previous call, at least 1
 };
 StableStep stable_step(Model& model, int grain, std::span<const double> nodal_stiffness_rate, double strain_rate);
 

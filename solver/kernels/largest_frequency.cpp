@@ -14,11 +14,11 @@ namespace mpfem {
 
 namespace {
 
-/// Part of the eigenvalue that its residual may be, where the iterations end: 1 % of the step.
+/// Residual over eigenvalue at which the iterations end: 1 % of the step.
 constexpr double tolerance = 0.02;
 constexpr int most_iterations = 80, iterations_between_looks = 4;
 
-/// What single tets answer with. Viscous pressure over strain rate is density * length * (linear + quadratic * length),
+/// The response of single tets. Viscous pressure over strain rate is density * length * (linear + quadratic * length),
 /// MPa s.
 struct LinearResponse {
   ElasticModuli moduli;
@@ -58,7 +58,7 @@ MPFEM_FLATTEN void add_product(const Model& model, int grain, const LinearRespon
   }
 }
 
-/// A vector of length 1 that has a part of all modes, the same each time; rows of a grain's nodes, spare numbers 0.
+/// A vector of length 1 with a part in every mode, the same each time; rows of a grain's nodes, spare numbers 0.
 AlignedVector<double> start_vector(std::size_t nodes) {
   AlignedVector<double> vector(4 * nodes);
   std::minstd_rand random(1);
@@ -123,7 +123,7 @@ public:
   }
 
   int iterations() const { return static_cast<int>(diagonal_.size()); }
-  /// Whether all that the start vector has a part of is found.
+  /// Whether all modes in which the start vector has a part are found.
   bool exhausted() const { return beta_ <= 1e-12 * std::abs(diagonal_.back()) || diagonal_.size() >= 3 * nodes_; }
   LargestFrequency result() const {
     const LargestEigenvalue largest = largest_eigenvalue(diagonal_, beside_);

@@ -11,16 +11,16 @@
 namespace mpfem {
 
 struct LargestFrequency {
-  double squared;  ///< 1/s^2: Lanczos' value and its residual, within which an eigenvalue lies
-  double residual; ///< part of it that is the residual
+  double squared;  ///< 1/s^2: Lanczos' value plus its residual, within which an eigenvalue lies
+  double residual; ///< 1/s^2, included in `squared`
   int iterations;
 };
 
 /// Largest eigenvalue of M^-1 (K + 2/dt C) + D of a grain: K its elastic stiffness in the present shape, C its bulk
 /// viscosity, D = `nodal_stiffness_rate` (1/s^2, [nodes of the model]) a bound of contact as a diagonal matrix. With
-/// lagged viscous forces central differences are stable where it is at most 4/dt^2, and `step` (s) may be any dt not
-/// longer than the one that is looked for: then viscosity is overestimated. The elastic stiffness is that of plain
-/// tets, which shared pressures do not exceed. `strain_rate` (1/s) bounds the volumetric rate for quadratic viscosity.
+/// lagged viscous forces, central differences are stable if it is at most 4/dt^2. `step` (s) may be any dt not longer
+/// than the one sought: viscosity is then overestimated. The elastic stiffness is that of plain tets; tets with shared
+/// pressures are not stiffer. `strain_rate` (1/s) bounds the volumetric rate for quadratic viscosity.
 LargestFrequency largest_frequency(const Model& model, int grain, std::span<const double> nodal_stiffness_rate,
                                    double step, double strain_rate);
 

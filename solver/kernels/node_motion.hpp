@@ -1,5 +1,5 @@
 #pragma once
-// Central differences for the nodes of one grain, and what their motion and forces add up to.
+// Central differences for the nodes of one grain, and sums over their motion and forces.
 
 #include <array>
 
@@ -31,7 +31,7 @@ double kinetic_energy(const Model& model, int grain, double step_mean);
 /// Returns the work (mJ) of gravity on the way from the origin to where the nodes are.
 double add_weight(Model& model, const std::array<double, 3>& gravity, int grain);
 
-/// What the total forces on a grain's nodes add up to: zero in equilibrium, both of them, over all grains.
+/// Sums of the total forces on a grain's nodes. In equilibrium, both sums over all grains are zero.
 struct ForceMoments {
   std::array<double, 3> force{};  ///< N
   std::array<double, 3> moment{}; ///< N mm: along each axis, force times distance from `centre`
@@ -41,10 +41,10 @@ struct ForceMoments {
     for (std::size_t axis = 0; axis < 3; ++axis) visit.sum(s.force[axis]), visit.sum(s.moment[axis]);
   }
 };
-/// With `centre` in mm, after contact and walls were added.
+/// `centre` in mm. To be called after the forces of contact and walls were added.
 ForceMoments force_moments(const Model& model, const std::array<double, 3>& centre, int grain);
 
-/// What the places of a grain's nodes add up to, with their masses.
+/// Moments of the masses of a grain's nodes.
 struct MassMoments {
   double mass = 0;                ///< tonne
   std::array<double, 3> first{};  ///< tonne mm: mass times distance from `centre`
@@ -56,7 +56,7 @@ struct MassMoments {
     for (std::size_t axis = 0; axis < 3; ++axis) visit.sum(s.first[axis]), visit.sum(s.second[axis]);
   }
 };
-/// With `centre` in mm, near the grains: distances from far away would cost digits.
+/// `centre` in mm, near the grains: large distances would cost digits.
 MassMoments mass_moments(const Model& model, const std::array<double, 3>& centre, int grain);
 
 } // namespace mpfem

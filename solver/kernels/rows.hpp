@@ -42,7 +42,7 @@ void edges4(const double* rows, const std::int32_t* const (&index)[N + 1], Row (
   }
 }
 
-/// Adds to four tets' nodes 1, 2, 3 the vectors f and to node 0 minus their sum.
+/// Adds the vectors f to nodes 1, 2, 3 of four tets, and minus their sum to node 0.
 inline void add_balanced4(double* rows, const std::int32_t* const (&index)[4], const Row (&f)[3][3]) {
   Row total[4] = {};
   for (int i = 0; i < 3; ++i) {
@@ -96,7 +96,7 @@ Floats<4> part_of(Floats<W> whole, int part) {
     return part_of<8>(half, part % 2);
   }
 }
-/// Of every four numbers of a (0 … 3) and the same four of b (4 … 7) those that Take names, in its order.
+/// From every four numbers of a (0 … 3) and the same four of b (4 … 7), those that Take names, in its order.
 template <int W, int... Take>
 Floats<W> of_fours(Floats<W> a, Floats<W> b) {
   constexpr int take[] = {Take...};
@@ -124,8 +124,8 @@ void float_edges(const double* rows, const std::int32_t (&index)[N + 1][W], Vect
   }
 }
 
-/// Adds to W tets' nodes 1, 2, 3 the vectors f and to node 0 minus their sum, which is taken in doubles: momentum is
-/// kept exactly.
+/// Adds the vectors f to nodes 1, 2, 3 of W tets, and minus their sum to node 0. The sum is taken in doubles: momentum
+/// is conserved exactly.
 template <int W>
 void add_balanced_floats(double* rows, const std::int32_t (&index)[4][W], const Vector3<Pack<W, float>> (&f)[3]) {
   Row total[W] = {};
@@ -200,7 +200,7 @@ void load_edges(const double* rows, const std::int32_t (&index)[N + 1][W], Vecto
   }
 }
 
-/// Adds to the W tets' nodes 1, 2, 3 the vectors f, one tet after another, and to node 0 minus their sum.
+/// Adds the vectors f to nodes 1, 2, 3 of W tets, one tet after another, and minus their sum to node 0.
 template <int W, class Real>
 void add_balanced(double* rows, const std::int32_t (&index)[4][W], const Vector3<Pack<W, Real>> (&f)[3]) {
   if constexpr (std::is_same_v<Real, float>) {

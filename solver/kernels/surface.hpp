@@ -1,5 +1,5 @@
 #pragma once
-// Nodal normals and tributary areas of a grain's surface, found in packs in every step.
+// Nodal normals and tributary areas of a grain's surface, computed in packs in every step.
 
 #include "solver/model/model.hpp"
 

@@ -40,8 +40,8 @@ TetGeometry<TetPack<Real>> current_geometry(const TetBlock<Real>& block, const d
 }
 
 /// Prefetches the block that follows some blocks after block `b`, if the model has it. The first pass over the tets of
-/// a grain reads a fifth of every block, which the hardware does not predict: without this, nodal volumes wait for
-/// memory half of their time.
+/// a grain reads a fifth of every block, which the hardware does not predict: without this, the pass for nodal volumes
+/// waits for memory half of its time.
 template <class Real>
 void prefetch_block_after(const Model& model, std::int32_t b) {
   constexpr std::int32_t blocks_ahead = 8;

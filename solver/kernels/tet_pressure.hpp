@@ -1,6 +1,6 @@
 #pragma once
-// What gives the tets of a grain their mean stress: the tet's own volume, the volumes around its nodes, or that of its
-// patch.
+// How the tets of a grain get their mean stress: from the tet's own volume, the volumes around its nodes, or the volume
+// of its patch.
 
 #include <algorithm>
 #include <cstdint>
@@ -21,7 +21,7 @@ struct OwnPressure {
   }
 };
 
-/// Volumes around the nodes of a grain, a quarter of every tet's, into `volume` [nodes of the grain].
+/// Writes the volumes around the nodes of a grain, a quarter of every tet's, to `volume` [nodes of the grain].
 template <class Real>
 MPFEM_FLATTEN void nodal_volumes(const Model& model, int grain, double* volume) {
   using S = TetPack<Real>;
@@ -38,7 +38,7 @@ MPFEM_FLATTEN void nodal_volumes(const Model& model, int grain, double* volume) 
   }
 }
 
-/// Mean stress of a tet as the mean of its nodes', with a share of its own.
+/// Mean stress of a tet: the mean over its nodes, mixed with a share of the tet's own.
 struct AveragedPressure {
   const double* nodal; ///< MPa, of the grain's nodes
   double own = 0;      ///< share of the tet's own mean stress
@@ -54,7 +54,7 @@ struct AveragedPressure {
   }
 };
 
-/// Mean stresses of the nodes of a grain, into `mean` [nodes of the grain].
+/// Writes the mean stresses at the nodes of a grain to `mean` [nodes of the grain].
 template <class Real>
 AveragedPressure average_pressure(const Model& model, int grain, double* mean) {
   nodal_volumes<Real>(model, grain, mean);
@@ -87,7 +87,7 @@ double patch_volume(const Model& model, int grain, std::int32_t patch) {
   return sum(volume) / 6.0;
 }
 
-/// Mean stress of a tet as that of its patch, with a share of its own.
+/// Mean stress of a tet: that of its patch, mixed with a share of the tet's own.
 template <class Real>
 struct PatchPressure {
   using S = TetPack<Real>;
@@ -95,7 +95,7 @@ struct PatchPressure {
   int grain;
   ElasticModuli moduli;
   S mean{0.0};
-  /// Before the tets of block `b`.
+  /// To be called before the tets of block `b`.
   void enter(std::int32_t b) {
     constexpr int W = TetBlock<Real>::lanes;
     const std::int32_t tet = (b - model.block_offset[static_cast<std::size_t>(grain)]) * W;
@@ -122,8 +122,8 @@ private:
   }
 };
 
-/// f(pressure) with what gives the tets of a grain their mean stress, for its present positions. `nodal` [nodes of the
-/// grain] is written where nodes take part; it must live as long as f needs it.
+/// Returns f(pressure), where `pressure` gives the tets of a grain their mean stress at the present positions. `nodal`
+/// [nodes of the grain] is written if nodes take part; it must live as long as f needs it.
 template <class Real, class F>
 auto with_pressure(const Model& model, int grain, double* nodal, F&& f) {
   const ElasticModuli moduli = model.material_of(grain).moduli;

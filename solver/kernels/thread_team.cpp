@@ -23,11 +23,11 @@ void pause_briefly() {
 
 using Clock = std::chrono::steady_clock;
 
-/// Until then, threads that wait hardly spin: other programs need the cores. Of all teams, since it is the machine's.
+/// Until this time, waiting threads hardly spin: other programs need the cores, which all teams share.
 std::atomic<Clock::rep> short_of_cores_until{0};
 
 /// Returns when the atomic no longer holds `old`. The loops of one time step follow each other within microseconds: a
-/// short spin saves the sleep and wake-up between them. Where cores are short, a core that is let go at once goes to
+/// short spin saves the sleep and wake-up between them. When cores are short, a core that is released at once can go to
 /// the thread that is waited for.
 template <class Value>
 void wait_while_equal(const std::atomic<Value>& atomic, Value old) {
@@ -41,8 +41,8 @@ void wait_while_equal(const std::atomic<Value>& atomic, Value old) {
   atomic.wait(old, std::memory_order_acquire);
 }
 
-/// The same, for a thread that waits for others' last items. These take microseconds, unless a thread has lost its
-/// core.
+/// The same, for a thread that waits for the last items of others. These take microseconds, unless a thread has lost
+/// its core.
 void wait_for_items(const std::atomic<int>& unfinished, int left) {
   using namespace std::chrono_literals;
   const auto start = Clock::now();
@@ -109,7 +109,7 @@ void ThreadTeam::work(int thread) {
   }
 }
 
-/// The next items of the round that is under way, or all that are left; none where there are none.
+/// The next items of the current round, or all that are left; none if there are none.
 ThreadTeam::Items ThreadTeam::take_items(bool all) {
   std::uint64_t waiting = waiting_items_.load(std::memory_order_acquire);
   for (;;) {
@@ -128,7 +128,7 @@ void ThreadTeam::run_items(int thread) {
   for (Items items = take_items(false); items.count > 0; items = take_items(false)) {
     finished += items.count;
     for (int item = items.begin; item < items.begin + items.count; ++item) {
-      // Items below one that has failed still begin: the lowest failure is to be found.
+      // Items below one that has failed still begin, so that the lowest failure is found.
       if (item > failed_.load(std::memory_order_relaxed)) break;
       try {
         (*body_)(item, thread);

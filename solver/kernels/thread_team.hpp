@@ -11,12 +11,12 @@
 
 namespace mpfem {
 
-/// Runs loops over independent items on a fixed number of threads. Items are handed out few by few, so which thread
-/// runs an item is not determined: an item must write to its own data only, and sums over items are made afterwards in
-/// item order, so that results do not depend on the number of threads.
+/// Runs loops over independent items on a fixed number of threads. Items are handed out a few at a time, so which
+/// thread runs an item is not determined: an item must write to its own data only, and sums over items are made
+/// afterwards in item order, so that results do not depend on the number of threads.
 ///
-/// A loop ends when its items are done. It does not wait for a thread that has none of them, so that a thread whose
-/// core another program holds delays the others by the items that it has begun only.
+/// A loop ends when its items are done. It does not wait for a thread that holds no item. So a thread whose core is
+/// taken by another program delays the others only by the items that it has begun.
 class ThreadTeam {
 public:
   /// `threads` >= 1, the calling thread included. Throws std::invalid_argument, or std::system_error where the system
@@ -45,10 +45,10 @@ private:
   std::vector<std::thread> workers_;
   const std::function<void(int, int)>* body_ = nullptr;
   int count_ = 0;
-  // Apart, so that handing out items does not disturb threads that wait for the next round.
-  /// Number of the round in the upper half, items that nobody has taken yet in the lower: one number, so that a late
-  /// thread cannot take an item of another round than it means to. Who holds an item holds the round: until the item is
-  /// done, body_ and count_ stay.
+  // On separate cache lines, so that handing out items does not disturb threads that wait for the next round.
+  /// The number of the round in the upper half, the number of items not yet taken in the lower half. One number holds
+  /// both, so that a late thread cannot take an item of the wrong round. A thread that holds an item holds the round:
+  /// until the item is done, body_ and count_ do not change.
   alignas(64) std::atomic<std::uint64_t> waiting_items_{0};
   alignas(64) std::atomic<int> unfinished_items_{0};
   alignas(64) std::atomic<unsigned> round_{0};

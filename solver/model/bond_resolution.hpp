@@ -22,15 +22,15 @@ enum class BondPartner {
   tool,  ///< rigid: E* = E/(1 - nu^2)
 };
 
-/// Collective. With E* of a grain and its partner, strength t and bond stiffness K: the zone of the exponential law to
-/// half the strength is 0.34 . 2 E* G^c/t^2 (that of the energy law is taken alike); the area under the branch before
-/// damage is t^2/(2K); the exponential law's steepest slope t^2/(G^c - t^2/2K) meets the stiffness E/h of the element
-/// at G^c = t^2 h/E + t^2/(2K).
+/// Collective. With E* of a grain and its partner, strength t and bond stiffness K: the traction of the exponential law
+/// falls to half the strength over the length 0.34 . 2 E* G^c/t^2 (the same is taken for the energy law); the area
+/// under the branch before damage is t^2/(2K); the exponential law's steepest slope t^2/(G^c - t^2/2K) meets the
+/// stiffness E/h of the element at G^c = t^2 h/E + t^2/(2K).
 BondResolution bond_resolution(const Model& model, const BondParameters& bond, const ContactParameters& contact,
                                BondPartner partner = BondPartner::grain, const Communicator& ranks = Communicator());
 
-/// Collective. Bonds between grains and to tools. Throws InputError where their stiffness leaves no softening branch;
-/// warns, one line each, where the cohesive zone has fewer than three elements or the softening is steeper than the
+/// Collective. Bonds between grains and to tools. Throws InputError if their stiffness leaves no softening branch;
+/// warns, one line each, if the cohesive zone has fewer than three elements or the softening is steeper than the
 /// elements.
 std::vector<std::string> check_bonds(const Model& model, const Scenario& scenario,
                                      const Communicator& ranks = Communicator());

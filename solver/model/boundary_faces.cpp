@@ -22,7 +22,7 @@ struct Face {
   bool operator<(const Face& other) const { return sorted < other.sorted; }
 };
 
-/// All sides of the tets, sorted so that the two of an inner face follow each other.
+/// All sides of the tets, sorted so that the two sides at an inner face follow each other.
 std::vector<Face> sorted_faces(std::span<const Index> tet) {
   static constexpr int corner[4][3] = {{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}};
   std::vector<Face> faces;
@@ -40,8 +40,7 @@ std::vector<Face> sorted_faces(std::span<const Index> tet) {
   return faces;
 }
 
-/// True where every edge is there once in each direction, or as often in both where parts of the surface touch along
-/// it.
+/// True if every edge occurs once in each direction, or equally often in both if parts of the surface touch along it.
 bool is_closed(const std::vector<Triangle>& boundary) {
   std::vector<std::pair<Index, Index>> forward, backward;
   for (const auto& face : boundary)
@@ -70,7 +69,7 @@ std::vector<Triangle> boundary_faces(std::span<const Index> tet, const std::stri
   }
   if (!is_closed(boundary))
     throw InputError(
-        fmt::format("{}: its surface is not closed, allowed tetrahedra that meet face to face", grain_name));
+        fmt::format("{}: its surface is not closed, expected tetrahedra that meet face to face", grain_name));
   return boundary;
 }
 

@@ -74,7 +74,7 @@ void find_refinement(Model& model, const Communicator& ranks) {
   }
 }
 
-/// First block of each grain, and the number of all.
+/// First block of each grain, then the number of all blocks.
 std::vector<Index> block_offsets(const Model& model, int lanes) {
   std::vector<Index> offset(1, 0);
   for (std::size_t g = 0; g < static_cast<std::size_t>(model.grains); ++g)
@@ -82,8 +82,8 @@ std::vector<Index> block_offsets(const Model& model, int lanes) {
   return offset;
 }
 
-/// The tets of a grain in the order of model.file_tet. `new_index` maps its nodes in the file, counted from its first,
-/// to the model's, counted likewise.
+/// Sets the tets of a grain in the order of model.file_tet. `new_index` maps its nodes in the file to those in the
+/// model, both counted from the grain's first.
 template <class Real>
 void set_blocks(const PackedMesh& mesh, const std::vector<Index>& new_index, int grain, Model& model) {
   constexpr int lanes = TetBlock<Real>::lanes;
@@ -182,8 +182,8 @@ std::vector<Index> add_nodes(const PackedMesh& mesh, const Faces& faces, std::si
   return new_index;
 }
 
-/// Sets the element size of a grain, the tributary areas of its surface nodes, and turns its faces to facets: triples
-/// of the model's nodes.
+/// Sets the element size of a grain and the tributary areas of its surface nodes, and turns its faces into facets:
+/// triples of the model's nodes.
 void measure_facets(const PackedMesh& mesh, const std::vector<Index>& new_index, std::size_t grain, Faces& faces,
                     Model& model) {
   double edge_sum = 0;
@@ -231,7 +231,7 @@ void lump_masses(const PackedMesh& mesh, double density, const std::vector<Index
   }
 }
 
-/// What is made of a grain before all ranks know how many facets each has.
+/// What is built of a grain before all ranks know how many facets each grain has.
 struct GrainParts {
   Faces facets;
   std::vector<Index> new_index; ///< node of the file -> node of the model, both counted from the grain's first
@@ -280,7 +280,7 @@ void make_blocks(const MeshedPacking& packing, const std::vector<GrainParts>& pa
     set_blocks<Real>(packing.mesh_of(model.own()[i]), parts[i].new_index, model.own()[i], model);
 }
 
-/// Sets the volumes around nodes, where pressures are averaged there. Masses must be as lumped: density times that
+/// Sets the volumes around nodes, if pressures are averaged there. Masses must still be as lumped: density times that
 /// volume.
 void set_nodal_volumes(Model& model) {
   if (model.element != ElementType::tet4_anp) return;
@@ -291,7 +291,7 @@ void set_nodal_volumes(Model& model) {
   model.nodal_mean = LazyArray<double>(at(model.nodes()), model.pages());
 }
 
-/// Sets the volumes of patches, where tets share the pressure of theirs.
+/// Sets the volumes of patches, if tets share the pressure of their patch.
 void set_patch_volumes(const MeshedPacking& packing, Model& model) {
   if (model.element != ElementType::tet4_patch) return;
   model.patch_offset.assign(1, 0);

@@ -95,8 +95,8 @@ struct Place {
   bool operator<(const Place& other) const { return std::tie(x, grain) < std::tie(other.x, other.grain); }
 };
 
-/// The places of own surface nodes that this rank compares: with several ranks those of all ranks' nodes in its part of
-/// space, whatever part that is, as equal places come to the same rank.
+/// The places of surface nodes that this rank compares. With several ranks, a hash of the place says which rank gets
+/// it, so that equal places come to the same rank.
 std::vector<Place> places_to_compare(const Model& model, const Communicator& ranks) {
   std::vector<Bytes> to(static_cast<std::size_t>(ranks.size()));
   std::vector<Place> places;
@@ -124,7 +124,7 @@ void refuse_shared_places(const Model& model, const std::string& name, const Com
     for (std::size_t i = 1; i < places.size(); ++i)
       if (places[i].x == places[i - 1].x && places[i].grain != places[i - 1].grain)
         throw InputError(
-            fmt::format("{}: grains {} and {} have a node in the same place ({:g}, {:g}, {:g}), allowed grains apart",
+            fmt::format("{}: grains {} and {} have a node in the same place ({:g}, {:g}, {:g}), expected them apart",
                         name, places[i - 1].grain, places[i].grain, places[i].x[0], places[i].x[1], places[i].x[2]));
   });
 }

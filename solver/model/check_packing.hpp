@@ -1,6 +1,6 @@
 #pragma once
-// What a meshed packing must be so that a model can be built from it. All of these throw InputError, with `name` for
-// the file.
+// What a meshed packing must satisfy so that a model can be built from it. All of these functions throw InputError;
+// `name` stands for the file.
 
 #include <string>
 
@@ -8,11 +8,11 @@
 
 namespace mpfem {
 
-/// Sizes of the arrays, numbers of nodes, tetrahedra that are inverted or degenerate, coordinates that are not finite.
+/// Checks array sizes and node numbers; refuses tetrahedra that are inverted or degenerate and coordinates not finite.
 void check_packing(const MeshedPacking& packing, const std::string& name);
 
-/// Edges of tets must be 1e-4 … 1e4 mm long where tets are in single precision: eighth powers of lengths (the step's
-/// estimate) and inverse sixth ones must be floats. Looks at `grains`.
+/// If tets are in single precision, their edges must be 1e-4 … 1e4 mm long: eighth powers of lengths (the step
+/// estimate) and inverse sixth powers must fit into floats. Checks `grains`.
 void refuse_sizes_beyond_floats(const MeshedPacking& packing, std::span<const std::int32_t> grains,
                                 const std::string& name);
 

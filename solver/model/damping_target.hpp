@@ -8,8 +8,8 @@
 
 namespace mpfem {
 
-/// mm/s: the affine velocity field (solver/physics/damping.hpp) at the grain's centre of mass; 0 where there is no
-/// damping. The fourth number belongs to the spare column of the node rows and is 0.
+/// mm/s: the affine velocity field (solver/physics/damping.hpp) at the grain's centre of mass; 0 without damping. The
+/// fourth number belongs to the spare column of the node rows and is 0.
 std::array<double, 4> damping_target(const Model& model, int grain, const Advance& parameters);
 
 } // namespace mpfem

@@ -1,7 +1,7 @@
 #pragma once
-// Arrays of a size that is known when they are made, all zero at first, on a cache line. Memory pages that nothing is
-// written to take no room: a rank's arrays are as long as the whole packing's, so that all ranks number nodes, tets and
-// facets alike, and hold the grains that the rank has to do with.
+// Arrays of fixed size, zero at first, aligned to a cache line. Memory pages that are never written take no room. So a
+// rank's arrays can be as long as the whole packing's, and all ranks number nodes, tets and facets alike, although each
+// holds only the grains that it needs.
 
 #include <algorithm>
 #include <cstddef>
@@ -15,10 +15,10 @@
 
 namespace mpfem {
 
-/// How the system is to back an array.
+/// Memory pages that the system is to use for an array.
 enum class Pages {
-  large, ///< large ones, where the system has them: fewer of them have to be looked up
-  small  ///< single pages: for arrays with holes, where a large page would fill these
+  large, ///< large pages, if the system has them: fewer pages have to be looked up
+  small  ///< small pages: for arrays with holes, which large pages would fill
 };
 
 template <class T>

@@ -26,7 +26,7 @@ void scale_masses(Model& model, double step, bool lighten, const Communicator& r
     const Material& material = model.material_of(grain);
     const double damping = model.viscosity.linear * material.moduli.dilatational() / material.moduli.bulk;
     const double largest_rate = std::pow(2.0 * damped_step_factor(damping) / step, 2);
-    // What contact adds to the frequency squared as a rule, as in raise_to_expected_rate.
+    // What contact usually adds to the frequency squared, as in raise_to_expected_rate.
     const auto contact_rate = [&](std::int32_t node) {
       const auto n = static_cast<std::size_t>(node);
       return node < surface_end ? 2.0 * model.penalty_stiffness[g] * model.local_stiffness(n) *

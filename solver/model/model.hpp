@@ -21,9 +21,9 @@
 
 namespace mpfem {
 
-/// Node arrays hold rows of four doubles (x, y, z, spare); the surface nodes of a grain are its first ones. With
-/// several ranks all number grains, nodes, tets and facets alike, and arrays of grains are the same on all. Arrays of
-/// nodes, tets and facets are set for the rank's own grains, and what contact needs of them for grains near these.
+/// Node arrays hold rows of four doubles (x, y, z, spare); the surface nodes of a grain are its first ones. All ranks
+/// number grains, nodes, tets and facets alike, and arrays of grains are the same on all of them. Arrays of nodes, tets
+/// and facets are set for the rank's own grains. For grains near these, only what contact needs is set.
 struct Model {
   int grains = 0;
   Ownership ownership;                      ///< the grains that this rank computes
@@ -58,12 +58,12 @@ struct Model {
 
   std::vector<double> reference_volume;  ///< [grains], mm^3
   std::vector<double> mass;              ///< [grains], tonne (scaled)
-  LazyArray<double> mass_factor;         ///< [nodes]: scaled over own mass; empty where nothing was scaled to a step
+  LazyArray<double> mass_factor;         ///< [nodes]: scaled over own mass; empty if nothing was scaled to a step
   double added_mass = 0;                 ///< by scaling to a step, over the mass of the packing
-  double largest_added_mass = 0;         ///< the same of the grain that it concerns most
+  double largest_added_mass = 0;         ///< the same, for the grain with the largest value
   std::vector<double> element_size;      ///< [grains], h: mean edge length of the surface facets, mm
   std::vector<double> penalty_stiffness; ///< [grains], K = factor E / h, MPa/mm
-  bool uniform_penalty = false;          ///< K was given, and is the same wherever the mesh is refined
+  bool uniform_penalty = false;          ///< K was given, and is the same in refined parts of the mesh
   LazyArray<double> refinement; ///< [nodes]: h of the grain over that of the surface node's facets; empty where
                                 ///< no grain is locally refined
   LazyArray<std::int32_t>
@@ -79,7 +79,7 @@ struct Model {
 
   /// Grains that this rank computes, ascending.
   const std::vector<std::int32_t>& own() const { return ownership.own; }
-  /// How arrays of nodes, tets and facets are to be backed.
+  /// Kind of memory pages for arrays of nodes, tets and facets.
   Pages pages() const { return own().size() == static_cast<std::size_t>(grains) ? Pages::large : Pages::small; }
   std::int32_t nodes() const { return node_offset.back(); }
   std::int32_t tets() const { return tet_offset.back(); }
@@ -103,8 +103,8 @@ struct Model {
   }
   /// Nodes of tet `tet` of a grain, both counted from the grain's first.
   std::array<std::int32_t, 4> nodes_of_tet(int grain, std::int32_t tet) const;
-  /// How much stiffer than its grain's mean the penalty of a surface node is: K = factor E / h with the h around the
-  /// node. 1 where the scenario gives K itself.
+  /// Ratio of a surface node's penalty to its grain's mean: K = factor E / h with the h around the node. 1 if the
+  /// scenario gives K itself.
   double local_stiffness(std::size_t node) const {
     return refinement.empty() || uniform_penalty ? 1.0 : refinement[node];
   }
@@ -140,7 +140,7 @@ struct Model {
   std::size_t memory() const;
 };
 
-/// f(double{}) or f(float{}), as the numbers of the model's tets are.
+/// Calls f(double{}) or f(float{}), depending on the number type of the model's tets.
 template <class F>
 auto with_tet_numbers(const Model& model, F&& f) {
   return std::holds_alternative<LazyArray<TetBlock<double>>>(model.blocks) ? f(double{}) : f(float{});
@@ -186,20 +186,20 @@ struct MeshedPacking {
   std::optional<std::uint64_t> hash{};  ///< hash_of_mesh of the whole file, where not all grains are here
 
   int grains() const { return static_cast<int>(grain_node_offset.size()) - 1; }
-  /// Of a grain that is here.
+  /// The mesh of a grain that is here.
   PackedMesh mesh_of(int grain) const;
 };
 
-/// What tells a mesh from others, from the hash of its nodes and that of its tets chained to it (common/hash.hpp).
+/// Identifies a mesh. `of_nodes_and_tets`: hash of its nodes, with that of its tets chained to it (common/hash.hpp).
 std::uint64_t hash_of_mesh(std::uint64_t of_nodes_and_tets, const MeshedPacking& packing);
 
-/// Reads a meshed packing file; with several ranks each reads the meshes of its grains: those that `owner` ([grains],
-/// rank) gives it, or by the number of tets. Collective. Throws InputError where the file is missing, damaged or not
-/// meshed.
+/// Reads a meshed packing file. With several ranks, each reads the meshes of its own grains: those that `owner`
+/// ([grains], rank) assigns to it or, without that, a share by the number of tets. Collective. Throws InputError if the
+/// file is missing, damaged or not meshed.
 MeshedPacking read_packing(const std::string& path, const Communicator& ranks = Communicator(),
                            const std::optional<std::vector<std::int32_t>>& owner = std::nullopt);
 
-/// Leaves each rank the grains of its share, by the number of tets, of a packing that all ranks have made alike.
+/// Assigns each rank its share, by the number of tets, of the grains of a packing that all ranks have made alike.
 void divide(MeshedPacking& packing, const Communicator& ranks);
 
 /// Makes nodes heavier until no tet, with the usual share of contact, requires a smaller step than `step` (s) in the

@@ -11,8 +11,8 @@ namespace {
 
 constexpr int group = native_lanes;
 
-/// A third of the area vectors (mm^2) of up to a group of facets, in packs as the kernels' are: plain numbers would be
-/// rounded otherwise.
+/// A third of the area vectors (mm^2) of up to one group of facets, in packs as in the kernels: plain numbers would be
+/// rounded differently.
 Vector3<Pack<group>> thirds_of_areas(const Model& model, const std::int32_t* facet, int facets) {
   Vector3<Pack<group>> x[3];
   for (int i = 0; i < group; ++i)

@@ -1,6 +1,6 @@
 #pragma once
-// Nodal normals and tributary areas of a grain's surface, once, while a model is built. In a run the kernels find them
-// (solver/kernels/surface.hpp).
+// Nodal normals and tributary areas of a grain's surface, once, while a model is built. During a run the kernels
+// compute them (solver/kernels/surface.hpp).
 
 #include "solver/model/model.hpp"
 

@@ -13,8 +13,9 @@ namespace mpfem {
 /// Key of a point x on a Morton curve through the cube of edge length `size` (mm) at `low`. 30 bits.
 std::uint64_t morton_key(const Vector3<double>& x, const Vector3<double>& low, double size);
 
-/// Orders tets so that every eight that follow each other lie together: they are halved into whole eights across the
-/// longest side of the box of their centres, and so are the halves, down to eights. Only the last has fewer.
+/// Orders tets so that every eight consecutive ones lie together. The set is halved into whole groups of eight across
+/// the longest side of the box of its centres, and so are the halves, down to single groups. Only the last group may
+/// have fewer.
 void order_in_patches(std::span<std::int32_t> tets, const std::function<const Vector3<double>&(std::int32_t)>& centre);
 
 /// The grains along a Morton curve through the box. Contact, which reads every grain's neighbours, finds them in the

@@ -29,7 +29,7 @@ double PackingCounts::facets() const {
 PackingCounts read_packing_counts(const std::string& path) {
   const schema::FileReader file(path, schema::FileKind::packing);
   PackingCounts counts;
-  if (!file.has(schema::packing::mesh_tet)) return counts; // read_packing() says so
+  if (!file.has(schema::packing::mesh_tet)) return counts; // read_packing() reports it
   counts.nodes = static_cast<std::int64_t>(file.rows(schema::packing::mesh_node));
   const auto offset = file.read(schema::packing::mesh_grain_tet_offset);
   for (std::size_t g = 0; g + 1 < offset.size(); ++g)

@@ -12,10 +12,10 @@ struct PackingCounts {
   std::int64_t nodes = 0;
   std::vector<std::int64_t> tets; ///< [grains]
   std::int64_t all_tets() const;
-  /// About: those of grains that are meshed balls.
+  /// Approximate: as if all grains were meshed balls.
   double facets() const;
 };
-/// Reads the numbers, not the mesh; none where the file holds no mesh. Throws InputError where it cannot be read.
+/// Reads the numbers, not the mesh; none if the file holds no mesh. Throws InputError if it cannot be read.
 PackingCounts read_packing_counts(const std::string& path);
 
 } // namespace mpfem

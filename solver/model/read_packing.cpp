@@ -32,7 +32,8 @@ void take_spheres(schema::PackingSpheres&& spheres, MeshedPacking& packing) {
   packing.sphere_radius = std::move(spheres.radius);
 }
 
-/// By the number of tets, which is what a loose grain's step costs. `point` ([grains * 3], mm): a point of each grain.
+/// Owners of grains by the number of tets, which is what the step of a loose grain costs. `point` ([grains * 3], mm): a
+/// point of each grain.
 std::vector<Index> owners(const std::vector<double>& point, const std::vector<Index>& tet_offset, int ranks) {
   std::vector<std::array<double, 3>> centre(tet_offset.size() - 1);
   std::vector<double> weight(centre.size());
@@ -43,7 +44,7 @@ std::vector<Index> owners(const std::vector<double>& point, const std::vector<In
   return divide_among_ranks(centre, weight, ranks);
 }
 
-/// Where the parts of own grains begin where they follow each other.
+/// Where the part of each own grain begins when these parts follow each other.
 std::vector<std::size_t> starts_of_own(const Ownership& ownership, const std::vector<Index>& offset) {
   std::vector<std::size_t> start(ownership.owner.size(), 0);
   std::size_t next = 0;
@@ -58,7 +59,7 @@ std::vector<std::size_t> starts_of_own(const Ownership& ownership, const std::ve
 template <class Dataset, class T>
 void read_own_rows(const schema::FileReader& reader, const Dataset& dataset, const Ownership& ownership,
                    const std::vector<Index>& offset, std::size_t width, StreamingHash& hash, std::vector<T>& rows) {
-  std::size_t own = 0; // the present one of ownership.own
+  std::size_t own = 0; // index of the current grain in ownership.own
   reader.read_in_pieces(dataset, [&](std::size_t first, std::span<const T> values) {
     hash.update(std::as_bytes(values));
     const std::size_t end = first + values.size() / width;

@@ -16,8 +16,8 @@ namespace {
 
 /// Largest share of the inner node in a contact point: more would no longer be a small correction.
 constexpr double largest_share = 0.25;
-/// Least cosine between the normal and the direction to the inner node: a node without a node so straight beneath it
-/// keeps its place.
+/// Least cosine between the normal and the direction to the inner node: a node with no other node so straight beneath
+/// it keeps its place.
 constexpr double least_cosine = 0.5;
 
 Vector3<double> position(const Model& model, std::size_t node) {
@@ -28,7 +28,7 @@ Vector3<double> normal(const Model& model, std::size_t node) {
   return {model.normal[4 * node], model.normal[4 * node + 1], model.normal[4 * node + 2]};
 }
 
-/// Height of the smooth surface above the facets around each surface node of a grain, their mean by area, mm.
+/// Height of the smooth surface above the facets around each surface node of a grain, averaged by area, mm.
 std::vector<double> heights(const Model& model, std::size_t grain) {
   const auto first = static_cast<std::size_t>(model.node_offset[grain]);
   std::vector<double> height(static_cast<std::size_t>(model.surface_node_count[grain]), 0.0);
@@ -45,13 +45,13 @@ std::vector<double> heights(const Model& model, std::size_t grain) {
       const std::size_t j = (i + 1) % 3;
       of_facet += dot(normal(model, node[j]) - normal(model, node[i]), x[j] - x[i]) / 24.0;
     }
-    const double third = norm(cross(x[1] - x[0], x[2] - x[0])) / 6.0; // of its area, a node's share of it
+    const double third = norm(cross(x[1] - x[0], x[2] - x[0])) / 6.0; // of its area: the share of a node
     for (const std::size_t n : node) height[n - first] += third * of_facet / model.reference_area[n];
   }
   return height;
 }
 
-/// True where a grain is the mesh of a sphere, with its volume and its nodes near its surface.
+/// True if a grain is the mesh of this sphere: it has the same volume, and its surface nodes are near the sphere.
 bool is_sphere_of_that_volume(const Model& model, std::size_t grain, const Vector3<double>& center, double radius) {
   constexpr double same_volume = 1e-6; // rounding; a sphere with its nodes on it lacks 1e-3 and more
   constexpr double round = 0.1;        // nodes of the coarsest useful mesh are less far outside

@@ -1,5 +1,5 @@
 #pragma once
-// The surfaces of all grains, apart from everything else that a model holds.
+// The surfaces of all grains, without everything else that a model holds.
 
 #include <array>
 #include <cstdint>

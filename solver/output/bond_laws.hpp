@@ -12,7 +12,7 @@ namespace mpfem {
 /// One law after another.
 std::vector<double> flatten(std::span<const BondLaw> laws);
 
-/// And back, stiffness unset. Whether bonds resist sliding is the same for all of a run and no part of it.
+/// The reverse; the stiffness stays unset. Whether bonds resist sliding is the same for a whole run, not stored.
 std::vector<BondLaw> unflatten_bond_laws(std::span<const double> values, bool normal_only);
 
 } // namespace mpfem

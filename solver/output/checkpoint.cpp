@@ -54,7 +54,7 @@ bool CheckpointReader::has_bonds() const {
     found = found || std::any_of(piece.begin(), piece.end(), [](std::int32_t f) { return f >= 0; });
   });
   if (found) return true;
-  // Broken and not formed again: what they spent is left.
+  // Bonds that broke and have not formed again leave only what they dissipated.
   file_.read_in_pieces(check::bond_values, [&](std::size_t, std::span<const double> piece) {
     for (std::size_t i = 5; i < piece.size(); i += 6) found = found || piece[i] > 0;
   });
@@ -67,13 +67,13 @@ void CheckpointReader::check_model(const Model& model, const Communicator& ranks
     throw InputError(fmt::format("{}: the checkpoint {}", one_line(path()), what));
   };
   if (packing_hash() != hash_text(model.mesh_hash)) fail("belongs to another packing than the scenario's");
-  // Arrays stand in the order of nodes and tets, which versions may choose otherwise.
+  // Arrays are in the order of nodes and tets, which may differ between versions.
   if (file_.read_scalar(check::numbering_hash) != numbering)
     fail("was written by a version of mpfem that orders nodes and tets otherwise");
   if (const auto lanes = file_.read_scalar(check::lanes); lanes != native_lanes)
     fail(fmt::format("was written by a build with {} lanes, this one has {}: nodes and tets would not go on bitwise",
                      lanes, native_lanes));
-  // All contacts would open or close by the height of the smooth surface at once.
+  // Otherwise all contacts would open or close at once by the height of the smooth surface.
   if (const auto smooth = file_.read_scalar(check::smooth_grains); smooth != model.smooth_grains)
     fail(fmt::format("has {} of {} grains that touch by their smooth surface, the scenario {}; allowed the same "
                      "contact.surface",

@@ -1,5 +1,5 @@
 #pragma once
-// The complete state of a run on disk. A resumed run goes on bitwise as if nothing had happened.
+// The complete state of a run on disk. A resumed run continues bitwise as if nothing had happened.
 
 #include <array>
 #include <optional>
@@ -35,7 +35,7 @@ struct RunRecord {
   double wall_time = 0;                ///< s, of all parts of the run so far
   std::array<double, profile_parts> profile_seconds{};
 
-  /// What stands among the fields of a checkpoint; the rest has datasets of its own.
+  /// The part that is stored among the fields of a checkpoint; the rest has its own datasets.
   template <class Self, class Visitor>
   static void for_each_field(Self& s, Visitor&& visit) {
     visit("record.rows_in_stage", s.rows_in_stage), visit("record.snapshots_passed", s.snapshots_passed);
@@ -44,7 +44,7 @@ struct RunRecord {
   }
 };
 
-/// What a checkpoint is made of, after an advance() and before the next evaluate_forces().
+/// The content of a checkpoint, after an advance() and before the next evaluate_forces().
 struct CheckpointState {
   const Model& model;
   const Contact& contact;
@@ -55,18 +55,19 @@ struct CheckpointState {
   FieldValues fields; ///< of the simulation, whose first whole number is the step, then of the record
 };
 
-/// Collective; of what is not of grains, the first rank's counts. Written beside and renamed, the same whatever the
-/// ranks. Throws StorageError on the first rank, where the others may wait for it (gathered_file.hpp).
+/// Collective; what does not belong to grains is taken from the first rank. The file is written under another name and
+/// renamed; it does not depend on the number of ranks. Throws StorageError on the first rank, at a point where the
+/// others may wait for it (gathered_file.hpp).
 void write_checkpoint(const std::string& path, const CheckpointState& state, const RunRecord& record,
                       const std::string& scenario_text, const Communicator& ranks = Communicator());
 
-/// An open checkpoint; every rank opens it. Every function throws InputError where the file is damaged.
+/// An open checkpoint; every rank opens it. Every function throws InputError if the file is damaged.
 class CheckpointReader {
 public:
   explicit CheckpointReader(const std::string& path);
 
   const std::string& path() const { return file_.path(); }
-  /// What tells its content from others.
+  /// A hash that identifies its content.
   std::string content_hash() const;
   std::string scenario_text() const;
   std::string packing_hash() const;
@@ -75,18 +76,17 @@ public:
   /// Whether a bond has formed by then.
   bool has_bonds() const;
 
-  /// Collective. Throws InputError where the checkpoint belongs to another mesh or was written by a build whose arrays
-  /// stand otherwise.
+  /// Collective. Throws InputError if the checkpoint belongs to another mesh or was written by a build with another
+  /// order of arrays.
   void check_model(const Model& model, const Communicator& ranks = Communicator()) const;
 
-  RunRecord record() const; ///< without what stands among the fields
+  RunRecord record() const; ///< without the part stored among the fields
   FieldValues fields() const;
-  /// Replaces the state of nodes, tets and contact points of own grains: `contact` has the pairs whose first grain is
-  /// an own one afterwards. No more than that is held, and no rank waits for another. Bonds keep the laws by which they
-  /// formed; whether they resist sliding is said by `bond_parameters`, of the run that wrote the checkpoint; none where
-  /// no bond has formed. The last law in `contact` stays that of bonds to come. `grips`: of a stage that grips, its
-  /// axis set, or none. Friction that is on only now begins without anchors; anchors of friction that is off now are
-  /// left out.
+  /// Replaces the state of nodes, tets and contact points of own grains. Afterwards `contact` has the pairs whose first
+  /// grain is an own one. No more than that is held, and no rank waits for another. Bonds keep the laws by which they
+  /// formed. `bond_parameters`, from the run that wrote the checkpoint, says whether bonds resist sliding; none if no
+  /// bond has formed. The last law in `contact` stays that of future bonds. `grips`: of a stage that grips, its axis
+  /// set, or none. Friction that is newly on begins without anchors; anchors of friction that is now off are left out.
   void take_arrays(Model& model, Contact& contact, WallFriction& wall_friction, Tools& tools, GrainSteps& grain_steps,
                    Grips* grips, const std::optional<BondParameters>& bond_parameters) const;
 
@@ -94,13 +94,13 @@ private:
   schema::FileReader file_;
 };
 
-/// Throws InputError: numbers of a checkpoint that do not belong together.
+/// Throws InputError: the numbers of the checkpoint are inconsistent.
 [[noreturn]] void refuse_damaged_checkpoint(const std::string& path);
 
-/// Reads all arrays of a checkpoint. Throws InputError where they do not match its checksum or cannot be read.
+/// Reads all arrays of a checkpoint. Throws InputError if they do not match its checksum or cannot be read.
 void verify_checkpoint(const std::string& path);
 
-/// What tells a checkpoint's state from others. Throws InputError where the file is no checkpoint.
+/// A checksum that identifies a checkpoint's state. Throws InputError if the file is no checkpoint.
 std::string checkpoint_checksum(const std::string& path);
 
 } // namespace mpfem

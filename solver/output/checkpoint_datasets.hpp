@@ -1,5 +1,5 @@
 #pragma once
-// Which array stands in which dataset of a checkpoint: for those who write them and those who read them.
+// Which array is in which dataset of a checkpoint; shared by writing and reading.
 
 #include <array>
 #include <cstddef>
@@ -47,7 +47,7 @@ void for_each_tet_array(Visitor&& visit) {
       check::tet_length, [](auto& b) -> auto& { return b.length; });
 }
 
-/// The same of arrays with a number for each grain.
+/// The same for arrays with one number for each grain.
 template <class Steps, class ContactType, class Visitor>
 void for_each_grain_array(Steps& steps, ContactType& contact, Visitor&& visit) {
   visit(check::grain_step, steps.whole);
@@ -119,7 +119,7 @@ inline SurfaceBond tool_bond_of(std::int32_t node, std::span<const double> v) {
   return bond;
 }
 
-// ---- what rigid surfaces and nodes have between them, by grain, surface and node
+// ---- anchors and bonds between rigid surfaces and nodes, by grain, surface and node
 
 struct SurfaceDatasets {
   const decltype(check::wall_friction_node)& node;

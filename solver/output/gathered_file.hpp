@@ -1,10 +1,10 @@
 #pragma once
-// A file to which all ranks contribute, each the values of its own grains. The first rank alone has it open: it gets
-// the values of the others in the order of grains, a few megabytes at a time, so that the file is what one rank would
-// have written and no rank ever holds a whole array.
+// A file to which all ranks contribute, each the values of its own grains. Only the first rank has it open. It receives
+// the values of the others in the order of grains, a few megabytes at a time. So the file is what one rank would have
+// written, and no rank ever holds a whole array.
 //
-// Everything here is collective. Where the first rank cannot write, it goes on taking what the others send, and all
-// throw its error together when the file is committed.
+// Everything here is collective. If the first rank cannot write, it still receives what the others send, and all throw
+// its error together when the file is committed.
 
 #include <cstdint>
 #include <exception>
@@ -23,11 +23,11 @@ namespace mpfem {
 
 class GatheredFile {
 public:
-  /// All arguments must outlive the file. Throws StorageError, and InputError where `path` is a folder or a device.
+  /// All arguments must outlive the file. Throws StorageError, and InputError if `path` is a folder or a device.
   GatheredFile(const Communicator& ranks, const Ownership& ownership, const std::string& path, schema::FileKind kind);
 
   const Communicator& ranks() const { return ranks_; }
-  /// Calls write(file) on the first rank, for what all ranks have alike.
+  /// Calls write(file) on the first rank, for data that all ranks share.
   template <class Write>
   void at_leader(Write&& write) {
     attempt([&] { write(*file_); });
@@ -44,8 +44,8 @@ public:
     begin(dataset, std::accumulate(rows.begin(), rows.end(), std::int64_t{0}), member);
     append_grains(dataset, rows, fill);
   }
-  /// The same of running numbers, an entry for each part and the end: `start[g]` is the first of a grain, start.back()
-  /// the end.
+  /// The same for offsets, one for each part and one for the end: `start[g]` is the first of a grain, start.back() the
+  /// end.
   template <class Fill>
   void write_running_numbers(const schema::Dataset<std::int32_t, 1>& dataset, std::span<const std::int64_t> rows,
                              std::int64_t end, Fill&& fill) {
@@ -93,11 +93,11 @@ private:
   std::exception_ptr failure_;             ///< the first one
 };
 
-/// Number of rows of each grain where first[g] ([grains + 1]) is its first.
+/// Number of rows of each grain; first[g] ([grains + 1]) is its first row.
 std::vector<std::int64_t> rows_of_grains(std::span<const std::int32_t> first);
 
-/// Collective. The number of something that each grain has: count(grain) of own grains, of the others what their ranks
-/// say.
+/// Collective. The number of something in each grain: count(grain) for own grains; other ranks give the counts of
+/// theirs.
 template <class Count>
 std::vector<std::int64_t> count_of_grains(const Communicator& ranks, const Model& model, Count&& count) {
   std::vector<std::int64_t> counts(static_cast<std::size_t>(model.grains), 0);

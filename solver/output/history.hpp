@@ -8,7 +8,7 @@
 
 namespace mpfem {
 
-/// Columns that a history has only where the scenario has what they tell of.
+/// Columns that a history has only if the scenario has what they describe.
 struct OptionalColumns {
   bool friction = false;
   bool container = false; ///< of tools
@@ -17,7 +17,7 @@ struct OptionalColumns {
 /// Writes all rows as /history of a run file.
 void write_history(schema::FileWriter& file, const std::vector<HistoryRow>& rows, const OptionalColumns& optional);
 
-/// Rows as plain numbers, one after another, and back (for checkpoints). unflatten throws std::length_error where the
+/// Rows as plain numbers, one after another, and back (for checkpoints). unflatten throws std::length_error if the
 /// numbers are not whole rows.
 std::vector<double> flatten(const std::vector<HistoryRow>& rows);
 std::vector<HistoryRow> unflatten(const std::vector<double>& values);

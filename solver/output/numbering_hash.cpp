@@ -11,7 +11,7 @@ namespace mpfem {
 
 namespace {
 
-/// On the first rank, of the places in the packing file of all grains' nodes or tets; first[g] is the first of a grain.
+/// On the first rank: hash of all nodes' or tets' places in the packing file; first[g] is the first of a grain.
 std::uint64_t hash_at_leader(const Communicator& ranks, const Model& model, const LazyArray<std::int32_t>& file_place,
                              std::span<const std::int32_t> first, std::uint64_t seed) {
   StreamingHash hash(seed);

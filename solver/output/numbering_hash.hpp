@@ -1,5 +1,5 @@
 #pragma once
-// What tells whether two programs number nodes and tets alike.
+// A hash that shows whether two programs number nodes and tets alike.
 
 #include <cstdint>
 
@@ -7,7 +7,7 @@
 
 namespace mpfem {
 
-/// Collective. Hash of the order of nodes and tets, in which arrays stand in a checkpoint; the same on all ranks.
+/// Collective. Hash of the order of nodes and tets in the arrays of a checkpoint; the same on all ranks.
 std::uint64_t numbering_hash(const Communicator& ranks, const Model& model);
 
 } // namespace mpfem

@@ -5,8 +5,8 @@
 
 namespace mpfem {
 
-/// "; key 'material.density': 1.5e-09 in the checkpoint, 2e-09 in the scenario": the first key that differs. Empty
-/// where the texts differ in nothing that is read.
+/// "; key 'material.density': 1.5e-09 in the checkpoint, 2e-09 in the scenario": the first key that differs. Empty if
+/// the texts differ in nothing that is read.
 std::string scenario_difference(const std::string& in_checkpoint, const std::string& scenario);
 
 } // namespace mpfem

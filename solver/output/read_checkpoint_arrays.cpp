@@ -37,7 +37,7 @@ private:
   using Rows = std::vector<std::int64_t>;
 
   [[noreturn]] void fail_damaged() const { refuse_damaged_checkpoint(file_.path()); }
-  /// That numbers read piece by piece are wrong is said when all have been read: damage is known by then.
+  /// Numbers read piece by piece are judged only when all have been read: by then damage to the file is known.
   void require(bool good) const {
     if (!good) fail_damaged();
   }
@@ -50,7 +50,7 @@ private:
   void read_own(const schema::Dataset<T, Rank>& dataset, const First& first, Take&& take) const;
   template <class T, int Rank>
   std::vector<T> read_own(const schema::Dataset<T, Rank>& dataset, const Rows& first) const;
-  /// Offsets of the parts of pairs or points, whose rows stand in the file as `rows` has it.
+  /// Offsets of the parts of pairs or points, whose rows in the file `rows` gives.
   struct Parts {
     Rows first;                ///< part of each grain
     std::vector<Index> offset; ///< of own rows among own parts, and the end
@@ -71,7 +71,7 @@ class OwnParts {
 public:
   OwnParts(const std::vector<Index>& own, const First& first) : own_(own), first_(first) {}
 
-  /// Calls take(grain, row, values) for those in the piece that begins with this row.
+  /// Calls take(grain, row, values) for own parts in the piece that begins with this row.
   template <class T, class Take>
   void of_piece(std::size_t piece_row, std::span<const T> piece, std::size_t columns, Take&& take) {
     const std::size_t piece_end = piece_row + piece.size() / columns;
@@ -89,7 +89,7 @@ private:
   std::size_t next_ = 0; ///< grains before it are done
 };
 
-/// Calls take(grain, row, values) with what own grains have of a dataset, a piece of a grain at a time.
+/// Calls take(grain, row, values) with the rows of own grains in a dataset, a piece of a grain at a time.
 template <class T, int Rank, class First, class Take>
 void ArrayReader::read_own(const schema::Dataset<T, Rank>& dataset, const First& first, Take&& take) const {
   require(file_.rows(dataset) == static_cast<std::size_t>(first.back()));
@@ -246,7 +246,7 @@ void ArrayReader::take_friction(Contact& contact) const {
       contact.friction_left_behind[{grains[2 * i], grains[2 * i + 1]}] = lost[i];
 }
 
-/// Which rows have nodes of each grain; they stand by grain.
+/// Which rows have nodes of each grain; rows are sorted by grain.
 ArrayReader::Rows ArrayReader::nodes_by_grain(const schema::Dataset<Index, 1>& dataset) const {
   Rows first(grains_ + 1, 0);
   bool good = true;
@@ -265,8 +265,8 @@ ArrayReader::Rows ArrayReader::nodes_by_grain(const schema::Dataset<Index, 1>& d
   return first;
 }
 
-/// What stands by grain, surface and node: calls make(node, values) for each and puts what it gives into
-/// list_of(grain, surface), a pointer, or null where it is left out.
+/// For data sorted by grain, surface and node: calls make(node, values) for each entry and appends the result to
+/// list_of(grain, surface), a pointer, which is null if the entry is to be left out.
 template <class Lists, class Make>
 void ArrayReader::take_by_surface(const SurfaceDatasets& datasets, std::size_t surfaces, Lists&& list_of,
                                   Make&& make) const {

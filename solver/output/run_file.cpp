@@ -101,7 +101,7 @@ void write_contact_pressure(GatheredFile& file, const std::string& name, const S
 /// Writes stresses and plastic strain.
 void write_tet_fields(GatheredFile& file, const std::string& name, const Model& model) {
   const Counts tets = rows_of_grains(model.tet_offset);
-  // Computed anew for each: all of a rank's tets would be a tenth of what it holds.
+  // Computed anew for each field: keeping them for all tets would add a tenth to what a rank holds.
   const auto write = [&](const auto& dataset, std::vector<float> TetFields::*field) {
     file.write_grains(
         dataset, tets,
@@ -115,7 +115,7 @@ void write_tet_fields(GatheredFile& file, const std::string& name, const Model& 
   write(run::snapshots_plastic_strain, &TetFields::plastic_strain);
 }
 
-/// Writes one value or some for each of a grain's entries: set(entry, values).
+/// Writes one or several values for each of a grain's entries: set(entry, values).
 template <class T, int Rank, class Entries, class Set>
 void write_entries(GatheredFile& file, const std::string& name, const schema::Dataset<T, Rank>& dataset,
                    const Counts& counts, Entries&& entries_of, Set&& set) {
@@ -131,7 +131,7 @@ void write_entries(GatheredFile& file, const std::string& name, const schema::Da
       name);
 }
 
-/// Writes what is between each pair of grains: force, area and, with bonds, what these come to.
+/// Writes the contact of each pair of grains: force, area and, with bonds, their sums.
 void write_pairs(GatheredFile& file, const std::string& name, const Model& model, const Contact& contact) {
   const auto pairs = pair_contacts(model, contact, file.ranks());
   const auto of_grain = [&](Index grain) {
@@ -163,7 +163,7 @@ void write_pairs(GatheredFile& file, const std::string& name, const Model& model
   write_number(run::snapshots_pair_damage_dissipation, [](const PairContact& pair) { return pair.bonds.dissipated; });
 }
 
-/// Writes what the walls bear of each grain.
+/// Writes the force of each grain on the walls.
 void write_wall_forces(GatheredFile& file, const std::string& name, const Model& model, const Box& box) {
   file.write_grains(
       run::snapshots_wall_force, Counts(at(model.grains), 1),
@@ -186,7 +186,7 @@ struct PointOfBond {
   Index pair, point;
 };
 
-/// Those of a grain's nodes.
+/// The points of a grain's nodes.
 std::vector<PointOfBond> bonds_of(const Contact& contact, Index grain) {
   std::vector<PointOfBond> bonds;
   const ContactCandidates& candidates = contact.candidates;

@@ -18,7 +18,7 @@
 
 namespace mpfem {
 
-/// What a snapshot is made of, between evaluate_forces() and advance().
+/// The content of a snapshot, between evaluate_forces() and advance().
 struct SnapshotState {
   const Model& model;
   const Contact& contact;
@@ -30,8 +30,8 @@ struct SnapshotState {
   double relative_density = 0;
 };
 
-/// Collective. Writes a snapshot to its own file, the same whatever the ranks. Throws StorageError on the first rank,
-/// where the others may wait for it (gathered_file.hpp).
+/// Collective. Writes a snapshot to its own file, which does not depend on the number of ranks. Throws StorageError on
+/// the first rank, at a point where the others may wait for it (gathered_file.hpp).
 void write_snapshot_file(const std::string& path, const SnapshotState& state,
                          const Communicator& ranks = Communicator());
 
@@ -55,8 +55,8 @@ struct RunHistory {
   const std::vector<ToolRow>& tool_rows; ///< of all tools for each row
 };
 
-/// Collective. Writes RUN.h5 from history, snapshot files and provenance, those of the first rank. Throws StorageError
-/// as write_snapshot_file, and InputError where a snapshot file cannot be read.
+/// Collective. Writes RUN.h5 from history, snapshot files and provenance of the first rank. Throws StorageError as
+/// write_snapshot_file, and InputError if a snapshot file cannot be read.
 void write_run_file(const std::string& path, const Model& model, const RunHistory& history,
                     const std::vector<std::string>& snapshot_files, const Provenance& provenance,
                     const Communicator& ranks = Communicator());
@@ -68,7 +68,7 @@ struct RunSummary {
   double first_density = 0;   ///< relative density of the first row
   double largest_density = 0; ///< of all rows
 };
-/// Throws InputError where the file is none of a run.
+/// Throws InputError if the file is not a run file.
 RunSummary read_run_summary(const std::string& path);
 
 } // namespace mpfem

@@ -16,7 +16,7 @@ namespace mpfem {
 
 namespace {
 
-/// Whether the file that is open still stands under its name: whoever held it before has removed it otherwise.
+/// Whether the open file still exists under its name: if not, its previous holder has removed it.
 bool stands(int file, const std::string& path) {
   struct stat open {
   }, named{};

@@ -5,9 +5,9 @@
 
 namespace mpfem {
 
-/// Holds RUN.lock while it lives. The system lets go of it with the process, however that ends: a lock file that is
-/// left behind stops nobody. Throws InputError where another process holds it. File systems that know no locks are
-/// taken as they are.
+/// Holds RUN.lock while it lives. The system releases it with the process, however that ends: a lock file that is left
+/// behind blocks nobody. Throws InputError if another process holds it. On file systems without locks nothing is
+/// locked.
 class RunLock {
 public:
   explicit RunLock(const std::string& run_file);

@@ -7,7 +7,7 @@ namespace mpfem {
 
 struct StageResult {
   std::string name{};
-  std::string ended_by{}; ///< "relative density 0.92", and which speed the stage chose, where it chose one
+  std::string ended_by{}; ///< "relative density 0.92", and which speed the stage chose, if it chose one
   double overshoot = 0;   ///< MPa by which a stress that ended or turned the stage was passed
   double hold_error = 0;  ///< MPa, largest deviation of a held stress, averaged over a transit of the box
   double hold_stress = 0; ///< MPa, the largest stress to be held

@@ -9,10 +9,10 @@
 
 namespace mpfem {
 
-/// Writes /tools/NAME: the surface of every tool at the start of the run. Nothing where there are no tools.
+/// Writes /tools/NAME: the surface of every tool at the start of the run. Writes nothing if there are no tools.
 void write_tool_geometry(schema::FileWriter& file, const Tools& tools);
 
-/// Writes the tools of a snapshot that are not away, and their displacements (mm). Nothing where there are no tools.
+/// Writes the tools of a snapshot that are not away, and their displacements (mm). Nothing if there are none.
 void write_placed_tools(schema::FileWriter& file, const std::string& snapshot, const Tools& tools);
 
 } // namespace mpfem

@@ -14,7 +14,7 @@ namespace mpfem {
 struct ToolRow {
   std::array<double, 3> displacement; ///< mm, since the start of the run
   std::array<double, 3> force;        ///< N, of the grains on the tool
-  std::array<double, 3> moment;       ///< N mm, of that about the tool's reference point
+  std::array<double, 3> moment;       ///< N mm, of this force about the tool's reference point
   double normal_force;                ///< N, sum of the normal forces, pulls of bonds negative
   double work;                        ///< mJ, on the grains so far
   double friction_energy;             ///< mJ, stored in its stick springs
@@ -30,11 +30,11 @@ struct NamedTool {
   bool adheres; ///< grains may stick to it
 };
 
-/// Writes /history/tools/NAME; `rows` holds those of all tools at a time level, one level after the other.
+/// Writes /history/tools/NAME; `rows` holds the rows of all tools at a time level, one level after the other.
 void write_tool_history(schema::FileWriter& file, std::span<const NamedTool> tools, std::span<const ToolRow> rows);
 
-/// Rows as plain numbers, one after another, and back (for checkpoints). tool_rows_of throws std::length_error where
-/// the numbers are not whole rows.
+/// Rows as plain numbers, one after another, and back (for checkpoints). tool_rows_of throws std::length_error if the
+/// numbers are not whole rows.
 std::vector<double> flatten(const std::vector<ToolRow>& rows);
 std::vector<ToolRow> tool_rows_of(const std::vector<double>& values);
 

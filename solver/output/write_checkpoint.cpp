@@ -56,7 +56,7 @@ void write_fields(schema::FileWriter& file, const FieldValues& fields) {
   write_all(file, check::run_numbers, fields.number);
 }
 
-/// What tells the run and the build by which the arrays were made.
+/// Writes what identifies the run and the build that made the arrays.
 void write_identity(GatheredFile& file, const Model& model, const std::string& scenario_text) {
   const std::string numbering = hash_text(numbering_hash(file.ranks(), model));
   file.at_leader([&](schema::FileWriter& leader) {
@@ -99,7 +99,7 @@ void write_grain_numbers(GatheredFile& file, const CheckpointState& state) {
   });
 }
 
-/// Where the contact of a grain's nodes begins in the rank's arrays.
+/// Where the contacts of a grain's nodes begin in the rank's arrays.
 struct ContactPlace {
   Index pair, point, facet;
 };
@@ -108,7 +108,7 @@ ContactPlace first_of(const ContactCandidates& candidates, Index grain) {
   return {pair, point, candidates.point_facet_offset[at(point)]};
 }
 
-/// How much contact the nodes of each grain have, whoever owns it.
+/// Number of contacts of the nodes of each grain, whoever owns the grain.
 struct ContactCounts {
   Counts pairs, points, facets;
 };
@@ -132,7 +132,7 @@ Counts running_sums(const Counts& counts) {
   return sums;
 }
 
-/// Writes the contact between grains: of each pair what the owner of its first grain has.
+/// Writes the contacts between grains: for each pair, the data of the owner of its first grain.
 class ContactWriter {
 public:
   ContactWriter(GatheredFile& file, const Model& model, const Contact& contact)
@@ -167,7 +167,7 @@ public:
   }
 
 private:
-  /// Of each grain its part of an array of pairs, points or facets.
+  /// Writes each grain's part of an array of pairs, points or facets.
   template <class T>
   void write_array(const schema::Dataset<T, 1>& dataset, const Counts& counts, const std::vector<T>& array,
                    Index ContactPlace::*member) {
@@ -196,7 +196,7 @@ private:
       });
     });
   }
-  /// What pairs dissipated at points that they no longer have, by the grain of the nodes.
+  /// Writes what pairs dissipated at points that they no longer have, by the grain of the nodes.
   void write_friction_left_behind() {
     const auto& lost = contact_.friction_left_behind;
     const auto first_of_grain = [&](Index grain) { return lost.lower_bound({grain, 0}); };
@@ -213,7 +213,7 @@ private:
       for (double& value : values) value = (entry++)->second;
     });
   }
-  /// Offsets count through all grains in the file, through those of the rank in its arrays.
+  /// In the file, offsets run through all grains; in the arrays of a rank, through its own grains.
   void write_offsets(const schema::Dataset<Index, 1>& dataset, const Counts& rows, const Counts& parts,
                      const std::vector<Index>& offset, Index ContactPlace::*row, Index ContactPlace::*part) {
     const Counts start = running_sums(parts);
@@ -231,7 +231,7 @@ private:
   ContactCounts counts_;
 };
 
-/// Writes what rigid surfaces and nodes have between them: list_of(grain, surface) are anchors or bonds.
+/// Writes what connects rigid surfaces and nodes: list_of(grain, surface) gives anchors or bonds.
 template <class Lists>
 void write_by_surface(GatheredFile& file, const Model& model, const SurfaceDatasets& datasets, std::size_t surfaces,
                       Lists&& list_of) {

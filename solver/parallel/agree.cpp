@@ -35,7 +35,7 @@ Outcome outcome_of(const std::function<void()>& work) {
   try {
     work();
     return {};
-  } catch (const SimulationError& error) { // whoever catches it saves the state: not so of other failures of that code
+  } catch (const SimulationError& error) { // the catcher saves the state; not so for other failures of that code
     return {Kind::simulation, 0, error.what()};
   } catch (...) {
     const Failure failure = present_failure();

@@ -7,9 +7,9 @@
 
 namespace mpfem {
 
-/// Collective. Calls `work`, which may communicate only where it cannot have failed before on any rank. Where it throws
-/// on some ranks, all throw the error of the one whose `place` is lowest (of equal ones that of the lowest rank): the
-/// place is asked for after the failure, and stands for the order in which one rank would have come upon it.
+/// Collective. Calls `work`, which may communicate only as long as it cannot have failed on any rank. If it throws on
+/// some ranks, all throw the error whose `place` is lowest (at equal places, that of the lowest rank). `place` is
+/// called after the failure. It gives the order in which a single rank would have met the errors.
 void agree(
     const Communicator& ranks, const std::function<void()>& work,
     const std::function<double()>& place = [] { return 0.0; });

@@ -1,8 +1,8 @@
 #pragma once
-// The processes of a run, its ranks, and how they exchange bytes. Two files fulfil this: communicator_mpi.cpp, the only
-// one that knows MPI, and communicator_alone.cpp, for builds without it, where every process is the only rank.
+// The processes of a run, its ranks, and how they exchange bytes. Two files implement this: communicator_mpi.cpp, the
+// only one that knows MPI, and communicator_alone.cpp, for builds without it, where every process is the only rank.
 //
-// A function that is called "collective" has to be called by all ranks, in the same order, from their first threads.
+// A function marked "collective" has to be called by all ranks, in the same order, from their first threads.
 
 #include <cstddef>
 #include <cstdint>
@@ -21,8 +21,8 @@ class Communicator {
 public:
   /// This process alone, whatever others there are.
   Communicator();
-  /// The ranks that mpirun or srun started together; this process alone where neither did. To be called once, before
-  /// anything else; what it returns ends MPI when it goes. May change the arguments of main.
+  /// The ranks that mpirun or srun started together; this process alone if neither did. To be called once, before
+  /// anything else. The object returned ends MPI when it is destroyed. May change the arguments of main.
   static Communicator of_launcher(int& argc, char**& argv);
   Communicator(Communicator&&) noexcept;
   Communicator(const Communicator&) = delete;
@@ -35,25 +35,25 @@ public:
   bool leads() const { return rank_ == 0; }
   /// Whether this build has MPI.
   static bool has_mpi();
-  /// Of the MPI library: "Open MPI v4.1.4"; empty in a build without.
+  /// Name and version of the MPI library, such as "Open MPI v4.1.4"; empty in a build without MPI.
   static std::string library();
 
-  /// Collective. What every rank has, by rank.
+  /// Collective. The bytes of every rank, by rank.
   std::vector<Bytes> all_of(std::span<const std::byte> own) const;
-  /// Collective. The same where the number of bytes of every rank is known: `all` holds them one after another.
+  /// Collective. The same, if the number of bytes of every rank is known: `all` holds them one after another.
   void all_of(std::span<const std::byte> own, std::span<const std::size_t> bytes_of_rank,
               std::span<std::byte> all) const;
   /// Collective. `to` holds what goes to each rank; returns what came from each.
   std::vector<Bytes> exchange(const std::vector<Bytes>& to) const;
   /// Collective. The largest of all ranks' numbers; none may be NaN.
   double largest(double own) const;
-  /// Collective. Makes of each of `sums` the sum of all ranks' numbers, and of each of `largest` the largest, which may
-  /// not be NaN.
+  /// Collective. Replaces each of `sums` by the sum of all ranks' numbers, and each of `largest` by the largest of
+  /// them; none of these may be NaN.
   void combine(std::span<std::int64_t> sums, std::span<double> largest) const;
   /// Collective. Copies what the first rank has to all others.
   void from_leader(Bytes& bytes) const;
 
-  /// To one rank, which receives the same number of bytes.
+  /// Sends to one rank, which must receive the same number of bytes.
   void send(int rank, std::span<const std::byte> bytes) const;
   void receive(int rank, std::span<std::byte> bytes) const;
 
@@ -73,7 +73,7 @@ public:
     Transfer(Transfer&&) noexcept;
     Transfer& operator=(Transfer&&) noexcept;
     ~Transfer();
-    /// Waits until all messages have gone and come. Returns the number of bytes of each incoming one.
+    /// Waits until all messages have been sent and received. Returns the number of bytes of each incoming one.
     std::vector<std::size_t> finish();
 
   private:
@@ -84,9 +84,9 @@ public:
   /// Starts messages to and from some ranks, at most one each way with each.
   Transfer start(const std::vector<Outgoing>& out, const std::vector<Incoming>& in) const;
 
-  /// Whether all ranks come to call this within a time (s). A rank that fails finds out by it whether all have failed.
+  /// Whether all ranks call this within a time (s). A rank that fails finds out from it whether all have failed.
   bool all_come(double seconds) const;
-  /// Ends all ranks at once, with this exit code, where one has failed and the others wait for it.
+  /// Ends all ranks at once, with this exit code, when one has failed and the others wait for it.
   [[noreturn]] void abort(int exit_code) const;
 
 private:

@@ -18,7 +18,7 @@ namespace mpfem {
 
 namespace {
 
-/// For ranks that have failed: what they do must not meet what the others still do with each other.
+/// For ranks that have failed: their messages must not mix with those that the others still exchange.
 MPI_Comm failing = MPI_COMM_NULL;
 
 /// MPI counts in int: larger messages go in pieces.

@@ -1,6 +1,6 @@
 #pragma once
-// What the first rank alone finds out or does, and all learn. The others do not look at the file system: on a shared
-// one they may see another state of it.
+// What the first rank alone finds out or does, and all then know. The others do not look at the file system: if it is
+// shared, they may see another state of it.
 
 #include <string>
 #include <utility>
@@ -10,7 +10,7 @@
 
 namespace mpfem {
 
-/// Collective. Calls `work` on the first rank; where it throws, all ranks throw that error.
+/// Collective. Calls `work` on the first rank; if it throws, all ranks throw that error.
 template <class Work>
 void leader_does(const Communicator& ranks, Work&& work) {
   agree(ranks, [&] {
@@ -18,7 +18,7 @@ void leader_does(const Communicator& ranks, Work&& work) {
   });
 }
 
-/// Collective. The answer of the first rank to a question of yes or no.
+/// Collective. The answer of the first rank to a yes-or-no question.
 template <class Question>
 bool leader_finds(const Communicator& ranks, Question&& question) {
   bool answer = false;

@@ -34,7 +34,7 @@ std::size_t longest_axis(const Grains& grains, std::span<const Index> some) {
 }
 
 /// How many of the sorted grains go to the first side: those whose weight comes closest to `share` of all, and at least
-/// one for each rank on either side where there are enough.
+/// one for each rank on either side if there are enough.
 std::size_t grains_of_first_side(const Grains& grains, std::span<const Index> sorted, double share, int first_ranks,
                                  int other_ranks) {
   double all = 0;

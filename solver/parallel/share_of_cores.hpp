@@ -4,8 +4,8 @@
 
 namespace mpfem {
 
-/// Collective. Cores that a rank has for its threads: of those that it may use, its share where other ranks on the same
-/// machine may use them too. At least 1.
+/// Collective. Number of cores that a rank has for its threads. A core that several ranks on the same machine may use
+/// is shared equally among them. At least 1.
 int share_of_cores(const Communicator& ranks);
 
 } // namespace mpfem

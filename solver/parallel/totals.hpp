@@ -12,9 +12,9 @@
 
 namespace mpfem {
 
-/// The totals of `count` things, each a `Sums`. Which of its fields are added up, and of which the largest counts, is
-/// said by Sums::for_each_term(sums, visit), which calls visit.sum(double), visit.count(std::int64_t),
-/// visit.largest(double, at least 0) or visit.every(bool) for each.
+/// The totals of `count` things, each a `Sums`. Sums::for_each_term(sums, visit) says which of its fields are added up,
+/// and of which the largest counts. It calls visit.sum(double), visit.count(std::int64_t), visit.largest(double, at
+/// least 0) or visit.every(bool) for each.
 template <class Sums>
 class Totals {
 public:
@@ -82,7 +82,7 @@ private:
   std::vector<std::int64_t> words_;
 };
 
-/// Collective. The total of what own grains have, [grains].
+/// Collective. The total over all grains. `of_grain` ([grains]) is set for own grains.
 template <class Sums>
 Sums total_of(const Communicator& ranks, std::span<const std::int32_t> own, std::span<const Sums> of_grain) {
   Totals<Sums> totals;

@@ -1,11 +1,11 @@
 #pragma once
 // The traction-separation law of a bond at one point of a contact, per unit of area (paper Eqs. 2-7).
 //
-// Undamaged, traction is K times separation, normal and tangential alike, up to a quadratic criterion in the tractions.
-// Then the effective separation delta = sqrt(<delta_n>^2 + delta_t^2) softens it: t = (1 - D) K delta, D a function of
-// the largest effective separation so far. Both laws are in closed form, so that the area under the curve is exactly
-// G^c, whatever the size of a step. Unloading goes to the origin; a closing separation is carried by the contact's own
-// penalty, undamaged. The bond's K may differ from that penalty.
+// While undamaged, the traction is K times the separation, normal and tangential alike, until the tractions meet a
+// quadratic criterion. From then on it softens: t = (1 - D) K delta with the effective separation delta =
+// sqrt(<delta_n>^2 + delta_t^2). D is a function of the largest delta so far. Both laws are in closed form, so that the
+// area under the curve is exactly G^c, whatever the size of a step. Unloading goes to the origin. Closing is resisted
+// by the contact's own penalty, which is not damaged. The bond's K may differ from that penalty.
 
 #include <cmath>
 
@@ -19,17 +19,17 @@ enum class SofteningLaw {
 
 /// Constants of a bond.
 struct BondLaw {
-  double stiffness = 0;        ///< K, MPa/mm; 0 where it follows the penalty of the contact point
+  double stiffness = 0;        ///< K, MPa/mm; 0 if it follows the penalty of the contact point
   double tensile_strength = 0; ///< t_n^m, MPa
   double shear_strength = 0;   ///< t_s^m = t_t^m, MPa (Table 1 has one value for both directions)
   double fracture_energy = 0;  ///< G^c, N/mm; must exceed t^2/(2 K) of the larger strength
   SofteningLaw softening = SofteningLaw::exponential;
   bool normal_only = false; ///< no traction against sliding (for comparison with theories of adhesion)
-  double penalty_ratio = 1; ///< K over the penalty of the contact point, where K follows that
+  double penalty_ratio = 1; ///< K over the penalty of the contact point, if K follows that penalty
   bool operator==(const BondLaw&) const = default;
 };
 
-/// The law at a contact point with this penalty (MPa/mm, > 0): its K is set.
+/// The law with its K set for a contact point with this penalty (MPa/mm, > 0).
 inline BondLaw law_at_point(BondLaw law, double penalty) {
   if (law.stiffness == 0) law.stiffness = law.penalty_ratio * penalty;
   return law;
@@ -50,7 +50,7 @@ inline double initiation_separation(const BondLaw& law, double opening) {
   return 1 / (law.stiffness * std::sqrt(normal * normal + shear_square));
 }
 
-/// What the exponential function of the softening law has for its argument, without its sign; 0 where undamaged.
+/// Argument of the exponential function in the softening law, without its sign; 0 while undamaged.
 inline double softening_exponent(const BondLaw& law, const BondState& state) {
   if (state.initiation == 0) return 0;
   const double d0 = state.initiation, d = state.largest, peak = law.stiffness * d0;
@@ -59,8 +59,8 @@ inline double softening_exponent(const BondLaw& law, const BondState& state) {
                                                     : 0.5 * law.stiffness * (d - d0) * (d + d0) / b;
 }
 
-/// True when the bond has failed completely. The exponential never ends: where less than e^-16 = 1.1e-7 of the energy
-/// is left to spend, the rest counts as spent.
+/// True when the bond has failed completely. The exponential never reaches 0: once less than e^-16 = 1.1e-7 of the
+/// energy is left to spend, the rest counts as spent.
 inline bool is_broken(const BondLaw& law, const BondState& state) {
   return softening_exponent(law, state) > 16;
 }
@@ -73,7 +73,7 @@ inline double remaining_stiffness(const BondLaw& law, const BondState& state) {
   return law.softening == SofteningLaw::exponential ? state.initiation / state.largest * remaining : remaining;
 }
 
-/// Energy (mJ/mm^2 = N/mm) under the envelope up to the largest separation: what opening the bond so far has taken.
+/// Energy (mJ/mm^2 = N/mm) under the envelope up to the largest separation: the work of opening the bond so far.
 inline double envelope_energy(const BondLaw& law, const BondState& state) {
   if (state.initiation == 0) return 0;
   if (is_broken(law, state)) return law.fracture_energy;
@@ -88,7 +88,7 @@ inline double damage_dissipation(const BondLaw& law, const BondState& state) {
          0.5 * remaining_stiffness(law, state) * law.stiffness * state.largest * state.largest;
 }
 
-/// Moves the state along to an effective separation (mm), of which `open` (mm) is opening. True when damage grew.
+/// Updates the state for an effective separation (mm) whose opening part is `open` (mm). True if damage has grown.
 inline bool advance_damage(const BondLaw& law, BondState& state, double open, double effective) {
   if (state.initiation == 0) {
     if (effective == 0) return false;
@@ -102,14 +102,14 @@ inline bool advance_damage(const BondLaw& law, BondState& state, double open, do
   return true;
 }
 
-/// Tractions (MPa) that act against the separations, and what is stored.
+/// Tractions (MPa) that act against the separations, and the stored energy.
 struct BondTraction {
   double normal = 0;    ///< opening only: 0 where the point is closed
   double shear[2] = {}; ///< along the two components of the tangential separation
   double stored = 0;    ///< N/mm, released by closing
 };
 
-/// Traction at a separation: normal (mm, > 0 open) and two tangential components (mm). Moves the state along.
+/// Traction at a separation: normal (mm, > 0 open) and two tangential components (mm). Updates the state.
 inline BondTraction bond_traction(const BondLaw& law, BondState& state, double normal, double shear1, double shear2) {
   const double open = normal > 0 ? normal : 0.0;
   const double slide1 = law.normal_only ? 0.0 : shear1, slide2 = law.normal_only ? 0.0 : shear2;

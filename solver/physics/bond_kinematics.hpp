@@ -7,12 +7,12 @@
 //   open:     (1 - D) b |d|^2 / 2
 //   closed:   k g^2 / 2 + (1 - D) b (|d|^2 - g^2) / 2   =   (1 - D) b |d|^2 / 2 + (k - (1 - D) b) g^2 / 2
 // that is, the undamaged penalty against closing and a bond whose effective separation delta^2 = |d|^2 - g^2 is the
-// drift along the surface. Of the penalty the bond leaves k - (1 - D) b to the point, which is negative where the bond
-// is the stiffer one. (|d| >= g, since c is the closest point of all.) Both terms are central forces between
-// material points: linear and angular momentum are kept exactly, a rigid rotation of both grains does nothing, and no
-// tangent plane has to be followed as the node slides over facets and edges. The force is continuous where the point
-// opens or closes. A chord between distant points of a curved surface is not along the surface; the bond then pulls
-// along the chord.
+// drift along the surface. The bond leaves k - (1 - D) b of the penalty to the point; this is negative if the bond is
+// stiffer than the penalty. (|d| >= g, since c is the closest point of all.) Both terms are central forces between
+// material points: linear and angular momentum are conserved exactly, a rigid rotation of both grains changes nothing,
+// and no tangent plane has to be followed as the node slides over facets and edges. The force is continuous when the
+// point opens or closes. A chord between distant points of a curved surface is not along the surface; the bond then
+// pulls along the chord.
 
 #include <algorithm>
 #include <cmath>
@@ -33,14 +33,14 @@ struct BondDamage {
 /// The bond of one contact point, attached to a facet of the other grain.
 struct PointBond : BondDamage {
   std::int32_t facet = -1;         ///< where it is attached, -1: none
-  std::int32_t law = 0;            ///< number of the law by which it, or the one before it, formed
+  std::int32_t law = 0;            ///< number of the law by which this bond, or the one before it, formed
   double weight1 = 0, weight2 = 0; ///< shape functions of the facet's second and third node
   double spent = 0;                ///< N/mm, dissipated by the bonds that this point had before
   bool exists() const { return facet >= 0; }
   bool intact() const { return facet >= 0 && remaining > 0; }
 };
 
-/// Takes the bond to a new separation, and its damage with it. `open` and `effective` (separation) in mm, both >= 0.
+/// Updates the bond and its damage for a new separation. `open` and `effective` (separation) in mm, both >= 0.
 inline void update_bond(const BondLaw& law, BondDamage& bond, double open, double effective) {
   bond.opening = open;
   bond.separation = effective;
@@ -48,16 +48,16 @@ inline void update_bond(const BondLaw& law, BondDamage& bond, double open, doubl
   if (bond.remaining == 0) bond.opening = bond.separation = 0; // broken: no longer followed
 }
 
-/// Part of the penalty that a bond leaves to its closed point, which the bond's own pull makes up for: 1 - (1 - D) b/k.
-/// `law` at the point, `penalty` K of the point (MPa/mm).
+/// Part of the penalty that a bond leaves to its closed point: 1 - (1 - D) b/k. The bond's own pull makes up for the
+/// rest. `law` at the point, `penalty` K of the point (MPa/mm).
 inline double penalty_left_by_bond(const BondLaw& law, const BondDamage& bond, double penalty) {
   return 1.0 - bond.remaining * (law.stiffness / penalty);
 }
 
-/// Pull (mm) of a bond that holds in all directions: times its stiffness b (N/mm) the force (N) on its node. `reach`
-/// (mm) from the attachment to the node. `gap` is the distance (mm) of the node from the other surface, negative
-/// inside. Where the node is too far for its gap to be known, pass any larger number: the opening is at most the
-/// distance to the attachment.
+/// Pull (mm) of a bond that holds in all directions. Times the bond's stiffness b (N/mm) it is the force (N) on its
+/// node. `reach` (mm) points from the attachment to the node. `gap` is the distance (mm) of the node from the other
+/// surface, negative inside. If the node is too far away for its gap to be known, pass any larger number: the opening
+/// is at most the distance to the attachment.
 inline Vector3<double> pull_along(const BondLaw& law, BondDamage& bond, const Vector3<double>& reach, double gap) {
   const double square = dot(reach, reach);
   if (gap < 0)

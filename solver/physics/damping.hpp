@@ -14,8 +14,8 @@ namespace mpfem {
 
 /// What the velocity update needs besides the forces.
 struct Advance {
-  double step_mean = 0;           ///< s, between the half steps before and after now
-  double step = 0;                ///< s, of the positions
+  double step_mean = 0;           ///< s, from the half step before now to the one after
+  double step = 0;                ///< s, for the update of positions
   double damping_rate = 0;        ///< c, 1/s
   std::array<double, 3> centre{}; ///< of the affine velocity field, mm
   std::array<double, 3> rate{};   ///< of the affine velocity field, 1/s

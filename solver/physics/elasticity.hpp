@@ -22,8 +22,8 @@ inline ElasticModuli elastic_moduli(double youngs_modulus, double poissons_ratio
 
 namespace detail {
 
-/// True where J is within a tenth of 1, as solids under pressure are: there z = (J - 1)/(J + 1) is below 0.0527, and
-/// series in it resolve ln J to the last digit.
+/// True if J is within a tenth of 1, as in solids under pressure. Then z = (J - 1)/(J + 1) is below 0.0527, and series
+/// in z give ln J to the last digit.
 template <class S>
 bool near_reference(const S& volume_ratio) {
   const S distance = volume_ratio - S(1.0);
@@ -53,8 +53,8 @@ S mean_stress(const ElasticModuli& moduli, const S& volume_ratio) {
   return S(moduli.bulk) * log_of_volume_ratio(volume_ratio);
 }
 
-/// Energy per reference volume (MPa) whose derivative with respect to J is K ln J:   K (J ln J - J + 1). Near J = 1,
-/// where its terms cancel, by the series of the logarithm,   K 2 w (1 + z (1 + z) t) / (1 - z).
+/// Energy per reference volume (MPa) whose derivative with respect to J is K ln J:   K (J ln J - J + 1). Near J = 1 its
+/// terms cancel; there the series of the logarithm gives   K 2 w (1 + z (1 + z) t) / (1 - z).
 template <class S>
 S volumetric_energy(const ElasticModuli& moduli, const S& volume_ratio) {
   const S bulk(moduli.bulk);

@@ -1,45 +1,45 @@
 #pragma once
 // Coulomb friction at one contact point: a stick spring whose anchor slips.
 //
-// x is the node, c the closest point of the other surface, g = |x - c| how deep the node is inside, and the anchor a a
-// material point of that surface (of a wall: a point of the wall). The spring of stiffness k_t (N/mm) between x and a
-// has the tangential part of its energy,
+// x is the node, c the closest point of the other surface, g = |x - c| the depth of the node inside it. The anchor a is
+// a material point of that surface (of a wall: a point of the wall). A spring of stiffness k_t (N/mm) between x and a
+// stores only the tangential part of its energy,
 //   k_t (|x - a|^2 - g^2)/2 = k_t e^2/2,   e the drift of the anchor along the surface.
 // The penalty adds k g^2/2. With k_t = k, as here, c drops out of the sum: one spring k from the node to its anchor is
 // both the push and the friction. Force and reaction act along one line between material points, so that momentum and
-// angular momentum are kept exactly, and a rotation of both bodies does nothing.
+// angular momentum are conserved exactly, and a rotation of both bodies changes nothing.
 //
-// Coulomb's law |t| <= mu N with N = k g bounds the drift: e <= mu k g/k_t. Beyond, the anchor slips towards c until
-// the bound holds (return mapping: Wriggers, Computational Contact Mechanics, 2006, section 10.5). N is that of the
+// Coulomb's law |t| <= mu N with N = k g bounds the drift: e <= mu k g/k_t. Beyond that bound, the anchor slips towards
+// c until it holds (return mapping: Wriggers, Computational Contact Mechanics, 2006, section 10.5). N is taken at the
 // same time level.
 
 #include "solver/physics/tensor.hpp"
 
 namespace mpfem {
 
-/// Largest drift e (mm) that friction bears. `friction` mu >= 0; `penalty` k and `stiffness` k_t > 0, N/mm; `depth`
+/// Largest drift e (mm) that friction can hold. `friction` mu >= 0; `penalty` k and `stiffness` k_t > 0, N/mm; `depth`
 /// g >= 0, mm.
 template <class S>
 S longest_drift(const S& friction, const S& penalty, const S& stiffness, const S& depth) {
   return friction * penalty * depth / stiffness;
 }
 
-/// Share of a drift (mm) that is left by slip: 1 where the point sticks.
+/// Share of a drift (mm) that is left after slip: 1 if the point sticks.
 template <class S>
 S share_left_by_slip(const S& drift, const S& longest) {
   return select(drift > longest, longest / max(drift, S(1e-300)), S(1.0));
 }
 
-/// Share of the drift that keeps the friction force as the stiffness rises from `before` to `now` (N/mm): area that
-/// begins to rub is unloaded.
+/// Share of the drift with which the friction force stays the same when the stiffness rises from `before` to `now`
+/// (N/mm): area that begins to rub starts unloaded.
 template <class S>
 S share_left_by_new_area(const S& before, const S& now) {
   return select(before < now, before / max(now, S(1e-300)), S(1.0));
 }
 
-/// Share of the last step's motion that a point which was open before it made inside. `depth` g >= 0 and `closing`, by
-/// how much the step closed the gap, mm. The point is anchored where it came in: a contact of few steps, as in
-/// chattering, would else have no friction in the first of them.
+/// Share of a point's motion in the last step that it made inside the surface, if it was open before. `depth` g >= 0;
+/// `closing`: how much the step closed the gap; both in mm. The point is anchored where it came in. Otherwise a contact
+/// of few steps, as in chattering, would have no friction in its first step.
 template <class S>
 S share_inside(const S& depth, const S& closing) {
   return select(closing > depth, depth / max(closing, S(1e-300)), select(closing > S(0.0), S(1.0), S(0.0)));
@@ -52,8 +52,8 @@ S stick_energy(const S& stiffness, const S& square, const S& depth) {
 }
 
 /// Energy (mJ) that a slip of the anchor (mm) in one step dissipates. `before` and `now` are the forces (N) on the
-/// anchor at the time level before and, slipped, at this one: their mean is what central differences do work against.
-/// (The energy of the trial state less that of the returned one is more: by k |slip|/(2 mu N) of it.)
+/// anchor at the time level before and, after the slip, at this one. Central differences do work against their mean.
+/// (The energy of the trial state less that of the returned state would be larger, by the fraction k |slip|/(2 mu N).)
 template <class S>
 S slip_dissipation(const Vector3<S>& before, const Vector3<S>& now, const Vector3<S>& slip) {
   return S(0.5) * dot(before + now, slip);

@@ -6,8 +6,8 @@
 //
 // With a bond, the intact share 1 - D of the point carries the bond and the damaged share D rubs. The stiffness of
 // friction is what the bond leaves of the penalty (solver/physics/bond_kinematics.hpp), D k where the bond has the
-// stiffness of the penalty, and its bound is D mu N. Area that damage adds begins unloaded: the friction force stays,
-// so the anchor comes nearer. Damage then dissipates exactly G^c at any pressure.
+// stiffness of the penalty, and its bound is D mu N. Area that damage adds starts unloaded: the friction force stays
+// the same, so the anchor moves closer. Damage then dissipates exactly G^c at any pressure.
 
 #include <algorithm>
 #include <cmath>
@@ -25,7 +25,7 @@ struct PointFriction {
   double stiffness = 0;            ///< k_t at the last time level, N/mm
   Vector3<double> force{0, 0, 0};  ///< N, of the node on the anchor at the last time level
   double stored = 0;               ///< mJ, at the last time level
-  double dissipated = 0;           ///< mJ, by this point so far; kept where it opens
+  double dissipated = 0;           ///< mJ, by this point so far; kept when it opens
   bool exists() const { return facet >= 0; }
 };
 
@@ -39,14 +39,14 @@ struct ClosedPoint {
   Vector3<double> moved; ///< mm, of the node against the facet in the last step; read where it closes
 };
 
-/// What is between a point's node and its anchor: constants of this step.
+/// The spring between a point's node and its anchor: constants of this step.
 struct Rubbing {
   double friction;  ///< mu times the share of the point that rubs
   double penalty;   ///< k, N/mm
   double stiffness; ///< k_t, N/mm, >= 0
 };
 
-/// What friction comes to at one point in one step.
+/// The result of friction at one point in one step.
 struct FrictionStep {
   Vector3<double> reach;  ///< mm, from the anchor to the node: times -k_t the force on the node
   double stored = 0;      ///< mJ
@@ -70,7 +70,7 @@ inline void anchor_at(PointFriction& point, std::int32_t facet, const Vector3<do
   point.weight2 = dot(cross(e1, r), area) / square;
 }
 
-/// The part of `vector` across `direction`.
+/// The part of `vector` perpendicular to `direction`.
 inline Vector3<double> part_across(const Vector3<double>& vector, const Vector3<double>& direction) {
   const double square = dot(direction, direction);
   return square > 0 ? vector - (dot(vector, direction) / square) * direction : vector;
@@ -83,8 +83,8 @@ inline Vector3<double> entry_point(const ClosedPoint& at) {
   return at.closest.point - share * part_across(at.moved, offset);
 }
 
-/// Takes the friction of a closed point to this time level. `anchor` are the corners of the facet of its anchor (mm),
-/// any where it has none yet: then it is anchored where it came in.
+/// Updates the friction of a closed point to this time level. `anchor` holds the corners (mm) of its anchor's facet; it
+/// is not read if the point has no anchor yet. Then the point is anchored where it came in.
 inline FrictionStep rub(PointFriction& point, const Rubbing& rubbing, const ClosedPoint& at,
                         const Vector3<double> (&anchor)[3]) {
   const Vector3<double> closest = at.closest.point;
@@ -104,10 +104,10 @@ inline FrictionStep rub(PointFriction& point, const Rubbing& rubbing, const Clos
     anchor_at(point, at.facet, at.corner, closest - left * part_across(closest - before, at.node - closest));
   const Vector3<double> now = step.on_closest ? facet_point(at.corner, point.weight1, point.weight2) : before;
   step.reach = at.node - now;
-  // 3. Energies: what the new area took off, and the slip.
+  // 3. Energies: of the unloading by new area, and of the slip.
   const Vector3<double> force = rubbing.stiffness * step.reach, unloaded = (1.0 - kept) * (closest - before);
   step.stored = stick_energy(rubbing.stiffness, dot(step.reach, step.reach), at.depth);
-  // Central differences do the work of the whole step in which a point closes, not of the part inside.
+  // Central differences do the work of the whole step in which a point closes, not only of its part inside.
   const Vector3<double> start = fresh ? closest - part_across(at.moved, at.node - closest) : before;
   step.dissipated = 0.5 * point.stiffness * dot(closest - before, unloaded) +
                     slip_dissipation(point.force, force, now - start - unloaded);
@@ -125,7 +125,7 @@ inline PointFriction without_anchor(const PointFriction& point) {
   return free;
 }
 
-/// Energy (mJ) that is lost where a point opens: its anchor slips all the way to the closest point. `anchor` as above.
+/// Energy (mJ) that is lost when a point opens: its anchor slips all the way to the closest point. `anchor` as above.
 inline double release(PointFriction& point, const Vector3<double>& closest, const Vector3<double> (&anchor)[3]) {
   const Vector3<double> slip = closest - facet_point(anchor, point.weight1, point.weight2);
   const double lost = slip_dissipation(point.force, Vector3<double>{0, 0, 0}, slip);

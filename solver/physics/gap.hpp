@@ -4,7 +4,7 @@
 // The signed distance is the one gap function whose gradient is known exactly: the unit vector through the closest
 // point, with the facet's shape functions for its nodes. A penalty energy k gap^2 / 2 built on it is conservative, and
 // force and reaction act along one line, so that linear and angular momentum are kept exactly. The gap is continuous
-// as the node slides from facet to facet; its direction turns by the dihedral angle where the next facet becomes the
+// as the node slides from facet to facet; its direction turns by the dihedral angle when the next facet becomes the
 // closest. (Projection along interpolated nodal normals turns smoothly but is not a gradient: it changed the energy of
 // a collision of two elastic grains by 1 to 7 per cent.)
 
@@ -21,8 +21,8 @@ struct ClosestPoint {
 };
 
 /// Closest point of the triangle x0 x1 x2 to `p`, by the Voronoi regions of its corners, edges and face (Ericson,
-/// Real-Time Collision Detection, 2005, section 5.1.5). One point at a time, no packs: the regions branch. `inline`,
-/// since a template alone is not small enough for the compiler to inline it where it is hot.
+/// Real-Time Collision Detection, 2005, section 5.1.5). It takes one point at a time, no packs, since the regions
+/// branch. Without `inline`, the compiler would not inline a template of this size where it is hot.
 template <class S>
 inline ClosestPoint<S> closest_point_on_triangle(const Vector3<S>& p, const Vector3<S> (&x)[3]) {
   const auto result = [&x](const S& weight1, const S& weight2, bool inside = false) {

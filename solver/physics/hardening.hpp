@@ -3,7 +3,7 @@
 //
 // A law gives, for a trial von Mises stress above the flow stress, the flow stress and plastic strain at the end of the
 // increment, i.e. the solution of   3G (eps_p - eps_p,n) + sigma(eps_p) = q_trial.
-// The state of a point is both sigma and eps_p, so that no power has to be evaluated where the increment is small.
+// The state of a point holds both sigma and eps_p, so that no power has to be evaluated if the increment is small.
 
 #include <array>
 #include <cassert>
@@ -43,13 +43,13 @@ struct PowerLaw {
     const S tiny(Resolution<S>::tiny);
     const S inverse = S(1.0) / max(elastic + slope_strain, tiny);
     const S first = excess * inverse; // relative increment r = d eps_p / eps_p, explicit
-    // Other lanes of a pack keep their state and have no say in how these are returned: of the packs that yield while a
-    // packing jams most have fresh points too, and took ten times as long.
+    // The other lanes of a pack keep their state and do not decide how the loaded lanes are returned. While a packing
+    // jams, most packs that yield hold fresh points too; when these decided, such packs took ten times as long.
     const auto loaded = excess > S(0.0);
-    // 1. Small relative increments, nearly always: with (1 + r)^m by its binomial series the equation is
-    //    r + b2 r^2 + b3 r^3 + … = first. Its inverted series gives r to the fourth power, one Newton step the rest to
-    //    rounding. Fresh points take the other way, as do those whose strain was too small for the number type (small
-    //    exponents in floats): exp() ends near 1e-38, and r of that would be wrong for ever.
+    // 1. Small relative increments, the usual case: with (1 + r)^m as its binomial series the equation is
+    //    r + b2 r^2 + b3 r^3 + … = first. Its inverted series gives r to the fourth power, and one Newton step the rest
+    //    to rounding. Fresh points take the other way. So do points whose strain was too small for the number type
+    //    (small exponents in floats): exp() ends near 1e-38, and an r based on that would stay wrong for ever.
     if (!any(loaded & !((first < S(0.02)) & (old.plastic_strain > tiny)))) {
       const S a = slope_strain * inverse;
       const S b2 = c2() * a, b3 = c3() * b2, b4 = c4() * b3, square = b2 * b2;
@@ -75,9 +75,9 @@ struct PowerLaw {
       y = max(y - step, tiny);
       if (!any(loaded & (max(step, -step) > S(Resolution<S>::settled) * y))) break;
     }
-    // The strain, from either side of the equation: the difference of stresses is rounded to the last digit of these,
-    // the curve to that of the strain over m. Early on a curve with small m the strain may be less than any digit of
-    // the stress.
+    // The strain, from the more exact side of the equation. The difference of stresses is rounded to the last digit of
+    // the stresses, the curve to that of the strain over m. Early on a curve with small m the strain may be less than
+    // any digit of the stress.
     const S on_curve = exp(log(y * S(1.0 / coefficient)) * S(1.0 / exponent));
     const S strain = select(S(three_shear) * on_curve < S(exponent) * y, max(on_curve, old.plastic_strain),
                             old.plastic_strain + (distance - y) * S(1.0 / three_shear));

@@ -1,7 +1,7 @@
 #pragma once
 // A pack of scalars that computes lane by lane, so that each law of physics is written once and serves as plain double
-// and as SIMD, of doubles or floats. `select` stands for `if`. Built on the compiler's vector types; but for one test,
-// no instruction set is named here.
+// and as SIMD, of doubles or floats. `select` stands for `if`. It is built on the compiler's vector types; except in
+// one test, no instruction set is named here.
 
 #include <cmath>
 #include <cstdint>
@@ -12,17 +12,17 @@
 #include <immintrin.h>
 #endif
 
-/// Before functions whose calls are all to be inlined: packs passed to functions go through memory. Builds with
-/// sanitizers do without (cmake/compiler.cmake): inlined and instrumented, the element pass takes gcc longer than all
-/// else together.
+/// Put before functions whose calls are all to be inlined: packs passed to functions go through memory. Builds with
+/// sanitizers leave it out (cmake/compiler.cmake): gcc needs more time for the element pass, inlined and instrumented,
+/// than for everything else together.
 #ifndef MPFEM_FLATTEN
 #define MPFEM_FLATTEN [[gnu::flatten]]
 #endif
 
 namespace mpfem {
 
-/// Bytes of a native pack on the machine that the program is built for, and lanes of one of doubles or floats. A scalar
-/// build, for comparison, has packs of one double; kernels of floats work on fours at least.
+/// Bytes of a native pack on the machine that the program is built for, and the lanes of such a pack of doubles or
+/// floats. A scalar build, for comparison, has packs of one double; float kernels use at least four lanes.
 #if defined(MPFEM_SCALAR)
 inline constexpr int native_bytes = 8;
 #elif defined(__AVX512F__)
@@ -127,8 +127,8 @@ struct Pack {
 
 using NativePack = Pack<native_lanes>;
 
-/// What a scalar resolves: `tiny` keeps divisors and logarithms from zero; a number that changes by less than `settled`
-/// of itself no longer changes in iterations.
+/// What a scalar type resolves: `tiny` keeps divisors and arguments of logarithms from zero; an iteration has converged
+/// once its number changes by less than `settled` of itself.
 template <class S>
 struct Resolution {
   static constexpr double tiny = 1e-300, settled = 1e-15;
@@ -152,7 +152,7 @@ Pack<W, Real> min(Pack<W, Real> a, Pack<W, Real> b) {
 }
 template <int W, class Real>
 bool any(Mask<W, Real> mask) {
-#if defined(__AVX__) // one instruction for ten
+#if defined(__AVX__) // one instruction in place of ten
   if constexpr (sizeof(mask.v) == 32) {
     if constexpr (W == 4) return _mm256_movemask_pd(reinterpret_cast<__m256d>(mask.v)) != 0;
     return _mm256_movemask_ps(reinterpret_cast<__m256>(mask.v)) != 0;
@@ -206,8 +206,8 @@ double smallest(Pack<W, Real> a) {
   return value;
 }
 
-/// A sum of many packs that is good to the rounding of its terms, in floats too: these are put into a double now and
-/// then.
+/// A sum of many packs that is exact to the rounding of its terms, for floats too: partial sums of floats go into a
+/// double now and then.
 template <class S>
 class LongSum {
 public:
@@ -227,7 +227,7 @@ private:
   int terms_ = 0;
 };
 
-// The same vocabulary for one plain double.
+// The same functions for one plain double.
 inline double select(bool mask, double yes, double no) {
   return mask ? yes : no;
 }

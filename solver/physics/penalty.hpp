@@ -18,14 +18,14 @@ inline double penalty_stiffness(double factor, double youngs, double element_siz
   return factor * youngs / element_size;
 }
 
-/// Share (MPa/mm) of one of the two passes, nodes of A against facets of B and nodes of B against facets of A, in the
-/// contact of two grains with the penalties `first` and `second` (MPa/mm): half of their harmonic mean, which is that
-/// of two springs in series. Both passes together have the harmonic mean.
+/// Stiffness (MPa/mm) of one of the two passes, nodes of A against facets of B and nodes of B against facets of A, in
+/// the contact of two grains with the penalties `first` and `second` (MPa/mm). It is half of their harmonic mean, as of
+/// two springs in series. Both passes together have the harmonic mean.
 inline double pass_stiffness(double first, double second) {
   return first * second / (first + second);
 }
 
-/// Force (N) on a node at `offset` (mm) from the closest point of the surface that it is inside of; `stiffness` k in
+/// Force (N) on a node at `offset` (mm) from the closest point of the surface that it has entered; `stiffness` k in
 /// N/mm. The surface takes the opposite force at the closest point.
 template <class S>
 Vector3<S> penalty_force(const S& stiffness, const Vector3<S>& offset) {
@@ -38,9 +38,9 @@ S penalty_energy(const S& stiffness, const S& overlap) {
   return S(0.5) * stiffness * overlap * overlap;
 }
 
-/// What one contact point adds at most to the frequency squared of its nodes, as stiffness (N/mm) of the node itself; a
-/// facet's node c takes |w_c| of it. With the gap g = n.(u - sum w_c u_c), W the sum of the magnitudes of the weights
-/// and Cauchy's inequality
+/// Bound of what one contact point adds to the frequency squared of its nodes, as a stiffness (N/mm) of the node
+/// itself; a facet's node c takes |w_c| of it. With the gap g = n.(u - sum w_c u_c), W the sum of the magnitudes of the
+/// weights and Cauchy's inequality
 ///   k g^2 <= k (1 + W) (u^2 + sum |w_c| u_c^2).
 /// W is 1 for a point inside its facet; the point beneath an opened bond may lie outside, with larger weights.
 inline double contact_stiffness_bound(double stiffness, double weight0, double weight1, double weight2) {

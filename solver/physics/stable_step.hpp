@@ -1,5 +1,5 @@
 #pragma once
-// Bounds of the stable time step of central differences, and bulk viscosity, which shares its length.
+// Bounds of the stable time step of central differences, and bulk viscosity, which uses the same length.
 
 #include "solver/physics/elasticity.hpp"
 #include "solver/physics/kinematics.hpp"

@@ -1,6 +1,6 @@
 #pragma once
-// The linear tetrahedron with one Gauss point: from where its nodes are and how they moved in the last step to its new
-// stress and nodal forces. One function serves packs of tets, plain numbers, and the count of its operations.
+// The linear tetrahedron with one Gauss point: its new stress and nodal forces from the positions of its nodes and
+// their motion in the last step. One function serves packs of tets, plain numbers, and the count of its operations.
 
 #include "solver/physics/elasticity.hpp"
 #include "solver/physics/kinematics.hpp"
@@ -15,10 +15,10 @@ struct TetConstants {
   BulkViscosity viscosity;
   double wave_speed; ///< dilatational, mm/s
   double density;    ///< tonne/mm^3, in the reference state
-  double step;       ///< s, that led to the present positions
+  double step;       ///< s, the step that led to the present positions
 };
 
-/// A tet's own.
+/// The state of one tet.
 template <class S>
 struct TetState {
   Deviator<S> deviator; ///< Cauchy, MPa
@@ -37,10 +37,10 @@ struct TetUpdate {
   S strain_increment_square;
 };
 
-/// One step of a tet. `edge` are nodes 1, 2, 3 relative to node 0 at the end of the step (mm), `velocity` theirs
-/// relative to node 0 in the half step that led there (mm/s); `inverse_volume` 1 over the reference volume (1/mm^3);
-/// `length` that of bulk viscosity (mm). `elastic_mean` gives the elastic mean stress (MPa) for the tet's own volume
-/// ratio: this is where elements that average pressure differ.
+/// One step of a tet. `edge` are nodes 1, 2, 3 relative to node 0 at the end of the step (mm), `velocity` their
+/// velocities relative to node 0 in the half step that led there (mm/s); `inverse_volume` 1 over the reference volume
+/// (1/mm^3); `length` the length of bulk viscosity (mm). `elastic_mean` gives the elastic mean stress (MPa) for the
+/// tet's own volume ratio: this is where elements that average pressure differ.
 template <class S, class Law, class ElasticMean>
 TetUpdate<S> update_tet(const Law& law, const TetConstants& c, const Vector3<S> (&edge)[3],
                         const Vector3<S> (&velocity)[3], const TetState<S>& old, const S& inverse_volume,

@@ -3,10 +3,10 @@
 //
 // A node a owns a quarter of the volume of every tet around it: V_a = sum V_e / 4, V0_a in the reference state. The
 // volumetric energy is   sum over nodes of V0_a U(J_a),   J_a = V_a / V0_a,   U'(J) = K ln J,   whose derivative with
-// respect to the nodes' positions gives every tet the mean of its four nodes' K ln J_a as its mean stress: an exact
-// potential, as that of the plain tet, with one constraint a node instead of one a tet (five to six times as many). By
-// Jensen's inequality it is never stiffer than the plain tet, so the plain tet's stable step holds. Deviator,
-// plasticity and bulk viscosity stay the tet's own.
+// respect to the nodes' positions gives every tet the mean of its four nodes' K ln J_a as its mean stress. It is an
+// exact potential, like that of the plain tet, with one constraint per node instead of one per tet (five to six times
+// as many). By Jensen's inequality it is never stiffer than the plain tet, so the plain tet's stable step holds.
+// Deviator, plasticity and bulk viscosity stay the tet's own.
 
 #include "solver/physics/elasticity.hpp"
 

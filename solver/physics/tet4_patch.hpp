@@ -4,9 +4,9 @@
 //
 // Eight tets that lie together share one volume ratio J_P = V_P / V0_P, sums over the patch, and so one mean stress K
 // ln J_P. This is the derivative of the energy   sum over patches of V0_P U(J_P),   U'(J) = K ln J, since the force of
-// a uniform pressure on a tet is the gradient of its volume: an exact potential, as that of the plain tet, with an
-// eighth of its constraints. By Cauchy's inequality it is never stiffer than the plain tet, so the plain tet's stable
-// step holds. Deviator, plasticity and bulk viscosity stay the tet's own.
+// a uniform pressure on a tet is the gradient of its volume. It is an exact potential, like that of the plain tet, with
+// an eighth of its constraints. By Cauchy's inequality it is never stiffer than the plain tet, so the plain tet's
+// stable step holds. Deviator, plasticity and bulk viscosity stay the tet's own.
 
 #include "solver/physics/elasticity.hpp"
 

@@ -11,7 +11,7 @@ namespace mpfem {
 
 namespace {
 
-/// Less than this is left to chance: bisection cuts between grains, not through them.
+/// An imbalance below this is accepted: bisection cuts between grains, not through them.
 constexpr double even = 1.05;
 
 double tets_of(const Model& model, std::int32_t grain) {

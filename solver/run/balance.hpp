@@ -1,5 +1,5 @@
 #pragma once
-// Whether ranks have equal shares of the work, as measured, and how the grains are divided anew where they have not.
+// Whether the ranks have equal shares of the measured work, and how the grains are divided anew if not.
 
 #include <cstdint>
 #include <vector>
@@ -18,12 +18,12 @@ struct Balance {
 /// Collective. `busy`: s that this rank has worked, without waiting for others.
 Balance measure_balance(const Communicator& ranks, const Model& model, double busy);
 
-/// Collective. The owner of each grain ([grains]) by recursive bisection, where a grain weighs what its tets have cost
-/// its present owner, at the place where it is now.
+/// Collective. The owner of each grain ([grains]) by recursive bisection at the present places of the grains. The
+/// weight of a grain is what its tets have cost its present owner.
 std::vector<std::int32_t> divide_anew(const Communicator& ranks, const Model& model, const Balance& balance);
 
-/// Whether dividing anew pays: what it saves in the rest of the run, `remaining` s as long as nothing changes, is more
-/// than twice what it costs, `reload` s.
+/// Whether dividing anew pays: it saves more than twice what it costs (`reload`, s). `remaining`: s that the rest of
+/// the run takes if nothing changes.
 bool pays(const Balance& balance, double remaining, double reload);
 
 } // namespace mpfem

@@ -22,7 +22,7 @@ namespace {
 
 constexpr std::string_view heading = "opening,shear1,shear2[,increments]";
 constexpr const char* column_names[] = {"opening", "shear1", "shear2", "increments"};
-constexpr Range separations = Range::between(-1e6, 1e6); // mm; their squares are still far from the end of the numbers
+constexpr Range separations = Range::between(-1e6, 1e6); // mm; their squares are far from overflow
 constexpr long long most_increments = 10'000'000;
 constexpr Range increment_numbers = Range::between(1, most_increments);
 
@@ -35,7 +35,7 @@ void check_heading(const CsvReader& reader, const CsvRow& row) {
                                    shortened(row.cells[i]), heading));
 }
 
-/// A point of the straight line between two separations; exactly its ends at its ends.
+/// A point on the straight line between two separations; exact at both ends.
 Separation between(const Separation& from, const Separation& to, int part, int parts) {
   if (part == parts) return to;
   const double t = static_cast<double>(part) / parts;
@@ -43,7 +43,7 @@ Separation between(const Separation& from, const Separation& to, int part, int p
           from.shear2 + t * (to.shear2 - from.shear2)};
 }
 
-/// The work that the tractions' polygon encloses with the separations, N/mm.
+/// Work of the tractions from one separation to the next by the trapezoidal rule, N/mm.
 double trapezoid(const Separation& a, const BondedPoint::Response& at_a, const Separation& b,
                  const BondedPoint::Response& at_b) {
   return 0.5 *
@@ -52,7 +52,7 @@ double trapezoid(const Separation& a, const BondedPoint::Response& at_a, const S
 }
 
 void refuse_overwriting(const std::string& output, const std::string& input) {
-  std::error_code ignored; // one of them is not there: not the same
+  std::error_code ignored; // if a file does not exist, they differ
   if (std::filesystem::equivalent(output, input, ignored))
     throw InputError(fmt::format("{}: is an input, allowed another --output", shown_path(output)));
 }
@@ -98,7 +98,7 @@ BondedPointLaw read_bonded_point_law(const TomlDocument& document) {
   const double stiffness = bond.stiffness.value_or(penalty);
   const double strength =
       bond.normal_only ? bond.tensile_strength : std::max(bond.tensile_strength, bond.shear_strength);
-  // As for a run: a little more than the area before damage, or there is nothing left to soften.
+  // As in a run: a little more than the energy up to damage, or nothing is left for the softening.
   const double smallest = 1.01 * 0.5 * strength * strength / stiffness;
   if (!(bond.fracture_energy > smallest))
     table.fail("fracture_energy", fmt::format("found {:g} N/mm, allowed > {:.3g} N/mm (1.01 strength^2/(2 stiffness))",
@@ -139,7 +139,7 @@ std::vector<WayPoint> read_bond_programme(const std::string& path, int increment
 
 namespace {
 
-/// The table of results while it is written, and what its last line says.
+/// The table of results while it is written, and a summary of where it ended.
 class BondTable {
 public:
   BondTable(const std::string& path, const BondedPointLaw& law)

@@ -19,7 +19,7 @@ struct Separation {
   bool operator==(const Separation&) const = default;
 };
 
-/// A separation to walk to from the one before, in a straight line and equal steps.
+/// The next separation of a programme, reached from the one before in a straight line and equal steps.
 struct WayPoint {
   Separation separation;
   int increments = 0;
@@ -29,10 +29,10 @@ struct WayPoint {
 struct BondedPointLaw {
   BondLaw bond;
   double penalty = 0;             ///< MPa/mm, of the closed contact
-  bool rebond_on_contact = false; ///< a broken bond that has opened is made anew when the point closes
+  bool rebond_on_contact = false; ///< a broken bond that has opened forms again when the point closes
 };
 
-/// A point of a contact: the undamaged penalty where it is closed and the bond. It begins bonded, at no separation.
+/// A contact point: its bond, and the undamaged penalty while it is closed. It begins bonded, at zero separation.
 /// Tractions are positive in tension and along the shear separation.
 class BondedPoint {
 public:
@@ -53,25 +53,25 @@ public:
 private:
   BondedPointLaw law_;
   BondState state_;
-  bool gone_ = false;   ///< the broken bond has opened, so that the point may bond anew
+  bool gone_ = false;   ///< the broken bond has opened, so the point may bond again
   Separation attached_; ///< where the bond was made: its shear counts from there
   double spent_ = 0;    ///< N/mm, dissipated by earlier bonds of the point
 };
 
 struct BondProgrammeOptions {
   std::string law;                      ///< TOML file: `stiffness` in MPa/mm and the table [bond]
-  std::vector<std::string> assignments; ///< KEY=VALUE over the law
+  std::vector<std::string> assignments; ///< KEY=VALUE, which override the law
   std::string programme;                ///< CSV file of way points
   std::string output;                   ///< CSV file to write
-  int increments = 200;                 ///< of way points whose row does not say
+  int increments = 200;                 ///< for way points whose row gives no number
   bool quiet = false;                   ///< no summary
 };
 
-/// Reads `stiffness` (MPa/mm) and [bond]. Throws InputError, also where the fracture energy is too small for a
-/// softening branch at this stiffness (strength^2/(2 K), as for a run).
+/// Reads `stiffness` (MPa/mm) and [bond]. Throws InputError, also if the fracture energy is too small for a softening
+/// branch at this stiffness (strength^2/(2 K), as for a run).
 BondedPointLaw read_bonded_point_law(const TomlDocument& document);
 
-/// Reads way points from a CSV file with the heading "opening,shear1,shear2" (mm) and, if wanted, ",increments" (a
+/// Reads way points from a CSV file with the heading "opening,shear1,shear2" (mm) and, optionally, ",increments" (a
 /// whole number; empty: `increments`). '#' begins a comment. Throws InputError "FILE:LINE: column …".
 std::vector<WayPoint> read_bond_programme(const std::string& path, int increments);
 std::vector<WayPoint> read_bond_programme(CsvReader reader, int increments);

@@ -22,30 +22,30 @@ namespace mpfem {
 
 namespace {
 
-// A packing that begins loose costs more a step later on: points come into contact, and tets that yield take the whole
-// of the element pass. The estimate of the stable step and the contact search follow the deformation, not the number of
-// steps. How much all that is, and how the step shrinks, is measured (docs/performance.md).
+// If a packing begins loose, later steps cost more: points come into contact, and tets that yield need the whole
+// element pass. The cost of stable-step estimates and contact searches follows the deformation, not the number of
+// steps. All these costs, and how the step shrinks, are measured (docs/performance.md).
 constexpr double dense_cost = 1.45;         // of a step, over that in the loose packing
 constexpr double cost_of_straining = 3000;  // of a length strain of 1, in steps of the loose packing
 constexpr double steps_of_shrinking = 1.02; // over those at the first step, on the way to a relative density of 0.92
 constexpr double density_of_jamming = 0.5;
 
-/// Steps, and the time in that of one step at the start.
+/// Number of steps, and their time in units of one step at the start.
 struct StageWork {
   double steps = 0, cost = 0;
 };
 
-/// A compaction that begins with grains that do not press on each other.
+/// A compaction whose grains do not press on each other at the start.
 StageWork work_of_first_compaction(double steps, double density, double end) {
   const auto strain_to = [density](double to) { return to > density ? std::log(to / density) / 3 : 0.0; };
   const auto way_to = [density](double to) { return to > density ? 1 - std::cbrt(density / to) : 0.0; };
-  const double flying = std::min(way_to(density_of_jamming) / way_to(end), 1.0); // part of the steps
+  const double flying = std::min(way_to(density_of_jamming) / way_to(end), 1.0); // fraction of the steps
   const double straining = std::max(strain_to(end) - strain_to(density_of_jamming), 0.0);
   steps *= steps_of_shrinking;
   return {steps, steps * (flying + (1 - flying) * dense_cost) + cost_of_straining * straining};
 }
 
-/// A branch begins dense: its first steps cost what all do.
+/// A branch begins dense: its first steps cost as much as all others.
 std::vector<StageWork> work_of_stages(const Scenario& scenario, const std::vector<StageForecast>& forecasts,
                                       const Simulation& simulation) {
   bool loose = simulation.energies().plastic_dissipation == 0 && simulation.box().mean_stress() == 0;
@@ -73,7 +73,7 @@ struct MeasuredTimes {
   double row = 0; ///< of the history
 };
 
-/// The mean of the first steps. The simulation goes on by them.
+/// The mean of some steps, by which the simulation advances.
 MeasuredTimes measure(Simulation& simulation) {
   MeasuredTimes times;
   int steps = 0;
@@ -153,7 +153,7 @@ void print_bonds(const Scenario& scenario, const Simulation& simulation) {
     fmt::print("               {}\n", text);
 }
 
-/// The stages, and how long they take here. The simulation goes on by some steps.
+/// The stages, and how long they take on this machine. Advances the simulation by some steps.
 void print_stages(const Scenario& scenario, Simulation& simulation, int threads) {
   const auto forecasts = forecast(scenario, 0, simulation.stage_run().state().start, simulation.model());
   const auto works = work_of_stages(scenario, forecasts, simulation);

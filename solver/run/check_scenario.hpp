@@ -1,5 +1,5 @@
 #pragma once
-// What a run would do and need, told before it starts.
+// What a run would do and need, reported before it starts.
 
 #include <optional>
 #include <string>
@@ -10,8 +10,7 @@
 namespace mpfem {
 
 /// Collective. Prints what a run would do: grains, tets, memory, stages, steps, estimated time from steps measured
-/// here; where `from` names a checkpoint, of a branch that begins there. Throws InputError where the run would be
-/// refused.
+/// here; if `from` names a checkpoint, for a branch that begins there. Throws InputError if the run would be refused.
 void check_scenario(const Scenario& scenario, int threads, const std::optional<std::string>& from,
                     const Communicator& ranks = Communicator());
 

@@ -38,7 +38,7 @@ bool is_snapshot_name(const std::string& name) {
   return name.starts_with("snapshot-") && (name.ends_with(".h5") || name.ends_with(".h5.partial"));
 }
 
-/// Removes files of the run's own from its folder of snapshots.
+/// Removes the run's own files from its folder of snapshots.
 template <class Wanted>
 void remove_snapshots(const std::string& run_file, const Wanted& wanted) {
   std::error_code ignored;
@@ -49,7 +49,7 @@ void remove_snapshots(const std::string& run_file, const Wanted& wanted) {
   for (const fs::path& path : found) fs::remove(path, ignored);
 }
 
-/// Throws StorageError where a checkpoint cannot be read back, and removes it.
+/// Throws StorageError if a checkpoint cannot be read back, and removes it.
 void verify_written(const std::string& path, const std::string& rolling) {
   try {
     verify_checkpoint(path);
@@ -100,7 +100,7 @@ void replace_rolling_checkpoint(const Communicator& ranks, const std::string& ru
                     next = next_checkpoint_path(run_file);
   leader_does(ranks, [&] {
     std::error_code ignored;
-    fs::remove(previous, ignored); // two of them are on disk at most; the one that stays was read back
+    fs::remove(previous, ignored); // at most two are on disk; the one that stays was read back
   });
   write(next);
   leader_does(ranks, [&] {
@@ -140,7 +140,7 @@ std::vector<std::string> missing_checkpoints(const std::vector<std::string>& pro
 std::vector<std::string> resumable_checkpoints(const Scenario& scenario, const RunIdentity& run) {
   std::vector<std::string> paths;
   if (const std::string rolling = checkpoint_path(run.run_file); fs::exists(rolling)) paths.push_back(rolling);
-  // Where no beginning is named, the rolling checkpoints tell where the run began.
+  // If no beginning is named, the rolling checkpoints tell where the run began.
   RunIdentity unnamed = run;
   if (unnamed.from == "packing") unnamed.from.clear();
   if (const std::string previous = previous_checkpoint_path(run.run_file); is_checkpoint_of(previous, unnamed))
@@ -170,7 +170,7 @@ void remove_partial_files(const Scenario& scenario, const std::string& run_file)
 }
 
 void remove_unfinished(const std::string& run_file) {
-  // The rolling checkpoint goes before the snapshots that it names, and after the one before it.
+  // In this order: the previous checkpoint, the rolling one, and then the snapshots that it names.
   std::error_code ignored;
   fs::remove(previous_checkpoint_path(run_file), ignored);
   fs::remove(checkpoint_path(run_file), ignored);

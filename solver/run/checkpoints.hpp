@@ -1,9 +1,9 @@
 #pragma once
-// The checkpoints of a run: their names, in which order they are written, and from which of them a run goes on.
+// The checkpoints of a run: their names, in which order they are written, and from which one a run continues.
 //
-// A rolling checkpoint is written beside, read back, and only then takes the place of the one before, which stays as
+// A rolling checkpoint is written under another name, read back, and only then replaces the one before, which stays as
 // RUN.checkpoint.previous.h5. Checkpoints of stages and densities are written before the rolling one that counts them
-// as done: whenever a run is killed, its rolling checkpoint promises nothing that does not stand on disk.
+// as done: whenever a run is killed, its rolling checkpoint promises nothing that is not on disk.
 
 #include <functional>
 #include <string>
@@ -24,7 +24,7 @@ std::string density_checkpoint_path(const std::string& run_file, double relative
 /// Folder of a run's snapshots while it is unfinished.
 std::string parts_folder(const std::string& run_file);
 
-/// What a run's checkpoints must agree with to be its own.
+/// What identifies the checkpoints that belong to a run.
 struct RunIdentity {
   std::string run_file;
   std::string scenario_text;
@@ -32,30 +32,30 @@ struct RunIdentity {
   std::string from; ///< checksum of the checkpoint at which the run begins, "packing", or empty: any
 };
 
-/// Whether a checkpoint stands at the path and was written by this run. Reads a few words of it, not its arrays.
+/// Whether the path holds a checkpoint that this run wrote. Reads a few values of it, not its arrays.
 bool is_checkpoint_of(const std::string& path, const RunIdentity& run);
 
 /// Collective. Replaces the rolling checkpoint: `write` writes the new one to the path that it is given, on all ranks
-/// together. Throws StorageError where what was written cannot be read back; the checkpoint before then stays.
+/// together. Throws StorageError if what was written cannot be read back; then the previous checkpoint stays.
 void replace_rolling_checkpoint(const Communicator& ranks, const std::string& run_file,
                                 const std::function<void(const std::string&)>& write);
 
-/// Checkpoints of stages and densities that a run must have written when it is in this stage. `densities_passed`: of
-/// output.checkpoint_relative_densities; `start_density`: relative density at which it began.
+/// Checkpoints of stages and densities that a run must have written when it is in this stage. `densities_passed`:
+/// number of output.checkpoint_relative_densities passed; `start_density`: relative density at which it began.
 std::vector<std::string> promised_checkpoints(const Scenario& scenario, const std::string& run_file, std::int64_t stage,
                                               bool stage_complete, std::int64_t densities_passed, double start_density);
 /// The same of a run that is complete; `largest_density`: the largest relative density of its steps.
 std::vector<std::string> promised_checkpoints(const Scenario& scenario, const std::string& run_file,
                                               double start_density, double largest_density);
 
-/// Those of the paths at which no checkpoint of this run stands.
+/// The paths that hold no checkpoint of this run.
 std::vector<std::string> missing_checkpoints(const std::vector<std::string>& promised, const RunIdentity& run);
 
 /// Checkpoints from which the run can go on, best first: the rolling one, the one before, and those of stages and
 /// densities, latest first. All exist; only the rolling one may belong to another run.
 std::vector<std::string> resumable_checkpoints(const Scenario& scenario, const RunIdentity& run);
 
-/// Removes what unfinished writing of this run's files has left.
+/// Removes partial files that interrupted writes of this run have left.
 void remove_partial_files(const Scenario& scenario, const std::string& run_file);
 
 /// Removes rolling checkpoints and snapshots of the run, in an order that leaves nothing misleading when it is cut

@@ -1,5 +1,5 @@
 #pragma once
-// The energies that are summed up over time, and the balance of all energies.
+// The energies that are accumulated over time, and the balance of all energies.
 
 #include <array>
 
@@ -13,14 +13,14 @@
 
 namespace mpfem {
 
-/// Energies that a time level has, mJ.
+/// Energies of one time level, mJ.
 struct StoredEnergies {
   double kinetic = 0;
   double elastic = 0;
   double contact = 0; ///< in the penalty of contacts and walls
   double bonds = 0;
   double friction = 0;           ///< in stick springs, of grains and walls
-  double damage_dissipation = 0; ///< a function of the bonds' states, not summed up over time
+  double damage_dissipation = 0; ///< a function of the bonds' states, not accumulated over time
 };
 
 struct EnergyLedger {

@@ -25,7 +25,7 @@ std::string place_text(const Model& model, std::span<const std::int32_t> nodes) 
   return fmt::format(" at ({:.4g}, {:.4g}, {:.4g}) mm", centre[0], centre[1], centre[2]);
 }
 
-/// Nodes of the tet of a grain that has this number in the packing file; all of the grain's where there is no such tet.
+/// Nodes of the grain's tet with this number in the packing file; all nodes of the grain if there is no such tet.
 std::vector<std::int32_t> nodes_of_file_tet(const Model& model, int grain, std::int32_t file_tet) {
   const auto g = static_cast<std::size_t>(grain);
   std::vector<std::int32_t> nodes;

@@ -1,5 +1,5 @@
 #pragma once
-// What is said of a grain whose stresses cannot be computed any more.
+// The message about a grain whose stresses can no longer be computed.
 
 #include <string>
 

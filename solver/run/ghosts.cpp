@@ -19,7 +19,7 @@ auto surface_part(Array& values, const Model& model, Index grain, std::size_t wi
                    width * at(model.surface_node_count[at(grain)]));
 }
 
-/// Calls visit(values) for what of a grain's surface stays as it is in the mesh.
+/// Calls visit(values) for the arrays of a grain's surface that never change.
 template <class ModelType, class Visitor>
 void for_each_fixed_part(ModelType& model, Index grain, Visitor&& visit) {
   const std::size_t first = 3 * at(model.facet_offset[at(grain)]), end = 3 * at(model.facet_offset[at(grain) + 1]);
@@ -28,7 +28,7 @@ void for_each_fixed_part(ModelType& model, Index grain, Visitor&& visit) {
   if (!model.refinement.empty()) visit(surface_part(model.refinement, model, grain));
 }
 
-/// The same for what moves; velocities where contact has friction.
+/// The same for the arrays that change with motion; velocities only if contact has friction.
 template <class ModelType, class Visitor>
 void for_each_moving_part(ModelType& model, Index grain, bool velocities, Visitor&& visit) {
   visit(surface_part(model.position, model, grain, 4));
@@ -61,10 +61,10 @@ void append_pair(const ContactCandidates& candidates, std::size_t pair, Bytes& m
   }
 }
 
-/// Pairs of one rank, as they come.
+/// A pair received from another rank.
 struct PairOfOther {
   Index first, second;
-  std::vector<Index> node, facets, facet; ///< [points], [points]: how many, and all of them
+  std::vector<Index> node, facets, facet; ///< of each point; number for each point; all facets in a row
 };
 
 PairOfOther take_pair(MessageReader& message) {
@@ -99,7 +99,7 @@ ContactCandidates joined(std::vector<PairOfOther>&& pairs, int grains) {
   return result;
 }
 
-/// Records of forces that one pair may have at most, in bytes, with their numbers.
+/// The most bytes that the force records of one pair may take, with their counts.
 std::size_t most_bytes(const Contact& contact, Index pair) {
   const ContactCandidates& candidates = contact.candidates;
   const std::size_t points = at(candidates.pair_point_offset[at(pair) + 1] - candidates.pair_point_offset[at(pair)]);
@@ -126,7 +126,7 @@ void Ghosts::choose(std::vector<Index> grains, Model& model) {
   if (known_.empty()) known_.assign(at(model.grains), 0);
   for (Partner& p : partners_) p.sent_grains.clear(), p.ghosts.clear();
 
-  // 1. Each rank says of which grains it wants the surface, and whether it has it already.
+  // 1. Each rank names the grains whose surfaces it wants, and says which surfaces it has already.
   std::vector<Bytes> wanted(static_cast<std::size_t>(ranks_->size()));
   for (const Index g : ghosts_) {
     const int owner = model.ownership.owner[at(g)];

@@ -1,9 +1,9 @@
 #pragma once
-// Grains at the border between ranks. A rank computes its own grains. Of other ranks' grains that lie near these it
-// holds the surfaces, its ghosts: positions come in every step, while the elements of grains inside are at work. The
+// Grains at the border between ranks. A rank computes its own grains. It also holds ghosts: the surfaces of other
+// ranks' grains near its own. Their positions arrive in every step while the elements of inner grains are computed. The
 // force of a contact point is computed once, by the owner of the point's node, and its record goes to the owner of the
-// facet. So a rank's contact is a part of what a rank alone would have: the pairs that touch its own grains, in the
-// same order, with the same numbers; and sums over them are the same to the last bit.
+// facet. So the contact of a rank is a part of the contact that a single rank would have: the pairs that touch its own
+// grains, in the same order, with the same numbers. Sums over them are the same to the last bit.
 
 #include <cstdint>
 #include <memory>
@@ -18,26 +18,26 @@ namespace mpfem {
 
 class Ghosts {
 public:
-  /// `velocities`: contact asks for those of the ghosts, too.
+  /// `velocities`: contact needs the velocities of ghosts, too.
   Ghosts(const Communicator& ranks, bool velocities) : ranks_(&ranks), velocities_(velocities) {}
 
   // ---- at a search; all of these are collective
-  /// Makes those of these grains that are other ranks' the ghosts: their surfaces are set in the model as they are now.
+  /// Makes ghosts of the grains that belong to other ranks, and sets their present surfaces in the model.
   void choose(std::vector<std::int32_t> grains, Model& model);
-  /// Gives pairs whose second grain is another rank's to that rank, and takes those of others. `contact` has own pairs
-  /// alone before. Then the second grains of own pairs become the ghosts.
+  /// Sends pairs whose second grain belongs to another rank to that rank, and receives such pairs. Before the call
+  /// `contact` has only own pairs. After it the ghosts are the second grains of own pairs.
   void share_pairs(Model& model, Contact& contact);
 
   // ---- in a step
-  /// Whether other ranks have this own grain as a ghost, or a pair with it: it comes first.
+  /// Whether other ranks have this own grain as a ghost, or a pair with it: such grains are computed first.
   bool is_at_border(std::int32_t grain) const {
     return !at_border_.empty() && at_border_[static_cast<std::size_t>(grain)] != 0;
   }
-  /// Positions, velocities and travel of own grains at the border go, those of ghosts come.
+  /// Starts to send positions, velocities and travel of own grains at the border, and to receive those of ghosts.
   void start_motion(const Model& model, const Contact& contact);
   /// Sets the ghosts' positions, velocities and travel; not their normals (update_surface).
   void finish_motion(Model& model, Contact& contact);
-  /// Records of forces on ghosts go, those on own grains come.
+  /// Starts to send records of forces on ghosts, and to receive those on own grains.
   void start_forces(const Contact& contact);
   void finish_forces(Contact& contact);
 
@@ -46,11 +46,11 @@ public:
   std::int64_t bytes_sent() const { return bytes_sent_; }
 
 private:
-  /// What goes to and comes from one rank.
+  /// What is sent to and received from one rank.
   struct Partner {
     int rank = 0;
-    std::vector<std::int32_t> sent_grains, ghosts; ///< whose surfaces go and come
-    std::vector<std::int32_t> sent_pairs, pairs;   ///< whose records go and come, indices into the candidates
+    std::vector<std::int32_t> sent_grains, ghosts; ///< whose surfaces are sent and received
+    std::vector<std::int32_t> sent_pairs, pairs;   ///< whose records are sent and received, indices into the candidates
     Bytes out, in;
     bool has_surfaces() const { return !sent_grains.empty() || !ghosts.empty(); }
     bool has_pairs() const { return !sent_pairs.empty() || !pairs.empty(); }

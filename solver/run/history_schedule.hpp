@@ -10,15 +10,15 @@ namespace mpfem {
 /// Expected durations of a stage over which its rows are even.
 inline constexpr double even_durations = 10;
 
-/// s since the stage began: when the row after `rows` of them is due. `duration` (s): expected of the stage; `wanted`:
-/// rows in that time.
+/// Time since the stage began (s) at which the row after `rows` rows is due. `duration` (s): expected for the stage;
+/// `wanted`: rows in that time.
 inline double next_row_time(double duration, std::int64_t rows, int wanted) {
   const double even = duration * static_cast<double>(rows) / wanted, late = even_durations * duration;
   return even <= late ? even : late * std::exp(even / late - 1);
 }
 
-/// Most rows of a stage: a loading may last 50 times as long as expected, and a controlled loading rate may stretch
-/// what is expected.
+/// The largest number of rows of a stage: a loading may last 50 times as long as expected, and a controlled loading
+/// rate may stretch the expected time.
 inline double most_rows(int wanted) {
   constexpr double longest = 100; // expected durations
   return wanted * even_durations * (1 + std::log(longest / even_durations)) + 2;

@@ -44,7 +44,7 @@ double set_velocity(Model& model, std::size_t grain, const Vector& linear, const
 /// Largest penetration of a pair's points over the element size.
 double deepest_point(const Model& model, const Contact& contact, std::int32_t pair, std::size_t grain) {
   double deepest = 0;
-  // What an unbroken bond holds of a point it holds itself: then the push is nothing and its pull tells the depth.
+  // An unbroken bond may carry the force of a point itself: then the push is zero and the bond's force gives the depth.
   for (const auto points : {contact.active_points(pair), contact.pulling_bonds(pair)})
     for (const ContactForce& point : points)
       if (point.stiffness > 0)
@@ -54,7 +54,7 @@ double deepest_point(const Model& model, const Contact& contact, std::int32_t pa
 }
 
 void check_overlap(Model& model, Contact& contact, int grain, const std::string& packing_file) {
-  /// A packing may start with nodes inside a neighbour by rounding, not by more.
+  /// At the start, nodes may lie inside a neighbour by rounding errors, but not by more.
   constexpr double overlap_tolerance = 1e-6; // of h
   try {
     contact_forces(model, contact, grain);
@@ -79,7 +79,7 @@ void check_within_walls(const Box& box, const Bounds& b, std::int32_t grain, con
                       packing_file, grain, b.low[axis], b.high[axis], axis, cell.low[axis], cell.high[axis]));
 }
 
-/// Collective. Calls check(grain) for all own grains; all ranks throw what the lowest grain that fails throws.
+/// Collective. Calls check(grain) for all own grains; all ranks throw the error of the lowest grain that fails.
 template <class Check>
 void for_own_grains(const Model& model, const Communicator& ranks, Check&& check) {
   std::int32_t present = 0;

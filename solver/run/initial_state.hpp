@@ -12,15 +12,15 @@
 namespace mpfem {
 
 /// Collective. Gives all grains the scenario's initial velocities. Returns their kinetic energy, mJ. Throws InputError
-/// where there is not one velocity for each grain.
+/// if there is not one velocity for each grain.
 double set_initial_velocities(Model& model, const Scenario& scenario, const Communicator& ranks);
 
-/// Collective. Throws InputError where two grains overlap or a grain reaches through a wall. Evaluates contact forces,
+/// Collective. Throws InputError if two grains overlap or a grain reaches through a wall. Evaluates contact forces,
 /// which are left in the model.
 void check_apart(Model& model, Contact& contact, const Box& box, const std::vector<Bounds>& bounds,
                  const std::string& packing_file, const Communicator& ranks);
 
-/// Collective. Throws InputError where a grain reaches into a tool.
+/// Collective. Throws InputError if a grain reaches into a tool.
 void check_clear_of_tools(const Model& model, const Tools& tools, const std::string& packing_file,
                           const Communicator& ranks);
 

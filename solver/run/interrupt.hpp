@@ -1,5 +1,5 @@
 #pragma once
-// SIGINT, SIGTERM and SIGUSR1 as requests to stop, which the run answers where its state can be saved.
+// SIGINT, SIGTERM and SIGUSR1 as requests to stop. The run answers them when its state can be saved.
 
 #include <string>
 
@@ -14,7 +14,7 @@ void catch_interrupts();
 /// Whether a stop has been requested.
 bool interrupt_requested();
 
-/// Collective. Throws Interrupted where a stop has been requested, of any rank, before the first step. The message says
+/// Collective. Throws Interrupted if a stop has been requested from any rank before the first step. The message says
 /// whether the run can be resumed, which depends on whether `checkpoint` exists.
 void stop_before_first_step(const Communicator& ranks, const std::string& checkpoint);
 

@@ -9,9 +9,9 @@ namespace mpfem {
 
 namespace {
 
-/// Part of the tolerances that is aimed at: what is seen scatters around its mean.
+/// Fraction of the tolerances to aim at: observations scatter about their mean.
 constexpr double aim = 0.7;
-/// Transits in which the rate changes by a factor of e where the load is off its aim by one.
+/// Transits in which the rate changes by a factor of e when the load is off its aim by 1.
 constexpr double transits_to_respond = 1;
 /// Bounds on the load's distance from its aim: walls brake within a transit, and gather speed more gently.
 constexpr double hardest_braking = 2, strongest_acceleration = 0.5;
@@ -38,7 +38,7 @@ void LoadingRateControl::update(LoadingRateState& s, const LoadingRateObservatio
   }
   stress /= wall_stress;
   const double internal = seen.elastic_energy + seen.plastic_dissipation - s.dissipation_at_start;
-  // In the form v- v+ it may be a little below zero where the motion rings.
+  // In the form v- v+ it may be slightly negative when the motion rings.
   const double kinetic_energy = std::max(seen.kinetic_energy, 0.0);
   const double kinetic = kinetic_energy > 0 ? kinetic_energy / std::max(internal, 1e-3 * kinetic_energy) : 0.0;
   s.largest_kinetic = std::max(s.largest_kinetic, kinetic);

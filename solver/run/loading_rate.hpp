@@ -10,8 +10,8 @@
 // Kinetic energy grows with the square of the speed, stresses with the speed; the larger of
 //   sqrt(kinetic / (tolerance internal)),   stress / (tolerance largest wall stress)
 // is the load L. The rate factor r, the present speed over the stage's own, follows d ln r/dt = (aim - L) / transit,
-// between the bounds: waves need about a transit to tell of a change. The stage's clock runs r times as fast as time.
-// Where walls are about to stop, r comes back to 1: how gently they stop is decided by the stage.
+// between bounds: waves need about a transit to show a change. The stage's clock runs r times as fast as time. When
+// walls are about to stop, r returns to 1: the stage decides how gently they stop.
 
 #include <array>
 #include <cstdint>
@@ -31,7 +31,7 @@ struct LoadingRateState {
   double largest_kinetic = 0;        ///< largest kinetic over internal energy while the packing bore load
   double largest_stress = 0;         ///< largest stress borne by inertia over the largest wall stress, likewise
   double time_loaded = 0;            ///< s, in which the packing bore load
-  double time_beyond = 0;            ///< s, of it beyond a tolerance
+  double time_beyond = 0;            ///< s, the part of it beyond a tolerance
   bool at_slowest = false;           ///< the tolerances required less than the slowest speed
 
   template <class Self, class Visitor>

@@ -52,7 +52,7 @@ BodySurface body_of(const StlShape& shape) {
     }
     for (Vector3<double>& corner : body.mesh.vertex) corner = corner + vector_of(shift);
   }
-  // A node that has left the surface is this near to it one step later.
+  // One step after a node has left the surface, it is still this near to it.
   constexpr double near = 1e-4; // of the body's diagonal
   const double diagonal = std::hypot(b.high[0] - b.low[0], b.high[1] - b.low[1], b.high[2] - b.low[2]);
   const Vector3<double> centre{0.5 * (b.low[0] + b.high[0]), 0.5 * (b.low[1] + b.high[1]),

@@ -8,8 +8,8 @@
 
 namespace mpfem {
 
-/// The surface of a tool in the packing's box, `low` to `high` (mm), in its starting position. Throws InputError where
-/// an STL file cannot be used.
+/// The surface of a tool in the packing's box, `low` to `high` (mm), in its starting position. Throws InputError if an
+/// STL file cannot be used.
 ToolSurface make_surface(const ToolShape& shape, const std::array<double, 3>& low, const std::array<double, 3>& high);
 
 /// All tools of a scenario, as they stand at the start.

@@ -63,7 +63,7 @@ double disk_of(const PackingCounts& packing, const Scenario& scenario) {
   // Eight numbers of a tet, thirteen of a node, and contact points; measured, since most points have few candidates.
   const double checkpoint = 64 * tets + 104 * nodes + (scenario.bond ? 43.0 : 20.0) * facets +
                             (scenario.contact.has_friction() ? 24.0 * facets : 0.0);
-  // Those that stay, the rolling one, and the one that is being written.
+  // Checkpoints that stay, the rolling one, and the one that is being written.
   const double checkpoints = stages + 2 + static_cast<double>(output.checkpoint_relative_densities.size());
   // Snapshots stand beside the run file until it holds them all.
   const double snapshots =

@@ -1,5 +1,5 @@
 #pragma once
-// What a run needs of memory and disk space, foretold from numbers of nodes and tets, before anything is built.
+// What a run needs of memory and disk space, predicted from the numbers of nodes and tets before anything is built.
 
 #include <string>
 
@@ -16,11 +16,11 @@ struct Needs {
 /// What a run of the scenario needs at most, in the dense packing.
 Needs needs_of(const PackingCounts& packing, const Scenario& scenario);
 
-/// Bytes that may be written to the folder of a file. Infinite where the system does not say.
+/// Bytes that may be written to the folder of a file. Infinite if the system does not tell.
 double available_disk_space(const std::string& file);
 
-/// Empty, or a warning where little or nothing is left over. Throws InputError where the run needs more than there is
-/// by more than the forecast's own error. `purpose` is the beginning of the line: "RUN.h5".
+/// Empty, or a warning if little or nothing is left over. Throws InputError if the run needs more than there is, by
+/// more than the error of the forecast. `purpose` is the beginning of the line: "RUN.h5".
 std::string check_needs(const std::string& purpose, const Needs& needs, const Needs& available);
 
 } // namespace mpfem

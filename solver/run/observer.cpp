@@ -43,7 +43,7 @@ std::array<double, 3> centre_of(const Cell& cell) {
   return {cell.centre(0), cell.centre(1), cell.centre(2)};
 }
 
-/// How many grains of larger number a grain touches, with points of either.
+/// How many grains with a larger number a grain touches, by points of either grain.
 std::int64_t touched_later_grains(const Contact& contact, std::int32_t grain) {
   const ContactCandidates& c = contact.candidates;
   const auto g = static_cast<std::size_t>(grain);

@@ -9,9 +9,9 @@
 
 namespace mpfem {
 
-/// What mass scaling does; empty where there is none.
+/// What mass scaling does; empty if there is none.
 std::string mass_scaling_text(const Scenario& scenario, const Model& model);
-/// Which bonds have another law than those to come; empty where all have the scenario's.
+/// Which bonds have a law other than that of future bonds; empty if all have the scenario's.
 std::string earlier_bonds_text(const Contact& contact);
 
 } // namespace mpfem

@@ -15,12 +15,12 @@ namespace mpfem {
 
 namespace {
 
-/// How much longer an unloading takes than at full speed: it leaves the last fifth of the stress slowly. Measured 1.15
+/// How much longer an unloading takes than at full speed: it covers the last fifth of the stress slowly. Measured 1.15
 /// (329 grains) and 1.58 (25 grains).
 constexpr double slow_end_of_unloading = 1.3;
 
-/// Part of its way to its other ends at which a loading is expected to end by a drop of stress. Measured 0.45 to 0.56
-/// (unconfined compression, 25 grains).
+/// Fraction of the way to its other ends after which a loading is expected to end by a stress drop. Measured 0.45 to
+/// 0.56 (unconfined compression, 25 grains).
 constexpr double way_to_stress_drop = 0.5;
 
 /// How much longer a stage takes than its control expects.
@@ -37,7 +37,7 @@ bool may_be_done(const Stage& stage, const StageForecast& before, const Model& m
          compaction->relative_density * (1 - 1e-9) <= model.total_reference_volume() / before.cell.volume();
 }
 
-/// A step that is no step tells of units that cannot be meant.
+/// An absurd step shows that the input is in other units.
 void check_stable_step(double step) {
   constexpr double smallest = 1e-30; // s
   if (!(step >= smallest && std::isfinite(step)))
@@ -48,7 +48,7 @@ void check_stable_step(double step) {
                     step, smallest));
 }
 
-/// A run that would not end within years is refused: a core makes some 1e9 steps of the smallest model a day.
+/// A run that would not end within years is refused: a core does some 1e9 steps of the smallest model a day.
 void check_steps(const Scenario& scenario, std::int64_t first_stage, const std::vector<StageForecast>& stages,
                  double stable_step) {
   constexpr double most = 1e10;
@@ -142,7 +142,7 @@ void check_programme(const Scenario& scenario, std::int64_t first_stage, const C
                       : std::holds_alternative<ToolLoading>(stage.type) ? "drive"
                                                                         : "wall_speed";
     check_speed(stage, key, fastest, size, stable_step);
-    // Servos are as much faster as the stage is.
+    // Servos speed up in the same ratio as the stage.
     if (const auto servo = servo_speed(stage.type))
       check_speed(stage, "servo_speed", *servo * (speed > 0 ? std::max(1.0, fastest / speed) : 1.0), size, stable_step);
   }

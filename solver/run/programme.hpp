@@ -11,19 +11,19 @@
 
 namespace mpfem {
 
-/// Why a stage that begins at a mean stress (MPa) cannot reach its own, in one line; empty where it can. An unloading
-/// may begin at its stress or a little below.
+/// Why a stage that begins at this mean stress (MPa) cannot reach its target, in one line; empty if it can. An
+/// unloading may begin at its stress or a little below.
 std::string unreachable_stress(const Stage& stage, double mean_stress);
 
 /// What is expected of a stage beforehand.
 struct StageForecast {
   double duration = 0;       ///< s
   std::string description{}; ///< what the stage does
-  bool sure = true;          ///< false: the stage or one before it ends at what is not known beforehand
+  bool sure = true;          ///< false: the end of the stage or of one before it is not known beforehand
   Cell cell{};               ///< at the end
 };
-/// Forecasts of the stages from `first_stage` on, which begins with the given cell. Targets that cannot be reached from
-/// where the stage before surely ends are refused. Throws InputError.
+/// Forecasts of the stages from `first_stage` on, which begins with the given cell. A target is refused if it cannot be
+/// reached from the certain end of the stage before. Throws InputError.
 std::vector<StageForecast> forecast(const Scenario& scenario, std::int64_t first_stage, const Cell& cell,
                                     const Model& model);
 

@@ -26,8 +26,8 @@ bool tools_differ(const std::vector<ToolParameters>& a, const std::vector<ToolPa
   });
 }
 
-/// What a branch may not change. It goes on with the same matter: its stresses and strains mean nothing in another
-/// material.
+/// Refuses what a branch must not change. A branch continues with the same material: stresses and strains mean nothing
+/// in another one.
 void check_branch(const CheckpointReader& checkpoint, bool bonded, const Scenario& before, const Scenario& now) {
   const auto refuse = [&](const std::string& what) {
     throw InputError(fmt::format("{}: {}", one_line(checkpoint.path()), what));
@@ -41,17 +41,17 @@ void check_branch(const CheckpointReader& checkpoint, bool bonded, const Scenari
     refuse("the checkpoint's tools differ from the scenario's, allowed the same [[tools]] and [container] (another "
            "friction is allowed)");
   if (!bonded) return;
-  // Bonds keep the law by which they formed, and [bond] is that of bonds to come. Whether bonds resist sliding decides
-  // how all of them are followed.
+  // Bonds keep the law by which they formed, and [bond] is the law of future bonds. Whether bonds resist sliding
+  // decides how all bonds are tracked.
   if (!now.bond) refuse("the checkpoint has bonds, the scenario has none, allowed a [bond] with the same normal_only");
   if (before.bond->normal_only != now.bond->normal_only)
     refuse("the checkpoint has bonds of the other bond.normal_only, allowed a [bond] with the same normal_only");
-  if (before.contact.penalty_differs(now.contact)) // a damaged bond's separations belong to its stiffness
+  if (before.contact.penalty_differs(now.contact)) // the separations of a damaged bond depend on its stiffness
     refuse("the checkpoint has bonds of another penalty than the scenario's, allowed the same contact.stiffness and "
            "contact.stiffness_factor");
 }
 
-/// Takes up the state, as that of the scenario's first stage where `branch`; `bonded`: with bonds.
+/// Restores the state; for a `branch`, as that of the scenario's first stage. `bonded`: with bonds.
 void restore(const CheckpointReader& checkpoint, bool bonded, const Scenario& before, Simulation& simulation,
              RunRecord& record, bool branch, const Communicator& ranks) {
   if (bonded && !before.bond)
@@ -67,7 +67,7 @@ void restore(const CheckpointReader& checkpoint, bool bonded, const Scenario& be
                                    arrays.grips, bonded ? before.bond : std::nullopt);
           });
         });
-    if (branch) return; // its record is its own
+    if (branch) return; // a branch has its own record
     RunRecord::for_each_field(record, fields);
     fields.finish();
   } catch (const std::invalid_argument& error) {

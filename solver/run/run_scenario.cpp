@@ -67,7 +67,7 @@ std::vector<double> internal_energy(const std::vector<HistoryRow>& history) {
 /// Which rank owns each grain ([grains]); none: by the number of tets.
 using Owners = std::optional<std::vector<std::int32_t>>;
 
-/// Reads the packing and makes the model. Both may take a while, so that a request to stop is looked for in between.
+/// Reads the packing and makes the model. Both may take a while, so a request to stop is checked in between.
 Model load_model(const Scenario& scenario, const RunOptions& options, const Communicator& ranks, const Owners& owners) {
   const std::string checkpoint = checkpoint_path(options.output);
   stop_before_first_step(ranks, checkpoint);
@@ -80,7 +80,7 @@ Model load_model(const Scenario& scenario, const RunOptions& options, const Comm
 
 enum class RunEnd {
   complete,
-  must_begin_anew, ///< what there is to resume cannot be used: without --resume
+  must_begin_anew, ///< nothing that could be resumed is usable: without --resume
   divided_anew     ///< the checkpoint just written goes on with other owners of grains
 };
 
@@ -124,7 +124,7 @@ public:
       if (!loop()) return RunEnd::divided_anew;
     } catch (const SimulationError& error) {
       const std::string good = last_checkpoint_text();
-      // The failed state is worth looking at: a snapshot of it, and everything recorded so far.
+      // The failed state is worth a look: save a snapshot of it, and everything recorded so far.
       try {
         save_snapshot();
         write_result(fmt::format("failed: {}", error.what()));
@@ -177,10 +177,9 @@ private:
     return identity;
   }
 
-  /// Goes on from the best checkpoint that there is, or finds the run complete. False where there is nothing to go on
-  /// from.
+  /// Continues from the best checkpoint, or finds the run complete. False if there is nothing to continue from.
   bool resume() {
-    std::vector<std::string> lost; // checkpoints that should stand on disk and do not
+    std::vector<std::string> lost; // checkpoints that should be on disk and are not
     already_complete_ = leader_finds(ranks_, [&] { return !rolling_checkpoint_exists() && is_complete(lost); });
     if (already_complete_) {
       leader_does(ranks_, [this] { remove_unfinished(options_.output); }); // of a run killed while it tidied up
@@ -199,7 +198,7 @@ private:
         continue;
       }
       if (!take_up(path, lost)) continue;
-      if (path == previous_checkpoint_path(options_.output)) // whatever stands in the rolling one's place is worse
+      if (path == previous_checkpoint_path(options_.output)) // whatever is in the rolling one's place is worse
         leader_does(ranks_, [&] { std::filesystem::rename(path, checkpoint_path(options_.output)); });
       if (!lost.empty()) warn(fmt::format("{} is missing; the run continues from {} to write it", lost.front(), path));
       if (!options_.quiet) fmt::print(stderr, "mpfem: resumed {} at step {}\n", path, simulation_.state().step);
@@ -213,8 +212,8 @@ private:
     return false;
   }
 
-  /// Takes up a checkpoint. False where the run cannot go on from it; checkpoints that it counts as written and that
-  /// are missing are added to `lost`.
+  /// Restores a checkpoint. False if the run cannot continue from it. Missing checkpoints that it counts as written are
+  /// added to `lost`.
   bool take_up(const std::string& path, std::vector<std::string>& lost) {
     const bool rolling = path == checkpoint_path(options_.output);
     taken_up_ = true;
@@ -244,7 +243,7 @@ private:
     return missing;
   }
 
-  /// On the first rank, with --quiet too.
+  /// Printed by the first rank, even with --quiet.
   void warn(const std::string& text) const {
     if (ranks_.leads()) fmt::print(stderr, "mpfem: warning: {}\n", text);
   }
@@ -257,7 +256,7 @@ private:
                                 record_.checkpoints_passed, start);
   }
 
-  /// Before a run is called complete: whatever it has written may have been taken away meanwhile.
+  /// Before a run is called complete: files that it has written may have been removed meanwhile.
   void check_promises() const {
     if (const auto missing = missing_checkpoints(promised_now(), itself()); !missing.empty())
       throw StorageError(fmt::format("{}: was written by this run and is missing at its end; --resume writes it again",
@@ -269,7 +268,7 @@ private:
            std::filesystem::exists(previous_checkpoint_path(options_.output));
   }
 
-  /// What an earlier, unfinished run of this name left would mix with what this one writes.
+  /// Removes the files of an earlier, unfinished run of this name: they would mix with those of this run.
   void drop_unfinished_run() const {
     const std::string rolling = checkpoint_path(options_.output);
     if (!options_.quiet && std::filesystem::exists(rolling))
@@ -280,8 +279,8 @@ private:
     remove_unfinished(options_.output);
   }
 
-  /// True where the output is the finished run of this very scenario and packing, from this beginning (where one is
-  /// named), and all its checkpoints stand; those that do not are added to `lost`.
+  /// True if the output is the finished run of this very scenario and packing, from this beginning (if one is named),
+  /// and all its checkpoints exist. Missing ones are added to `lost`.
   bool is_complete(std::vector<std::string>& lost) const {
     if (!std::filesystem::exists(options_.output)) return false;
     const RunSummary run = read_run_summary(options_.output);
@@ -295,7 +294,7 @@ private:
     return lost.empty();
   }
 
-  /// To the end of the last stage, or, false, to a checkpoint after which the grains have new owners.
+  /// Runs to the end of the last stage (true), or to a checkpoint after which the grains have new owners (false).
   bool loop() {
     for (;;) {
       simulation_.evaluate_forces();
@@ -315,8 +314,7 @@ private:
     }
   }
 
-  /// What a stage needs may have been done away with by the one before: that is a failure of the run, whose state is
-  /// saved.
+  /// The stage before may have destroyed what this stage needs. That is a failure of the run, whose state is saved.
   void begin_next_stage() {
     try {
       simulation_.begin_next_stage();
@@ -326,15 +324,15 @@ private:
     }
   }
 
-  /// Once a stage: the tolerances ask for less speed than the scenario allows.
+  /// Warns once a stage that the tolerances require a lower speed than the scenario allows.
   void warn_of_slowest_speed() {
     const RunState& state = simulation_.state();
     if (!simulation_.stage_run().loading_rate().at_slowest || warned_of_stage_ == state.stage) return;
     warned_of_stage_ = state.stage;
     if (!options_.quiet)
       fmt::print(stderr,
-                 "mpfem: warning: stage '{}', D_r = {:.4f}: tolerances of quasi_static are not met with slowest_speed "
-                 "either\n",
+                 "mpfem: warning: stage '{}', D_r = {:.4f}: the tolerances of quasi_static are not met even "
+                 "at slowest_speed\n",
                  simulation_.stage().name, simulation_.relative_density());
   }
 
@@ -345,8 +343,8 @@ private:
       fmt::print(stderr, "mpfem: stage '{}' {}{}\n", result.name, stage_end_text(result), damping_text());
   }
 
-  /// What mass-proportional damping took in the stage that ends, beside the energy that it must leave alone. It gives
-  /// where it drags grains along with the walls.
+  /// What mass-proportional damping took in the stage that ends, compared with the elastic energy, which it must not
+  /// touch. It gives energy when it drags grains along with the walls.
   std::string damping_text() const {
     if (simulation_.stage().damping.rate == 0) return {};
     const auto stage = static_cast<double>(simulation_.state().stage);
@@ -380,8 +378,7 @@ private:
     check_energy(record_.history.back());
   }
 
-  /// Fails where the energy balance is so far off that the run means nothing any more; warns, once, where it may
-  /// matter.
+  /// Fails if the energy balance is so far off that the run is meaningless; warns once if the error may matter.
   void check_energy(const HistoryRow& row) {
     const double error = energy_check_.take(row);
     if (!(error <= EnergyCheck::allowed))
@@ -420,7 +417,7 @@ private:
     simulation_.profile().add_serial(Part::output, Profile::since(start));
   }
 
-  /// Why a checkpoint is due though no stage or density asks for one; the largest of all ranks' reasons holds.
+  /// Why a checkpoint is due although no stage or density requires one; the largest reason of all ranks counts.
   enum class Reason : int { none, interval, out_of_time, interrupted };
 
   Reason reason_for_checkpoint() const {
@@ -444,7 +441,7 @@ private:
     if (stage_end)
       save_checkpoint(stage_checkpoint_path(
           options_.output, scenario_.stages[static_cast<std::size_t>(simulation_.state().stage)].name));
-    // Last: it counts stages and densities as done whose checkpoints stand by now.
+    // Last: it counts as done the stages and densities whose checkpoints are on disk by now.
     replace_rolling_checkpoint(ranks_, options_.output, [this](const std::string& path) { save_checkpoint(path); });
     last_checkpoint_ = Profile::Clock::now();
     simulation_.profile().add_serial(Part::output, Profile::since(start));
@@ -557,7 +554,7 @@ private:
                                                   nanoseconds_per_tet_step()));
   }
 
-  /// Once: a run that crawls writes no rows that would tell.
+  /// Warns once: a run whose step collapses hardly writes rows that would show it.
   void warn_of_small_step() {
     const double step = simulation_.step_estimate().stable_step();
     if (first_stable_step_ == 0) first_stable_step_ = step;
@@ -567,7 +564,7 @@ private:
       fmt::print(
           stderr,
           "mpfem: warning: the stable step fell from {:.3g} s to {:.3g} s: elements are nearly flat, and the run "
-          "takes ever longer\n",
+          "becomes ever slower\n",
           first_stable_step_, step);
   }
 
@@ -589,7 +586,7 @@ private:
                nanoseconds_per_tet_step());
   }
 
-  /// What makes the results doubtful, last of all, where it is seen.
+  /// Prints what makes the results doubtful. It comes last of all, so that it is seen.
   void print_quality() const {
     const std::vector<double> internal = internal_energy(record_.history);
     std::vector<QualityRow> rows;
@@ -644,7 +641,7 @@ private:
   RunIdentity identity_;
   bool already_complete_ = false, begins_anew_ = false, warned_of_energy_ = false;
   bool taken_up_ = false;        ///< a checkpoint has replaced the state of the simulation
-  bool must_begin_anew_ = false; ///< what there is to resume cannot be used
+  bool must_begin_anew_ = false; ///< nothing that could be resumed is usable
 };
 
 bool same_file(const std::string& a, const std::string& b) {

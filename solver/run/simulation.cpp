@@ -31,7 +31,7 @@ Axes withdrawn_in(const Scenario& scenario, std::int64_t stage) {
   return scenario.walls ? withdrawn_axes(scenario.stages[static_cast<std::size_t>(stage)].type) : all_axes;
 }
 
-/// mm/s^2, for masses that are scaled: weights stay as they are.
+/// mm/s^2, reduced as masses are scaled: weights stay as they are.
 std::array<double, 3> gravity_of_scaled_mass(const Scenario& scenario) {
   std::array<double, 3> gravity = scenario.gravity;
   for (double& component : gravity) component /= scenario.numerics.mass_scaling;
@@ -94,7 +94,7 @@ void Simulation::order_grains() {
 // ---------------------------------------------------------------------------------------------- the step
 
 void Simulation::evaluate_forces() {
-  damping_rate_ = damping_rate(); // one for the grips' forces and the advance that they are for
+  damping_rate_ = damping_rate(); // the same for the grips' forces and the advance that uses them
   if (search_is_due(contact_, travel_since_search_)) search();
   contact_.last_step = state_.last_step;
   add_contact_and_walls();
@@ -137,7 +137,7 @@ void Simulation::find_candidates() {
   const NearGrains near = find_near_grains(bounds_, reach, model_.own());
   if (!ranks_->alone()) {
     leave_own_pairs(model_, contact_);
-    std::vector<std::int32_t> ghosts(contact_.candidates.pair_second); // bonded ones may have gone far
+    std::vector<std::int32_t> ghosts(contact_.candidates.pair_second); // bonded grains may be far apart
     for (const auto& others : near.other) ghosts.insert(ghosts.end(), others.begin(), others.end());
     ghosts_.choose(std::move(ghosts), model_);
   }
@@ -216,7 +216,8 @@ void Simulation::check_penetration() const {
   });
 }
 
-/// Forces that take the gripped nodes where the grips will be; N, push of both grips towards the middle.
+/// Adds the forces that take the gripped nodes to where the grips will be. Returns the push of both grips towards the
+/// middle, N.
 std::array<double, 2> Simulation::add_grips() {
   plan_ = stage_run_->plan(box_.cell(), step_estimate_.stable_step(), state_.last_step);
   const Advance update = velocity_update(*plan_);
@@ -235,7 +236,7 @@ void Simulation::add_work_of_gravity() {
   state_.weight_potential = force_total_.weight_potential;
 }
 
-/// What the tools bear and did since the time level before.
+/// Loads on the tools, and their work since the previous time level.
 void Simulation::measure_tools() {
   energies_.external_work += tools_.take_loads(*ranks_, model_.ownership);
   energies_.friction_dissipation += tools_.total().friction_dissipation;
@@ -378,8 +379,8 @@ void Simulation::begin_stage(std::int64_t stage) {
   grip_faces();
 }
 
-/// Walls that are taken away take what is stored in their penalty and friction with them; walls that return stand where
-/// they touch nothing, so that the ledger knows of them from the first touch on.
+/// Withdrawn walls take the energy stored in their penalty and friction with them. Returning walls begin where they
+/// touch nothing, so the ledger follows them from the first touch on.
 void Simulation::change_walls(const Axes& withdrawn) {
   for (std::size_t axis = 0; axis < 3; ++axis) {
     if (withdrawn[axis] && box_.has_walls(axis))
@@ -391,7 +392,7 @@ void Simulation::change_walls(const Axes& withdrawn) {
   wall_friction_.forget(withdrawn);
 }
 
-/// A stage of another type than that of tools leaves them as they are.
+/// Only stages that load by tools change them.
 void Simulation::change_tools() {
   const auto* loading = std::get_if<ToolLoading>(&scenario_->stages[static_cast<std::size_t>(state_.stage)].type);
   if (loading == nullptr) return;
@@ -475,7 +476,7 @@ void Simulation::read(FieldReader& from, std::optional<std::int64_t> stage) {
   stage_run_->read(from);
 }
 
-/// The grips of the stage without their nodes; none where it has no grips.
+/// The grips of the stage without their nodes; nullptr if it has no grips.
 Grips* Simulation::prepare_grips() {
   grips_ = {};
   const GripMotion* grip = stage_run_ ? stage_run_->control().grips() : nullptr;

@@ -37,7 +37,7 @@
 
 namespace mpfem {
 
-/// Where the run is, and what its last step left that no other part keeps.
+/// Where the run is, and the values of its last step that no other part keeps.
 struct RunState {
   std::int64_t step = 0;
   std::int64_t stage = 0;                  ///< index
@@ -90,8 +90,8 @@ class Simulation {
 public:
   /// Begins at rest apart from the scenario's initial velocities. With `branch`, the first stage is not begun: that
   /// waits for restore() and begin_branch(). `scenario`, `team` and `ranks` must outlive the simulation. Throws
-  /// InputError where grains overlap at the start. With several ranks, whose grains `model` divides, this and all that
-  /// is not const are collective, and so are observe() and what else says so.
+  /// InputError if grains overlap at the start. `model` divides the grains among the ranks. With several ranks, this
+  /// and all non-const members are collective, and so are observe() and others that say so.
   Simulation(Model model, const Scenario& scenario, ThreadTeam& team, bool branch = false,
              const Communicator& ranks = alone());
 
@@ -106,14 +106,14 @@ public:
   void begin_stage(std::int64_t stage);
   void begin_next_stage() { begin_stage(state_.stage + 1); }
   bool stage_complete() const { return stage_run_->complete(); }
-  /// What is to be said of a stage that is complete, after evaluate_forces().
+  /// The result of a stage that is complete, after evaluate_forces().
   StageResult stage_result() const;
 
   // ---- what can be observed, between evaluate_forces() and advance()
   HistoryRow observe() const; ///< collective
   double relative_density() const;
-  /// After a branch began: what energies jump by, where its settings differ, is not in the balance. Takes the residual
-  /// of the branch's first row out of it.
+  /// At the start of a branch, energies jump if its settings differ. This is no part of the balance, so the residual of
+  /// the branch's first row is removed from it.
   void reset_energy_balance(HistoryRow& first_row);
 
   const Scenario& scenario() const { return *scenario_; }
@@ -135,7 +135,7 @@ public:
 
   // ---- checkpoints
   void write(FieldWriter& to) const;
-  /// What a checkpoint's arrays replace.
+  /// The arrays that a checkpoint replaces.
   struct Arrays {
     Model& model;
     Contact& contact;
@@ -144,9 +144,9 @@ public:
     GrainSteps& grain_steps;
     Grips* grips; ///< of a stage that grips, its axis set, or none
   };
-  /// Takes up the state of a checkpoint: `take(arrays)` replaces the arrays, `fields` the rest. As the state of `stage`
-  /// where that is given (a branch), else of the checkpoint's own. Throws std::invalid_argument where the fields are of
-  /// another version.
+  /// Restores the state of a checkpoint: `take(arrays)` replaces the arrays, `fields` the rest. It becomes the state of
+  /// `stage` if that is given (a branch), else of the checkpoint's own stage. Throws std::invalid_argument if the
+  /// fields are of another version.
   template <class Take>
   void restore(FieldReader& fields, std::optional<std::int64_t> stage, Take&& take) {
     read(fields, stage);
@@ -219,7 +219,7 @@ private:
   std::vector<MotionSums> motion_sums_; ///< [grains], of own grains
   ForceSums force_total_;               ///< of all grains of all ranks
   double travel_since_search_ = 0;      ///< mm, the largest of all grains
-  std::optional<StepPlan> plan_;        ///< of the next step, where grips need it before
+  std::optional<StepPlan> plan_;        ///< of the next step, if grips need it beforehand
   double margin_ = 0;                   ///< mm, of the contact search
   double damping_rate_ = 0;             ///< 1/s, of the next advance
   bool energy_balance_open_ = false;    ///< until the first row of a branch

@@ -48,15 +48,15 @@ public:
   bool complete() const { return state_.ended || state_.time >= control_->duration(); }
   double expected_duration() const { return control_->expected_duration(); }
   double fraction_done(double mean_stress) const { return control_->fraction_done(state_.time, mean_stress); }
-  /// Where walls are about to come to rest. Stages that turn round do so gently by themselves.
+  /// True if walls are about to come to rest. Stages that reverse do so gently by themselves.
   bool is_stopping(double mean_stress) const;
 
-  /// s, the next step: `stable_step`, or less where the stage's time ends. `last_step` where the stage is complete.
+  /// s, the next step: `stable_step`, or less at the end of the stage's time. `last_step` if the stage is complete.
   double next_step(double stable_step, double last_step) const;
   StepPlan plan(const Cell& cell, double stable_step, double last_step) const;
 
   bool needs_damage(std::int64_t step) const { return control_->needs_damage(step); }
-  /// Takes in the present time level; time and rate factor are filled in here. Nothing where the stage is complete.
+  /// Takes in the present time level; time and rate factor are filled in here. Does nothing if the stage is complete.
   void observe(StageObservation seen);
   bool loading_rate_is_due(std::int64_t step) const;
   /// Changes the speed from the step after the next on: the next one may be planned already.

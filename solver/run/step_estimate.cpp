@@ -18,10 +18,10 @@ namespace {
 // gradients and the root of the volume, by less than 2 e = 4 %: well within the 10 % that time_step_factor leaves.
 constexpr double strain_between_estimates = 0.02;
 constexpr int steps_between_estimates = 50;
-/// The frequencies of all whole grains are found at every so many estimates: some twenty products with the stiffness
-/// each. In between, a grain's frequency squared is taken to grow as that of the tet which grows most, and by what
-/// contact has come to its nodes. Where that would shorten the packing's step, it is found anew, unless it has grown by
-/// less than this.
+/// The frequencies of all whole grains are computed once in so many estimates: some twenty products with the stiffness
+/// each. In between, a grain's squared frequency is assumed to grow as that of its fastest growing tet, plus the growth
+/// of contact at its nodes. If that would shorten the packing's step, it is computed anew, unless it has grown by less
+/// than this.
 constexpr int estimates_between_spectra = 10;
 constexpr double growth_worth_a_spectrum = 1.01;
 
@@ -65,7 +65,7 @@ double StepEstimate::renew_grain(const Model& model, int grain, double rate) {
   return std::max(of_tets_[g].step, grain_steps_.whole[g]);
 }
 
-/// 1/s^2, bound of the grain's frequency squared by what has grown since it was found.
+/// 1/s^2, bound on the grain's squared frequency from what has grown since it was computed.
 double StepEstimate::bound_since_spectrum(const Model& model, int grain, double found) const {
   const auto g = static_cast<std::size_t>(grain);
   double contact = 0;
@@ -110,7 +110,7 @@ void StepEstimate::renew(Model& model, const Contact& contact, const Boundaries&
   share_of_grains(*ranks_, model.ownership, std::span(steps));
   share_of_grains(*ranks_, model.ownership, std::span(fresh));
   share_of_grains(*ranks_, model.ownership, std::span(of_tets_));
-  // The grain that sets the step must have set it by its frequency, not by a bound of what that has become.
+  // The grain that sets the step must set it by its computed frequency, not by a bound on it.
   using Candidate = std::pair<double, std::size_t>; // step and grain
   std::vector<Candidate> candidates;
   for (std::size_t grain = 0; grain < steps.size(); ++grain) candidates.emplace_back(steps[grain], grain);

@@ -19,7 +19,7 @@
 
 namespace mpfem {
 
-/// What grains touch beside each other.
+/// What grains touch besides each other.
 struct Boundaries {
   const Box& box;
   const Tools& tools;
@@ -59,7 +59,7 @@ public:
              ThreadTeam& team, bool anew);
   /// The next step is followed by an estimate: nothing has touched yet.
   void renew_after_next_step();
-  /// Take up what a checkpoint holds.
+  /// Restore what a checkpoint holds.
   void restore(const State& state) { state_ = state; }
   void restore(GrainSteps grain_steps) { grain_steps_ = std::move(grain_steps); }
 

@@ -15,9 +15,9 @@ struct BondParameters {
   double shear_strength = 0;   ///< MPa, in both tangential directions
   double fracture_energy = 0;  ///< G^c, N/mm, in every mode
   SofteningLaw softening = SofteningLaw::exponential;
-  bool rebond_on_contact = false;    ///< a broken bond's point bonds anew when it has opened and closes again
+  bool rebond_on_contact = false;    ///< a point with a broken bond bonds again once it has opened and closes
   bool normal_only = false;          ///< no resistance against sliding (for comparison with theories of adhesion)
-  std::optional<double> stiffness{}; ///< K, MPa/mm; none, and no factor: the contact's penalty
+  std::optional<double> stiffness{}; ///< K, MPa/mm; if neither K nor the factor is given: the contact's penalty
   std::optional<double> stiffness_factor{}; ///< K h/E
   bool operator==(const BondParameters&) const = default;
 };

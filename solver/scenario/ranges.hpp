@@ -1,6 +1,6 @@
 #pragma once
-// Admissible ranges of a scenario's values. They exclude slips of the decimal point or of units; physics sets its own
-// limits where it has any. They also keep finite all that is computed from several of them: squares, ratios, the stable
+// Admissible ranges of a scenario's values. They catch slips of the decimal point or of units; where physics has
+// limits, those apply. They also keep finite whatever is computed from several values: squares, ratios, the stable
 // step.
 
 #include <string>
@@ -28,7 +28,7 @@ inline constexpr Range rate_or_zero = Range::between(0, 1e15);          // 1/s
 inline constexpr Range stiffness_factors = Range::between(1e-6, 1e4);   // of E/h
 inline constexpr Range positive_stiffness = Range::between(1e-9, 1e18); // MPa/mm
 inline constexpr Range positive_energy = Range::between(1e-18, 1e12);   // N/mm
-inline constexpr Range friction_or_zero = Range::between(0, 2); // mu; beyond, the drift is more than twice the depth
+inline constexpr Range friction_or_zero = Range::between(0, 2); // mu; above 2, the drift exceeds twice the depth
 inline constexpr Range strain_or_zero = Range::between(0, 1e3);
 inline constexpr double most_grains = 1e9;
 

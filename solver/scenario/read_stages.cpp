@@ -23,17 +23,17 @@ double read_ramp_fraction(TableReader& table) {
   return table.number_or("ramp_fraction", usual, Range::between(0, 0.5));
 }
 
-/// Of walls that are held while others are driven at `wall_speed` (mm/s).
+/// Servo speed (mm/s) of walls that are held while others are driven at `wall_speed` (mm/s).
 double read_servo_speed(TableReader& table, double wall_speed) {
-  // A packing that dilates moves its lateral walls faster than its axial ones; one that fails suddenly under little
-  // stress, many times as fast.
+  // A packing that dilates moves its lateral walls faster than its axial ones. One that fails suddenly under little
+  // stress moves them many times as fast.
   constexpr double usual = 10;
   return table.number_or("servo_speed", usual * wall_speed, {.low = 1e-12, .high = 1e13});
 }
 
-/// The keys that end a loading, of those that the stage's type allows.
+/// Reads the keys that end a loading; the stage's type may allow only some of them.
 LoadingEnds read_ends(TableReader& table, std::string_view type) {
-  constexpr Range strain{.low = -0.5, .high = 0.5}; // more is a typing error
+  constexpr Range strain{.low = -0.5, .high = 0.5}; // a larger one is a typing error
   LoadingEnds ends;
   ends.axial_strain = table.optional_number("axial_strain", strain);
   if (ends.axial_strain == 0.0) table.fail("axial_strain", "found 0, allowed > 0 (compression) or < 0 (extension)");
@@ -187,7 +187,7 @@ StageType read_tool_loading(TableReader& table, const StageContext& context) {
   loading.ramp_fraction = read_ramp_fraction(table);
   loading.ends = read_tool_ends(table, context);
   if (loading.speed == 0 && loading.ends.travel)
-    table.fail("travel", "is that of tools driven at a speed or velocity, and there is none");
+    table.fail("travel", "is used only if a tool is driven at a speed or velocity");
   if (loading.speed == 0 && loading.servo_speed == 0 && !loading.ends.duration)
     table.fail("duration", "missing, expected the time of a stage in which no tool moves");
   return loading;
@@ -200,7 +200,7 @@ struct StageKeyword {
   std::function<StageType(TableReader&, const StageContext&)> read;
 };
 
-/// Of a type that refers to nothing else in the scenario.
+/// The reader of a type that needs nothing else from the scenario.
 auto alone(StageType (*read)(TableReader&)) {
   return [read](TableReader& table, const StageContext& /*context*/) { return read(table); };
 }
@@ -255,7 +255,7 @@ DampingParameters read_damping(TableReader& table) {
 
 /// `speed`: mm/s, the stage's own; `youngs_modulus`: MPa, of the grains.
 std::optional<QuasiStatic> read_quasi_static(TableReader& stage, double speed, double youngs_modulus) {
-  constexpr double slower = 0.25, faster = 4; // bounds where none are given, over the stage's own speed
+  constexpr double slower = 0.25, faster = 4; // default bounds, over the stage's own speed
   constexpr double loose = 1e-3;              // stress of a loose packing over the grains' modulus
   constexpr Range part = Range::between(1e-9, 1);
   std::optional<TableReader> table = stage.optional_table("quasi_static");
@@ -273,7 +273,7 @@ std::optional<QuasiStatic> read_quasi_static(TableReader& stage, double speed, d
   return q;
 }
 
-/// The name stands in file names, so it is a plain word.
+/// The name becomes part of file names, so it must be a plain word.
 void check_stage_name(const TableReader& table, const std::string& name) {
   const bool plain = std::all_of(name.begin(), name.end(), [](char c) {
     return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '-' || c == '_';

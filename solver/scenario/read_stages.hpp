@@ -10,7 +10,7 @@
 
 namespace mpfem {
 
-/// What stages refer to of the rest of the scenario.
+/// What stages need from the rest of the scenario.
 struct StageContext {
   double youngs_modulus = 0; ///< MPa, of the grains
   std::span<const ToolParameters> tools{};

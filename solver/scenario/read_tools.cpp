@@ -86,7 +86,7 @@ ToolShape read_stl_shape(TableReader& table) {
   stl.file = table.string("file");
   if (stl.file.empty() || stl.file.find('\0') != std::string::npos)
     table.fail("file", "found an empty or unusable path, expected an STL file");
-  stl.scale = table.number("scale", Range::between(1e-9, 1e9)); // no default: STL files do not tell their unit
+  stl.scale = table.number("scale", Range::between(1e-9, 1e9)); // no default: STL files do not state their unit
   stl.inside = read_inside(table, "outside");
   if (table.has("low_corner")) stl.low_corner = table.vector3("low_corner", any_length);
   return stl;
@@ -110,7 +110,7 @@ const std::vector<ShapeKeyword>& shape_keywords() {
   return keywords;
 }
 
-/// The name stands in names of datasets.
+/// The name becomes part of dataset names.
 void check_tool_name(const TableReader& table, const std::string& name) {
   constexpr std::size_t longest = 32;
   const bool plain = std::all_of(name.begin(), name.end(), [](char c) {
@@ -145,7 +145,7 @@ ToolParameters read_tool(TableReader& table) {
   return tool;
 }
 
-/// What one tool does; `is_punch`: of the container.
+/// Reads what one tool does; `is_punch`: it is a punch of the container.
 ToolDrive read_drive(TableReader table, std::size_t tool, const ToolShape& shape, bool is_punch) {
   ToolDrive drive{.tool = tool};
   const auto direction = direction_of(shape);

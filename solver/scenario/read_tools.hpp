@@ -14,7 +14,7 @@ namespace mpfem {
 std::vector<ToolParameters> read_tools(TableReader& root, const std::string& scenario_file);
 /// Reads the container; none where the scenario has none.
 std::optional<ContainerParameters> read_container(TableReader& root, std::span<const ToolParameters> tools);
-/// Index of the tool of this name, which stands under `key`.
+/// Index of the tool with this name, which is the value of `key`.
 std::size_t tool_named(const TableReader& table, std::string_view key, const std::string& name,
                        std::span<const ToolParameters> tools);
 /// Reads the table [drive] of a stage: one entry for each tool that moves.

@@ -20,7 +20,7 @@ namespace {
 
 constexpr double smallest_density_step = 0.001; // of checkpoints, whose names have three decimals
 
-/// Without table.finish(): the table may hold more.
+/// Does not call table.finish(): the table may hold more keys.
 MaterialParameters read_material(TableReader& table) {
   MaterialParameters material;
   material.density = table.number("density", positive_density);
@@ -37,7 +37,7 @@ std::vector<GrainMaterial> read_grain_materials(TableReader& root) {
     GrainMaterial other;
     for (const std::int64_t grain : table.integers("grains", Range::between(0, most_grains))) {
       if (!seen.insert(grain).second)
-        table.fail("grains", fmt::format("found {} twice, allowed one material a grain", grain));
+        table.fail("grains", fmt::format("found {} twice, allowed one material per grain", grain));
       other.grains.push_back(grain);
     }
     if (other.grains.empty()) table.fail("grains", "found no grain, expected at least one");
@@ -86,8 +86,8 @@ ContactParameters read_contact(TableReader& table, std::size_t materials) {
   return contact;
 }
 
-/// Of the elements that do not lock the one whose pressures are smooth and whose tets do not collapse; less error at
-/// equal time than plain tets but for E_p (docs/speed-against-error).
+/// Among the elements that do not lock, the one whose pressures are smooth and whose tets do not collapse. At equal
+/// time it has less error than plain tets, except in E_p (docs/speed-against-error).
 constexpr ElementType default_element = ElementType::tet4_anp;
 
 void read_element(TableReader table, NumericsParameters& numerics) {
@@ -131,7 +131,7 @@ OutputParameters read_output(TableReader table) {
   output.checkpoint_relative_densities = table.numbers_or("checkpoint_relative_densities", {}, target_density);
   auto& kept = output.checkpoint_relative_densities;
   std::sort(kept.begin(), kept.end());
-  // The density stands in the file's name.
+  // The density is part of the file's name.
   for (std::size_t i = 1; i < kept.size(); ++i)
     if (kept[i] - kept[i - 1] < smallest_density_step)
       table.fail("checkpoint_relative_densities", fmt::format("found {} and {}, expected steps of at least {}",
@@ -150,7 +150,7 @@ void read_initial(TableReader table, Scenario& scenario) {
   table.finish();
 }
 
-/// true, false, or a table where there are walls. A container takes their place.
+/// Reads 'walls': true, false, or a table if there are walls. A container takes their place.
 void read_walls(TableReader& root, Scenario& scenario) {
   const toml::node* value = root.value("walls");
   if (value == nullptr || !value->is_table()) {
@@ -182,7 +182,7 @@ void check_friction(const TableReader& contact, const Scenario& scenario) {
                                          *scenario.bond->stiffness_factor, scenario.contact.stiffness_factor));
 }
 
-/// The same of tools: their adhesion is read before the contact.
+/// The same for tools: their adhesion is read before the contact.
 void check_adhesion(const Scenario& scenario) {
   for (const ToolParameters& tool : scenario.tools) {
     if (!tool.adhesion || !tool.adhesion->stiffness_factor) continue;
@@ -216,7 +216,7 @@ std::string packing_path(TableReader& root, const std::string& scenario_file) {
 } // namespace
 
 double usual_own_pressure(ElementType element) {
-  // So little keeps the tets of a patch from collapsing into each other (studies/nodal-pressure).
+  // This small share keeps the tets of a patch from collapsing into each other (studies/nodal-pressure).
   return element == ElementType::tet4_patch ? 0.03 : 0.0;
 }
 

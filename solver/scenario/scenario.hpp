@@ -1,6 +1,6 @@
 #pragma once
-// A scenario as plain structs, units beside every field. Keywords and defaults of the TOML file stand in scenario.cpp
-// only.
+// A scenario as plain structs, units beside every field. Only scenario.cpp knows the keywords and defaults of the TOML
+// file.
 
 #include <algorithm>
 #include <array>
@@ -45,7 +45,7 @@ struct MaterialParameters {
   bool operator==(const MaterialParameters&) const = default;
 };
 
-/// Grains of another material than the others.
+/// Grains whose material differs from [material].
 struct GrainMaterial {
   std::vector<std::int64_t> grains; ///< numbers in the packing, from 0
   MaterialParameters material;
@@ -67,7 +67,7 @@ struct MaterialPair {
 
 struct ContactParameters {
   double stiffness_factor = 10;    ///< penalty K = factor * E / h, h the mean facet edge of the grain
-  std::optional<double> stiffness; ///< K itself, MPa/mm, where it is given instead (locally refined meshes)
+  std::optional<double> stiffness; ///< K itself, MPa/mm, if it is given instead (locally refined meshes)
   double friction = 0;             ///< Coulomb's mu between grains, where no pair of materials has its own
   std::vector<MaterialPair> pairs;
   double search_margin = 0.3; ///< candidates are kept for gaps up to this multiple of h
@@ -90,14 +90,14 @@ enum class ElementType {
 };
 /// Name of an element in scenarios and on the command line.
 const char* element_name(ElementType element);
-/// Share of each tet's own pressure with which an element is used where the scenario says nothing.
+/// Share of each tet's own pressure that an element uses if the scenario gives none.
 double usual_own_pressure(ElementType element);
 
-/// Numbers in which the element pass works.
+/// Number types of the element pass.
 enum class Precision {
   full,  ///< doubles
-  mixed, ///< floats for strains, stresses and histories of tets; doubles for all of nodes, contact, walls, time and
-         ///< energies' sums
+  mixed, ///< floats for strains, stresses and histories of tets; doubles for nodes, contact, walls, time and sums
+         ///< of energies
 };
 
 /// Name of a precision in scenarios and on the command line.
@@ -105,8 +105,8 @@ const char* precision_name(Precision precision);
 
 /// Whose largest frequency sets the stable step.
 enum class StepEstimateMethod {
-  grain, ///< that of each grain as a whole, found by iteration
-  tet,   ///< that of the worst tet by itself, a proven bound, some quarter shorter
+  grain, ///< each grain as a whole, found by iteration
+  tet,   ///< the worst tet by itself: a proven bound, with a step about a quarter shorter
 };
 
 struct NumericsParameters {
@@ -126,7 +126,7 @@ struct OutputParameters {
   int history_rows = 200;                          ///< rows per stage
   std::vector<double> snapshot_relative_densities; ///< a snapshot when the density first passes each of these
   bool snapshot_at_stage_end = true;
-  std::vector<double> checkpoint_relative_densities; ///< a checkpoint that stays when the density first passes each
+  std::vector<double> checkpoint_relative_densities; ///< a lasting checkpoint when the density first passes each
   double checkpoint_interval = 60;                   ///< s of wall-clock time between rolling checkpoints
 };
 
@@ -138,7 +138,7 @@ struct Scenario {
   std::optional<ContainerParameters> container; ///< none: relative density and stresses are those of the box
   std::array<double, 3> gravity{};              ///< mm/s^2
   MaterialParameters material;                  ///< of all grains but those of grain_materials
-  std::vector<GrainMaterial> grain_materials;   ///< no grain stands in two of them
+  std::vector<GrainMaterial> grain_materials;   ///< no grain is in two of them
   ContactParameters contact;
   std::optional<BondParameters> bond; ///< none: grains do not stick
   NumericsParameters numerics;
@@ -150,7 +150,7 @@ struct Scenario {
   KeyPlaces bond_places; ///< of the keys of [bond]
   std::string text;      ///< the TOML text, with values set on the command line
 
-  /// Between grains, at walls or at tools.
+  /// Whether there is friction between grains, at walls or at tools.
   bool has_friction() const;
   bool has_gravity() const { return gravity != std::array<double, 3>{}; }
 };

@@ -1,6 +1,6 @@
 #pragma once
-// Stages of a scenario as plain structs, one for each type. Keywords and defaults of the TOML file stand in
-// read_stages.cpp only.
+// Stages of a scenario as plain structs, one for each type. Only read_stages.cpp knows the keywords and defaults of the
+// TOML file.
 
 #include <array>
 #include <cstdint>
@@ -14,7 +14,7 @@
 
 namespace mpfem {
 
-/// All six walls move inwards until the packing has a relative density; smooth start and end.
+/// All six walls move inwards until the packing has reached a relative density; smooth start and end.
 struct IsotropicCompaction {
   double relative_density = 0; ///< target, reference grain volume over box volume
   double wall_speed = 0;       ///< plateau speed of every wall, mm/s
@@ -35,7 +35,7 @@ struct IsotropicUnloading {
   double ramp_fraction = 0.1; ///< smooth start, as a fraction of the time in which the box would grow by 3 % in length
 };
 
-/// All six walls together, up and down between two mean stresses.
+/// All six walls move together, up and down between two mean stresses.
 struct StressCycles {
   double lowest_mean_stress = 0;  ///< MPa
   double highest_mean_stress = 0; ///< MPa
@@ -103,7 +103,7 @@ struct Rest {
 /// The nodes near two opposite faces of the box are gripped and moved along the box's axis. Walls take no part.
 struct GripMotion {
   int axis = 2;                    ///< 0 x, 1 y, 2 z
-  double depth = 0;                ///< mm: nodes so near to a face of the box when the stage begins
+  double depth = 0;                ///< mm: nodes this close to a face of the box when the stage begins are gripped
   bool lateral_fixed = true;       ///< gripped nodes do not move across the axis
   double displacement = 0;         ///< mm, change of the distance between both grips; positive apart
   std::array<double, 3> sliding{}; ///< mm, of the high grip against the low one, across the axis
@@ -118,13 +118,13 @@ struct ToolEnds {
   std::optional<double> travel{};            ///< mm, of the fastest tool driven at a velocity, since the stage began
   std::optional<double> force{};             ///< N, push of the watched tool along its direction
   std::optional<double> force_drop{};        ///< fall of that push below its peak, over the peak
-  double smallest_peak = 0;                  ///< N, of a peak that counts
+  double smallest_peak = 0;                  ///< N, the smallest peak that counts
   std::optional<double> duration{};          ///< s
   std::size_t watched = 0;                   ///< the tool of `force` and `force_drop`
   std::array<double, 3> watched_direction{}; ///< unit vector along which the push of that tool is taken
 };
 
-/// Rigid tools move, hold a force, or are away. Walls of the box, where there are any, are at rest.
+/// Rigid tools move, hold a force, or are away. Walls of the box, if there are any, are at rest.
 struct ToolLoading {
   std::vector<ToolDrive> drives; ///< of the tools that move; the others are at rest
   std::vector<std::size_t> away; ///< tools that touch nothing while the stage lasts
@@ -147,7 +147,7 @@ struct DampingParameters {
   double fade_stress = 0; ///< MPa
 };
 
-/// Tolerances of quasi-static loading, between whose bounds a stage chooses its speed (solver/run/loading_rate.hpp).
+/// Tolerances and bounds within which a quasi-static stage chooses its speed (solver/run/loading_rate.hpp).
 struct QuasiStatic {
   double kinetic_tolerance = 0.01; ///< kinetic energy over internal energy gained in the stage or stored at its start
   double stress_tolerance = 0.02;  ///< the part of the wall stresses that inertia balances, over the largest of them
@@ -164,9 +164,9 @@ struct Stage {
   KeyPlaces places; ///< of its keys in the scenario
 };
 
-/// mm/s of each driven wall or grip, where the stage keeps its speed; 0 where none is driven.
+/// mm/s of each driven wall or grip, if the stage keeps its speed; 0 if none is driven.
 double driven_speed(const StageType& type);
-/// mm/s, the largest of walls that are held at a stress; none where none is held.
+/// mm/s, largest speed of walls that are held at a stress; none if no wall is held.
 std::optional<double> servo_speed(const StageType& type);
 /// What ends a loading; null for stages that are no loadings.
 const LoadingEnds* loading_ends(const StageType& type);

@@ -1,6 +1,6 @@
 #pragma once
-// Rigid tools of a scenario as plain structs: [[tools]] and [container]. Keywords and defaults of the TOML file stand
-// in read_tools.cpp only.
+// Rigid tools of a scenario as plain structs: [[tools]] and [container]. Only read_tools.cpp knows the keywords and
+// defaults of the TOML file.
 
 #include <array>
 #include <cstddef>
@@ -53,9 +53,9 @@ struct ConeShape {
 /// A closed surface of triangles.
 struct StlShape {
   std::string file;                                  ///< relative to the scenario's folder
-  double scale = 1;                                  ///< mm in the file's unit of length
+  double scale = 1;                                  ///< mm per unit of length of the file
   bool inside = false;                               ///< grains are inside
-  std::optional<std::array<double, 3>> low_corner{}; ///< mm, where the box that bounds it begins; none: as in the file
+  std::optional<std::array<double, 3>> low_corner{}; ///< mm, low corner of its bounding box; none: as in the file
   bool operator==(const StlShape&) const = default;
 };
 
@@ -79,11 +79,11 @@ struct ContainerParameters {
 /// Name of a shape in scenarios: plane, cylinder, sphere, cone, stl.
 const char* shape_name(const ToolShape& shape);
 
-/// Unit direction in which a tool pushes and is pushed: the normal of a plane, the axis of a cylinder or cone; none of
+/// Unit direction in which a tool pushes and is pushed: the normal of a plane, the axis of a cylinder or cone; none for
 /// a sphere or a surface of triangles.
 std::optional<std::array<double, 3>> direction_of(const ToolShape& shape);
 
-/// What one tool does in a stage: it moves at a velocity, or holds its push along a direction: a force or, of a punch
+/// What one tool does in a stage: it moves at a velocity, or holds its push along a direction: a force or, for a punch
 /// of the container, a stress.
 struct ToolDrive {
   std::size_t tool = 0;              ///< index into the scenario's tools

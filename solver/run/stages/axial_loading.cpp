@@ -12,9 +12,9 @@ namespace mpfem {
 
 namespace {
 
-/// Strain in which a loading is expected to end where its ends do not tell.
+/// Strain at which a loading is expected to end if its ends do not tell.
 constexpr double expected_strain = 0.05;
-/// Strain and density are met when they are so near: walls arrive but for rounding.
+/// Strain and density count as reached when they are this near: walls arrive up to rounding.
 constexpr double arrived = 1e-9;
 
 } // namespace

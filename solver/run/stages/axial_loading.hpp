@@ -28,7 +28,7 @@ private:
   struct State {
     double sign = 1;    ///< 1: the walls move inwards, -1 outwards
     double watched = 0; ///< MPa, the watched stress, averaged over a transit
-    double peak = 0;    ///< MPa, of it
+    double peak = 0;    ///< MPa, of `watched`
   };
   template <class Self, class Visitor>
   static void for_each_field(Self& s, Visitor&& visit) {

@@ -55,7 +55,7 @@ void HeldStressControl::drive(const ObservedSample& seen) {
 /// A hold must arrive at its stress.
 void HeldStressControl::check_end(const ObservedSample& seen) const {
   constexpr double tolerance = 0.1; // of the stress
-  // The mean over the last transit began at nothing.
+  // The running mean over a transit started at zero.
   const double weight = 1 - std::exp(-seen.time / wave_transit(start_.sample, start_.cell));
   double missed = 0;
   for (const ServoState& axis : axes_)
@@ -98,9 +98,9 @@ void StressProbeControl::begin(const ObservedSample& /*seen*/) {
 }
 
 void StressProbeControl::drive(const ObservedSample& seen) {
-  /// The path slows down where stresses are off it by more than this part of the largest.
+  /// The path slows down when stresses are off it by more than this fraction of the largest.
   constexpr double path_tolerance = 0.005;
-  /// The slowest that it becomes, over the rate at which it begins.
+  /// The slowest rate of the path over its initial rate.
   constexpr double slowest_path = 0.2;
   path_.change += path_.rate * seen.step;
   double fastest = 0, off = 0;

@@ -6,13 +6,13 @@
 
 namespace mpfem {
 
-/// A value between that at the start and a given one, changed smoothly within `ramp` s.
+/// A value that changes smoothly from that at the start to a given one within `ramp` s.
 double ramped(double time, double ramp, double start, double given);
 
-/// The result with how well stresses were held.
+/// Adds to the result how well stresses were held.
 StageResult with_hold_quality(StageResult result, const HoldQuality& quality);
 
-/// What stages share in which all three axes are held.
+/// Base of the stages in which all three axes are held.
 class HeldWalls : public WallLoading {
 public:
   StageResult result(const StageObservation& last) const override;

@@ -7,7 +7,7 @@ namespace mpfem {
 
 class IsotropicCompactionControl final : public TimedStage {
 public:
-  /// Throws InputError where the packing is as dense already.
+  /// Throws InputError if the packing is already that dense.
   IsotropicCompactionControl(const IsotropicCompaction& stage, const StageLabel& label, const StageStart& start);
   static constexpr const char* description = "all walls inwards, to a relative density";
   std::string describe() const override { return description; }

@@ -30,7 +30,7 @@ void IsotropicDrive::drive_to(const ObservedSample& seen, double leg_start, doub
 IsotropicLoadingControl::IsotropicLoadingControl(const IsotropicLoading& stage, const StageLabel& label,
                                                  const StageStart& start)
     : IsotropicDrive(label, start, {.mean_stress = stage.mean_stress}, stage.wall_speed) {
-  // Where the stress will be reached is not known; powders have been pressed to this density then.
+  // The density at which the stress is reached is not known; powders are pressed to this one by then.
   constexpr double pressed_density = 0.9;
   const double scale = std::min(1 - expected_isotropic_strain,
                                 std::cbrt(start.sample.solid_volume / start.cell.volume() / pressed_density));
@@ -92,7 +92,7 @@ void StressCyclesControl::drive(const ObservedSample& seen) {
     ++cycles_.legs;
     cycles_.leg_start = p;
   }
-  // Where the stage before ended beyond the range is no overshoot of this one.
+  // If the stage before ended beyond the range, that is no overshoot of this stage.
   constexpr double well_within = 0.5;
   if (p < high - well_within * range && p > low) cycles_.inside = true;
   if (cycles_.inside) cycles_.overshoot = std::max({cycles_.overshoot, p - high, cycles_.legs >= 2 ? low - p : 0.0});

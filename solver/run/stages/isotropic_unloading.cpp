@@ -23,8 +23,8 @@ IsotropicUnloadingControl::IsotropicUnloadingControl(const IsotropicUnloading& s
     : stage_(stage), name_(label.name), start_cell_(start.cell), start_stress_(start.mean_stress),
       expected_duration_(0.5 * start.cell.longest() * expected_isotropic_strain / stage.wall_speed),
       mean_stress_(start.mean_stress),
-      // Where there is nothing to unload the walls do not move, so that a stress that rises a little would never be
-      // met.
+      // If there is nothing to unload, the walls do not move, and a stress that rises a little would never come down to
+      // its target.
       ended_(!(start.mean_stress > stage.mean_stress)) {}
 
 void IsotropicUnloadingControl::observe(const StageObservation& seen) {
@@ -44,7 +44,7 @@ double IsotropicUnloadingControl::speed(double time) const {
   if (!(change > 0)) return 0; // nothing to unload
   const double ramp = stage_.ramp_fraction * expected_duration_;
   const double s = ramp > 0 ? std::min(time / ramp, 1.0) : 1.0;
-  // The walls leave the last fifth of the stress ever more slowly, so that the packing is nearly at rest at the end.
+  // The walls cover the last fifth of the stress ever more slowly, so that the packing is nearly at rest at the end.
   const double left = (mean_stress_ - stage_.mean_stress) / change;
   return stage_.wall_speed * (3 - 2 * s) * s * s *
          std::clamp(5 * left, slowest_unloading(stage_.mean_stress, start_stress_), 1.0);

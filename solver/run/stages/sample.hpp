@@ -6,9 +6,9 @@
 
 namespace mpfem {
 
-/// A compact's modulus over that of its grains, as stages take it beforehand. Compacts of the powders of Table 1 lie
-/// between 0.05 (barely jammed) and 0.5. Held walls follow softer ones a little less well damped, stiffer ones a little
-/// more slowly.
+/// A compact's modulus over that of its grains, as stages assume it beforehand. Compacts of the powders of Table 1 lie
+/// between 0.05 (barely jammed) and 0.5. Held walls follow softer compacts with a little less damping, stiffer ones a
+/// little more slowly.
 inline constexpr double compact_modulus = 0.1;
 
 struct Sample {

@@ -40,7 +40,7 @@ struct StageStart {
   Sample sample{};
 };
 
-/// What messages about a stage say of it.
+/// How messages name a stage.
 struct StageLabel {
   std::string name;
   KeyPlaces places{}; ///< of its keys in the scenario
@@ -57,9 +57,9 @@ public:
   // ---- plan
   /// What the stage does, for the plan: "all walls inwards, to a relative density".
   virtual std::string describe() const = 0;
-  /// s by the stage's clock; infinite where something else than time ends the stage.
+  /// s by the stage's clock; infinite if something other than time ends the stage.
   virtual double duration() const { return std::numeric_limits<double>::infinity(); }
-  /// s in which the stage is expected to end; the duration where that is known.
+  /// s in which the stage is expected to end; the duration if that is known.
   virtual double expected_duration() const = 0;
   /// Changes the cell to what is expected of it when the stage ends.
   virtual void expect_end(Cell& cell) const = 0;
@@ -69,7 +69,7 @@ public:
   // ---- run
   /// Whether an observation at this step number needs the dissipation by damage, for which all bonds are visited.
   virtual bool needs_damage(std::int64_t /*step*/) const { return false; }
-  /// Takes in the present time level. Throws SimulationError where the stage's end cannot be reached.
+  /// Takes in the present time level. Throws SimulationError if the stage's end cannot be reached.
   virtual void observe(const StageObservation& seen) = 0;
   /// Changes the cell by one step of `step` s, `clock_step` s by the stage's clock, to the stage's time `time`.
   virtual void move(Cell& cell, double time, double clock_step, double step) const = 0;
@@ -83,7 +83,7 @@ public:
   virtual double fraction_done(double time, double mean_stress) const = 0;
 
   // ---- end
-  /// What the stage came to, at its last observation. The name is the caller's.
+  /// The outcome of the stage at its last observation. The caller fills in the name.
   virtual StageResult result(const StageObservation& last) const = 0;
 
   // ---- checkpoints
@@ -102,11 +102,11 @@ double slowest_unloading(double target, double start);
 /// a little stress for long.
 double unloading_tolerance(double target, double change);
 
-/// Part of a target by which a stage may begin beyond it: the stage before has arrived there.
+/// Fraction of a target by which a stage may begin beyond it: the stage before ended there.
 inline constexpr double already_there = 0.01;
-/// Part of the wall speed with which a target is met.
+/// Fraction of the wall speed at which a target is reached.
 inline constexpr double slowest_approach = 0.05;
-/// Change of the cell's lengths, as a part of them, in which an isotropic change of stress is expected to end.
+/// Relative change of the cell's lengths at which an isotropic change of stress is expected to end.
 inline constexpr double expected_isotropic_strain = 0.03;
 
 } // namespace mpfem

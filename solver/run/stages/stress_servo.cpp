@@ -13,7 +13,7 @@ constexpr double servo_admittance = 8.0;
 /// The free mass of a held wall over that of the packing behind it. On a packing of the assumed modulus the damping
 /// ratio is servo_admittance sqrt(servo_mass / 2) = 1.3, on one a tenth as stiff 0.4.
 constexpr double servo_mass = 0.05;
-/// tau over the transit time, and over the time step: the waves of single elements are not answered.
+/// tau over the transit time, and over the time step: the servo does not respond to waves of single elements.
 constexpr double servo_delay = 0.02, servo_delay_steps = 20;
 
 } // namespace
@@ -41,7 +41,7 @@ double StressServo::hold(ServoState& s, HoldQuality& quality, const ObservedSamp
   const double delay = std::max({servo_delay * transit_, servo_delay_steps * seen.step, gain_ * spring});
   const double slow_gain = spring > 0 ? std::min(slow_gain_, 0.5 / spring) : slow_gain_;
   s.fast += (gain_ * error - s.fast) * seen.step / (delay + seen.step);
-  // At its limit the wall cannot do more; what it has not done is not to be made up for later.
+  // At its limit the wall cannot do more; what it has missed must not be made up for later.
   const double before = s.fast + s.slow;
   if (std::abs(before) < limit || before * error < 0)
     s.slow = std::clamp(s.slow + slow_gain * error * seen.step, -limit, limit);

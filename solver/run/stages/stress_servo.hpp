@@ -4,10 +4,10 @@
 // With e = wanted - measured stress of an axis (mean of its two walls), both walls move inwards at
 //   u = f + s,   tau df/dt = P e - f,   ds/dt = I e,
 // bounded by the servo speed. From force to velocity this is two masses side by side, one (1/I an area) free, the other
-// (tau/P) behind a dashpot: a passive machine. Whatever is passive itself, as a packing is, cannot be made to oscillate
-// by it, however stiff or soft it is and however long its waves take, so no stiffness has to be known. P, I and tau
-// only decide how fast and how well damped the walls follow. They are set by the packing's own impedance (P: a wall
-// that is much easier to move than the packing), mass (I) and transit time (tau); see docs/numerics.md.
+// (tau/P) behind a dashpot: a passive machine. It cannot make another passive system, such as a packing, oscillate,
+// however stiff or soft that is and however long its waves take, so no stiffness has to be known. P, I and tau only
+// decide how fast and how well damped the walls follow. They are set by the packing's own impedance (P: a wall that is
+// much easier to move than the packing), mass (I) and transit time (tau); see docs/numerics.md.
 
 #include <array>
 
@@ -30,7 +30,7 @@ struct HoldQuality {
   double largest_error = 0;  ///< MPa, largest magnitude of a servo's error so far
   double largest_stress = 0; ///< MPa, largest wanted stress so far
   double square = 0;         ///< MPa^2 s, integral of the square of wanted less measured stress
-  double time = 0;           ///< s, likewise of 1
+  double time = 0;           ///< s, integral of 1, likewise
   template <class Self, class Visitor>
   static void for_each_field(Self& s, Visitor&& visit) {
     visit("hold.largest_error", s.largest_error), visit("hold.largest_stress", s.largest_stress);

@@ -12,14 +12,14 @@ namespace mpfem {
 
 namespace {
 
-/// Part of the cell's length along z over which a stage is expected to last where its ends do not tell.
+/// Part of the cell's length along z over which a stage is expected to last if its ends do not tell.
 constexpr double expected_strain = 0.05;
-/// Travel and density are met when they are so near: tools arrive but for rounding.
+/// Travel and density count as reached when they are this near: tools arrive up to rounding.
 constexpr double arrived = 1e-9;
-/// No stage may last longer, over what is expected.
+/// No stage may last longer than this many times the expected time.
 constexpr double longest_time = 50;
 
-/// N, by which a tool pushes the grains along a unit direction: the grains' force on it, backwards.
+/// N, push of a tool on the grains along a unit direction: the reverse of the grains' force on it.
 double push_along(const std::array<double, 3>& direction, const ToolLoad& load) {
   return -(load.force.x * direction[0] + load.force.y * direction[1] + load.force.z * direction[2]);
 }
@@ -173,7 +173,7 @@ void ToolLoadingControl::move(Cell& cell, double /*time*/, double /*clock_step*/
     const double shift = velocity_of(parts.wall, axis) * step;
     cell.low[axis] += shift, cell.high[axis] += shift;
   }
-  // Where one punch is away, the cell keeps its height and goes with the other.
+  // If one punch is away, the cell keeps its height and moves with the other.
   const std::size_t lower = is_away(parts.lower) ? parts.upper : parts.lower;
   const std::size_t upper = is_away(parts.upper) ? parts.lower : parts.upper;
   if (is_away(lower)) return;

@@ -55,8 +55,8 @@ private:
     double start_stress = 0; ///< MPa, axial
     double start_push = 0;   ///< N, of the watched tool
     double start_density = 0;
-    double watched = 0; ///< N, that push, averaged over a transit
-    double peak = 0;    ///< N, of it
+    double watched = 0; ///< N, push of the watched tool, averaged over a transit
+    double peak = 0;    ///< N, of `watched`
 
     template <class Self, class Visitor>
     static void for_each_field(Self& s, Visitor&& visit) {

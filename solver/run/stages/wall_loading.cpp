@@ -11,7 +11,7 @@ namespace mpfem {
 
 namespace {
 
-/// No axis may strain further, and no loading last longer (over what is expected).
+/// No axis may strain further, and no loading last longer (as a multiple of the expected time).
 constexpr double largest_strain = 0.5, longest_time = 50;
 constexpr std::int64_t steps_between_damages = 20; // all bonds are visited
 
@@ -73,7 +73,7 @@ void WallLoading::observe(const StageObservation& observation) {
 void WallLoading::refuse_end_behind(const ObservedSample& seen) const {
   const auto refuse = [&](LoadingEnd end, const char* key, const std::optional<double>& target, double now,
                           const char* unit) {
-    // What has been reached by the stage before, but for what its last steps add, may end the stage at once.
+    // A target that the stage before has reached, up to what its last steps add, may end the stage at once.
     if (state_.ended_by != end || std::abs(now - *target) <= already_there * std::max(std::abs(*target), std::abs(now)))
       return;
     throw SimulationError(fmt::format("stage '{}': key '{}': found {:g}{}, but it begins at {:.4g}{}, beyond that end",
@@ -153,7 +153,7 @@ std::string WallLoading::end_text() const {
     return fmt::format("duration {:g} s", *ends_.duration);
   case LoadingEnd::stress_drop:
   case LoadingEnd::cycles:
-    break; // said by the paths that end so
+    break; // the paths that end so have their own text
   }
   return {};
 }

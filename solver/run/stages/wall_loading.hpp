@@ -1,5 +1,5 @@
 #pragma once
-// What stages share whose walls are driven or held until something happens.
+// Base of the stages whose walls are driven or held until something happens.
 
 #include <array>
 #include <string>
@@ -33,7 +33,7 @@ struct LoadingState {
   std::array<double, 3> start_force{};  ///< N
   double start_mean_stress = 0;         ///< MPa
   double start_dissipation = 0;         ///< mJ
-  double dissipation = 0;               ///< mJ, plastic and damage; of the damage what was last observed
+  double dissipation = 0;               ///< mJ, plastic and damage; the damage as last observed
   double damage_dissipation = 0;        ///< mJ, when it was last observed
 
   template <class Self, class Visitor>
@@ -63,21 +63,21 @@ public:
 protected:
   WallLoading(const StageLabel& label, const StageStart& start, const LoadingEnds& ends);
 
-  /// First observation. Throws SimulationError where the end cannot be reached from there.
+  /// First observation. Throws SimulationError if the end cannot be reached from there.
   virtual void begin(const ObservedSample& /*seen*/) {}
   /// Sets state_.speed.
   virtual void drive(const ObservedSample& seen) = 0;
   virtual LoadingEnd find_end(const ObservedSample& seen) const = 0;
   virtual double find_fraction_done(const ObservedSample& seen) const;
-  /// Throws SimulationError where the stage ends otherwise than it was asked to.
+  /// Throws SimulationError if the stage does not end as requested.
   virtual void check_end(const ObservedSample& /*seen*/) const {}
-  /// Throws SimulationError where the packing went far without reaching the end.
+  /// Throws SimulationError if the packing went far without reaching the end.
   virtual void check_limits(const ObservedSample& seen) const;
   virtual std::string end_text() const;
   /// MPa by which a turning point was passed, for ends that are no stress.
   virtual double overshoot() const { return 0; }
 
-  /// Throws SimulationError where the stage takes far longer than expected.
+  /// Throws SimulationError if the stage takes far longer than expected.
   void check_time(const ObservedSample& seen) const;
   /// The ends that all paths share: dissipation and time.
   LoadingEnd common_end(const ObservedSample& seen) const;
@@ -110,7 +110,7 @@ struct DrivenSpeed {
   double approach(double wanted, double full_speed, double ramp, double step);
 };
 
-/// Part of the wall speed where a part `left` of a change of stress is to come: the last fifth takes ever longer.
+/// Fraction of the wall speed while a fraction `left` of a stress change remains: the last fifth takes ever longer.
 double slowed_near_target(double left);
 
 } // namespace mpfem
