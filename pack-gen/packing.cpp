@@ -44,7 +44,7 @@ public:
       if (growth_ >= 1) return true;
       if (sweep % block == 0) {
         report(growth_);
-        // Stops when even a thousand times the growth of the last blocks would not be enough.
+        // Stops when even 200 times the growth of the last eight blocks would not be enough.
         if (sweep % (8 * block) == 0 && sweep > 0) {
           if ((growth_ - growth_before) * 200 < 1 - growth_) return false;
           growth_before = growth_;

@@ -12,7 +12,7 @@ namespace mpfem {
 
 namespace {
 
-// In larger boxes, or with smaller spheres, volumes overflow or underflow.
+// Far within this range no volume overflows or underflows.
 constexpr Range length = Range::between(1e-12, 1e9); // mm
 
 /// Sizes, and for a table their cumulative fractions, from the keys themselves or from a CSV file.

@@ -27,7 +27,7 @@ struct ContactSums {
 };
 
 /// Evaluates the contact points of a grain's own nodes and adds their forces to model.force. Throws SimulationError,
-/// naming the pair, where a node is deeper than the search margin.
+/// naming the pair, if a node is deeper than 0.9 of the search margin.
 ContactSums contact_forces(Model& model, Contact& contact, int grain);
 
 /// Adds to model.force the reactions on the grain's facets.

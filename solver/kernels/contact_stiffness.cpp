@@ -45,7 +45,7 @@ double raised_by_bonds(const Contact& contact, double penalty) {
   return largest;
 }
 
-/// A node of a grain that is r times as coarse adds r^2/(1 + r) times what a node of an equal grain adds (the harmonic
+/// A node of a grain that is r times as coarse adds r^2/(1 + r) times the rate expected of an equal grain (the harmonic
 /// mean of both penalties, r^2 times the area). Below r = 1.5 that is less.
 void raise_near_coarser_grains(const Model& model, const Contact& contact, int grain, std::span<double> rate) {
   constexpr double coarser = 1.5;

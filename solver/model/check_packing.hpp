@@ -11,8 +11,8 @@ namespace mpfem {
 /// Checks array sizes and node numbers; refuses tetrahedra that are inverted or degenerate and coordinates not finite.
 void check_packing(const MeshedPacking& packing, const std::string& name);
 
-/// If tets are in single precision, their edges must be 1e-4 … 1e4 mm long: eighth powers of lengths (the step
-/// estimate) and inverse sixth powers must fit into floats. Checks `grains`.
+/// If tets are in single precision, they must be 1e-4 … 1e4 mm large (the longest edge at their first corner): eighth
+/// powers of lengths (the step estimate) and inverse sixth powers must fit into floats. Checks `grains`.
 void refuse_sizes_beyond_floats(const MeshedPacking& packing, std::span<const std::int32_t> grains,
                                 const std::string& name);
 

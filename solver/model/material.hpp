@@ -26,7 +26,7 @@ Material make_material(const MaterialParameters& parameters, double mass_scaling
 /// Coulomb's mu of every pair of `materials` (their number).
 PairFriction friction_of_pairs(const ContactParameters& contact, std::size_t materials);
 
-/// The law of bonds to form. Its stiffness is unset: it is that of the point.
+/// The law of bonds to form. Unless the scenario gives a stiffness, it is unset: a point uses its contact's penalty.
 BondLaw law_of_bonds(const BondParameters& parameters, const ContactParameters& contact);
 
 } // namespace mpfem

@@ -208,8 +208,8 @@ void divide(MeshedPacking& packing, const Communicator& ranks);
 void scale_masses(Model& model, double step, bool lighten, const Communicator& ranks = Communicator());
 
 /// Builds the model: surfaces found, nodes and tets renumbered for locality, masses lumped. `name` stands for the file
-/// in messages. Collective. Throws InputError: inverted or degenerate tetrahedron, nodes out of range, open surface,
-/// node outside the box.
+/// in messages. Collective. Throws InputError: inverted or degenerate tetrahedron, nodes out of range, open surface.
+/// Nodes outside the box are refused later (initial_state.hpp).
 Model build_model(const MeshedPacking& packing, const Scenario& scenario, const std::string& name,
                   const Communicator& ranks = Communicator());
 

@@ -79,7 +79,7 @@ MeasuredTimes measure(Simulation& simulation) {
   int steps = 0;
   const auto start = Profile::Clock::now();
   try {
-    const auto enough = [&] { // as the slowest rank has it
+    const auto enough = [&] { // as soon as one rank has them: all stop at the same step
       return simulation.ranks().largest(steps >= 20 && Profile::since(start) >= 0.5 ? 1 : 0) > 0;
     };
     for (; steps < 200 && !enough() && !simulation.stage_complete(); ++steps) {

@@ -23,7 +23,7 @@ constexpr double slow_end_of_unloading = 1.3;
 /// 0.56 (unconfined compression, 25 grains).
 constexpr double way_to_stress_drop = 0.5;
 
-/// How much longer a stage takes than its control expects.
+/// The time that a stage takes, over the time that its control expects.
 double time_factor(const StageType& type) {
   if (std::holds_alternative<IsotropicUnloading>(type)) return slow_end_of_unloading;
   const LoadingEnds* ends = loading_ends(type);
@@ -64,7 +64,8 @@ void check_steps(const Scenario& scenario, std::int64_t first_stage, const std::
   }
 }
 
-/// Rows of the history stay in memory until the run ends, and once more while they are written.
+/// Rows of the history stay in memory until the run ends: in a vector that may have room for twice as many, and once
+/// more while they are written.
 void check_history(const Scenario& scenario, std::int64_t first_stage) {
   constexpr double copies = 3, largest_part = 0.5; // of the machine's memory
   const double stages = static_cast<double>(scenario.stages.size()) - static_cast<double>(first_stage);

@@ -1,5 +1,5 @@
 #pragma once
-// A scenario as plain structs, units beside every field. Only scenario.cpp knows the keywords and defaults of the TOML
+// A scenario as plain structs, units beside every field. Only scenario.cpp and read_*.cpp know the keywords of the TOML
 // file.
 
 #include <algorithm>

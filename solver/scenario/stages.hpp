@@ -1,6 +1,5 @@
 #pragma once
-// Stages of a scenario as plain structs, one for each type. Only read_stages.cpp knows the keywords and defaults of the
-// TOML file.
+// Stages of a scenario as plain structs, one for each type. Only read_stages.cpp knows the keywords of the TOML file.
 
 #include <array>
 #include <cstdint>

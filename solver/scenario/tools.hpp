@@ -1,6 +1,6 @@
 #pragma once
-// Rigid tools of a scenario as plain structs: [[tools]] and [container]. Only read_tools.cpp knows the keywords and
-// defaults of the TOML file.
+// Rigid tools of a scenario as plain structs: [[tools]] and [container]. Only read_tools.cpp knows the keywords of the
+// TOML file.
 
 #include <array>
 #include <cstddef>
