@@ -206,7 +206,6 @@ void renew_candidates(const Model& model, const SearchRange& range, ThreadTeam& 
   contact.point_open_until.assign(points, -1.0);
   contact.point_facet_until.assign(points, -1.0);
   make_room_for_forces(contact);
-  if (contact.travel.empty()) contact.travel.assign(static_cast<std::size_t>(model.grains), 0.0);
   contact.travel_at_search = contact.travel;
 }
 

@@ -91,6 +91,37 @@ run 1 1 loadings asked --resume
 alike loadings-alone asked
 echo "what ends one rank ends all, and the run goes on"
 
+# Grains that find new owners while the run goes on leave no trace.
+mpfem 1 run loadings.toml -o undivided.h5 --threads 1 --quiet # a checkpoint every 0.05 s
+mpfem 3 run loadings.toml -o divided.h5 --threads 1 2>log || { cat log >&2; fail "no run with new owners"; }
+grep -q 'grains are divided anew' log || fail "three ranks with eleven grains keep their unequal shares"
+alike undivided divided
+echo "grains find new owners"
+
+# What one rank alone sees go wrong ends all ranks with the message of one process.
+# goes_wrong TEXT OPTIONS...: leaves wrong-RANKS.h5.
+goes_wrong() {
+  local ranks
+  for ranks in 1 2 3; do
+    ends 3 run "$ranks" 1 loadings "wrong-$ranks" "${@:2}"
+    grep -a '^mpfem: error: ' log | sed 's/wrong-.//g' >"message-$ranks"
+    grep -q "$1" "message-$ranks" || { cat log >&2; fail "another message than '$1'"; }
+    cmp "message-1" "message-$ranks" || fail "$ranks ranks have another message"
+    [[ -s wrong-$ranks.h5 ]] || fail "the failed state of $ranks ranks is not saved"
+  done
+}
+goes_wrong 'behind a wall' --set contact.stiffness_factor=0.05 --set bond.fracture_energy=5 \
+  --set stages.0.wall_speed=1e5
+for ranks in 2 3; do "$compare" wrong-1.h5 "wrong-$ranks.h5" || fail "$ranks ranks save another state"; done
+rm -rf wrong-*
+# Contact that fails stops half-way, at another place with other ranks: the message alone is the same.
+goes_wrong 'inside grain' --set material.youngs_modulus=50 --set material.hardening.yield_stress=0.25 \
+  --set material.hardening.coefficient=1 --set contact.stiffness_factor=1000 --set stages.0.wall_speed=1e5
+rm -rf wrong-*
+goes_wrong 'energy balance' --set numerics.time_step_factor=2
+for ranks in 2 3; do "$compare" wrong-1.h5 "wrong-$ranks.h5" || fail "$ranks ranks save another state"; done
+echo "what goes wrong on one rank ends all alike"
+
 # Mistakes are told once.
 ends 2 run 2 1 loadings bad --set stages.0.wall_speed=-1
 ends 2 mpfem 2 run missing.toml -o bad.h5
