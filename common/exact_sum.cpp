@@ -62,7 +62,7 @@ double ExactSum::value() const {
     for (std::size_t i = 0; i < digits; ++i) digit[i] = -word_[i];
     carried = carry(digit);
   }
-  if (carried != 0) return sign * std::numeric_limits<double>::infinity();
+  if (carried != 0) return std::numeric_limits<double>::quiet_NaN();
   std::size_t top = digits;
   while (top > 0 && digit[top - 1] == 0) --top;
   if (top == 0) return 0;

@@ -14,7 +14,7 @@ class ExactSum {
 public:
   /// A term above 2^244 (3e73) or not finite makes the sum NaN.
   void add(double term);
-  /// The double nearest to the sum.
+  /// The double nearest to the sum; NaN beyond 2^256.
   double value() const;
 
   /// Two sums are added by adding their words.

@@ -66,6 +66,23 @@ TEST_CASE("An exact sum does not depend on the order of its terms nor on who add
   }
 }
 
+TEST_CASE("An exact sum of 400,000 terms is the sum of a series that is known") {
+  for (const double sign : {1.0, -1.0}) {
+    ExactSum sum;
+    double weights = 0;
+    for (int weight = 1; weight <= 1000; ++weight) {
+      weights += weight;
+      for (int i = 0; i < 200; ++i) { // 2^-i - 2^-(i + 1) leaves 1 - 2^-200
+        sum.add(sign * weight * std::ldexp(1, -i));
+        sum.add(-sign * weight * std::ldexp(1, -i - 1));
+      }
+    }
+    CHECK(sum.value() == sign * weights);
+    sum.add(-sign * weights);
+    CHECK(sum.value() == -sign * weights * std::ldexp(1, -200));
+  }
+}
+
 TEST_CASE("An exact sum is NaN where a term is not finite, and where it is too large to be one of energies") {
   const double infinite = std::numeric_limits<double>::infinity();
   for (const double bad : {infinite, -infinite, std::numeric_limits<double>::quiet_NaN(), 1e80, -1e300}) {
@@ -75,6 +92,10 @@ TEST_CASE("An exact sum is NaN where a term is not finite, and where it is too l
     CHECK(std::isnan(sum.value()));
   }
   CHECK(sum_of({1e73, 1e73}) == 2e73);
+  const double large = std::ldexp(1, 243);
+  CHECK(sum_of(std::vector<double>(8191, large)) == 8191 * large);
+  CHECK(sum_of(std::vector<double>(8191, -large)) == -8191 * large);
+  CHECK(std::isnan(sum_of(std::vector<double>(8192, large)))); // 2^256
 }
 
 TEST_CASE("An exact sum cuts bits off below 2^-256") {
