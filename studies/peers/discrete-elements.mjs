@@ -1,20 +1,18 @@
-// The spheres of this folder as discrete elements, with the contact model MDR of Zunker and Kamrin (LAMMPS): forces as
-// CSV. Not part of any build or test: discrete-elements.csv and discrete-elements-tableting.csv hold the results.
+// The spheres of this folder as discrete elements, with the contact model MDR of Zunker and Kamrin (LAMMPS). Writes
+// discrete-elements.csv and discrete-elements-tableting.csv, which the studies of this folder draw. Not part of any
+// build or test.
 //
-//   npm install lammps.js@1.5.1                # LAMMPS of 10 Sep 2025 for node; 20 s a run
-//   node discrete-elements.mjs twelve 0.5      # or fourteen; friction between spheres and at walls
-//   node discrete-elements.mjs tablet 0.7 0.1 0 0
-//                                              # friction of grains, of tools; surface energy, J/m^2; rolling friction
+//   npm install lammps.js@1.5.1        # LAMMPS of 10 Sep 2025 for node
+//   node discrete-elements.mjs         # five minutes
 //
 // Parameters are those of the examples in.triaxial.compaction.12 and in.tableting.200 of LAMMPS. There the cylinder of
 // the die has a floor at z = 0, which bears half of what the lower punch should. Here the cylinder goes on below it.
-import { readFileSync } from "node:fs";
+import { readFileSync, writeFileSync } from "node:fs";
 import { dirname, join } from "node:path";
 import { fileURLToPath } from "node:url";
 import createModule from "lammps.js/wasm-atomify";
 
 const here = dirname(fileURLToPath(import.meta.url));
-const [scene, ...numbers] = process.argv.slice(2);
 
 /// x, y, z, radius of each sphere, mm.
 function spheres(file) {
@@ -34,8 +32,11 @@ set ${id} density ${density}`;
     .join("\n");
 }
 
-/// Six planes close in on the spheres; lengths of the file are taken as m, forces returned in N for mm.
-function triaxial(file, friction) {
+const volumeOf = (list) => list.reduce((sum, [, , , radius]) => sum + (4 / 3) * Math.PI * radius ** 3, 0);
+
+/// Six planes close in on the spheres: 10 m/s times `speed`, 1.2 % of the wave speed of a rod. Lengths of the file are
+/// taken as m. Rows: approach, mm; mean force of a wall, N, both as if the file's lengths were mm.
+function triaxial(list, friction, speed) {
   const law = `mdr 1e9 0.3 50e6 0 0.5 0.2 damping mdr 1 tangential linear_history ${(2 / 7) * 1e9 * 0.5} 0 ${friction}`;
   const walls = [..."xyz"].flatMap((axis, i) =>
     [0, 3].map((place) => {
@@ -62,29 +63,31 @@ timestep 1e-6
 boundary f f f
 region cell block -9 12 -9 12 -9 12
 create_box 1 cell
-${created(spheres(file), 1, 1560)}
+${created(list, 1, 1560)}
 fix motion all nve/sphere
 pair_style granular
 pair_coeff * * ${law}
-variable forth equal 1e-5*step
-variable back equal -1e-5*step
+variable forth equal ${1e-5 * speed}*step
+variable back equal ${-1e-5 * speed}*step
 ${walls.join("\n")}
 variable force equal (c_x0-c_x3+c_y0-c_y3+c_z0-c_z3)/6*1e-6
 variable approach equal 2*v_forth
 thermo 10000
 thermo_style custom step ke c_x0 c_x3
-fix row all print 100 "row \${approach},\${force}" screen yes
-run 49900
+fix row all print ${499 / speed} "row \${approach},\${force}" screen yes
+run ${49900 / speed}
 `;
 }
 
-/// Two hundred spheres settle in a die about x = y = 0; the upper punch goes from 10 to 3 mm and back.
-function tablet(friction, wallFriction, surfaceEnergy, rolling) {
+/// Two hundred spheres settle in a die about x = y = 0; the upper punch goes from 10 to 3 mm and back. `energy` in
+/// J/m^2, `psi`: share of free surface below which a grain responds as a bulk. Rows: distance of the punches, mm; force
+/// of the upper and of the lower punch, N.
+function tablet(list, energy, rolling, psi) {
   const k = 2.25 * rolling * rolling * 5e6 * 0.55e-3;
-  const law = (energy, mu) =>
-    `mdr 5e6 0.4 1.9e5 ${energy} 0.5 0.2 damping mdr 1 tangential linear_history ${(2 / 7) * 5e6 * 0.55e-3} 1 ${mu}` +
+  const law = (gamma, mu) =>
+    `mdr 5e6 0.4 1.9e5 ${gamma} ${psi} 0.2 damping mdr 1 tangential linear_history ${(2 / 7) * 5e6 * 0.55e-3} 1 ${mu}` +
     (rolling > 0 ? ` rolling sds ${k} 0 ${rolling}` : "");
-  const wall = `granular ${law(0, wallFriction)}`;
+  const wall = `granular ${law(0, 0.1)}`;
   return `units si
 atom_style sphere 1
 atom_modify map array
@@ -96,9 +99,9 @@ timestep 4e-6
 boundary f f f
 region cell block -0.005 0.005 -0.005 0.005 -0.011 0.031
 create_box 1 cell
-${created(spheres("two-hundred-spheres.csv"), 1000, 1560)}
+${created(list, 1000, 1560)}
 pair_style granular
-pair_coeff * * ${law(surfaceEnergy, friction)}
+pair_coeff * * ${law(energy, 0.7)}
 variable upper equal 0.0
 region lower plane 0 0 0 0 0 1 side in units box
 region upper plane 0 0 0.01 0 0 -1 side in move NULL NULL v_upper units box
@@ -118,23 +121,60 @@ variable upper equal -0.007*sin(PI/2*step/7000)
 variable distance equal 10+1000*v_upper
 variable up equal -c_upper
 variable low equal c_lower
-fix row all print 20 "row \${distance},\${up},\${low}" screen yes
+fix row all print 80 "row \${distance},\${up},\${low}" screen yes
 run 14000
 `;
 }
 
-const scenes = {
-  twelve: [triaxial, "approach,mean_wall_force", "twelve-spheres.csv", "mm, N"],
-  fourteen: [triaxial, "approach,mean_wall_force", "fourteen-spheres.csv", "mm, N"],
-  tablet: [tablet, "punch_distance,upper_punch_force,lower_punch_force", undefined, "mm, N, N"],
-};
-const [input, columns, file, units] = scenes[scene];
-const wasm = await createModule({
-  print: (line) => (line.startsWith("row ") ? console.log(line.slice(4)) : console.error(line)),
-  printErr: (line) => console.error(line),
-});
-console.log(`# discrete elements, MDR contact model, ${scene} ${numbers.join(" ")}; ${units}\n${columns}`);
-const lammps = new wasm.LAMMPSWeb();
-lammps.startWithArgs([]);
-lammps.runScript(input(...(file ? [file] : []), ...numbers.map(Number)));
+/// The rows of one run.
+async function rowsOf(input) {
+  const rows = [];
+  const print = (line) => line.startsWith("row ") && rows.push(line.slice(4).split(",").map(Number));
+  const wasm = await createModule({ print, printErr: console.error });
+  const lammps = new wasm.LAMMPSWeb();
+  lammps.startWithArgs([]);
+  lammps.runScript(input);
+  return rows;
+}
+
+const text = (cells) => cells.map((cell) => (typeof cell === "number" ? Number(cell.toPrecision(6)) : cell)).join(",");
+const source = "(discrete-elements.mjs): contact model MDR of LAMMPS, 10 Sep 2025";
+
+let lines = [
+  `# The same spheres as discrete elements ${source}, with`,
+  "# psi_b = 0.5. speed: of the walls, over 1.2 % of the wave speed of a rod.",
+  "spheres,friction [1],speed [1],approach [mm],relative_density [1],mean_wall_force [N],mean_stress [MPa]",
+];
+for (const [name, friction, speed] of [
+  ["twelve", 0, 1],
+  ["twelve", 0.5, 1],
+  ["fourteen", 0, 1],
+  ["fourteen", 0.5, 1],
+  ["twelve", 0, 0.2],
+  ["twelve", 0.5, 0.2],
+]) {
+  const list = spheres(`${name}-spheres.csv`);
+  for (const [approach, force] of await rowsOf(triaxial(list, friction, speed))) {
+    const side = 3 - approach;
+    const density = volumeOf(list) / side ** 3;
+    if (density < 0.85) lines.push(text([name, friction, speed, approach, density, force, force / side ** 2]));
+  }
+}
+writeFileSync(join(here, "discrete-elements.csv"), lines.join("\n") + "\n");
+
+lines = [
+  `# Two hundred spheres in a round die as discrete elements ${source}.`,
+  "# Pressing and unloading. Case bare: no surface energy, no rolling friction, as in tableting.toml; example: 2 J/m^2 and",
+  "# 0.6, as in the example of LAMMPS; late: as bare with psi_b = 0.1 instead of 0.5.",
+  "case,punch_distance [mm],relative_density [1],upper_punch_force [N],lower_punch_force [N]",
+];
+const powder = spheres("two-hundred-spheres.csv");
+for (const [name, ...numbers] of [
+  ["bare", 0, 0, 0.5],
+  ["example", 2, 0.6, 0.5],
+  ["late", 0, 0, 0.1],
+])
+  for (const [distance, upper, lower] of await rowsOf(tablet(powder, ...numbers)))
+    if (distance < 6) lines.push(text([name, distance, volumeOf(powder) / (16 * Math.PI * distance), upper, lower]));
+writeFileSync(join(here, "discrete-elements-tableting.csv"), lines.join("\n") + "\n");
 process.exit(0);
