@@ -33,10 +33,10 @@ public:
   bool combine(const Communicator& ranks, bool failed = false) {
     largest_.back() = failed ? 1 : 0;
     if (!ranks.alone()) {
-      words_.clear();
-      for (ExactSum& sum : sum_) words_.insert(words_.end(), sum.data().begin(), sum.data().end());
-      ranks.combine(words_, largest_);
-      auto from = words_.begin();
+      std::vector<std::int64_t> words;
+      for (ExactSum& sum : sum_) words.insert(words.end(), sum.data().begin(), sum.data().end());
+      ranks.combine(words, largest_);
+      auto from = words.begin();
       for (ExactSum& sum : sum_)
         for (std::int64_t& word : sum.data()) word = *from++;
     }
@@ -79,7 +79,6 @@ private:
   Width width_;
   std::vector<ExactSum> sum_;
   std::vector<double> largest_;
-  std::vector<std::int64_t> words_;
 };
 
 /// Collective. The total over all grains. `of_grain` ([grains]) is set for own grains.
