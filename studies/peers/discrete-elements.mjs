@@ -163,9 +163,10 @@ for (const [name, friction, speed] of [
 writeFileSync(join(here, "discrete-elements.csv"), lines.join("\n") + "\n");
 
 lines = [
-  `# Two hundred spheres in a round die as discrete elements ${source}.`,
-  "# Pressing and unloading. Case bare: no surface energy, no rolling friction, as in tableting.toml; example: 2 J/m^2 and",
-  "# 0.6, as in the example of LAMMPS; late: as bare with psi_b = 0.1 instead of 0.5.",
+  "# Two hundred spheres in a round die as discrete elements",
+  `# ${source}.`,
+  "# Pressing and unloading. Case bare: no surface energy, no rolling friction, as in tableting.toml; example: 2 J/m^2",
+  "# and 0.6, as in the example of LAMMPS; late: as bare with psi_b = 0.1 instead of 0.5.",
   "case,punch_distance [mm],relative_density [1],upper_punch_force [N],lower_punch_force [N]",
 ];
 const powder = spheres("two-hundred-spheres.csv");
