@@ -39,18 +39,19 @@ private:
       return;
     case '"':
     case '\'':
+      if (!string_may_begin()) break;
       skip_string(c);
-      blank_so_far_ = false;
+      before_ = c;
       return;
     case '\n':
       end_line();
       break;
     case '[':
     case '{':
-      if (blank_so_far_ && open_.empty() && c == '[')
+      if (before_ == '\n' && open_.empty() && c == '[')
         begin_heading();
       else
-        open();
+        open(c);
       break;
     case ']':
     case '}':
@@ -61,12 +62,22 @@ private:
       break;
     case ',':
       dots_ = 0;
+      in_value_ = !open_.empty() && open_.back().bracket == '[';
+      break;
+    case '=':
+      in_value_ = true;
       break;
     default:
       break;
     }
-    if (c != ' ' && c != '\t' && c != '\r' && c != '\n') blank_so_far_ = false;
+    if (c != ' ' && c != '\t' && c != '\r') before_ = c;
     ++at_;
+  }
+
+  /// Strings are keys, parts of dotted keys and values. A quote anywhere else is an error that the parser describes by
+  /// reading on: what follows it is not within a string.
+  bool string_may_begin() const {
+    return before_ == '.' ? !in_value_ : std::string_view("\n=,[{").find(before_) != std::string_view::npos;
   }
 
   void skip_string(char quote) {
@@ -91,7 +102,7 @@ private:
   void end_line() {
     if (in_heading_) header_ = dots_;
     in_heading_ = false;
-    blank_so_far_ = true;
+    in_value_ = !open_.empty();
     dots_ = 0;
     ++line_;
   }
@@ -102,15 +113,16 @@ private:
     if (text_.substr(at_).starts_with("[[")) ++at_;
   }
 
-  void open() {
-    open_.push_back(dots_ + 1);
-    enclosing_ += open_.back();
+  void open(char bracket) {
+    open_.push_back({bracket, dots_ + 1});
+    enclosing_ += open_.back().levels;
     dots_ = 0;
+    in_value_ = bracket == '[';
   }
 
   void close() {
     if (in_heading_ || open_.empty()) return;
-    enclosing_ -= open_.back();
+    enclosing_ -= open_.back().levels;
     open_.pop_back();
     dots_ = 0;
   }
@@ -118,8 +130,13 @@ private:
   std::string_view text_;
   std::size_t at_ = 0, line_ = 1;
   std::size_t header_ = 0, enclosing_ = 0, dots_ = 0; ///< levels of the last heading, open brackets, the key at hand
-  std::vector<std::size_t> open_;
-  bool blank_so_far_ = true, in_heading_ = false;
+  struct Bracket {
+    char bracket;
+    std::size_t levels; ///< of nesting that it adds: its own and those of the dotted key before it
+  };
+  std::vector<Bracket> open_;
+  char before_ = '\n'; ///< the last letter that is not blank; at the beginning of a line, its end
+  bool in_heading_ = false, in_value_ = false;
 };
 
 } // namespace

@@ -85,7 +85,13 @@ TEST_CASE("Brackets, headings and dotted keys that nest too deep are found by th
 TEST_CASE("Letters beyond ASCII are refused outside strings and comments, where TOML has none") {
   CHECK_FALSE(line_beyond_ascii("\xef\xbb\xbf"
                                 "a = 'ä' # ö\nb = \"\"\"\nü\"\"\"\n"));
+  CHECK_FALSE(line_beyond_ascii("'ä' . \"ö\" = [ 'ü',\n'ß', { \"é\" . 'è' = 1, o.'ê' = 'î' } ]\n[ 'ä' ]\n"));
   CHECK(line_beyond_ascii("a = 'ä'\nβ = 1\n") == 2);
+  // A quote where no string may begin: the parser reads on behind it as if it were a letter.
+  CHECK(line_beyond_ascii("a = 0E1\"ä") == 1);
+  CHECK(line_beyond_ascii("a = 1\nb = 'x' 'ä'") == 2);
+  CHECK(line_beyond_ascii("a = 0..'.E1\"ä") == 1);
+  CHECK(line_beyond_ascii("a = [1, b.'ä") == 1);
   // U+03A2 lies in a range that toml++ 3.3 looks up without an entry for it.
   CHECK(input_error([] { TomlDocument::from_text("a = 1\nM1\xce\xa2 8", "greek.toml"); }) ==
         "greek.toml:2: not valid TOML: a non-ASCII letter outside quotes and comments");
