@@ -3,12 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <numeric>
 
 #include <fmt/format.h>
 
 #include "common/errors.hpp"
-#include "solver/parallel/grain_values.hpp"
 #include "solver/parallel/totals.hpp"
 
 namespace mpfem {
@@ -207,12 +205,11 @@ double Tools::take_off(Model& model, std::size_t index, const Bounds& bounds, do
 /// Takes a tool off all grains; the energies are added up in the order of grains.
 double Tools::take_off_all(Model& model, std::size_t index, std::span<const Bounds> bounds, double last_step,
                            const Communicator& ranks) {
-  std::vector<double> of_grain(static_cast<std::size_t>(grains_), 0.0);
-  for (const std::int32_t grain : model.own())
-    if (const auto g = static_cast<std::size_t>(grain); of_grain_[slot(grain, index)].acts())
-      of_grain[g] = take_off(model, index, bounds[g], last_step, grain);
-  share_of_grains(ranks, model.ownership, std::span<double>(of_grain));
-  return std::accumulate(of_grain.begin(), of_grain.end(), 0.0);
+  return sum_over_grains(ranks, model.own(), [&](std::int32_t grain) {
+    return of_grain_[slot(grain, index)].acts()
+               ? take_off(model, index, bounds[static_cast<std::size_t>(grain)], last_step, grain)
+               : 0.0;
+  });
 }
 
 double Tools::set_away(std::span<const std::size_t> away, Model& model, std::span<const Bounds> bounds,

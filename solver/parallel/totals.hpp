@@ -90,4 +90,22 @@ Sums total_of(const Communicator& ranks, std::span<const std::int32_t> own, std:
   return totals[0];
 }
 
+struct OneNumber {
+  double value = 0;
+
+  template <class Self, class Visitor>
+  static void for_each_term(Self& s, Visitor&& visit) {
+    visit.sum(s.value);
+  }
+};
+
+/// Collective. The sum of one number of every grain. `of_grain(grain)` is called for own grains.
+template <class OfGrain>
+double sum_over_grains(const Communicator& ranks, std::span<const std::int32_t> own, OfGrain&& of_grain) {
+  Totals<OneNumber> totals;
+  for (const std::int32_t grain : own) totals.add({of_grain(grain)});
+  totals.combine(ranks);
+  return totals[0].value;
+}
+
 } // namespace mpfem

@@ -2,13 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
 #include <fmt/format.h>
 
 #include "common/errors.hpp"
 #include "solver/parallel/agree.hpp"
-#include "solver/parallel/grain_values.hpp"
+#include "solver/parallel/totals.hpp"
 
 namespace mpfem {
 
@@ -102,15 +101,12 @@ double set_initial_velocities(Model& model, const Scenario& scenario, const Comm
     if (!list->empty() && list->size() != grains)
       throw InputError(fmt::format("{}: key 'initial': found {} rows for {} grains, allowed one row a grain",
                                    scenario.packing_file, list->size(), grains));
-  std::vector<double> energy(grains, 0.0);
-  for (const std::int32_t grain : model.own()) {
+  return sum_over_grains(ranks, model.own(), [&](std::int32_t grain) {
     const auto g = static_cast<std::size_t>(grain);
-    energy[g] =
-        set_velocity(model, g, scenario.grain_velocity.empty() ? scenario.initial_velocity : scenario.grain_velocity[g],
-                     scenario.grain_angular_velocity.empty() ? Vector{} : scenario.grain_angular_velocity[g]);
-  }
-  share_of_grains(ranks, model.ownership, std::span(energy));
-  return std::accumulate(energy.begin(), energy.end(), 0.0);
+    return set_velocity(model, g,
+                        scenario.grain_velocity.empty() ? scenario.initial_velocity : scenario.grain_velocity[g],
+                        scenario.grain_angular_velocity.empty() ? Vector{} : scenario.grain_angular_velocity[g]);
+  });
 }
 
 void check_apart(Model& model, Contact& contact, const Box& box, const std::vector<Bounds>& bounds,
