@@ -1,5 +1,5 @@
 #pragma once
-// Bytes as text, for pages that hold their pictures and data themselves.
+// Bytes as text, for HTML pages that embed their pictures and data.
 
 #include <string>
 #include <string_view>

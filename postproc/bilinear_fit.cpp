@@ -18,7 +18,7 @@ using Eigen::VectorXd;
 
 constexpr int kinks = 4000;
 
-/// Where a kink may lie: two points or more on either side, else one of the lines is free.
+/// Where a kink may lie: two points or more on either side, otherwise one of the lines is undetermined.
 struct KinkRange {
   double low, high;
   double step() const { return (high - low) / kinks; }
@@ -49,7 +49,7 @@ std::vector<double> profile_of_squares(const VectorXd& x, const VectorXd& y, con
   return squares;
 }
 
-/// First and last kink whose squares are not above the limit; `best` is one.
+/// First and last kink whose sum of squares is within the limit, `best` included.
 std::pair<int, int> kinks_within(const std::vector<double>& squares, double limit, int best) {
   int from = best, to = best;
   for (int i = 0; i <= kinks; ++i)
@@ -71,8 +71,8 @@ Fit bilinear_fit(const FitProblem& problem) {
   const auto solution = lines_through(x, y, kink);
   if (!solution) undetermined(problem, "x hardly varies");
   const auto freedom = static_cast<std::size_t>(x.size()) - 4;
-  // The kink's interval is that of its profile: kinks whose squares are not larger than chance allows (Student's t).
-  // The least squares are kept off 0, where points lie on two lines to rounding.
+  // Profile interval of the kink: all kinks whose sum of squares is no larger than chance allows (Student's t). The
+  // least sum of squares is kept above 0 for points that lie on two lines to within rounding.
   const double t = student_t_95(freedom);
   const double least = std::max(solution->squares, 1e-24 * y.squaredNorm());
   const auto [from, to] = kinks_within(squares, least * (1 + t * t / static_cast<double>(freedom)), best);

@@ -17,12 +17,12 @@ namespace {
 
 constexpr std::size_t law_columns = 6, fracture_energy_column = 2; // of /snapshots/*/bond_laws
 
-/// The grain of a node, by the first nodes of all grains and the end.
+/// The grain of a node; `offset` holds the first node of each grain, then the number of nodes.
 std::int32_t grain_of_node(const std::vector<std::int32_t>& offset, std::int32_t node) {
   return static_cast<std::int32_t>(std::upper_bound(offset.begin(), offset.end(), node) - offset.begin()) - 1;
 }
 
-/// N/mm, of each bond: by its law where several are told, else by the scenario.
+/// G^c of each bond (N/mm): by its law where the file has bond laws, otherwise from the scenario.
 std::vector<std::optional<double>> fracture_energies(const schema::FileReader& file, const std::string& name,
                                                      std::size_t bonds) {
   namespace run = schema::run;
@@ -53,7 +53,7 @@ std::vector<BondRow> read_bond_table(const schema::FileReader& file, int snapsho
   std::map<std::pair<std::int32_t, std::int32_t>, std::size_t> number_of_pair;
   std::vector<BondRow> bonds;
   for (std::size_t b = 0; b < node.size(); ++b) {
-    if (!(area.at(b) > 0)) continue; // stands for nothing
+    if (!(area.at(b) > 0)) continue;
     const auto pair = std::minmax({grain_of_node(offset, node[b]), grain.at(b)});
     const std::size_t number = number_of_pair.try_emplace(pair, number_of_pair.size()).first->second;
     bonds.push_back({node[b], grain[b], number, area[b], static_cast<double>(damage.at(b)), fracture_energy.at(b),

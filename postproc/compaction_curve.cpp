@@ -14,7 +14,7 @@ namespace mpfem {
 
 namespace {
 
-constexpr double reached = 1e-6; ///< of a relative density
+constexpr double reached = 1e-6; ///< tolerance of a relative density
 
 std::vector<std::optional<double>> stresses(const HistoryTable& history, const std::vector<double>& wanted) {
   if (wanted.empty() || std::adjacent_find(wanted.begin(), wanted.end(), std::greater_equal<>()) != wanted.end())
@@ -43,7 +43,7 @@ std::vector<std::optional<double>> stress_at_densities(const std::vector<double>
   std::size_t next = 0;
   for (std::size_t row = 0; row < density.size(); ++row)
     for (; next < wanted.size() && density[row] >= wanted[next] - reached; ++next) {
-      if (row == 0 && density[row] > wanted[next] + reached) continue; // it began denser
+      if (row == 0 && density[row] > wanted[next] + reached) continue; // the run began denser
       const double before = row > 0 ? density[row - 1] : density[row];
       const double share = density[row] > before ? std::min(1.0, (wanted[next] - before) / (density[row] - before)) : 1;
       const double from = row > 0 ? stress[row - 1] : stress[row];

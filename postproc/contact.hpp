@@ -11,14 +11,14 @@ namespace mpfem {
 
 struct ContactTable {
   double relative_density = 0, mean_stress = 0; ///< 1, MPa
-  double contact_area_ratio = 0;  ///< area in contact over total surface, at the history row nearest in time
+  double contact_area_ratio = 0;  ///< area in contact over total surface, in the history row nearest in time
   double coordination_number = 0; ///< 2 pairs / grains
-  std::vector<Column> columns;    ///< a row per pair: first, second, force_x, _y, _z, force, area, pressure; with bonds
-                                  ///< also bonded_area, damage
-                                  ///< (-1: never bonded), bond_energy, damage_dissipation
+  std::vector<Column> columns;    ///< a row per pair: first, second, force_x, _y, _z, force, area, pressure; with
+                                  ///< bonds also bonded_area, damage (-1: never bonded), bond_energy,
+                                  ///< damage_dissipation; N, mm^2, MPa, mJ
 };
 
-/// Throws InputError where the run has no such snapshot (numbered as in snapshot_name).
+/// The contacts of a snapshot (numbered as in snapshot_name). Throws InputError where the run has no such snapshot.
 ContactTable contact_table(const schema::FileReader& file, int snapshot);
 nlohmann::ordered_json to_json(const ContactTable& table);
 

@@ -62,7 +62,7 @@ Measurement measure_contact(const schema::FileReader& file, std::optional<int> n
                                       "mean_damage", "damage_dissipation", "relative_density", "mean_stress"})
     for (const auto& [place, row] : {std::pair{"start", stage.first}, std::pair{"end", stage.last}}) {
       m.details[fmt::format("{}_at_{}", name, place)] = column(name)[row];
-      if (name != "relative_density") // the box tells it exactly
+      if (name != "relative_density") // known exactly from the box
         m.details[fmt::format("{}_at_{}_uncertainty", name, place)] = uncertainty(name, row);
     }
   note_short_stage(m, stage.rows());

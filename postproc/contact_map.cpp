@@ -15,7 +15,7 @@ namespace {
 
 namespace run = schema::run;
 
-/// Row of the pair in pair_grains. Throws InputError naming the grains that the first does touch.
+/// Row of the pair in pair_grains. Throws InputError that lists the grains which the first one touches.
 std::size_t row_of_pair(const std::vector<std::int32_t>& pair_grains, std::pair<int, int> grains,
                         const std::string& path, const std::string& snapshot) {
   std::vector<std::int32_t> neighbours;
@@ -66,7 +66,7 @@ std::array<double, 3> centre(const GrainNodes& nodes, std::int32_t grain) {
   return sum;
 }
 
-/// The smaller number first. Throws InputError where they are not two grains of so many.
+/// The smaller number first. Throws InputError where they are not two different grains of 0 … count - 1.
 std::pair<std::int32_t, std::int32_t> in_order(std::pair<int, int> grains, int count, const std::string& path) {
   if (grains.first > grains.second) std::swap(grains.first, grains.second);
   if (grains.first < 0 || grains.second >= count || grains.first == grains.second)
@@ -83,7 +83,7 @@ void need_bonds(const schema::FileReader& file, const std::string& snapshot) {
           fmt::format("{}: snapshot {} has no bonds; --pair needs a run with bonds", one_line(file.path()), snapshot));
 }
 
-/// What the snapshot says of the pair as a whole.
+/// Adds what the snapshot holds for the pair as a whole.
 void add_pair(ContactMap& map, const schema::FileReader& file) {
   const std::string& name = map.snapshot;
   const std::size_t row =
@@ -100,7 +100,7 @@ void add_pair(ContactMap& map, const schema::FileReader& file) {
   map.damage_dissipation = number(run::snapshots_pair_damage_dissipation);
 }
 
-/// The bonds between two grains, in the file's order; without their coordinates in the contact's plane.
+/// The bonds between two grains, in the file's order; u and v are not yet set.
 std::vector<ContactBond> read_bonds_between(std::pair<std::int32_t, std::int32_t> grains, const GrainNodes& nodes,
                                             const schema::FileReader& file, const std::string& name) {
   const auto bond_node = file.read(run::snapshots_bond_node, name),

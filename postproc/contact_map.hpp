@@ -1,5 +1,5 @@
 #pragma once
-// One contact between two grains in detail: its bonds, point by point.
+// One contact between two grains in detail, bond by bond.
 
 #include <array>
 #include <string>
@@ -27,15 +27,15 @@ struct ContactMap {
   std::string snapshot;
   double relative_density = 0, mean_stress = 0;   ///< 1, MPa
   std::pair<std::int32_t, std::int32_t> grains{}; ///< first < second
-  std::array<double, 3> force{};                  ///< of the second grain on the first, N
+  std::array<double, 3> force{};                  ///< N, of the second grain on the first
   double area = 0, bonded_area = 0;               ///< mm^2, means of the two sides
-  double damage = -1;                             ///< area-weighted mean, -1 where no bond was ever formed
+  double damage = -1;                             ///< area-weighted mean; -1 where no bond was ever formed
   double bond_energy = 0, damage_dissipation = 0; ///< mJ
   ContactPlane plane;                             ///< normal from the first grain to the second
   std::vector<ContactBond> bonds;                 ///< of both sides, broken ones too, in the file's order
 };
 
-/// The contact of two grains, named in either order, at a snapshot (numbered as in snapshot_name). Throws InputError
+/// The contact of two grains, given in either order, at a snapshot (numbered as in snapshot_name). Throws InputError
 /// where there is no such snapshot, where it has no bonds, and where these are not two grains in contact.
 ContactMap contact_map(const schema::FileReader& file, int snapshot, std::pair<int, int> grains);
 

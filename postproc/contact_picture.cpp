@@ -23,7 +23,7 @@ std::int32_t drawn_side(const ContactMap& map) {
   return 2 * of_first >= static_cast<std::ptrdiff_t>(map.bonds.size()) ? map.grains.first : map.grains.second;
 }
 
-/// A square about the patches with a margin, so that the scales of both axes are equal and no contact is a sliver.
+/// A square around the patches, with a margin: both axes have the same scale, and no contact is drawn as a sliver.
 View square_around(const std::vector<SectionPolygon>& patches) {
   Point low = {1e300, 1e300}, high = {-1e300, -1e300};
   for (const SectionPolygon& patch : patches)
@@ -76,7 +76,7 @@ void write_contact_picture(const std::string& path, const Snapshot& snapshot, co
   const View view = square_around(patches);
   std::vector<Colour> colour;
   for (const ContactBond& bond : map.bonds) colour.push_back(scale_colour(bond.damage));
-  std::vector<std::int32_t> outlined(map.bonds.size(), 0); // as one patch, or each of its own
+  std::vector<std::int32_t> outlined(map.bonds.size(), 0); // one outline around all patches, or one around each
   if (request.mesh_lines) std::iota(outlined.begin(), outlined.end(), 0);
   const Raster raster = draw_section(patches, colour, outlined, view, request.pixels);
   Frame2d frame{

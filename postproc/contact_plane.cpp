@@ -17,8 +17,8 @@ std::array<double, 3> components(const Eigen::Vector3d& x) {
   return {x[0], x[1], x[2]};
 }
 
-/// The axis of the smallest second moment, where the points span a plane: where it is well below the next one, half the
-/// size or less.
+/// The axis of the smallest second moment. Empty where the points span no plane: where the extent along that axis is
+/// not below half of the next larger one.
 std::optional<Eigen::Vector3d> axis_across(const std::vector<AreaPoint>& points, const Eigen::Vector3d& origin) {
   Eigen::Matrix3d moment = Eigen::Matrix3d::Zero();
   for (const AreaPoint& p : points) {

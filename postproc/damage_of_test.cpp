@@ -16,7 +16,7 @@ namespace mpfem {
 
 namespace {
 
-/// sum(area * value) / sum(area), pairs of grains being the independent units; 0 without bonds.
+/// sum(area * value) / sum(area), with pairs of grains as the independent units; 0 without bonds.
 Ratio area_mean(const std::vector<BondRow>& bonds, const std::vector<double>& value) {
   if (bonds.empty()) return {};
   std::vector<double> weighted(pairs_of(bonds), 0.0), area(weighted.size(), 0.0);
@@ -55,7 +55,7 @@ double total_area(const std::vector<BondRow>& bonds) {
   return area;
 }
 
-/// Adds what one group of bonds is like now, each key with `prefix`.
+/// Adds the present state of one group of bonds; each key begins with `prefix`.
 void add_group(nlohmann::ordered_json& details, const std::string& prefix, const std::vector<BondRow>& bonds) {
   const auto broken = [](const BondRow& bond) { return bond.broken() ? 1.0 : 0.0; };
   const auto add = [&](const char* key, const std::vector<double>& values) {

@@ -10,15 +10,15 @@ namespace mpfem {
 
 namespace {
 
-/// A tangent of the damage dissipation against axial strain, over `span` of strain about `row`.
+/// A tangent of the damage dissipation against axial strain, over a strain of `span` around `row`.
 struct Tangent {
   std::size_t row = 0;
   double span = 0, slope = 0; ///< 1, mJ
-  double onset = 0;           ///< the strain where it meets the level at the stage's beginning
+  double onset = 0;           ///< strain at which it meets the level at the stage's beginning
 };
 
-/// The steepest one up to the peak, over twice `reach` of strain, whatever rows fall there: while walls start, rows lie
-/// so close that the slope between neighbours is noise over nothing.
+/// The steepest one up to the peak, always over twice `reach` of strain: while the walls start, rows lie so close
+/// together that the slope between neighbours is mostly noise.
 std::optional<Tangent> steepest_tangent(const StageCurve& c, const std::vector<double>& damage, std::size_t peak,
                                         double reach) {
   Tangent steepest;
@@ -27,7 +27,7 @@ std::optional<Tangent> steepest_tangent(const StageCurve& c, const std::vector<d
     while (low > 0 && c.axial_strain[row] - c.axial_strain[low] < reach) --low;
     while (high < peak && c.axial_strain[high] - c.axial_strain[row] < reach) ++high;
     const double strain = c.axial_strain[high] - c.axial_strain[low];
-    if (strain < 2 * reach) continue; // at either end
+    if (strain < 2 * reach) continue; // too close to either end
     if (const double slope = (damage[high] - damage[low]) / strain; slope > steepest.slope)
       steepest = {row, strain, slope, 0};
   }
@@ -62,13 +62,14 @@ std::optional<DamageOnset> damage_onset(const StageCurve& c, const std::vector<d
   DamageOnset onset;
   onset.strain = tangent->onset;
   onset.stress = at.of(smooth);
-  // Of onset = strain - (damage - level) / slope: smoothed rows make the tangent, a row as it is the level.
+  // Error propagation for onset = strain - (damage - level) / slope: the tangent comes from smoothed rows, the level
+  // from a single raw row.
   const double left = noise_left_by_parabolas(smoothing_half_rows(c.rows()));
   const double lever = (c.axial_strain[tangent->row] - tangent->onset) / tangent->span;
   const double noise =
       ringing(c.damage_dissipation, tangent->row) / tangent->slope * std::sqrt(1 + left + 2 * left * lever * lever);
-  // The steepest of many noisy slopes is too steep, that over more rows less so: a bias, which noise does not make up
-  // for.
+  // The steepest of many noisy slopes is too steep, less so over more rows. This is a bias, so it is added to the
+  // noise.
   onset.strain_uncertainty = noise + (wider ? std::abs(wider->onset - tangent->onset) : 0.0);
   onset.stress_uncertainty =
       std::hypot(half_change(smooth, c.axial_strain, onset.strain, onset.strain_uncertainty), ringing(raw, at.row));

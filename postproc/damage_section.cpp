@@ -14,7 +14,8 @@ std::vector<BoundarySegment> cut_boundaries(const Snapshot& snapshot, const CutP
     return static_cast<double>(snapshot.node[3 * static_cast<std::size_t>(node) + k]);
   };
   const auto is_below = [&](std::int32_t node) { return coordinate(node, axis) - plane.position < 0; };
-  // A facet that the plane cuts belongs to cut tets only: what is outer among them is outer in the grain.
+  // A facet that the plane cuts belongs to cut tets only, so the outer facets of these tets are outer facets of the
+  // grain.
   std::vector<std::int32_t> tets;
   for (const SectionPolygon& polygon : cut(snapshot, plane)) tets.push_back(polygon.tet);
   std::vector<BoundarySegment> segments;

@@ -9,8 +9,7 @@
 
 namespace mpfem {
 
-/// Part of a grain's boundary in the plane: where a facet of its surface is cut. In the plane's own coordinates, as
-/// SectionPolygon.
+/// Part of a grain's boundary in the plane: the cut through one facet of its surface. Coordinates as in SectionPolygon.
 struct BoundarySegment {
   std::array<double, 2> from{}, to{};      ///< mm
   double damage_from = -1, damage_to = -1; ///< 0 intact … 1 broken, linear in between; both -1: never bonded
@@ -18,9 +17,9 @@ struct BoundarySegment {
 };
 
 /// The boundaries of all grains that the plane cuts, with the damage of their nodes (the node field "damage")
-/// interpolated along the cut edges. Next to a node that was never bonded, a bonded node's damage holds as far as half
-/// way, as its tributary area does; a segment of which one end is bonded is cut in two there. Throws InputError where
-/// the snapshot has no damage.
+/// interpolated along the cut edges. On an edge to a node that was never bonded, the damage of the bonded node holds up
+/// to the middle, as its tributary area does; a segment with only one bonded end is split at its middle. Throws
+/// InputError where the snapshot has no damage.
 std::vector<BoundarySegment> cut_boundaries(const Snapshot& snapshot, const CutPlane& plane);
 
 /// The segments as CSV: grain, both ends, length, damage at both ends.

@@ -13,11 +13,11 @@ namespace mpfem {
 
 namespace {
 
-/// What none of n units has, fewer than 3 / n of all have, with 95 % confidence (Hanley and Lippman-Hand, J. Am. Med.
-/// Assoc. 249 (1983) 1743).
+/// A property that none of n units has belongs to fewer than 3 / n of all units, with 95 % confidence (Hanley and
+/// Lippman-Hand, J. Am. Med. Assoc. 249 (1983) 1743).
 constexpr double rule_of_three = 3;
 
-/// Sums over each pair's bonds of area times what `weight` makes of a bond.
+/// [pairs], sums of area times weight(bond) over the bonds of each pair.
 template <class Weight>
 std::vector<double> pair_sums(std::span<const BondSample> bonds, std::size_t pairs, const Weight& weight) {
   std::vector<double> sums(pairs, 0.0);
@@ -57,7 +57,7 @@ std::vector<Column> damage_distribution(std::span<const BondSample> bonds) {
 }
 
 double damage_percentile(const std::vector<Column>& distribution, double share) {
-  // Sums of areas reach a share only but for rounding.
+  // A sum of areas may fall short of the share by rounding.
   constexpr double rounding = 1e-12;
   const auto &damage = distribution[0].values, &shares = distribution[1].values;
   const auto at = std::lower_bound(shares.begin(), shares.end(), share - rounding);
@@ -72,7 +72,7 @@ DamageStatistics damage_statistics(std::span<const BondSample> bonds) {
   const std::vector<double> area = sums([](const BondSample&) { return 1.0; });
   const auto share_of_pairs = [&](const std::vector<double>& of_pair, const std::vector<double>& whole) {
     Ratio ratio = ratio_of_sums(of_pair, whole);
-    if (s.pairs > 1 && (ratio.value <= 0 || ratio.value >= 1)) // none or all: the formula would say that this is sure
+    if (s.pairs > 1 && (ratio.value <= 0 || ratio.value >= 1)) // none or all: the formula would give 0
       ratio.half_width = std::min(1.0, rule_of_three / static_cast<double>(s.pairs));
     return ratio;
   };

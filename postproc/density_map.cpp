@@ -20,9 +20,10 @@ namespace {
 using Point = Eigen::Vector3d;
 using Corners = std::array<Point, 4>;
 
-constexpr std::size_t sectors = 8; // about the axis: their scatter says how well a ring's mean is known
+constexpr std::size_t sectors = 8; // around the axis: their scatter gives the uncertainty of a ring's mean
 
-/// Calls visit(centre) for the 8^depth tets into which halving all edges cuts one, all of the same volume.
+/// Halves all edges of a tet `depth` times and calls visit(centre) for each of the 8^depth parts, all of the same
+/// volume.
 template <class Visitor>
 void for_each_part(const Corners& x, int depth, Visitor&& visit) {
   if (depth == 0) return visit(Point(0.25 * (x[0] + x[1] + x[2] + x[3])));
@@ -105,7 +106,7 @@ DensityMap density_map(const Snapshot& snapshot, const DensityMapRule& rule) {
         fmt::format("snapshot {}: found a box of {:g} x {:g} mm across z, allowed: that of a round die, as "
                     "wide as deep",
                     snapshot.name, length(0), length(1)));
-  constexpr int depth = 2; // parts are a quarter of a tet's edge wide
+  constexpr int depth = 2; // edges of the parts are a quarter of the tet's
   const double share = std::pow(0.125, depth);
   Grid grid(snapshot, rule);
   DensityMap map{snapshot.name, grid.radius(), grid.height(), 0, rule, {}};

@@ -1,5 +1,5 @@
 #pragma once
-// Where in a die the powder is dense: solid fraction over radius and height.
+// Solid fraction in a die over radius and height.
 
 #include <string>
 #include <vector>
@@ -17,27 +17,27 @@ struct DensityMapRule {
 struct DensityCell {
   double inner = 0, outer = 0; ///< mm, from the axis
   double low = 0, high = 0;    ///< mm, from the lower punch
-  double density = 0;          ///< solid fraction by present volumes
-  double uncertainty = 0;      ///< half of a 95 % interval of the mean over sectors
+  double density = 0;          ///< solid fraction from present volumes
+  double uncertainty = 0;      ///< half of the 95 % interval of the mean over sectors
 };
 
 struct DensityMap {
   std::string snapshot;
   double radius = 0, height = 0; ///< mm, of the container
-  double density = 0;            ///< solid fraction of the whole by present volumes
+  double density = 0;            ///< solid fraction of the whole, from present volumes
   DensityMapRule rule;
   std::vector<DensityCell> cells; ///< layer by layer from below, in each from the axis outwards
 };
 
-/// Of a container along z: the cylinder that fills the snapshot's box. Solid beyond its faces, by which penalty contact
-/// lets it overlap with tools, counts for the cell next to it. Throws InputError where the box is not square across z.
+/// Map of a container along z: the cylinder that fills the snapshot's box. Solid beyond its faces (penalty contact lets
+/// grains overlap with tools) counts for the adjacent cell. Throws InputError where the box is not square across z.
 DensityMap density_map(const Snapshot& snapshot, const DensityMapRule& rule);
 
-/// A row a cell.
+/// One row per cell.
 std::string density_map_csv(const DensityMap& map);
 
-/// Radius to the right, height upwards, both as in the die. Throws SimulationError where gnuplot is missing or fails,
-/// StorageError.
+/// Writes the PNG: radius to the right, height upwards. Throws SimulationError where gnuplot is missing or fails,
+/// StorageError where the file cannot be written.
 void write_density_picture(const std::string& path, const DensityMap& map, const std::string& title, int pixels);
 
 } // namespace mpfem

@@ -68,7 +68,7 @@ Extent extent_along(std::span<const float> node, int axis) {
   return extent;
 }
 
-/// The axis that is neither of the two.
+/// The axis that is neither a nor b.
 int third_axis(int a, int b) {
   return 3 - a - b;
 }
@@ -97,12 +97,12 @@ std::optional<double> flat_half_angle(const DiscState& state) {
 
 namespace {
 
-/// Both plates' forces on one axis, and which stage.
+/// The stage of the test, with the force of its plates on one axis.
 struct Test {
   StageRows stage;
   std::vector<std::string> plates;
   int axis = 0;
-  std::vector<double> force; ///< N, of disc_force, a value a row of the stage
+  std::vector<double> force; ///< N, from disc_force, one value per row of the stage
 };
 
 std::vector<std::string> plates_of(const schema::FileReader& file, const DiametralRule& rule) {
@@ -122,7 +122,8 @@ std::vector<std::string> plates_of(const schema::FileReader& file, const Diametr
   return plates;
 }
 
-/// The axis on which the plates approach or part most in the stage. Throws InputError where they do not move.
+/// The axis on which the distance of the plates changes most in the stage. Throws InputError where they do not move, or
+/// move along the disc's axis.
 int axis_of_approach(const HistoryTable& history, const Test& test, int disc_axis, const std::string& path) {
   int axis = -1;
   double farthest = 0;
@@ -159,7 +160,7 @@ Test read_test(const schema::FileReader& file, const HistoryTable& history, cons
   return test;
 }
 
-/// Number of the snapshot that is best for a time: before the test the last one, at its peak the nearest.
+/// Number of the snapshot nearest to a time; without `nearest` only those not after it count.
 std::optional<int> snapshot_at(const schema::FileReader& file, double time, bool nearest) {
   std::optional<int> best;
   double distance = 0;
@@ -177,7 +178,7 @@ struct Disc {
   double diameter = 0, thickness = 0; ///< mm
 };
 
-/// As given, else the extents of the grains before the test, as calipers would take them.
+/// As given, otherwise the extents of the grains before the test, as calipers would measure them.
 Disc disc_of(const schema::FileReader& file, const HistoryTable& history, const Test& test, const DiametralRule& rule) {
   if (rule.diameter && rule.thickness) return {*rule.diameter, *rule.thickness};
   const auto number = snapshot_at(file, history["time"][test.stage.first], false);
@@ -189,7 +190,7 @@ Disc disc_of(const schema::FileReader& file, const HistoryTable& history, const 
           rule.thickness.value_or(extent_along(before.node, rule.disc_axis).length())};
 }
 
-/// Half angle (rad) of the flats at a row's time, where it is given or a snapshot of the stage shows it.
+/// Half angle (rad) of the flats at a row's time: as given, otherwise from a snapshot of the stage; empty without one.
 std::optional<double> half_angle_at(const schema::FileReader& file, const HistoryTable& history, const Test& test,
                                     const DiametralRule& rule, double diameter, std::size_t row) {
   if (rule.flat_angle) return 0.5 * *rule.flat_angle * std::numbers::pi / 180;
@@ -202,8 +203,8 @@ std::optional<double> half_angle_at(const schema::FileReader& file, const Histor
                           rule.face_distance.value_or(0.01 * diameter)});
 }
 
-/// Where bonds have broken between the snapshot before the test and that nearest to a row's time; null where no such
-/// snapshots show any.
+/// Adds where bonds have broken between the last snapshot before the test and the one nearest to a row's time; null
+/// where these snapshots do not exist or have no broken bonds.
 void add_crack(Measurement& m, const schema::FileReader& file, const HistoryTable& history, const Test& test,
                const DiametralRule& rule, double diameter, std::size_t row) {
   const auto& times = history["time"];

@@ -51,7 +51,7 @@ ElasticRecovery elastic_recovery(std::span<const double> density, std::span<cons
   }
   r.recovery_at_zero_stress = r.recovery + rest / r.largest_density;
   r.uncertainty_at_zero_stress = (std::abs(rest - rest_of_hertz) + ringing) / r.largest_density;
-  // The rest is a bias of known sign, which ringing may hide a part of.
+  // The residual stress gives a bias of known sign, part of which ringing may hide.
   r.uncertainty = (std::max(std::abs(rest), std::abs(rest_of_hertz)) + ringing) / r.largest_density;
   return r;
 }
@@ -76,7 +76,7 @@ Measurement measure_elastic_recovery(const schema::FileReader& file, std::option
       fmt::format("(D_max - D_min) / D_max (Eq. 9): D_max at the densest row, D_min at the unloading's last row; "
                   "line through the last {} rows for zero stress; volumetric strain since the run began",
                   rows - r.extrapolated_from_row);
-  const auto of_stress = [&](std::size_t row) { // on the side of the unloading, where the densest row is not before it
+  const auto of_stress = [&](std::size_t row) { // by rows of the unloading, unless the row lies before it
     const RowRange before{begin, unloading.first};
     return row_uncertainty(history, history["mean_stress"], row, row < unloading.first ? before : unloading.rows());
   };

@@ -7,8 +7,8 @@
 
 namespace mpfem {
 
-/// Time, relative density, every term of the ledger (mJ), the residual over the work so far, and kinetic over internal
-/// energy (0 where there is none yet).
+/// Time, relative density, every term of the ledger (mJ; friction where the file has it), the residual over the work
+/// done up to each row, and kinetic over internal energy (both 0 where the denominator is 0).
 std::vector<Column> energy_ledger(const HistoryTable& history);
 
 } // namespace mpfem

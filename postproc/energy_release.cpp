@@ -12,14 +12,14 @@ namespace mpfem {
 
 namespace {
 
-/// What is measured: the unloading, or where there is none the run's last row.
+/// The unloading, or, where there is none, the run's last row.
 struct Unloading {
   StageRows stage;
-  RowRange scatter_rows; ///< that tell the rows' scatter
+  RowRange scatter_rows; ///< from which the scatter is estimated
   bool found = true;
 };
 
-/// Throws InputError where there is no stage `number`, or it is not an unloading.
+/// Throws InputError where there is no stage `number`.
 Unloading find_unloading(const HistoryTable& history, const std::vector<StageRows>& stages, std::optional<int> number,
                          const std::string& path) {
   try {
@@ -36,12 +36,12 @@ struct Energy {
   double value = 0, uncertainty = 0; ///< mJ
 };
 
-/// Of the ledger, in one row.
+/// An energy of the ledger in one row.
 Energy energy_in_row(const HistoryTable& history, const char* name, std::size_t row, RowRange scatter_rows) {
   return {history[name][row], energy_uncertainty(history, name, row, scatter_rows)};
 }
 
-/// Of the ledger, from the stage's first row to its last.
+/// Change of an energy of the ledger from the stage's first row to its last.
 Energy energy_change(const HistoryTable& history, const char* name, const StageRows& stage) {
   if (stage.first == stage.last) return {};
   return {history[name][stage.last] - history[name][stage.first],

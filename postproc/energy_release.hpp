@@ -1,5 +1,5 @@
 #pragma once
-// What becomes of a compact's elastic energy when it is unloaded.
+// The elastic energy of a compact that is released when it is unloaded.
 
 #include <optional>
 
@@ -8,18 +8,18 @@
 
 namespace mpfem {
 
-/// By what energies are made dimensionless: E R^3 with the grains' Young's modulus and their mean radius.
+/// Scale of energies, E R^3: the grains' Young's modulus and their mean radius.
 struct EnergyScale {
   std::optional<double> youngs_modulus; ///< MPa
   std::optional<double> mean_radius;    ///< mm
-  std::optional<double> energy() const; ///< mJ, where both are known
+  std::optional<double> energy() const; ///< mJ; empty unless both are known
 };
 
-/// Elastic energy at the beginning and at the end of the unloading stage `number` (default: choose_unloading), the
-/// value being their difference, the elastic energy released (paper, Fig. 11); with plastic and damage dissipation, all
-/// in mJ and over E R^3 where `scale` gives both. Uncertainties: energy_uncertainty of states,
-/// energy_change_uncertainty of changes. Without an unloading the value is 0 and a note says so; energies at the end
-/// are given all the same.
+/// Elastic energy at the beginning and at the end of the unloading stage `number` (default: choose_unloading). The
+/// value is their difference, the elastic energy released (paper, Fig. 11). The details also hold plastic and damage
+/// dissipation, all in mJ and, where `scale` is known, over E R^3. Uncertainties: energy_uncertainty for states,
+/// energy_change_uncertainty for changes. Without an unloading the value is 0, a note says so, and the energies are
+/// those at the run's end. Throws InputError where there is no stage `number`.
 Measurement measure_energy(const schema::FileReader& file, std::optional<int> number, const EnergyScale& scale);
 
 } // namespace mpfem

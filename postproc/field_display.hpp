@@ -7,14 +7,15 @@
 
 namespace mpfem {
 
-/// "von Mises stress" for von_mises; the same for pressure and plastic_strain.
+/// Label of a field: von_mises, pressure, damage; that of the plastic strain for any other name.
 std::string field_label(const std::string& field);
 
-/// "LABEL (UNIT)", without the unit where it is 1.
+/// "LABEL (UNIT)", or "LABEL" for the unit 1.
 std::string with_unit(const std::string& label, const std::string& unit);
 
-/// The ends of a colour scale for these values and their areas: 0 (or, where lower, the 0.5th percentile) … the 99.5th
-/// percentile by area, wider than nothing. What is not finite does not count: a failed run's last state may hold some.
+/// The ends of a colour scale for these values and their areas: 0 (or the 0.5th percentile by area where that is lower)
+/// and the 99.5th percentile; ends that coincide are set 1 apart. Values that are not finite do not count: the last
+/// state of a failed run may hold some.
 std::pair<double, double> colour_range(std::vector<std::pair<double, double>> value_and_area);
 
 } // namespace mpfem

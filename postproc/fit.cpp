@@ -36,14 +36,14 @@ double spread(const std::vector<double>& values) {
   return *high - *low;
 }
 
-/// From a hundredth to a hundred times `scale`, each a third of a decade after the one before.
+/// From a hundredth to a hundred times `scale`, three values per decade.
 std::vector<double> decades(double scale) {
   std::vector<double> values;
   for (int third = -6; third <= 6; ++third) values.push_back(scale * std::pow(10.0, third / 3.0));
   return values;
 }
 
-/// Rates of both signs over x of this spread, and none.
+/// Rates of both signs for x with a range of `scale`, and 0.
 std::vector<double> rates(double scale) {
   std::vector<double> values;
   for (const double rate : decades(1 / scale)) {
@@ -154,14 +154,14 @@ void need_density(const FitProblem& problem, double largest) {
                                    one_line(problem.points.path), problem.model, density, largest));
 }
 
-/// 1/slope of a line with its interval. Throws InputError where the slope is not positive.
+/// 1/slope of a line, with its interval. Throws InputError where the slope is not positive.
 Coefficient inverse_slope(const FitProblem& problem, const std::string& name, const Coefficient& slope) {
   if (!(slope.value > 0)) undetermined(problem, "y does not grow with x as the model has it");
   const double half = 0.5 * (slope.high - slope.low) / (slope.value * slope.value);
   return symmetric(name, 1 / slope.value, half);
 }
 
-/// Beyond this relative density the logarithm takes small errors of it for large ones of the pressure.
+/// Beyond this relative density the logarithm turns small errors of the density into large errors of the pressure.
 constexpr double largest_heckel_density = 0.98;
 
 Fit fit_heckel(const FitProblem& problem) {
@@ -185,7 +185,7 @@ Fit fit_kawakita(const FitProblem& problem) {
   const Coefficient a = inverse_slope(problem, "a", result.coefficients[1]);
   const double inverse_b = result.coefficients[0].value / slope;
   if (!(inverse_b > 0)) undetermined(problem, "x/y does not begin above 0, so b is not positive");
-  // The line is 0 at x = -1/b: how far it may be off 0 there, over its slope, is how far 1/b may be off.
+  // The line is 0 at x = -1/b: its uncertainty there, over its slope, is the uncertainty of 1/b.
   const Fit at_root = linear_fit(problem, line_basis(x.array() + inverse_b), y, {"root", "slope"});
   const double half = 0.5 * (at_root.coefficients[0].high - at_root.coefficients[0].low) / slope;
   result.fitted_in = "x/y";
@@ -224,7 +224,7 @@ enum class Takes { x, porosity, x_and_z };
 struct Model {
   std::string name, formula;
   std::size_t coefficients;
-  std::size_t different_x; ///< that it needs; not of surfaces
+  std::size_t different_x; ///< number that it needs; unused for surfaces
   Takes takes;
   Fit (*fit)(const FitProblem&);
 };
@@ -247,7 +247,7 @@ const std::vector<Model>& models() {
   return list;
 }
 
-/// Throws InputError, with the nearest name, where there is none of this name.
+/// Throws InputError that suggests the nearest name where there is no such model.
 const Model& model_by_name(const std::string& name) {
   for (const Model& model : models())
     if (model.name == name) return model;
@@ -274,7 +274,7 @@ void check_different_values(const Model& model, const FitPoints& points) {
                     one_line(points.path), model.name, of_x, of_z));
 }
 
-/// Throws InputError where the points, or what x is said to be, do not go with the model.
+/// Throws InputError where the points, or the meaning given for x, do not suit the model.
 void check_points(const Model& model, const FitPoints& points, bool x_is_relative_density) {
   const std::size_t n = points.x.size();
   if (n < model.coefficients + 1)
@@ -290,7 +290,7 @@ void check_points(const Model& model, const FitPoints& points, bool x_is_relativ
   check_different_values(model, points);
 }
 
-/// Of y itself, whatever was fitted.
+/// R^2 of y itself, whatever quantity was fitted.
 double r_squared_of_y(const Fit& fit, const FitPoints& points) {
   double squares = 0;
   for (std::size_t i = 0; i < points.x.size(); ++i) {

@@ -1,5 +1,5 @@
 #pragma once
-// Fits of the correlations that compaction studies draw through their points.
+// Fits of the correlations that are usual in studies of compaction.
 
 #include <functional>
 #include <string>
@@ -9,7 +9,7 @@
 
 namespace mpfem {
 
-/// Points of a fit, as many values in each; z for surfaces only.
+/// Points of a fit: x and y have the same length; z too, for surfaces, otherwise it is empty.
 struct FitPoints {
   std::vector<double> x, y, z;
   std::string path = "points"; ///< for messages
@@ -17,16 +17,16 @@ struct FitPoints {
 
 struct Coefficient {
   std::string name;
-  double value = 0, low = 0, high = 0; ///< with its 95 % interval
+  double value = 0, low = 0, high = 0; ///< low and high: ends of the 95 % interval
 };
 
 struct Fit {
   std::string model, formula;
-  std::string fitted_in = "y"; ///< "y", "ln y", "x/y" …: where squares are summed, and what r_squared is of
+  std::string fitted_in = "y"; ///< "y", "ln y", "x/y" …: quantity whose squares are summed; r_squared is of it
   std::vector<Coefficient> coefficients;
-  std::vector<Coefficient> derived; ///< what follows from them: of spriggs E_p / E "at_zero_porosity"
+  std::vector<Coefficient> derived; ///< what follows from them: spriggs gives E_p / E "at_zero_porosity"
   double r_squared = 0;
-  double r_squared_of_y = 0; ///< of y itself, where something else is fitted
+  double r_squared_of_y = 0; ///< of y itself, also where another quantity is fitted
   double scatter = 0;        ///< standard deviation of the residuals, in `fitted_in`
   std::size_t points = 0;
   std::vector<std::string> notes;
@@ -36,7 +36,7 @@ struct Fit {
 /// Names of the models, in the order of the help.
 const std::vector<std::string>& fit_models();
 
-/// What a model is, for help texts: "linear: y = a + b x".
+/// For help texts: a line with name and formula for each model.
 std::string fit_help();
 
 /// Models (P = x is the porosity, or with `x_is_relative_density` 1 - x):
@@ -53,8 +53,8 @@ std::string fit_help();
 ///   walker                100/y = c - W log10 x, y relative density (Walker 1923)
 ///   gurnham               1 - y = d - c ln x, y relative density (Gurnham and Masson 1946)
 ///   pc-gc-surface         y = A - B exp(-x / C) exp(-z / D), x = p_c, z = G^c (Eq. 13 with the sign of p_c corrected)
-/// Models that are not linear in their coefficients are searched on a grid of those that enter otherwise, the rest
-/// solved linearly, then refined by Levenberg and Marquardt from the best grid points: no start values are needed.
+/// Models with coefficients that do not enter linearly are searched on a grid of these, with the linear ones solved at
+/// each point, and refined by the Levenberg-Marquardt method from the best grid points: no start values are needed.
 /// Throws InputError: unknown model, too few points, values outside a model's domain, points that do not determine a
 /// coefficient.
 Fit fit(const std::string& model, const FitPoints& points, bool x_is_relative_density = false);

@@ -1,20 +1,20 @@
 #pragma once
-// gnuplot as a child process, and what it reads and writes.
+// gnuplot as a child process, and the files that it reads and writes.
 
 #include <string>
 
 namespace mpfem {
 
-/// A file in the temporary folder that goes away with the object.
+/// A file in the temporary folder that is deleted with the object.
 class ScratchFile {
 public:
-  /// Throws StorageError.
+  /// Throws StorageError where the file cannot be made or written.
   explicit ScratchFile(const std::string& content);
   ~ScratchFile();
   ScratchFile(const ScratchFile&) = delete;
   ScratchFile& operator=(const ScratchFile&) = delete;
   const std::string& path() const { return path_; }
-  /// All that stands in it now.
+  /// Its present content.
   std::string content() const;
 
 private:
@@ -24,8 +24,8 @@ private:
 /// The text as a gnuplot string. In single quotes, since gnuplot would run `commands` inside double ones.
 std::string gnuplot_string(const std::string& text);
 
-/// Runs a script, without the user's start-up file. Throws SimulationError where gnuplot is missing or fails, with the
-/// beginning of what it said.
+/// Runs a script without the user's start-up file. Throws SimulationError where gnuplot is missing or fails, with the
+/// beginning of its message.
 void run_gnuplot(const std::string& script);
 
 } // namespace mpfem

@@ -16,7 +16,7 @@ void hand_over_picture(int argc, char** argv) {
   std::error_code error;
   const std::filesystem::path self = std::filesystem::read_symlink("/proc/self/exe", error);
   const std::string program = self.string() + "-picture";
-  execv(program.c_str(), argv); // comes back only where it fails
+  execv(program.c_str(), argv); // returns only on failure
   for (int i = 2; i < argc; ++i)
     if (std::string_view(argv[i]) == "--help" || std::string_view(argv[i]) == "-h") return;
   throw SimulationError(

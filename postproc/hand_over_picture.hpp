@@ -3,9 +3,9 @@
 
 namespace mpfem {
 
-/// Where the first argument is "picture", goes on as the executable that lies next to this one and is called
-/// postproc-picture, with the same arguments. Where it is missing, returns for --help and else throws
-/// SimulationError. Returns for all other first arguments.
+/// If the first argument is "picture", replaces this process by the executable postproc-picture next to this one, with
+/// the same arguments. Where that is missing, returns for --help and throws SimulationError otherwise. Returns for any
+/// other first argument.
 void hand_over_picture(int argc, char** argv);
 
 } // namespace mpfem

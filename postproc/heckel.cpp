@@ -21,7 +21,7 @@ std::vector<double> heckel_ordinate(std::span<const double> density) {
   return y;
 }
 
-/// Sums over rows from the first one on, so that the R^2 of any window takes no loop over its rows.
+/// Cumulative sums over rows, so that the R^2 of any window needs no loop over its rows.
 class WindowSums {
 public:
   WindowSums(std::span<const double> x, std::span<const double> y) : sums_(x.size() + 1) {
@@ -31,7 +31,7 @@ public:
     }
   }
 
-  /// Of the least-squares line through rows first … last; 0 where x or y does not vary.
+  /// R^2 of the least-squares line through rows first … last; 0 where x or y does not vary or the slope is not > 0.
   double r_squared(std::size_t first, std::size_t last) const {
     Sums s{};
     for (std::size_t k = 0; k < s.size(); ++k) s[k] = sums_[last + 1][k] - sums_[first][k];
@@ -44,17 +44,17 @@ private:
   std::vector<Sums> sums_;
 };
 
-/// Rows up to the largest pressure, and up to the largest density, from the first after which all have a pressure.
+/// Rows up to the largest pressure and up to the largest density, from the row after which all have a pressure > 0.
 RowRange usable_rows(std::span<const double> pressure, std::span<const double> density, double largest_density) {
   const auto peak = static_cast<std::size_t>(std::max_element(pressure.begin(), pressure.end()) - pressure.begin());
   std::size_t end = 0;
   while (end < density.size() && end <= peak && density[end] <= largest_density) ++end;
   std::size_t first = end;
   while (first > 0 && pressure[first - 1] > 0 && density[first - 1] > 0) --first;
-  return {first, end - 1}; // with no rows at all count() is 0
+  return {first, end - 1}; // without rows, count() wraps around to 0
 }
 
-/// Factor on half widths for residuals that follow each other, from their lag-1 correlation.
+/// Factor on half widths for correlated residuals, from their lag-1 correlation.
 double widening(const std::vector<double>& residual) {
   double product = 0, squares = 0;
   for (std::size_t i = 0; i < residual.size(); ++i) {
@@ -114,7 +114,7 @@ double density_without_elastic_compression(double density, double pressure, doub
 
 namespace {
 
-/// The same rows with another density: P_y and its uncertainty, under `name`.
+/// Adds P_y and its uncertainty, over the same rows with another density, under `name`.
 void add_corrected(Measurement& m, const std::string& name, const HeckelFit& fit, std::span<const double> pressure,
                    const std::vector<double>& density) {
   const auto corrected = heckel_line(pressure, density, {fit.first, fit.last});
@@ -122,7 +122,7 @@ void add_corrected(Measurement& m, const std::string& name, const HeckelFit& fit
   if (corrected) m.details[name + "_uncertainty_MPa"] = corrected->yield_pressure_uncertainty;
 }
 
-/// What the fit alone says.
+/// The part of the measurement that follows from the fit alone.
 Measurement in_die_measurement(const HeckelFit& fit, const HeckelRule& rule) {
   Measurement m;
   m.metric = "heckel";

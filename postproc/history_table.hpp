@@ -23,16 +23,16 @@ public:
 
   const std::vector<Column>& columns() const { return columns_; }
   std::size_t rows() const { return columns_.front().values.size(); }
-  /// Throws InputError, naming the nearest column, where there is none of this name.
+  /// Throws InputError that suggests the nearest name where there is no such column.
   const Column& column(std::string_view name) const;
-  bool has(std::string_view name) const; ///< columns that files of earlier versions lack
+  bool has(std::string_view name) const; ///< files of earlier versions lack some columns
   const std::vector<double>& operator[](std::string_view name) const { return column(name).values; }
   /// Columns by name, where "wall_stress" stands for all of its components. Throws InputError.
   std::vector<const Column*> select(const std::vector<std::string>& names) const;
 
-  /// mm^3, of the box or of the container that tools form.
+  /// Volume (mm^3) of the box, or of the container that tools form.
   double container_volume(std::size_t row) const;
-  /// mm^2, its cross-section along z.
+  /// Its cross-section normal to z, mm^2.
   double section(std::size_t row) const;
 
 private:
@@ -42,7 +42,7 @@ private:
   std::vector<Column> columns_;
 };
 
-/// Internal energy (mJ) of the stage that each row belongs to: common/stage_energy.hpp.
+/// [rows], internal energy (mJ) of the stage that each row belongs to: common/stage_energy.hpp.
 std::vector<double> internal_energy(const HistoryTable& history);
 
 } // namespace mpfem

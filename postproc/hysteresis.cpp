@@ -37,7 +37,7 @@ std::vector<TurningPoint> turning_points(std::span<const double> p) {
       lowest = row;
     }
   }
-  // The end is a turning point too: nothing went back from it because nothing came after.
+  // The extreme after the last turning point counts as one too: the curve ends before it can turn back.
   if (!points.empty()) points.push_back(points.back().high ? TurningPoint{lowest, false} : TurningPoint{highest, true});
   return points;
 }
@@ -56,7 +56,7 @@ double area_with_stride(std::span<const double> p, std::span<const double> strai
   double area = 0;
   std::size_t row = c.begin;
   while (row < c.end) {
-    // The turning points stay in: without them the loop would lose its tips, not its resolution.
+    // The turning points are kept, so that only the resolution of the loop changes and its tips remain.
     const std::size_t stop = row < c.top ? c.top : c.end, next = std::min(row + stride, stop);
     area += (0.5 * (p[row] + p[next]) - base) * (strain[next] - strain[row]);
     row = next;
@@ -64,7 +64,8 @@ double area_with_stride(std::span<const double> p, std::span<const double> strai
   return area;
 }
 
-/// Dissipated from the first row of a cycle to its last (mJ), and what its turning points' places make of that.
+/// Energy dissipated from the first row of a cycle to its last (mJ), and its uncertainty from the places of these
+/// turning points.
 double dissipated_in(std::span<const double> dissipation, CycleRows c) {
   return dissipation[c.end] - dissipation[c.begin];
 }
@@ -72,7 +73,7 @@ double turning_uncertainty(std::span<const double> dissipation, CycleRows c) {
   return turning_point_uncertainty(dissipation, c.begin) + turning_point_uncertainty(dissipation, c.end);
 }
 
-/// Curves row by row, as hysteresis() takes them.
+/// Curves row by row, as for hysteresis().
 struct Curves {
   std::span<const double> mean_stress, volumetric_strain, relative_density, plastic_dissipation, damage_dissipation,
       energy_residual;
@@ -114,7 +115,8 @@ std::vector<CycleRows> find_cycles(std::span<const double> p) {
   std::vector<CycleRows> cycles;
   for (std::size_t i = 0; i + 2 < points.size(); ++i) {
     if (points[i].high) continue;
-    // The last lowest point counts only where the stress has come down to where the cycle began, within the threshold.
+    // The last lowest point counts only if the stress has come down to where the cycle began, to within a fifth of the
+    // rise.
     const double rise = p[points[i + 1].row] - p[points[i].row], fall = p[points[i + 1].row] - p[points[i + 2].row];
     const bool whole = !cycles.empty() || rise > 0.8 * fall;
     if (fall > 0.8 * rise) cycles.push_back({points[i].row, points[i + 1].row, points[i + 2].row, whole});
@@ -180,7 +182,7 @@ std::vector<Column> cycle_table(const Hysteresis& h, std::size_t first_row) {
                                  {"change_of_density_at_high_stress", "1", {}}};
   for (std::size_t i = 0; i < h.cycles.size(); ++i) {
     const CycleResult& c = h.cycles[i];
-    const CycleResult& before = h.cycles[i > 0 ? i - 1 : 0]; // the first row has no change
+    const CycleResult& before = h.cycles[i > 0 ? i - 1 : 0]; // for the first row: itself, so no change
     const double row[] = {static_cast<double>(h.cycles.front().rows.whole ? i + 1 : i),
                           static_cast<double>(first_row + c.rows.begin),
                           static_cast<double>(first_row + c.rows.top),
@@ -207,7 +209,7 @@ std::vector<Column> cycle_table(const Hysteresis& h, std::size_t first_row) {
 
 namespace {
 
-/// The stage that is given, else the last stress_cycles, else the whole run as stage -1.
+/// The given stage, otherwise the last stress_cycles, otherwise the whole run as stage -1.
 StageRows choose_cycles(const HistoryTable& history, const schema::FileReader& file, std::optional<int> number) {
   const auto stages = stages_of(history, scenario_facts(file));
   const StageRows& stage = choose_stage(stages, number, {"stress_cycles"}, file.path());

@@ -11,7 +11,8 @@ namespace mpfem {
 
 namespace {
 
-/// 1/s: logarithmic, of the box's axis that strains fastest, from the row before to this one.
+/// Logarithmic strain rate (1/s) of the box's fastest axis, from the row before to this one; 0 where no time has
+/// passed.
 double strain_rate(const HistoryTable& history, std::size_t row) {
   const double elapsed = history["time"][row] - history["time"][row - 1];
   if (!(elapsed > 0)) return 0;

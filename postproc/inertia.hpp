@@ -1,5 +1,5 @@
 #pragma once
-// How much inertia a loading has, row by row: the inertial number, and kinetic over internal energy at its largest.
+// Inertia of a loading, row by row: the inertial number, and the largest kinetic over internal energy.
 
 #include <optional>
 #include <span>
@@ -9,25 +9,25 @@
 
 namespace mpfem {
 
-/// What the inertial number needs to know of the grains.
+/// The grains' properties that the inertial number needs.
 struct GrainInertia {
   double density = 0;  ///< tonne/mm^3, of their material, mass scaling included
   double diameter = 0; ///< mm, of the sphere with the grains' mean volume
 };
 
-/// From the scenario that the run carries, and the grains' volume by its first row. Nothing where the scenario does not
-/// tell one density: grains of several densities, or masses scaled to a step (ScenarioFacts).
+/// From the scenario in the run file, and the grains' volume in the first row. Empty where there is no single density:
+/// grains of several densities, or masses scaled to a step (ScenarioFacts).
 std::optional<GrainInertia> grain_inertia(const schema::FileReader& file, const HistoryTable& history);
 
-/// I = |strain rate| d sqrt(density / p) of each row (GDR MiDi, Eur. Phys. J. E 14 (2004) 341; Agnolin and Roux, Phys.
-/// Rev. E 76 (2007) 061302): the time in which p moves a grain by its own size, over the time in which the box strains
-/// by one. The strain rate is that of the axis that strains fastest, logarithmic, since the row before; p the mean
-/// stress of the row. 0 where it has no meaning: in a stage's first row, and where p is not positive.
+/// [rows], I = |strain rate| d sqrt(density / p) (GDR MiDi, Eur. Phys. J. E 14 (2004) 341; Agnolin and Roux, Phys. Rev.
+/// E 76 (2007) 061302): the time in which p moves a grain by its own size, over the time in which the box strains by
+/// one. The strain rate is logarithmic, since the row before, on the axis that strains fastest; p is the mean stress of
+/// the row. 0 where it has no meaning: in a stage's first row, and where p is not positive.
 std::vector<double> inertial_numbers(const HistoryTable& history, const GrainInertia& grains);
 
-/// Over some rows.
+/// Values over a set of rows.
 struct Inertia {
-  double kinetic_over_internal = 0; ///< largest; internal: of the row's stage (common/stage_energy.hpp)
+  double kinetic_over_internal = 0; ///< largest; internal energy of the row's stage (common/stage_energy.hpp)
   std::optional<double> inertial_number, largest_inertial_number; ///< median and largest of the rows that have one
 };
 

@@ -20,7 +20,7 @@ namespace {
 
 constexpr std::size_t octants = 8;
 
-/// One of the eight parts into which planes through its centre cut a region.
+/// One of the eight parts of a region, cut by the planes through its centre.
 Region octant(const Region& region, std::size_t number) {
   const Eigen::Vector3d centre = 0.5 * (region.low + region.high);
   Region part = region;
@@ -31,7 +31,7 @@ Region octant(const Region& region, std::size_t number) {
   return part;
 }
 
-/// Half of the 95 % interval of the mean stress by what the octants differ.
+/// Half of the 95 % interval (MPa) of the mean stress, from the scatter of the octants.
 double scatter_of_octants(const Region& region, std::span<const ForceLine> lines) {
   double sum = 0, squares = 0;
   for (std::size_t i = 0; i < octants; ++i) {
@@ -66,7 +66,7 @@ std::vector<ForceLine> lines_between_grains(const schema::FileReader& file, cons
   return lines;
 }
 
-/// The walls' pushes on grains, and their friction, where the snapshot has them.
+/// Adds the walls' normal forces on the grains, and their friction, where the snapshot has them.
 void add_lines_to_walls(std::vector<ForceLine>& lines, const schema::FileReader& file, const std::string& name,
                         const Region& box, std::span<const Eigen::Vector3d> centre) {
   if (!file.has(schema::run::snapshots_wall_force, name)) return;

@@ -9,7 +9,7 @@ double axial_stress_in_die(const DieSlice& slice, double z) {
 }
 
 double mean_axial_stress_in_die(const DieSlice& slice) {
-  // log1p of the small difference, so that the mean of nearly equal stresses is theirs.
+  // log1p of the small difference keeps the mean accurate for nearly equal stresses.
   const double difference = slice.upper_stress - slice.lower_stress;
   const double logarithm = std::log1p(difference / slice.lower_stress);
   return logarithm != 0 ? difference / logarithm : slice.lower_stress;

@@ -9,7 +9,7 @@ namespace mpfem {
 namespace {
 
 /// Half widths from the derivatives at the minimum, s^2 (J^T J)^-1. Columns are scaled first, so that parameters of
-/// different size do not pass for dependent.
+/// different size do not look dependent. Empty where the columns are linearly dependent.
 std::optional<Eigen::VectorXd> half_widths(const Eigen::MatrixXd& jacobian, double squares) {
   const Eigen::VectorXd scale = jacobian.colwise().norm();
   if (!(scale.minCoeff() > 0) || !scale.allFinite()) return {};
@@ -68,7 +68,7 @@ std::optional<LeastSquares> levenberg_marquardt(const ResidualFunction& function
         damping *= 10;
       }
     }
-    if (!better) at_rest = true; // no step makes it smaller: the minimum within rounding
+    if (!better) at_rest = true; // no step is better: the minimum to within rounding
   }
   if (!at_rest) return {};
   const auto half = half_widths(jacobian, at.squares);

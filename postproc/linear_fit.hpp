@@ -1,5 +1,5 @@
 #pragma once
-// A fit of coefficients that enter linearly, and what all fits share.
+// Fits of coefficients that enter linearly, and what all fits share.
 
 #include <string>
 #include <vector>
@@ -13,7 +13,7 @@ namespace mpfem {
 /// What a model is fitted to.
 struct FitProblem {
   std::string model; ///< for messages
-  FitPoints points;  ///< x as the model takes it: the porosity where it does
+  FitPoints points;  ///< x as the model needs it: the porosity for models of porosity
 };
 
 /// Throws InputError: the points do not determine the model's coefficients.
@@ -24,10 +24,12 @@ Eigen::VectorXd as_vector(const std::vector<double>& values);
 /// A coefficient with the interval value ± half.
 Coefficient symmetric(const std::string& name, double value, double half);
 
-/// r_squared and scatter of a fit that has its coefficients; `y`: what was fitted, `squares`: of its residuals.
+/// Sets r_squared and scatter of a fit that has its coefficients; `y`: what was fitted, `squares`: sum of the squared
+/// residuals.
 void set_quality(Fit& fit, const Eigen::VectorXd& y, double squares);
 
-/// y = basis * coefficients, a column of the basis and a name for each. Gives coefficients and quality.
+/// Fits y = basis * coefficients, with one name per column of the basis. Sets coefficients and quality. Throws
+/// InputError where the points do not determine the coefficients.
 Fit linear_fit(const FitProblem& problem, const Eigen::MatrixXd& basis, const Eigen::VectorXd& y,
                const std::vector<std::string>& names);
 

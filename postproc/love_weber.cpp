@@ -12,7 +12,7 @@ Region inner_region(const Region& whole, double share) {
 }
 
 double share_inside(const Region& region, const Eigen::Vector3d& from, const Eigen::Vector3d& to) {
-  double begin = 0, end = 1; // of the line, cut by the two planes across each axis (Liang and Barsky 1984)
+  double begin = 0, end = 1; // of the line, clipped by the two planes normal to each axis (Liang and Barsky 1984)
   for (Eigen::Index axis = 0; axis < 3; ++axis) {
     const double length = to[axis] - from[axis];
     if (length == 0) {

@@ -1,5 +1,5 @@
 #pragma once
-// Mean stress of a region of a packing: by the forces between grains, and by what the grains' solid carries.
+// Mean stress of a region of a packing: from the forces between grains, and from the pressure in the grains' solid.
 
 #include <span>
 
@@ -19,19 +19,19 @@ struct Region {
 /// The region with the same centre and `share` of its lengths.
 Region inner_region(const Region& whole, double share);
 
-/// Part of the straight line between two points (mm) that lies in a region, 0 … 1.
+/// Share (0 … 1) of the straight line between two points (mm) that lies in a region.
 double share_inside(const Region& region, const Eigen::Vector3d& from, const Eigen::Vector3d& to);
 
-/// A force that passes between two places: the centres of two grains, or of a grain and the wall's plane next to it.
+/// A force between two points: the centres of two grains, or the centre of a grain and the wall's plane next to it.
 struct ForceLine {
   Eigen::Vector3d from = Eigen::Vector3d::Zero(), to = Eigen::Vector3d::Zero(); ///< mm
-  Eigen::Vector3d force = Eigen::Vector3d::Zero(); ///< N, of what stands at `to` on the grain at `from`
+  Eigen::Vector3d force = Eigen::Vector3d::Zero(); ///< N, on the grain at `from` by the grain or wall at `to`
 };
 
-/// Love's and Weber's mean stress of a region (MPa, compression positive): -1/V sum of force (x) line, each line with
-/// the part of it that lies in the region (Love 1927; Weber 1966; lines as in Goldhirsch, Granular Matter 12 (2010)
-/// 239, with the region as the averaging function). Of a region that holds all grains, with the forces of its walls, it
-/// is what the walls carry, exactly, in equilibrium.
+/// Mean stress of a region by Love and Weber (MPa, compression positive): -1/V sum of force (x) line, each line
+/// weighted with its share inside the region (Love 1927; Weber 1966; lines as in Goldhirsch, Granular Matter 12 (2010)
+/// 239, with the region as the averaging function). For a region that holds all grains, with the forces of its walls,
+/// it equals what the walls carry, exactly in equilibrium.
 Eigen::Matrix3d love_weber_stress(const Region& region, std::span<const ForceLine> lines);
 
 /// Part of a solid with one pressure.
@@ -41,8 +41,8 @@ struct PressedVolume {
   double pressure = 0;                              ///< MPa, compression positive
 };
 
-/// Mean stress (MPa) of a region by what its solid carries, pores carrying nothing: sum of volume times pressure of
-/// what is centred in it, over the region's volume.
+/// Mean stress (MPa) of a region from its solid; pores carry nothing. Sum of volume times pressure of the parts that
+/// are centred in the region, over the region's volume.
 double solid_mean_stress(const Region& region, std::span<const PressedVolume> solid);
 
 } // namespace mpfem

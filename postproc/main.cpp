@@ -31,7 +31,7 @@ constexpr const char* help =
     "  postproc table, fits, plot, verdict, report: of a figure or study declared in one file (docs/figure-file.md)\n"
     "Exit codes: 0 done, 2 bad usage or input, 3 a picture could not be drawn, 4 storage failed.";
 
-/// In the order of the help, before and after the subcommands of figures.
+/// In the order of the help text, before and after the subcommands of figures.
 constexpr MakeCommand* before_figures[] = {summary_command,
                                            curve_command,
                                            contact_command,

@@ -1,5 +1,5 @@
 #pragma once
-// A number read off a run: what it is, how well it is known, from which rows and by which rule.
+// A number read from a run: what it is, its uncertainty, the rows it comes from and the rule.
 
 #include <array>
 #include <optional>
@@ -12,18 +12,18 @@
 
 namespace mpfem {
 
-/// Where a number was read. Ranges are of the rows used, lowest and highest.
+/// The rows that a number was read from. Ranges are lowest and highest value of these rows.
 struct Window {
   int stage = 0;                            ///< as in the scenario
   std::string stage_type;                   ///< empty where it is not known
   std::size_t first_row = 0, last_row = 0;  ///< rows of the history, both included
-  std::string strain_name = "axial_strain"; ///< which strain, counted from where `method` says
+  std::string strain_name = "axial_strain"; ///< which strain; `method` says where it is counted from
   std::array<double, 2> strain{};           ///< 1
   std::string stress_name = "axial_stress"; ///< which stress
   std::array<double, 2> stress{};           ///< MPa
 };
 
-/// Which snapshot a number was read from, of those that are not read from rows of the history.
+/// The snapshot that a number was read from, for numbers that do not come from rows of the history.
 struct SnapshotWindow {
   int number = 0;                               ///< from 0
   double relative_density = 0, mean_stress = 0; ///< 1, MPa
@@ -45,18 +45,18 @@ struct Measurement {
   std::vector<std::string> notes;         ///< what a reader must know before using the number
 };
 
-/// Adds a note where the run stopped on its way: its history looks like any other.
+/// Adds a note where the run is not complete, which its history alone does not show.
 void note_unfinished(Measurement& measurement, const schema::FileReader& run);
 
-/// The number, or null where it is not known.
+/// The number, or null where it is empty.
 nlohmann::ordered_json number_or_null(const std::optional<double>& number);
 
 nlohmann::ordered_json to_json(const Measurement& measurement);
 
-/// One line: "modulus: 1234 ± 56 MPa; BRIEF (stage 2, rows 401 … 433)", or "(stage 2, snapshot 3)".
+/// One line: "modulus: 1234 ± 56 MPa; BRIEF (stage 2, rows 401 … 433)", or "… (stage 2, snapshot 3)".
 std::string to_text(const Measurement& measurement);
 
-/// Lowest and highest of values [first, last].
+/// Lowest and highest of the values first … last, both included.
 std::array<double, 2> range_of(const std::vector<double>& values, std::size_t first, std::size_t last);
 
 } // namespace mpfem

@@ -15,11 +15,11 @@ namespace mpfem {
 namespace {
 
 constexpr std::size_t shortest_window = 7;   // two halves with four rows each, the middle one shared
-constexpr std::size_t longest_window = 1500; // of Theil and Sen's pairs, about a million
+constexpr std::size_t longest_window = 1500; // rows: about a million pairs for Theil-Sen
 
 struct Halves {
   double first = 0, second = 0, whole = 0; ///< slopes, MPa
-  double deviation = 0;                    ///< of the difference of both, by the halves' own scatter
+  double deviation = 0;                    ///< standard deviation of their difference, from the halves' scatter
   double change() const { return std::abs(second - first); }
 };
 
@@ -51,7 +51,7 @@ Halves halves_of(const StageCurve& c, Rows rows) {
 struct Choice {
   Rows rows;
   std::string limit; ///< what ends the window
-  std::string note;  ///< what a reader must know of it; empty: nothing
+  std::string note;  ///< what a reader must know about it; may be empty
 };
 
 Choice window_by_hand(const StageCurve& c, std::array<double, 2> range) {
@@ -92,7 +92,7 @@ Rise find_rise(const StageCurve& c) {
   return {{begin, peak}, std::move(smooth)};
 }
 
-/// The rows that the rule's share of the rise allows a window.
+/// The rows that a window may span by the rule's share of the rise.
 Rows allowed_rows(const Rise& rise, const ModulusRule& rule) {
   const double highest = rise.smooth[rise.rows.begin] + rule.stress_fraction * rise.over(rise.rows);
   std::size_t end = rise.rows.begin;
@@ -100,8 +100,7 @@ Rows allowed_rows(const Rise& rise, const ModulusRule& rule) {
   return {rise.rows.begin, std::max(end, rise.rows.begin + shortest_window - 1)};
 }
 
-/// The longest window from the first of the rows allowed in which damage and the change of slope are as the rule has
-/// them.
+/// The longest window, from the first of the allowed rows, in which damage and change of slope meet the rule.
 std::optional<Choice> longest_window_in(const StageCurve& c, const ModulusRule& rule, Rows allowed) {
   std::string ended_by = fmt::format("{:g} % of the rise in stress", 100 * rule.stress_fraction);
   const std::size_t first = allowed.begin;
@@ -119,8 +118,9 @@ std::optional<Choice> longest_window_in(const StageCurve& c, const ModulusRule& 
   return {};
 }
 
-/// A toe, where the slope still grows over the first fifth of the rise, is no elastic response of the whole sample yet:
-/// the window begins at the first row from which it spans as much. Nothing without a toe.
+/// Window without the toe, where the slope still grows over the first fifth of the rise: there not all of the sample
+/// responds elastically yet. The window begins at the first row from which it spans a fifth of the rise. Empty without
+/// a toe.
 std::optional<Choice> window_after_toe(const StageCurve& c, const ModulusRule& rule, const Rise& rise, Rows allowed) {
   const double fifth = 0.2 * rise.over(rise.rows);
   Rows toe{allowed.begin, allowed.begin + shortest_window - 1};
@@ -136,7 +136,7 @@ std::optional<Choice> window_after_toe(const StageCurve& c, const ModulusRule& r
   return {};
 }
 
-/// Where no window meets the rule.
+/// For the case that no window meets the rule.
 Choice shortest_window_at(const StageCurve& c, const ModulusRule& rule, std::size_t begin) {
   const Rows shortest{begin, begin + shortest_window - 1};
   if (!strain_rises(c, shortest))
@@ -156,7 +156,7 @@ Choice window_by_rule(const StageCurve& c, const ModulusRule& rule) {
   return shortest_window_at(c, rule, allowed.begin);
 }
 
-/// Every so many rows that Theil and Sen's pairs stay few.
+/// Leaves out rows at regular intervals, so that at most `longest_window` are left.
 std::vector<double> thinned(std::span<const double> values) {
   const std::size_t stride = (values.size() + longest_window - 1) / longest_window;
   std::vector<double> kept;

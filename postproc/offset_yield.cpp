@@ -39,10 +39,10 @@ LoadingPath path_of_probe(const StageCurve& c) {
 struct ElasticLine {
   double slope = 0, uncertainty = 0; ///< MPa
   double zero_strain = 0;
-  std::size_t first_row = 0; ///< of the window that it was read from
+  std::size_t first_row = 0; ///< first row of its window
 };
 
-/// Through the medians of a window's rows, as Theil and Sen's.
+/// Median over the window's rows of the strain at which a line of this slope through the row meets zero stress.
 double zero_strain(const LoadingPath& path, double slope, std::size_t first, std::size_t last) {
   std::vector<double> zeros;
   for (std::size_t row = first; row <= last; ++row) zeros.push_back(path.strain[row] - path.stress[row] / slope);
@@ -51,7 +51,7 @@ double zero_strain(const LoadingPath& path, double slope, std::size_t first, std
 
 ElasticLine elastic_line(const StageCurve& c, const LoadingPath& path, const OffsetYieldRule& rule) {
   if (rule.slope) return {*rule.slope, 0, zero_strain(path, *rule.slope, 0, std::min<std::size_t>(6, c.rows() - 1)), 0};
-  StageCurve along = c; // what `modulus` looks at, in the path's own variables
+  StageCurve along = c; // the columns that `modulus` uses, in the path's variables
   along.axial_strain = path.strain;
   along.axial_stress = path.stress;
   along.damage_dissipation.assign(c.rows(), 0.0);
@@ -73,7 +73,7 @@ std::optional<Crossing> reach_offset(const LoadingPath& path, const ElasticLine&
 
 LoadingPath loading_path(const StageCurve& c) {
   const bool axial =
-      c.unconfined || (!c.type.empty() && c.type != "probe"); // a history that does not say is taken for a probe
+      c.unconfined || (!c.type.empty() && c.type != "probe"); // a stage of unknown type is treated as a probe
   if (!axial) return path_of_probe(c);
   if (c.unconfined) return {c.axial_strain, since_start(c.axial_stress), "axial strain", "axial stress"};
   return {c.axial_strain, since_start(c.deviatoric_stress), "axial strain", "q"};

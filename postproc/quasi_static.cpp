@@ -21,7 +21,7 @@ Measurement quasi_static(const HistoryTable& history, const StageRows& stage,
     largest_residual = std::max(largest_residual, std::abs(residual[rows[i]] - residual.front()));
     largest_work = std::max(largest_work, std::abs(work[rows[i]] - work.front()));
   }
-  const bool rises = 10 * (peak + 1) > rows.size(); // else the stress is largest at the beginning: an unloading
+  const bool rises = 10 * (peak + 1) > rows.size(); // otherwise the stress is largest at the beginning: an unloading
   double of_elastic = 0, difference = 0, stress = 0;
   std::vector<std::size_t> loaded;
   for (std::size_t i = 0; i < rows.size(); ++i) {

@@ -30,7 +30,7 @@ TetRaster rasterise(const std::vector<SectionPolygon>& polygons, const View& vie
     }
     const int first = static_cast<int>(std::clamp(std::ceil(top - 0.5), 0.0, static_cast<double>(height)));
     const int last = static_cast<int>(std::clamp(std::floor(bottom - 0.5), -1.0, height - 1.0));
-    for (int row = first; row <= last; ++row) { // the convex polygon's span on the row through the pixels' centres
+    for (int row = first; row <= last; ++row) { // span of the convex polygon on the line through the pixels' centres
       const double y = row + 0.5;
       double left = 1e300, right = -1e300;
       for (std::size_t i = 0; i < corners; ++i) {
@@ -49,7 +49,7 @@ TetRaster rasterise(const std::vector<SectionPolygon>& polygons, const View& vie
   return raster;
 }
 
-/// Colour of the nearest of a grain's bands at every fine pixel within their width; `painted` where there is one.
+/// Colour of the grain's nearest band at every fine pixel within the band's width; `painted` where there is one.
 struct BandRaster {
   std::vector<Colour> colour;
   std::vector<bool> painted;
@@ -101,7 +101,7 @@ std::vector<std::uint16_t> rasterise_tools(const std::vector<std::vector<Outline
   number.resize(static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
   const double sx = width / (view.high[0] - view.low[0]), sy = height / (view.high[1] - view.low[1]);
   for (std::size_t tool = 0; tool < tools.size(); ++tool) {
-    std::vector<std::vector<double>> crossings(static_cast<std::size_t>(height)); // of the rows' middles
+    std::vector<std::vector<double>> crossings(static_cast<std::size_t>(height)); // with the middle line of each row
     for (const OutlinePiece& piece : tools[tool]) {
       const double x0 = (piece.from[0] - view.low[0]) * sx, y0 = (view.high[1] - piece.from[1]) * sy;
       const double x1 = (piece.to[0] - view.low[0]) * sx, y1 = (view.high[1] - piece.to[1]) * sy;
@@ -125,8 +125,8 @@ std::vector<std::uint16_t> rasterise_tools(const std::vector<std::vector<Outline
   return number;
 }
 
-/// The colours of fine pixels, `fineness` along a side of a pixel: bands over outlines over the mesh over the tets,
-/// and tools where there are none.
+/// The colours of fine pixels, `fineness` along a side of a pixel: bands over outlines over the mesh over the tets, and
+/// tools outside the tets.
 class FinePicture {
 public:
   FinePicture(const TetRaster& fine, const BandRaster& bands, const std::vector<std::uint16_t>& tools,
@@ -169,7 +169,7 @@ private:
     const std::int32_t tet = tet_at(x, y);
     return tet < 0 ? -1 : tet_grain_[static_cast<std::size_t>(tet)];
   }
-  /// Where another grain, or none, lies within the line's half width.
+  /// True where another grain, or none, lies within the line's half width.
   bool on_outline(int x, int y) const {
     const std::int32_t grain = grain_at(x, y);
     for (const auto& [dx, dy] :

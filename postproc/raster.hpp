@@ -1,5 +1,5 @@
 #pragma once
-// Sections painted pixel by pixel.
+// Sections drawn pixel by pixel.
 
 #include <array>
 #include <cstdint>
@@ -17,12 +17,13 @@ struct Raster {
   std::vector<Colour> pixel;
 };
 
-/// What a picture shows of the plane: [low, high] in its two coordinates, mm.
+/// The part of the plane that a picture shows: [low, high] in its two coordinates, mm.
 struct View {
   std::array<double, 2> low{}, high{};
 };
 
-/// A line along a grain's boundary, painted inside the grain. Values are fractions of scale_colour, linear in between.
+/// A line along a grain's boundary, drawn inside the grain. Values are fractions for scale_colour, linear from end to
+/// end.
 struct Band {
   std::array<double, 2> from{}, to{}; ///< mm
   double value_from = 0, value_to = 0;
@@ -31,16 +32,16 @@ struct Band {
 
 /// What is drawn over the polygons, and next to them.
 struct Lines {
-  bool mesh = false;          ///< thin ones between tets
+  bool mesh = false;          ///< thin lines between tets
   Colour outline{25, 25, 25}; ///< between different grains and around them
   std::vector<Band> bands;    ///< over the outlines
   double band_pixels = 5;     ///< width of a band
-  /// Of rigid tools, filled with grey where no grain is.
+  /// Outlines of rigid tools, filled with grey where there is no grain.
   std::vector<std::vector<OutlinePiece>> tools;
 };
 
-/// Fills the polygons with their tets' colours (one a tet) and draws lines over them. `pixels` along the longer side;
-/// smoothed by drawing three times as fine.
+/// Fills the polygons with their tets' colours ([tets]) and draws lines over them. `pixels`: number along the longer
+/// side. Each pixel is the mean of 3 x 3 finer ones.
 Raster draw_section(const std::vector<SectionPolygon>& polygons, const std::vector<Colour>& tet_colour,
                     const std::vector<std::int32_t>& tet_grain, const View& view, int pixels, const Lines& lines = {});
 

@@ -19,8 +19,8 @@ void write_raster_picture(const std::string& path, const Raster& raster, const F
   const View& view = frame.view;
   const double pixel_width = (view.high[0] - view.low[0]) / raster.width,
                pixel_height = (view.high[1] - view.low[1]) / raster.height;
-  // Margins in pixels, so that a pixel of the raster is one of the picture; with the text they grow with the picture,
-  // so that a finer one looks the same in print.
+  // Margins in pixels, so that a pixel of the raster is one of the picture. Margins and text grow with the picture, so
+  // that a finer one looks the same in print.
   const double scale = std::max(0.6, frame.pixels / 900.0);
   const auto scaled = [scale](int pixels) { return static_cast<int>(std::lround(scale * pixels)); };
   const int left = scaled(150), right = scaled(frame.bar ? 190 : 40), bottom = scaled(90), top = scaled(55);
@@ -50,7 +50,7 @@ void write_raster_picture(const std::string& path, const Raster& raster, const F
       "plot {} binary array=({},{}) format='%uchar' flipy origin=({},{}) dx={} dy={} using 1:2:3 with rgbimage",
       gnuplot_string(data.path()), raster.width, raster.height, view.low[0] + 0.5 * pixel_width,
       view.low[1] + 0.5 * pixel_height, pixel_width, pixel_height);
-  // A point outside the view that carries the palette, so that the colour bar is drawn.
+  // gnuplot draws the colour bar only for a plot that uses the palette: a point outside the view does.
   script += frame.bar ? fmt::format(", '-' using 1:2:3 with points pt 0 lc palette\n{} {} 0\ne\n",
                                     2 * view.high[0] - view.low[0], 2 * view.high[1] - view.low[1])
                       : "\n";

@@ -21,8 +21,8 @@ struct Frame2d {
   int pixels = 900;                    ///< along the raster's longer side; margins and text grow with it
 };
 
-/// Writes the PNG through gnuplot: a pixel of the raster is one of the picture. Throws SimulationError where gnuplot is
-/// missing or fails, StorageError.
+/// Writes the PNG through gnuplot; one pixel of the raster is one of the picture. Throws SimulationError where gnuplot
+/// is missing or fails, StorageError where the file cannot be written.
 void write_raster_picture(const std::string& path, const Raster& raster, const Frame2d& frame);
 
 } // namespace mpfem

@@ -10,8 +10,8 @@ namespace mpfem {
 
 namespace {
 
-/// Rows to either side of parabolas twice as wide as the smoothing's: they show ringing whose period the narrow ones
-/// follow.
+/// Rows on either side for parabolas twice as wide as those of the smoothing. They show ringing with a period so long
+/// that the narrow ones follow it.
 std::size_t wide_half_rows(std::size_t rows) {
   const std::size_t half = smoothing_half_rows(rows);
   return rows > 4 * half ? 2 * half : half;

@@ -1,5 +1,5 @@
 #pragma once
-// Ringing: how far vibration moves single rows of a curve off what it would be at rest.
+// Ringing: how far vibration moves single rows of a curve from their static values.
 
 #include <vector>
 
@@ -7,11 +7,11 @@
 
 namespace mpfem {
 
-/// The rows by which the ringing at `row` is judged, of a curve of so many rows.
+/// The rows from which the ringing at `row` is estimated, in a curve of `rows` rows.
 RowRange ringing_rows(std::size_t row, std::size_t rows);
 
-/// Twice the scatter of a column's rows about parabolas twice as wide as the smoothing's, near `row`, in the column's
-/// unit: 95 % of what ringing adds to a row.
+/// 95 % of what ringing adds to a row, in the column's unit: twice the scatter of the column's rows near `row` about
+/// parabolas that are twice as wide as those of the smoothing.
 double ringing(const std::vector<double>& column, std::size_t row);
 
 } // namespace mpfem

@@ -18,7 +18,7 @@ struct CutPlane {
 /// x and y).
 struct SectionPolygon {
   int corners = 0;
-  std::array<std::array<double, 2>, 4> corner{}; ///< mm, convex, either sense
+  std::array<std::array<double, 2>, 4> corner{}; ///< mm, convex, in either sense of rotation
   std::int32_t tet = 0;
 };
 

@@ -15,7 +15,7 @@ namespace mpfem {
 
 namespace {
 
-/// The section's values and the areas that they have on it.
+/// The values on a section and their areas (mm^2).
 std::vector<std::pair<double, double>> values_and_areas(const std::vector<SectionPolygon>& polygons,
                                                         const std::vector<float>& values) {
   std::vector<std::pair<double, double>> parts;
@@ -66,7 +66,7 @@ VisibleSection visible_section(const Snapshot& snapshot, const PictureRequest& r
   return {view, std::move(polygons)};
 }
 
-/// What a colour stands for, of one field of a snapshot.
+/// The field of a snapshot that the colours show.
 struct Shown {
   const Field& field;
   bool damage; ///< along the grains' boundaries
@@ -79,7 +79,7 @@ Shown shown_field(const Snapshot& snapshot, const std::string& name) {
   return {field, damage, field.name == "grain"};
 }
 
-/// Values at the ends of the colour scale.
+/// A linear colour scale.
 struct Scale {
   std::pair<double, double> range;
   double fraction(double value) const { return (value - range.first) / (range.second - range.first); }
@@ -105,8 +105,7 @@ std::vector<Colour> tet_colours(const Snapshot& snapshot, const Shown& shown, co
   return colour;
 }
 
-/// The tools, the tets' edges where the request has them, and of damage a band along each boundary that has been
-/// bonded.
+/// The tools, the tets' edges where requested, and for damage a band along each boundary that has been bonded.
 Lines lines_over(const Snapshot& snapshot, const Shown& shown, const Scale& scale, const PictureRequest& request) {
   Lines lines;
   lines.mesh = request.mesh_lines;

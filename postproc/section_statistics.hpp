@@ -1,13 +1,13 @@
 #pragma once
-// What a plane section shows, in numbers: stress weighted by area, damage by length.
+// Statistics of a plane section: stress weighted by area, damage by length.
 
 #include "postproc/damage_section.hpp"
 #include "postproc/measurement.hpp"
 
 namespace mpfem {
 
-/// Mean, median, 95th and 99th percentile and largest value of a field, and the share of the area in which it is above
-/// `threshold`.
+/// Mean, median, 95th and 99th percentile and largest value of a field, in its unit, and the share of the area in which
+/// it is above `threshold`.
 struct SectionStress {
   double mean = 0, median = 0, percentile_95 = 0, percentile_99 = 0, largest = 0, share_above = 0;
 };
@@ -15,14 +15,15 @@ struct SectionStress {
 /// Throws InputError where there is no area.
 SectionStress section_stress(std::vector<std::pair<double, double>> value_and_area, double threshold);
 
-/// Bonded length (mm), mean damage of it and its share that is at least `threshold`; segments that were never bonded
-/// are left out.
+/// Bonded length (mm), its mean damage, and the share of it with a damage of `threshold` or more. Segments that were
+/// never bonded are left out.
 struct SectionDamage {
   double bonded_length = 0, mean = 0, share_above = 0;
 };
 SectionDamage section_damage(const std::vector<BoundarySegment>& segments, double threshold);
 
-/// Of the middle plane normal to `axis` of a snapshot. Throws InputError.
+/// Statistics on the middle plane of a snapshot (numbered as in snapshot_name) normal to `axis` (0, 1, 2); the values
+/// are the mean von Mises stress (MPa, as `threshold`) and the mean damage. Throws InputError.
 Measurement measure_section_stress(const schema::FileReader& file, int snapshot, int axis, double threshold);
 Measurement measure_section_damage(const schema::FileReader& file, int snapshot, int axis, double threshold);
 

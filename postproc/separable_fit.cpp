@@ -34,7 +34,7 @@ ResidualFunction residuals_of(const Separable& model, const VectorXd& y) {
     jacobian.resize(y.size(), linear + nonlinear);
     jacobian.leftCols(linear) = basis_of(model, points, b);
     residual = jacobian.leftCols(linear) * a - y;
-    for (Index k = 0; k < nonlinear; ++k) { // central differences: error of the order 1e-10 of the derivative
+    for (Index k = 0; k < nonlinear; ++k) { // central differences: relative error of the order 1e-10
       const double step = 1e-5 * std::max(std::abs(b[k]), 1e-8);
       VectorXd above = b, below = b;
       above[k] += step;
@@ -45,7 +45,7 @@ ResidualFunction residuals_of(const Separable& model, const VectorXd& y) {
   };
 }
 
-/// Every combination of the grid's values, the first coefficient's running fastest.
+/// Every combination of the grid's values; the first coefficient varies fastest.
 std::vector<VectorXd> grid_points(const std::vector<std::vector<double>>& grid) {
   std::vector<VectorXd> points;
   std::vector<std::size_t> index(grid.size(), 0);
@@ -90,7 +90,7 @@ std::optional<LeastSquares> best_refined(const std::vector<Start>& starts, const
   return best;
 }
 
-/// Throws InputError where a coefficient lies beyond the values that it was sought among.
+/// Throws InputError where a coefficient lies outside its grid.
 void need_saturation(const FitProblem& problem, const std::string& name, double value,
                      const std::vector<double>& grid) {
   if (value < grid.front() || value > grid.back())

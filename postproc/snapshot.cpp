@@ -38,7 +38,7 @@ void check_size(const std::vector<float>& values, std::size_t expected, std::str
     throw InputError(fmt::format("{}: {} has {} values, expected {}", path, name, values.size(), expected));
 }
 
-/// Pictures and sections of anything else would be drawn for ever.
+/// Throws InputError where a node or the box is not finite: drawing and cutting would never end.
 void check_places(const Snapshot& s, const std::string& path) {
   for (std::size_t i = 0; i < s.node.size(); ++i)
     if (!std::isfinite(s.node[i]))
@@ -57,7 +57,7 @@ const Field& Snapshot::tet_field(const std::string& field_name) const {
   std::vector<std::string> names;
   for (const Field& field : tet_fields) names.push_back(field.name);
   for (const Field& field : node_fields)
-    if (field.name == "damage") names.push_back(field.name); // the one node field that sections show
+    if (field.name == "damage") names.push_back(field.name); // the only node field that sections show
   throw InputError(fmt::format("no field '{}'; allowed: {}", one_line(field_name), fmt::join(names, ", ")));
 }
 

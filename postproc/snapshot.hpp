@@ -26,17 +26,18 @@ struct Snapshot {
   std::vector<std::int32_t> tet_grain;                    ///< [tets]
   std::vector<Field> tet_fields, node_fields;
   std::vector<float> velocity;     ///< [nodes * 3], mm/s; empty for a packing
-  std::vector<ToolGeometry> tools; ///< rigid ones in place
+  std::vector<ToolGeometry> tools; ///< rigid tools that are in place
 
   std::size_t nodes() const { return node.size() / 3; }
   std::size_t tets() const { return tet.size() / 4; }
-  /// Throws InputError listing the fields where there is none of this name.
+  /// Throws InputError that lists the fields where there is none of this name.
   const Field& tet_field(const std::string& field_name) const;
   /// Throws InputError where there is none of this name.
   const Field& node_field(const std::string& field_name) const;
 };
 
-/// Snapshots of a run file by number, as given: 0 the first, negative from the end (-1 the last). Throws InputError.
+/// Reads snapshot `number` of a run file: 0 the first, -1 the last, other negative numbers from the end. Throws
+/// InputError.
 Snapshot read_snapshot(const schema::FileReader& file, int number);
 /// The mesh of a packing file. Throws InputError where it is not meshed.
 Snapshot read_packing_snapshot(const std::string& path);

@@ -5,7 +5,7 @@
 
 namespace mpfem {
 
-/// Of snapshot `number` (as in snapshot_name), with the stage of the history's row nearest in time. Throws InputError.
+/// Snapshot `number` (as in snapshot_name), with the stage of the history row nearest in time. Throws InputError.
 SnapshotWindow snapshot_window(const schema::FileReader& file, int number);
 
 } // namespace mpfem

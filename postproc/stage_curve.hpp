@@ -1,5 +1,5 @@
 #pragma once
-// What one stage of a run did, row by row: the curves that strengths, moduli and yield points are read from.
+// One stage of a run, row by row: the curves from which strengths, moduli and yield points are read.
 
 #include <string>
 #include <vector>
@@ -12,7 +12,7 @@ namespace mpfem {
 struct StageCurve {
   int stage = 0;
   std::string type;                        ///< as in the scenario; empty where it is not known
-  std::size_t first_row = 0;               ///< of the history, row 0 here
+  std::size_t first_row = 0;               ///< row of the history that is row 0 here
   std::vector<double> axial_strain;        ///< 1
   std::vector<double> volumetric_strain;   ///< 1
   std::vector<double> axial_stress;        ///< MPa, mean of both z walls
@@ -22,16 +22,16 @@ struct StageCurve {
   std::vector<double> relative_density;    ///< 1
   std::vector<double> plastic_dissipation; ///< mJ, since the run began
   std::vector<double> damage_dissipation;  ///< mJ, since the run began
-  std::vector<double> axial_work;          ///< mJ, of the z walls since the stage began (trapezoids)
+  std::vector<double> axial_work;          ///< mJ, by the z walls since the stage began (trapezoids)
   std::string path;                        ///< for messages
   bool unconfined = false;                 ///< the lateral walls carry next to nothing
   std::size_t rows() const { return axial_strain.size(); }
 };
 
-/// A stage is unconfined where the median over its rows (its first left out) of the lateral stress is below 1 % of the
-/// largest axial stress. Lateral walls that are gone no longer tell the sample's cross-section: then the axial stress
-/// is the walls' force over the face at the stage's beginning, else the mean wall stress, over the face of the row.
-/// Throws InputError.
+/// A stage is unconfined where the median of the lateral stress over its rows, without the first, is below 1 % of the
+/// largest axial stress. Lateral walls that have moved away no longer give the sample's cross-section: the axial stress
+/// is then the walls' force over the face at the stage's beginning, otherwise the mean wall stress, over the face of
+/// the row. Throws InputError.
 StageCurve stage_curve(const HistoryTable& history, const StageRows& rows, const std::string& path);
 
 } // namespace mpfem

@@ -42,7 +42,7 @@ ScenarioFacts scenario_facts(const schema::FileReader& file) {
         facts.stage_names.push_back(table ? (*table)["name"].value_or(unnamed) : unnamed);
         facts.stage_types.push_back(type);
       }
-  } catch (const InputError&) { // a scenario of another make: its metrics need more options, and no more than that
+  } catch (const InputError&) { // scenario of another version: metrics then need more options
     return {};
   }
   return facts;

@@ -95,7 +95,7 @@ Parabola least_squares_parabola(std::span<const double> x, std::span<const doubl
     const double t = (x[static_cast<std::size_t>(i)] - parabola.centre) / parabola.scale;
     basis.row(i) << 1, t, t * t;
   }
-  // From the first value on, so that a constant is one without rounding.
+  // Offsets from the first value, so that a constant stays one without rounding.
   const Eigen::VectorXd values = Eigen::Map<const Eigen::VectorXd>(y.data(), points).array() - y.front();
   const Eigen::Vector3d c = basis.colPivHouseholderQr().solve(values);
   parabola.coefficient = {y.front() + c[0], c[1], c[2]};
@@ -181,7 +181,7 @@ Line theil_sen_line(std::span<const double> x, std::span<const double> y) {
 std::vector<double> local_parabolas(std::span<const double> y, std::size_t half_rows) {
   const std::size_t n = y.size(), width = 2 * half_rows + 1;
   std::vector<double> smoothed(n);
-  // Rows as abscissa, scaled to -1 … 1: the same well-conditioned matrix for every window.
+  // Rows as abscissa, scaled to -1 … 1: every window has the same well-conditioned matrix.
   Eigen::MatrixXd basis(static_cast<Eigen::Index>(width), 3);
   const auto position = [&](std::size_t row_in_window) {
     return (static_cast<double>(row_in_window) - static_cast<double>(half_rows)) / static_cast<double>(half_rows);

@@ -9,11 +9,11 @@
 
 namespace mpfem {
 
-/// The value that Student's t with `degrees_of_freedom` >= 1 exceeds in absolute value with a probability of 5 %
-/// (12.706 for 1, 1.960 for many). Closed distribution function of whole degrees: Abramowitz & Stegun 26.7.3, 26.7.4.
+/// The value that |t| of Student's distribution with `degrees_of_freedom` >= 1 exceeds with a probability of 5 %
+/// (12.706 for 1, 1.960 for many). Closed form for whole degrees: Abramowitz & Stegun 26.7.3, 26.7.4.
 double student_t_95(std::size_t degrees_of_freedom);
 
-/// Percentiles of values that have weights.
+/// Percentiles of weighted values.
 class WeightedPercentiles {
 public:
   /// Pairs of value and weight > 0.
@@ -22,7 +22,7 @@ public:
   double at(double share) const;
 
 private:
-  std::vector<std::pair<double, double>> value_and_weight_; ///< by value
+  std::vector<std::pair<double, double>> value_and_weight_; ///< sorted by value
   double total_ = 0;
 };
 
@@ -30,33 +30,33 @@ private:
 struct Line {
   double intercept = 0, slope = 0;
   double slope_half_width = 0;     ///< half of the 95 % interval of the slope
-  double intercept_half_width = 0; ///< and of the intercept; of least squares only
+  double intercept_half_width = 0; ///< and of the intercept; least squares only
   double scatter = 0;              ///< standard deviation of the residuals
 };
 
 /// Ordinary least squares. Needs two different x; half widths and scatter are 0 below three points.
 Line least_squares_line(std::span<const double> x, std::span<const double> y);
 
-/// Theil-Sen: the median slope of all pairs of points (Sen 1968), which up to 29 % of outliers do not move; intercept
-/// through the medians. The half width is that of Sen's interval from Kendall's statistic, widened for residuals that
-/// follow each other (ringing) by sqrt((1 + r) / (1 - r)) with their lag-1 autocorrelation r. Needs two different x.
+/// Theil-Sen: the median slope of all pairs of points (Sen 1968), which is robust against up to 29 % of outliers;
+/// intercept through the medians. The half width is that of Sen's interval from Kendall's statistic, widened for
+/// correlated residuals (ringing) by sqrt((1 + r) / (1 - r)) with their lag-1 autocorrelation r. Needs two different x.
 Line theil_sen_line(std::span<const double> x, std::span<const double> y);
 
-/// Values at each row of parabolas that are fitted around it, to `half_rows` rows on either side (near the ends to as
-/// many rows, none beyond the end). A parabola, unlike a running mean, does not cut off peaks. Needs 2 * half_rows + 1
-/// values or more, half_rows >= 1.
+/// Values, at each row, of parabolas fitted to `half_rows` rows on either side of it (near an end to as many rows,
+/// shifted inwards). A parabola, unlike a running mean, does not cut off peaks. Needs 2 * half_rows + 1 values or more,
+/// half_rows >= 1.
 std::vector<double> local_parabolas(std::span<const double> y, std::size_t half_rows);
 
-/// Share of the rows' noise (variance, independent from row to row) that is left in a row of local_parabolas away from
-/// the ends: a third for half_rows = 3 (Savitzky and Golay 1964).
+/// Share of the rows' noise (variance, independent from row to row) that local_parabolas leave in a row away from the
+/// ends: a third for half_rows = 3 (Savitzky and Golay 1964).
 double noise_left_by_parabolas(std::size_t half_rows);
 
-/// A parabola, in x taken from `centre` and over `scale` so that its coefficients are of one order.
+/// A parabola in (x - centre) / scale, so that its coefficients are of the same order.
 struct Parabola {
   double centre = 0, scale = 1;
   std::array<double, 3> coefficient{};
   double scatter = 0;      ///< standard deviation of the residuals
-  std::size_t freedom = 0; ///< degrees of freedom that it is known with: points less three
+  std::size_t freedom = 0; ///< degrees of freedom: number of points minus three
   double at(double x) const {
     const double t = (x - centre) / scale;
     return coefficient[0] + t * (coefficient[1] + t * coefficient[2]);
@@ -66,24 +66,25 @@ struct Parabola {
 /// Ordinary least squares. Needs three points or more; scatter and freedom are 0 for three.
 Parabola least_squares_parabola(std::span<const double> x, std::span<const double> y);
 
-/// A share of sums, and how well it is known.
+/// A statistic with its uncertainty.
 struct Ratio {
   double value = 0;
-  double half_width = 0; ///< half of the 95 % interval; 0 for one unit, which says nothing of others
+  double half_width = 0; ///< half of the 95 % interval; 0 where it cannot be estimated
 };
 
 /// sum(y) / sum(x) over units that are independent of each other (y and x of one unit need not be): the ratio estimator
 /// of cluster samples. Variance by linearisation, n / (n - 1) sum((y - R x)^2) / sum(x)^2 (Cochran, Sampling
-/// Techniques, 3rd ed. 1977, chapter 6), interval by Student's t with n - 1 degrees of freedom. Needs sum(x) > 0.
+/// Techniques, 3rd ed. 1977, chapter 6), interval by Student's t with n - 1 degrees of freedom; the half width is 0 for
+/// one unit. Needs sum(x) > 0.
 Ratio ratio_of_sums(std::span<const double> y, std::span<const double> x);
 
 /// Standard deviation (n - 1) and half of its 95 % interval from its variance (m_4 - s^4) / (4 n s^2), m_4 the fourth
-/// central moment: no normal distribution is supposed. Both 0 for fewer than two values.
+/// central moment; no normal distribution is assumed. Both 0 for fewer than two values.
 Ratio standard_deviation(std::span<const double> values);
 
-double median(std::vector<double> values); ///< of at least one value
+double median(std::vector<double> values); ///< needs at least one value
 
-/// Row and fraction towards the next one where a value is first reached, rising or falling.
+/// Where a value is first reached, rising or falling: a row, and a fraction of the step to the next row.
 struct Crossing {
   std::size_t row = 0;
   double fraction = 0; ///< 0 … 1
@@ -91,7 +92,7 @@ struct Crossing {
   double of(std::span<const double> column) const {
     return fraction > 0 ? column[row] + fraction * (column[row + 1] - column[row]) : column[row];
   }
-  /// Half of that column's change between the two rows: what lies between them is not known better.
+  /// Half of that column's change between the two rows, as the uncertainty of the interpolation.
   double half_spacing(std::span<const double> column) const;
 };
 

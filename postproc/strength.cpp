@@ -23,12 +23,12 @@ StrengthTest test_of(const StageCurve& c) {
   return c.unconfined ? StrengthTest::unconfined : StrengthTest::triaxial;
 }
 
-/// A test and the stress that its strength is read from: the axial stress, or q.
+/// A test and the stress from which its strength is read: the axial stress, or q.
 struct Test {
   const StageCurve& curve;
   bool unconfined;
   const char* stress_name;        ///< for messages
-  const std::vector<double>& raw; ///< MPa, a value a row
+  const std::vector<double>& raw; ///< MPa, one value per row
   std::vector<double> smooth;     ///< MPa
 };
 
@@ -45,7 +45,7 @@ std::size_t largest_row(const std::vector<double>& values) {
   return static_cast<std::size_t>(std::max_element(values.begin(), values.end()) - values.begin());
 }
 
-/// Row of the largest smoothed stress. Throws InputError where the stage is no axial compression.
+/// Row of the largest smoothed stress. Throws InputError where the stage is not an axial compression.
 std::size_t peak_row(const Test& test) {
   const StageCurve& c = test.curve;
   const std::size_t peak = largest_row(test.smooth);
@@ -59,8 +59,8 @@ std::size_t peak_row(const Test& test) {
   return peak;
 }
 
-/// How far from the peak the smoothed curve may have its true peak: the farther end of the strains about it where the
-/// curve is lower by no more than what ringing makes of the difference of two smoothed rows; a row at least.
+/// Uncertainty of the peak's strain: distance to the farther end of the rows around the peak in which the smoothed
+/// curve is lower by no more than ringing can change the difference of two smoothed rows; at least one row.
 double strain_uncertainty_of_peak(const std::vector<double>& strain, const std::vector<double>& smooth,
                                   std::size_t peak, double ringing_of_row) {
   const double left = noise_left_by_parabolas(smoothing_half_rows(strain.size()));
@@ -76,7 +76,7 @@ struct Peak {
   std::size_t row = 0;
   double stress = 0, ringing = 0;            ///< MPa
   double strain = 0, strain_uncertainty = 0; ///< 1
-  double fall = 0, fall_uncertainty = 0;     ///< shares of the stress
+  double fall = 0, fall_uncertainty = 0;     ///< as shares of the stress
 };
 
 Peak peak_at(std::size_t row, const Test& test) {
@@ -94,7 +94,7 @@ Peak peak_at(std::size_t row, const Test& test) {
   return peak;
 }
 
-/// A strength by one criterion: what is read, and where.
+/// A strength by one criterion, and where it is read.
 struct Reading {
   std::string criterion;
   double stress = 0, stress_uncertainty = 0; ///< MPa
@@ -121,7 +121,7 @@ Reading at_damage_onset(const Test& test, std::size_t peak, const std::optional<
           {}};
 }
 
-/// `falls`: the curve falls after the peak as far as a failure makes it.
+/// `falls`: the curve falls after the peak by the share that marks a failure.
 Reading at_peak(const Test& test, const Peak& peak, bool falls, const StrengthRule& rule) {
   Reading reading{falls ? "peak" : "largest",
                   peak.stress,
@@ -139,7 +139,7 @@ Reading at_peak(const Test& test, const Peak& peak, bool falls, const StrengthRu
   return reading;
 }
 
-/// Row before the axial strain `strain` is first passed, and how far towards the next.
+/// Where `strain` first reaches `target`; empty where it does not.
 std::optional<Crossing> reach(const std::vector<double>& strain, double target) {
   for (std::size_t row = 0; row + 1 < strain.size(); ++row)
     if (strain[row + 1] >= target && strain[row] < target)
@@ -150,7 +150,7 @@ std::optional<Crossing> reach(const std::vector<double>& strain, double target) 
 /// q at the strain of the rule, for a test without a peak by then.
 Reading at_given_strain(const Test& test, const StrengthRule& rule) {
   const StageCurve& c = test.curve;
-  // A test that was to end at this strain ends there but for rounding.
+  // A test meant to end at this strain ends there to within rounding.
   constexpr double rounding = 1e-6;
   const double last_strain = c.axial_strain.back();
   const bool ends_there = std::abs(last_strain - rule.at_strain) <= rounding * rule.at_strain;
@@ -177,8 +177,8 @@ Reading reading_by(const StrengthRule& rule, const Test& test, const Peak& peak,
   return at_given_strain(test, rule);
 }
 
-/// Mean and lateral stress where the strength is read, whose strain may be off by `strain_reach`: 0 at a peak, which is
-/// flat, so that its strain hardly matters.
+/// Mean and lateral stress where the strength is read. `strain_reach` is the uncertainty of that strain; it is 0 at a
+/// peak, which is flat, so that the strain hardly matters.
 nlohmann::ordered_json stresses_at(const Reading& reading, const StageCurve& c, double strain_reach) {
   const auto uncertainty = [&](const std::vector<double>& column) {
     return std::hypot(ringing(column, reading.at.row),

@@ -1,16 +1,17 @@
 #pragma once
-// Where a run went in the plane of mean and deviatoric stress.
+// The path of a run in the plane of mean and deviatoric stress.
 
 #include "postproc/history_table.hpp"
 #include "postproc/measurement.hpp"
 
 namespace mpfem {
 
-/// Stresses at the end, their largest values, the largest |q| over p where p is at least a quarter of its largest value
-/// (before, grains still move past one another and few contacts decide), and what was dissipated, over all rows.
+/// Over all rows: stresses at the end (MPa; the value is the mean stress), their largest values, the largest |q| over p
+/// where p is above a quarter of its largest value (before that grains still rearrange and few contacts decide), and
+/// the energies dissipated (mJ).
 Measurement stress_path(const HistoryTable& history);
 
-/// Throws InputError.
+/// The same of a file. Throws InputError.
 Measurement measure_stress_path(const schema::FileReader& file);
 
 } // namespace mpfem

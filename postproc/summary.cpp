@@ -29,12 +29,12 @@ void add_provenance(Summary& s, const schema::FileReader& file) {
   for (double& share : s.profile_share) share = s.wall_time > 0 ? share / s.wall_time : 0;
 }
 
-/// Nothing where the run never had any.
+/// Empty where the run never had any.
 std::optional<Summary::Bonds> bonds_at_end(const HistoryTable& history) {
   const auto ever = [&](std::string_view name) {
     return std::any_of(history[name].begin(), history[name].end(), [](double value) { return value > 0; });
   };
-  // Where all bonds broke between two rows, they were never counted.
+  // Bonds that all broke between two rows are in no row, but their dissipation is.
   if (!ever("bonds") && !ever("damage_dissipation")) return {};
   return Summary::Bonds{static_cast<std::int64_t>(history["bonds"].back()), history["bonded_area"].back(),
                         history["mean_damage"].back()};
@@ -42,7 +42,7 @@ std::optional<Summary::Bonds> bonds_at_end(const HistoryTable& history) {
 
 void add_state_at_end(Summary& s, const HistoryTable& history) {
   s.steps = static_cast<std::int64_t>(history["step"].back());
-  // A branch counts on from the steps of the run that it began at.
+  // A branch continues the step count of the run from which it started.
   if (const double steps = history["step"].back() - history["step"].front(); steps > 0 && s.tets > 0)
     s.nanoseconds_per_tet_step = 1e9 * s.wall_time / (steps * static_cast<double>(s.tets));
   s.relative_density = history["relative_density"].back();

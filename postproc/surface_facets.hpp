@@ -15,8 +15,8 @@ struct SurfaceFacet {
   std::int32_t grain = 0;
 };
 
-/// Facets that belong to one of the given tets only (two tets share a facet where they are of one grain and name the
-/// same three nodes). Of all tets of a grain, this is its surface. Ordered by grain and nodes.
+/// Facets that belong to exactly one of the given tets (two tets share a facet if they belong to the same grain and
+/// have the same three nodes). For all tets of a grain, this is its surface. Ordered by grain and nodes.
 std::vector<SurfaceFacet> surface_facets(const Snapshot& snapshot, const std::vector<std::int32_t>& tets);
 
 /// The numbers of the tets of one grain.

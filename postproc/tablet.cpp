@@ -22,7 +22,7 @@ namespace mpfem {
 namespace {
 
 constexpr std::size_t fewest_smoothed_rows = 7;
-constexpr double force_gone = 0.01; ///< share of the peak below which a punch has left
+constexpr double force_gone = 0.01; ///< share of the peak force below which a punch has left
 
 /// A value in one row, with half of its 95 % interval.
 struct Reading {
@@ -30,7 +30,7 @@ struct Reading {
   double value = 0, uncertainty = 0;
 };
 
-/// The run and what is read from it so far.
+/// The run and what has been read from it.
 struct Tablet {
   const schema::FileReader& file;
   const HistoryTable& history;
@@ -42,7 +42,7 @@ struct Tablet {
   RowRange loaded;                               ///< pressing and holding
   double diameter = 0;                           ///< mm, of the die
   Reading peak;                                  ///< of the upper punch
-  double smallest_height = 0, height_in_die = 0; ///< mm; the latter when the upper punch has left
+  double smallest_height = 0, height_in_die = 0; ///< mm; height_in_die: when the upper punch has left
   TabletMeasurement result;
 
   double height(std::size_t row) const { return history["box_lengths_2"][row]; }
@@ -71,7 +71,7 @@ void read_tools(Tablet& tablet) {
   const TabletTools& tools = tablet.rule.tools;
   tablet.upper = tool_column(tablet, tools.upper, "--upper", "force_2");
   tablet.lower = tool_column(tablet, tools.lower, "--lower", "force_2");
-  for (double& force : tablet.lower) force = -force; // grains push it down
+  for (double& force : tablet.lower) force = -force; // the grains push it down
   tablet.die_axial = tool_column(tablet, tools.die, "--die", "force_2");
   tablet.die_normal = tool_column(tablet, tools.die, "--die", "normal_force");
 }
@@ -94,7 +94,7 @@ void read_stages(Tablet& tablet) {
   tablet.loaded = {tablet.press.first, std::max(tablet.press.last, tablet.hold ? tablet.hold->last : 0)};
 }
 
-/// A column in one row of `rows`, smoothed where there are rows enough, with the rule for peaks.
+/// A column in one row of `rows`: smoothed if there are enough rows, with the uncertainty of peaks (ringing).
 Reading reading_at(const std::vector<double>& column, RowRange rows, std::size_t row) {
   const auto part = rows.of(column);
   if (part.size() < fewest_smoothed_rows) return {row, column[row], 0};
@@ -102,7 +102,7 @@ Reading reading_at(const std::vector<double>& column, RowRange rows, std::size_t
   return {row, smoothed(raw)[row - rows.first], ringing(raw, row - rows.first)};
 }
 
-/// Where a column is largest in these rows, smoothed.
+/// The largest smoothed value of a column in these rows.
 Reading peak_of(const std::vector<double>& column, RowRange rows) {
   const auto part = rows.of(column);
   std::vector<double> values(part.begin(), part.end());
@@ -162,7 +162,7 @@ void add_peak(Tablet& tablet) {
   add_wall_at_peak(tablet, lower);
   const auto& density = tablet.history["relative_density"];
   tablet.add("relative_density_in_die", "1", density[row]);
-  tablet.add("volume_loss", "1", 1 - density.front() / density[row]); // from the filled die of the first row
+  tablet.add("volume_loss", "1", 1 - density.front() / density[row]); // since the filled die of the first row
   tablet.add("height_at_peak", "mm", tablet.height(row));
   tablet.add("smallest_height", "mm", tablet.smallest_height);
   if (tablet.loaded.count() < fewest_smoothed_rows)
@@ -171,7 +171,7 @@ void add_peak(Tablet& tablet) {
                             tablet.loaded.count(), fewest_smoothed_rows));
 }
 
-/// The row of the unloading before the upper punch's force first falls to a share of its peak, and how far on.
+/// Where the upper punch's force first falls to `force_gone` of its peak in the unloading; empty where it does not.
 std::optional<Crossing> punch_leaves(const Tablet& tablet) {
   const double target = force_gone * tablet.peak.value;
   for (std::size_t row = tablet.unload->first; row < tablet.unload->last; ++row)
@@ -219,14 +219,14 @@ void add_ejection(Tablet& tablet) {
   tablet.add("ejection_stress", "MPa", stress, stress_uncertainty);
 }
 
-/// Time in s of the last row of a stage and half of the way to the row before: what a snapshot may be off it.
+/// True if a snapshot of this time (s) was taken by `row`; the tolerance is half of the time since the row before.
 bool taken_by(const Tablet& tablet, double time, std::size_t row) {
   const auto& times = tablet.history["time"];
   const double slack = row > 0 ? 0.5 * (times[row] - times[row - 1]) : 0;
   return time <= times[row] + slack;
 }
 
-/// Name of the last snapshot taken while the tablet was pressed and held; empty where there is none.
+/// Name of the last snapshot taken during pressing and holding; empty where there is none.
 std::string pressed_snapshot(const Tablet& tablet) {
   std::string last;
   for (const std::string& name : tablet.file.snapshots()) {
@@ -248,7 +248,7 @@ std::vector<std::int32_t> grain_of_nodes(const schema::FileReader& file, std::si
   return grain;
 }
 
-/// mm^3, of all grains before they were pressed.
+/// Volume (mm^3) of all grains before they were pressed.
 double grain_volume(const Tablet& tablet) {
   const std::size_t row = tablet.peak.row;
   return tablet.history["relative_density"][row] * 0.25 * std::numbers::pi * tablet.diameter * tablet.diameter *

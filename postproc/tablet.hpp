@@ -1,5 +1,5 @@
 #pragma once
-// A tablet from press to rest: forces of the punches, wall of the die, ejection, and what it measures out of the die.
+// A tablet from pressing to ejection: punch forces, die wall, ejection, and its size out of the die.
 
 #include <optional>
 #include <string>
@@ -9,7 +9,7 @@
 
 namespace mpfem {
 
-/// Names of stages in the scenario. Of those that are not given, the default names count where the run has them.
+/// Names of stages in the scenario. For those not given, "hold", "unload" and "eject" are used where the run has them.
 struct TabletStages {
   std::string press = "press";
   std::optional<std::string> hold, unload, eject;
@@ -23,14 +23,14 @@ struct TabletTools {
 struct TabletRule {
   TabletStages stages;
   TabletTools tools;
-  int snapshot = -1;                   ///< of the tablet out of the die
-  std::optional<double> face_distance; ///< mm; without it a twentieth of the mean grain's diameter
+  int snapshot = -1;                   ///< shows the tablet out of the die; numbered as in snapshot_name
+  std::optional<double> face_distance; ///< mm; default: a twentieth of the mean grain's diameter
 };
 
-/// One number of a tablet; without a value where the run does not tell it.
+/// One number of a tablet; without a value where the run does not give it.
 struct TabletNumber {
   std::string name, unit;
-  std::optional<double> value, uncertainty; ///< in the unit; no uncertainty where the number is exact
+  std::optional<double> value, uncertainty; ///< in `unit`; no uncertainty where the number is exact
 };
 
 struct TabletMeasurement {
@@ -38,14 +38,15 @@ struct TabletMeasurement {
   std::vector<TabletNumber> numbers;
 };
 
-/// All numbers and their rules stand in docs/metrics.md, "tablet". Forces are read at the largest smoothed force of the
-/// upper punch while it presses and holds; lateral area is pi D H, H the distance of the punches, after unloading that
-/// where the upper punch left. Wall friction is janssen.hpp's, thickness and diameter tablet_shape.hpp's, between the
-/// snapshot at the end of the pressing and that of the rule. Throws InputError where tools or the stage that presses
-/// are missing; what later stages or snapshots do not tell has no value, and a note says why.
+/// All numbers and their rules are listed in docs/metrics.md, "tablet". Forces are read at the largest smoothed force
+/// of the upper punch while it presses and holds. The lateral area is pi D H, H the distance of the punches; after
+/// unloading, their distance when the upper punch left. Wall friction is that of janssen.hpp; thickness and diameter
+/// are those of tablet_shape.hpp, between the snapshot at the end of pressing and that of the rule. Throws InputError
+/// where tools or the pressing stage are missing; numbers of later stages or snapshots that are missing have no value,
+/// and a note says why.
 TabletMeasurement measure_tablet(const schema::FileReader& file, const TabletRule& rule);
 
-/// A line a number: name, value ± uncertainty, unit.
+/// One line per number: name, value ± uncertainty, unit.
 std::string to_table(const std::vector<TabletNumber>& numbers);
 
 } // namespace mpfem

@@ -22,18 +22,18 @@ Matrix3Xd points_of(std::span<const float> values) {
       .cast<double>();
 }
 
-/// Motion of a rigid body: a point x goes to there + turn (x - here).
+/// Motion of a rigid body: a point x moves to there + turn (x - here).
 struct RigidMotion {
   Vector3d here, there;
   Matrix3d turn;
 
-  /// How far a point that is at `later` has moved beyond this motion, in the frame before it.
+  /// Displacement of a point beyond this motion, in the frame before it.
   Vector3d beyond(const Vector3d& before, const Vector3d& later) const {
     return turn.transpose() * (later - there) - (before - here);
   }
 };
 
-/// The motion nearest to that of these points, in the least squares (Kabsch, Acta Cryst. A32, 922, 1976).
+/// The motion that fits these points best in the least-squares sense (Kabsch, Acta Cryst. A32, 922, 1976).
 RigidMotion rigid_motion(const Matrix3Xd& before, const Matrix3Xd& later) {
   RigidMotion motion{before.rowwise().mean(), later.rowwise().mean(), Matrix3d::Identity()};
   const Matrix3d product = (before.colwise() - motion.here) * (later.colwise() - motion.there).transpose();
@@ -44,7 +44,7 @@ RigidMotion rigid_motion(const Matrix3Xd& before, const Matrix3Xd& later) {
   return motion;
 }
 
-/// Mean place of every grain.
+/// Mean position of each grain's nodes.
 Matrix3Xd grain_centres(const Matrix3Xd& node, std::span<const std::int32_t> grain, std::size_t grains) {
   Matrix3Xd sum = Matrix3Xd::Zero(3, static_cast<Eigen::Index>(grains));
   Eigen::RowVectorXd count = Eigen::RowVectorXd::Zero(sum.cols());
@@ -55,10 +55,10 @@ Matrix3Xd grain_centres(const Matrix3Xd& node, std::span<const std::int32_t> gra
   return sum.array().rowwise() / count.array().max(1.0);
 }
 
-/// Which grains are still part of the tablet, and how it moved: a grain that moved farther against the others than
-/// allowed is left out, and the motion found anew, until none is.
+/// The grains that still belong to the tablet, and its motion. A grain displaced relative to the others by more than is
+/// allowed is left out and the motion fitted again, until none is.
 struct Tablet {
-  std::vector<char> holds; ///< for each grain
+  std::vector<char> holds; ///< [grains]
   RigidMotion motion;
   std::size_t lost() const { return static_cast<std::size_t>(std::count(holds.begin(), holds.end(), 0)); }
 };
@@ -82,7 +82,7 @@ Tablet whole_tablet(const Matrix3Xd& before, const Matrix3Xd& later, double larg
   return tablet;
 }
 
-/// Sums over the nodes of each grain, of those that were added.
+/// Sums of a value over the added nodes of each grain.
 class GrainSums {
 public:
   void add(std::int32_t grain, double value) {
@@ -91,7 +91,7 @@ public:
     count += 1;
   }
   std::size_t grains() const { return sums_.size(); }
-  /// Mean over all nodes; how well it is known, by grains as independent units.
+  /// Mean over all nodes; its uncertainty takes grains as independent units.
   Ratio mean() const {
     std::vector<double> sum, count;
     for (const auto& [grain, entry] : sums_) {
@@ -105,13 +105,13 @@ private:
   std::map<std::int32_t, std::pair<double, double>> sums_;
 };
 
-/// A node of the band: its direction from the axis in the pressed state, and how far it moved along x and y.
+/// A node of the band: its direction from the axis in the pressed state, and its displacement along x and y.
 struct BandNode {
   std::int32_t grain;
   Eigen::Vector2d outward, moved;
 };
 
-/// How far the band moved outwards, by grain: less the translation that fits best together with an even growth.
+/// Outward displacement of the band, by grain, without the translation that fits best together with a uniform growth.
 GrainSums growth_of(const std::vector<BandNode>& band) {
   Eigen::MatrixXd basis(static_cast<Eigen::Index>(band.size()), 3);
   Eigen::VectorXd outward(basis.rows());
@@ -127,7 +127,7 @@ GrainSums growth_of(const std::vector<BandNode>& band) {
   return growth;
 }
 
-/// What the nodes at punches and die did.
+/// Displacements of the nodes at punches and die.
 struct Faces {
   GrainSums upper, lower; ///< mm, upwards
   std::vector<BandNode> band;

@@ -1,12 +1,12 @@
 #pragma once
 // Thickness and diameter of a tablet out of its die, from two states of its grains.
 //
-// Definition. The faces are the nodes that lie within a small distance of the punches' planes in the pressed state,
-// the band those within it of the die's wall. Of the later state the tablet's motion as a rigid body is taken away.
-// Thickness is the distance of the punches in the pressed state and what the mean of the upper face's nodes has since
-// moved up more than that of the lower face's. Diameter is the die's and twice what the band's nodes have moved
-// outwards in the mean, the band's motion to one side taken away. So what counts is how far the same nodes have moved:
-// that a face of grains is not flat, and that nodes stand a little off a punch or within it, falls out.
+// Definition. The nodes of a face lie within a small distance of a punch's plane in the pressed state; those of the
+// band lie within it of the die's wall. The tablet's rigid-body motion is removed from the later state. Thickness is
+// the distance of the punches in the pressed state, plus the mean upward displacement of the upper face's nodes, minus
+// that of the lower face's. Diameter is that of the die plus twice the mean outward displacement of the band's nodes,
+// with the band's sideways translation removed. Only displacements of the same nodes count, so that it does not matter
+// that a face of grains is uneven, or that nodes lie slightly off a punch or inside it.
 
 #include <array>
 #include <optional>
@@ -22,23 +22,24 @@ namespace mpfem {
 struct TabletStates {
   std::span<const float> pressed, later;    ///< [nodes * 3], mm
   std::span<const std::int32_t> node_grain; ///< [nodes]
-  std::array<double, 3> low{}, high{};      ///< mm, of the box about the pressed tablet: punches at low[2] and high[2],
-                                            ///< the die's diameter high[0] - low[0] about its middle
+  std::array<double, 3> low{}, high{};      ///< mm, the box around the pressed tablet: punches at low[2] and high[2],
+                                            ///< die of diameter high[0] - low[0] around its middle
 };
 
 struct TabletShapeRule {
-  double face_distance = 0;     ///< mm, of nodes of faces and band from punches and die
-  double largest_departure = 0; ///< mm: a grain that has moved farther against the others has left the tablet
+  double face_distance = 0;     ///< mm, largest distance of face and band nodes from punches and die
+  double largest_departure = 0; ///< mm: a grain displaced farther relative to the others has left the tablet
 };
 
-/// Lengths in mm. Half widths are those of ratio_of_sums over the grains of faces and band: another packing as large.
+/// Lengths in mm. Half widths are those of ratio_of_sums over the grains of faces and band: they cover the difference
+/// to other packings of this size.
 struct TabletShape {
   Ratio thickness, diameter;
-  std::size_t upper_grains = 0, lower_grains = 0, band_grains = 0; ///< that faces and band are read from
-  std::size_t grains_lost = 0;                                     ///< that have left the tablet
+  std::size_t upper_grains = 0, lower_grains = 0, band_grains = 0; ///< grains with nodes in faces and band
+  std::size_t grains_lost = 0;                                     ///< grains that have left the tablet
 };
 
-/// Says in `why` what is missing where there is no such shape: three grains or more at each face and at the die.
+/// Empty, with the reason in `why`, where there are fewer than three grains in all, at a face or at the die.
 std::optional<TabletShape> tablet_shape(const TabletStates& states, const TabletShapeRule& rule, std::string& why);
 
 } // namespace mpfem

@@ -16,7 +16,7 @@ struct TetGeometry {
 
 TetGeometry tet_geometry(const Snapshot& snapshot, std::size_t tet);
 
-/// mm, of all grains, from their tets.
+/// [grains], centroids of all grains from their tets, mm.
 std::vector<Eigen::Vector3d> grain_centres(const Snapshot& snapshot);
 
 } // namespace mpfem

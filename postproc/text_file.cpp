@@ -10,7 +10,7 @@
 namespace mpfem {
 
 void refuse_overwriting(const std::string& output, const std::string& input) {
-  std::error_code ignored; // one of them is not there: not the same
+  std::error_code ignored; // where one does not exist, they are not the same
   if (!output.empty() && !input.empty() && std::filesystem::equivalent(output, input, ignored))
     throw InputError(fmt::format("{}: is the input; allowed for output: another file", one_line(output)));
 }

@@ -9,10 +9,10 @@
 
 namespace mpfem {
 
-/// Throws InputError where `output` is the same file as `input`, which would be lost.
+/// Throws InputError where `output` is the same file as `input`, which would be overwritten.
 void refuse_overwriting(const std::string& output, const std::string& input);
 
-/// CSV with the heading "name [unit],…"; all columns have as many values.
+/// CSV with the heading "name [unit],…"; all columns must have the same number of values.
 std::string csv_text(const std::vector<const Column*>& columns);
 std::string csv_text(const std::vector<Column>& columns);
 

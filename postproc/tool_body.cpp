@@ -23,18 +23,18 @@ double dot(const Vector& a, const Vector& b) {
 
 // ------------------------------------------------------------------------------------------------ turned bodies
 
-/// Appends an arc about `centre` from one angle (from the radial direction towards the axis) to another.
+/// Appends an arc around `centre` between two angles (from the radial towards the axial direction, rad).
 void add_arc(std::vector<ProfilePoint>& profile, const ProfilePoint& centre, double radius, double from, double to,
              int chords) {
   for (int i = 0; i <= chords; ++i) {
     const double angle = from + (to - from) * i / chords;
-    // Poles lie on the axis, not next to it by rounding.
+    // Puts poles exactly on the axis, in spite of rounding.
     const double across = std::abs(std::cos(angle)) < 1e-14 ? 0.0 : std::cos(angle);
     profile.push_back({centre.radius + radius * across, centre.along + radius * std::sin(angle)});
   }
 }
 
-/// Places along an axis, from the tool's point, and which of both ends are the tool's own.
+/// An interval along an axis, relative to the tool's point; true_…: that end is the tool's own, not the extent's.
 struct AxialPart {
   double low, high;
   bool true_low, true_high;
@@ -46,18 +46,18 @@ AxialPart axial_part(const ToolGeometry& tool, std::size_t axis, const DrawnExte
           tool.half_length <= high};
 }
 
-/// The rectangle of a die's or a rod's matter, with round edges at the ends that are drawn.
+/// The cross-section of a die's or a rod's solid, with rounded edges at the ends that are drawn.
 std::optional<Revolved> cylinder_body(const ToolGeometry& tool, const DrawnExtent& extent) {
   const AxialPart part = axial_part(tool, tool.axis(), extent);
   if (!(part.high > part.low)) return {};
-  const double r = tool.rounding, side = tool.inside ? 1 : -1; // of the matter, from the surface
+  const double r = tool.rounding, side = tool.inside ? 1 : -1; // direction of the solid from the surface
   const double back = tool.inside ? tool.radius + std::max(extent.thickness, 1.5 * r) : 0.0;
   std::vector<ProfilePoint> profile{{back, part.low}};
   const auto add_end = [&](double along, double outward, bool rounded) {
     if (!rounded || r <= 0) return profile.push_back({tool.radius, along});
     const ProfilePoint centre{tool.radius + side * r, along - outward * r};
     const double end = outward * M_PI / 2, across = tool.inside ? outward * M_PI : 0.0;
-    // From below upwards: the lower edge from its end to the surface, the upper one from the surface to its end.
+    // Upwards: the lower edge from its end face to the surface, the upper one from the surface to its end face.
     add_arc(profile, centre, r, outward < 0 ? end : across, outward < 0 ? across : end, edge_chords);
   };
   add_end(part.low, -1, part.true_low);
@@ -77,7 +77,7 @@ std::optional<Revolved> cone_body(const ToolGeometry& tool, const DrawnExtent& e
   const std::size_t axis = tool.axis();
   const double sign = tool.direction[axis] < 0 ? -1 : 1;
   const double low = extent.low[axis] - tool.point[axis], high = extent.high[axis] - tool.point[axis];
-  const double from = std::max(0.0, sign < 0 ? -high : low), to = sign < 0 ? -low : high; // along the opening
+  const double from = std::max(0.0, sign < 0 ? -high : low), to = sign < 0 ? -low : high; // towards the opening
   if (!(to > from)) return {};
   const double slope = std::tan(tool.half_angle);
   const double back = tool.inside ? extent.thickness / std::cos(tool.half_angle) : 0.0;
@@ -88,7 +88,7 @@ std::optional<Revolved> cone_body(const ToolGeometry& tool, const DrawnExtent& e
       {{slope * from, sign * from}, {slope * to, sign * to}, {behind(to), sign * to}, {behind(from), sign * from}}};
 }
 
-/// A plane across the axis of a die: a punch that fills the bore.
+/// A plane normal to the axis of a die: a punch that fills the bore.
 std::optional<Revolved> punch_body(const ToolGeometry& plane, const ToolGeometry& die, const DrawnExtent& extent) {
   const std::size_t axis = die.axis();
   const double outward = plane.direction[axis] > 0 ? -1 : 1, face = plane.point[axis];
@@ -102,8 +102,8 @@ std::optional<Revolved> punch_body(const ToolGeometry& plane, const ToolGeometry
 
 // ------------------------------------------------------------------------------------------------ slabs
 
-/// The convex polygon in which a plane cuts the extent, counter-clockwise as seen from where the normal points: a large
-/// square in the plane, clipped by the six sides (Sutherland and Hodgman 1974).
+/// The convex polygon in which a plane cuts the extent, counter-clockwise seen from the normal's side: a large square
+/// in the plane, clipped by the six sides (Sutherland and Hodgman 1974).
 std::vector<Vector> plane_in_extent(const ToolGeometry& plane, const DrawnExtent& extent) {
   const Vector& n = plane.direction;
   Vector middle{}, first{};
@@ -148,7 +148,7 @@ std::vector<Vector> plane_in_extent(const ToolGeometry& plane, const DrawnExtent
   return polygon;
 }
 
-/// A plane's slab: its polygon, and the same behind it.
+/// A plane's slab: its polygon, and the same polygon behind it.
 std::optional<Faceted> slab_body(const ToolGeometry& plane, const DrawnExtent& extent) {
   Faceted body;
   body.vertex = plane_in_extent(plane, extent);
@@ -170,7 +170,7 @@ std::optional<Faceted> slab_body(const ToolGeometry& plane, const DrawnExtent& e
   return body;
 }
 
-/// The die whose axis a plane stands across, if one is in place.
+/// The die whose axis is normal to the plane; null where none is in place.
 const ToolGeometry* die_of(const ToolGeometry& plane, const std::vector<ToolGeometry>& tools) {
   for (const ToolGeometry& tool : tools)
     if (is_die(tool) && std::abs(std::abs(plane.direction[tool.axis()]) - 1) < 1e-9) return &tool;

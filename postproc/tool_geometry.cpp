@@ -45,7 +45,7 @@ void read_triangles(const schema::FileReader& file, ToolGeometry& tool) {
         refuse(file, tool.name, fmt::format("a triangle has vertex {}, allowed 0 … {}", corner, tool.vertex.size()));
 }
 
-/// Along a coordinate axis, where the shape has an axis; of length 1.
+/// Throws InputError unless the direction has length 1 and, for shapes with an axis, is along a coordinate axis.
 void check_direction(const schema::FileReader& file, const ToolGeometry& tool) {
   const auto& d = tool.direction;
   const double length = std::hypot(d[0], d[1], d[2]), longest = std::abs(d[tool.axis()]);
@@ -56,7 +56,7 @@ void check_direction(const schema::FileReader& file, const ToolGeometry& tool) {
                        is_axis ? " along x, y or z" : ""));
 }
 
-/// In its starting position.
+/// Reads a tool in its starting position.
 ToolGeometry read_tool(const schema::FileReader& file, const std::string& name) {
   ToolGeometry tool;
   tool.name = name;

@@ -10,7 +10,7 @@ using Point = std::array<double, 2>;
 
 constexpr int circle_pieces = 360, bent_pieces = 16;
 
-/// Circles where the profile's edges pass the height of the plane.
+/// Circles where the profile's edges cross the height of the plane.
 std::vector<OutlinePiece> across_axis(const Revolved& body, double height) {
   const std::size_t u = (body.axis + 1) % 3, v = (body.axis + 2) % 3;
   const auto on_circle = [&](double radius, int piece) {
@@ -29,7 +29,7 @@ std::vector<OutlinePiece> across_axis(const Revolved& body, double height) {
   return pieces;
 }
 
-/// The part of a profile that a plane at a distance from the axis reaches.
+/// The part of a profile that is at least `distance` from the axis.
 std::vector<ProfilePoint> beyond(const std::vector<ProfilePoint>& profile, double distance) {
   std::vector<ProfilePoint> kept;
   for (std::size_t i = 0; i < profile.size(); ++i) {
@@ -41,7 +41,7 @@ std::vector<ProfilePoint> beyond(const std::vector<ProfilePoint>& profile, doubl
   return kept;
 }
 
-/// The profile on either side of the axis, bent where the plane stands next to it.
+/// The profile on either side of the axis, its edges curved where the plane does not pass through the axis.
 std::vector<OutlinePiece> along_axis(const Revolved& body, const CutPlane& plane) {
   const auto normal = static_cast<std::size_t>(plane.axis);
   const bool axis_first = (normal + 1) % 3 == body.axis; // of the plane's two coordinates
@@ -57,7 +57,7 @@ std::vector<OutlinePiece> along_axis(const Revolved& body, const CutPlane& plane
   std::vector<OutlinePiece> pieces;
   for (std::size_t i = 0; i < profile.size(); ++i) {
     const ProfilePoint &a = profile[i], &b = profile[(i + 1) % profile.size()];
-    if (a.radius <= distance && b.radius <= distance) continue; // in the middle of both sides
+    if (a.radius <= distance && b.radius <= distance) continue; // on the line where both sides meet
     const int parts = distance > 0 && a.radius != b.radius ? bent_pieces : 1;
     const auto part = [&](int k) {
       if (k == parts) return b; // exactly

@@ -13,7 +13,7 @@ namespace {
 constexpr std::int32_t circle_corners = 120;
 using Triangle = std::array<std::int32_t, 3>;
 
-/// Adds nodes and tets of one body to the others'.
+/// Appends nodes and tets of one body.
 class TetBuilder {
 public:
   TetBuilder(Snapshot& tets, std::int32_t body) : tets_(tets), body_(body) {}
@@ -23,8 +23,8 @@ public:
     return static_cast<std::int32_t>(tets_.nodes()) - 1;
   }
 
-  /// A prism between two triangles, corner by corner; where corners coincide, what is left of it. The corners come in
-  /// an order that all prisms share, so that neighbours split their common side alike (Freudenthal 1942).
+  /// A prism between two triangles, corner by corner; tets with coinciding corners are left out. All prisms take their
+  /// corners in the same order, so that neighbours split their common side alike (Freudenthal 1942).
   void add_prism(const Triangle& a, const Triangle& b) {
     add_tet({a[0], a[1], a[2], b[2]});
     add_tet({a[0], a[1], b[1], b[2]});
@@ -62,7 +62,7 @@ std::vector<ProfilePoint> without_repeats(const std::vector<ProfilePoint>& profi
   return points;
 }
 
-/// Of a profile of so many points; corners ascend.
+/// Triangles of a profile with this number of points; the corners ascend.
 std::vector<Triangle> triangles_of_profile(std::int32_t points, bool strip) {
   std::vector<Triangle> triangles;
   if (!strip)

@@ -11,8 +11,8 @@ namespace mpfem {
 /// Turned bodies and slabs as tets, without fields; `tet_grain` is the body's index. Circles have 120 corners.
 Snapshot tool_tets(const std::vector<ToolBody>& bodies);
 
-/// What is left of the bodies, within the extent and half of its thickness more; `grain` is the body's index. Turned
-/// bodies and slabs are closed where they are cut, others are shells.
+/// The surfaces of the bodies after cutting, within the extent plus half of its thickness; `grain` is the body's index.
+/// Turned bodies and slabs are closed at the cuts, others are open shells.
 std::vector<SolidTriangle> tool_surface(const std::vector<ToolBody>& bodies, const DrawnExtent& extent,
                                         const CutAway& away);
 

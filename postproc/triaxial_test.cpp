@@ -32,7 +32,7 @@ private:
   const std::vector<double>&x_, &y_, &z_; ///< mm
 };
 
-/// Rows of a test that stand out.
+/// Rows of the extremes of a test.
 struct TurningRows {
   std::size_t largest_q, most_contracted;
 };
@@ -48,7 +48,7 @@ TurningRows turning_rows(const HistoryTable& h, const Sample& sample, RowRange r
   return turning;
 }
 
-/// How far the lateral force was off, beyond an axial strain of 2 %; shares of what it was to be.
+/// Relative error of the lateral force beyond an axial strain of 2 %.
 struct ForceError {
   double largest = 0, root_mean_square = 0;
 };
@@ -71,7 +71,7 @@ nlohmann::ordered_json details_of(const HistoryTable& h, const Sample& sample, R
   const auto [largest_q, most_contracted] = turning_rows(h, sample, rows);
   const ForceError force_error = lateral_force_error(sample, rows, lateral_stress);
   const auto strain = [&](std::size_t row) { return sample.axial_strain(row); };
-  // What stands within the last hundredth of the test has not been passed.
+  // An extreme within the last hundredth of the strain counts as at the end: it has not been passed.
   const auto place = [&](std::size_t row) { return strain(row) < 0.99 * strain(last) ? strain(row) : strain(last); };
   const auto since = [&](const char* column) { return h[column][last] - h[column][rows.first]; };
   return {{"axial_strain_at_end", strain(last)},

@@ -10,7 +10,7 @@ namespace mpfem {
 
 namespace {
 
-/// Where a strain is first reached.
+/// Where a strain is first reached, clamped to the curve.
 Crossing at_strain(const std::vector<double>& strain, double target) {
   std::size_t row = 0;
   while (row + 2 < strain.size() && strain[row + 1] < target) ++row;

@@ -9,8 +9,8 @@ namespace mpfem {
 
 namespace {
 
-constexpr std::size_t window = 7;      // as narrow as smoothing.hpp has its parabolas
-constexpr std::size_t fewest_rows = 4; // a parabola takes three, so that one is left for the scatter
+constexpr std::size_t window = 7;      // as the narrowest parabolas of smoothing.hpp
+constexpr std::size_t fewest_rows = 4; // a parabola takes three, which leaves one for the scatter
 
 bool is_of_bonds(std::string_view energy) {
   return energy == "damage_dissipation" || energy == "bond_energy";

@@ -12,13 +12,13 @@ namespace mpfem {
 
 namespace {
 
-/// First row from `row` on after which the strain goes the other way than `sign` says (1 rising, -1 falling).
+/// First row, from `row` on, after which the strain moves against `sign` (1 rising, -1 falling).
 std::size_t next_turn(const std::vector<double>& strain, std::size_t row, double sign) {
   while (row + 1 < strain.size() && sign * (strain[row + 1] - strain[row]) >= 0) ++row;
   return row;
 }
 
-/// Every so many rows of a branch that Theil and Sen's pairs stay few: about a million.
+/// Leaves out rows at regular intervals, so that there are at most about a million pairs for Theil-Sen.
 std::vector<double> thinned(const std::vector<double>& column, RowRange rows) {
   constexpr std::size_t most_rows = 1500;
   std::vector<double> kept;
@@ -30,7 +30,7 @@ Line branch(const StageCurve& c, RowRange rows) {
   return theil_sen_line(thinned(c.axial_strain, rows), thinned(c.axial_stress, rows));
 }
 
-/// MPa: stress over strain, once around, by trapezoids.
+/// Area of the loop (MPa): stress over strain, once around, by trapezoids.
 double loop_area(const StageCurve& c, const UnloadReloadLoop& loop) {
   double area = 0;
   for (std::size_t row = loop.top; row < loop.closed; ++row)
@@ -58,7 +58,7 @@ std::vector<UnloadReloadLoop> unload_reload_loops(const StageCurve& c) {
   std::vector<UnloadReloadLoop> loops;
   for (std::size_t top = next_turn(strain, 0, 1); top + 1 < strain.size();) {
     const std::size_t bottom = next_turn(strain, top, -1), end = next_turn(strain, bottom, 1);
-    if (end == bottom) break; // it ends unloaded
+    if (end == bottom) break; // the curve ends unloaded
     std::size_t closed = bottom;
     while (closed < end && strain[closed] < strain[top] && c.axial_stress[closed] < c.axial_stress[top]) ++closed;
     if (top > 0 && bottom > top + 1 && closed > bottom + 1) loops.push_back({top, bottom, closed});

@@ -1,17 +1,17 @@
 #pragma once
-// Files held to the results schema.
+// Checks files against the results schema.
 
 #include <string>
 
 namespace mpfem {
 
-/// What is wrong with one file, a line a finding, each beginning with its name; or that it is valid, with its kind.
+/// Either the findings about one file, one per line, each beginning with its name; or that it is valid, with its kind.
 struct Verdict {
   bool valid = false;
   std::string text;
 };
 
-/// A file that cannot be read at all is a finding too, so that others can still be looked at.
+/// A file that cannot be read at all counts as a finding, so that further files can still be checked.
 Verdict verdict_on(const std::string& path);
 
 } // namespace mpfem

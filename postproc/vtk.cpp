@@ -19,10 +19,10 @@ namespace mpfem {
 
 namespace {
 
-/// Collects arrays for the appended section and gives their offsets.
+/// Collects arrays for the appended section, with their offsets.
 class Appended {
 public:
-  /// `expected`: bytes to set aside, so that hundreds of MB are not moved about as they grow.
+  /// `expected`: bytes to reserve, so that hundreds of MB are not copied while they grow.
   explicit Appended(std::size_t expected) { bytes_.reserve(expected); }
   /// A DataArray element that refers to the appended bytes.
   template <class T>
@@ -133,7 +133,7 @@ std::string tools_vtp_text(const Snapshot& s, const std::vector<std::string>& na
 
 namespace {
 
-/// A .vtp file of points with vertices or lines over them, and a number or a vector for each of these.
+/// A .vtp file of points with vertices or lines over them, and arrays of numbers or vectors for these cells.
 class PointFile {
 public:
   PointFile(const Snapshot& snapshot, const std::string& comment) : snapshot_(snapshot), comment_(comment) {}
@@ -145,7 +145,7 @@ public:
     arrays_.push_back({name, components, {}});
     return arrays_.back().values;
   }
-  /// `points_each`: 1 for vertices, 2 for lines; points follow each other.
+  /// `points_each`: 1 for vertices, 2 for lines; each takes the next points in order.
   std::string text(int points_each) const {
     const std::size_t points = position_.size() / 3, cells = points / static_cast<std::size_t>(points_each);
     std::vector<std::int32_t> connectivity(points), ends;
@@ -180,7 +180,7 @@ private:
   const Snapshot& snapshot_;
   std::string comment_;
   std::vector<float> position_;
-  std::deque<Array> arrays_; // references to values stay valid
+  std::deque<Array> arrays_; // a deque, so that references to values stay valid
 };
 
 } // namespace
@@ -247,7 +247,7 @@ std::string pvd_text(const std::vector<Frame>& frames) {
 
 std::vector<std::string> write_run_as_vtk(const schema::FileReader& file, const std::string& folder, bool quiet) {
   const int count = static_cast<int>(file.snapshots().size());
-  snapshot_name(file, 0); // refuses a run without snapshots
+  snapshot_name(file, 0); // throws for a run without snapshots
   std::error_code error;
   std::filesystem::create_directories(folder, error);
   if (error) throw StorageError(fmt::format("{}: cannot be made: {}", folder, error.message()));
@@ -257,7 +257,7 @@ std::vector<std::string> write_run_as_vtk(const schema::FileReader& file, const 
     files.push_back((std::filesystem::path(folder) / name).string());
     write_file(files.back(), text);
   };
-  // Where all tools are withdrawn their file is empty: without one, ParaView would go on showing the last.
+  // If all tools are withdrawn, an empty file is written: without one, ParaView would keep showing the last.
   const std::vector<std::string> tools = file.members(schema::run::tools_shape);
   std::vector<Frame> frames, tool_frames, grain_frames, contact_frames;
   for (int i = 0; i < count; ++i) {

@@ -9,11 +9,11 @@
 
 namespace mpfem {
 
-/// Rows of a stage's curve: axial strain, and one of its stresses (`stress`, MPa, a value a row) under its name.
+/// Window of rows of a stage's curve: axial strain, and one of its stresses (`stress`, MPa, one value per row) by name.
 Window axial_window(const StageCurve& curve, RowRange rows, const std::string& stress_name,
                     const std::vector<double>& stress);
 
-/// Rows of the history that belong to a stage: volumetric strain and mean stress.
+/// Window of history rows that belong to a stage: volumetric strain and mean stress.
 Window isotropic_window(const HistoryTable& history, const StageRows& stage, RowRange rows);
 
 } // namespace mpfem

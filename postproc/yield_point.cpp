@@ -14,8 +14,8 @@ namespace mpfem {
 
 namespace {
 
-/// Half width of the 95 % interval of one row's value, from how rows scatter about the smoothed curve; 0 for curves too
-/// short to be smoothed.
+/// Half width of the 95 % interval of one row's value, from the scatter of the rows about the smoothed curve; 0 for
+/// curves too short to be smoothed.
 double ringing(const std::vector<double>& values) {
   if (values.size() < 2 * smoothing_half_rows(values.size()) + 1) return 0;
   const std::vector<double> smooth = smoothed(values);
