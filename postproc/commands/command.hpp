@@ -1,5 +1,5 @@
 #pragma once
-// What the subcommands of postproc share: their options, the files that they read and write, and where results go.
+// Shared parts of postproc's subcommands: options, input and output files, and where results are written.
 
 #include <memory>
 #include <string>
@@ -20,15 +20,15 @@ public:
   Command(const Command&) = delete;
   Command& operator=(const Command&) = delete;
 
-  /// Does nothing where the command line has another subcommand. Else refuses outputs that would overwrite an input or
-  /// cannot be written, then executes. Throws InputError, StorageError, SimulationError.
+  /// Does nothing if the command line has another subcommand. Otherwise refuses outputs that would overwrite an input
+  /// or cannot be written, then executes. Throws InputError, StorageError, SimulationError.
   void run_if_given() const;
 
 protected:
   CLI::App& options() { return *options_; }
   bool given(const std::string& option) const { return options_->count(option) > 0; }
 
-  /// An option whose file no output of this subcommand may overwrite.
+  /// An option with an input file; no output of this subcommand may overwrite it.
   CLI::Option* add_input(const std::string& name, std::string& path, const std::string& help);
   /// An option that names a file to write.
   CLI::Option* add_output(const std::string& name, std::string& path, const std::string& help,
@@ -48,7 +48,7 @@ private:
   std::vector<OutputFile> outputs_;
 };
 
-/// With a result that goes to -o.
+/// A subcommand whose result is written to -o.
 class ResultCommand : public Command {
 protected:
   ResultCommand(CLI::App& app, const std::string& name, const std::string& help, const std::string& output_help,
@@ -57,7 +57,7 @@ protected:
   const std::string& output() const { return output_; }
   CLI::Option* output_option() { return output_option_; }
   bool quiet() const { return quiet_; }
-  /// To the file that -o names, or to standard output.
+  /// Writes to the file that -o names, or to standard output.
   void deliver(const std::string& text) const;
 
 private:
@@ -66,7 +66,7 @@ private:
   CLI::Option* output_option_;
 };
 
-/// With a result that is read from a run file.
+/// A subcommand whose result is read from a run file.
 class RunCommand : public ResultCommand {
 protected:
   RunCommand(CLI::App& app, const std::string& name, const std::string& help, const std::string& output_help);
@@ -77,7 +77,7 @@ private:
   std::string run_;
 };
 
-/// With a result that is read from a state of the grains: a snapshot of a run, or a meshed packing.
+/// A subcommand whose result is read from a state of the grains: a snapshot of a run, or a meshed packing.
 class StateCommand : public ResultCommand {
 protected:
   StateCommand(CLI::App& app, const std::string& name, const std::string& help, const std::string& output_help,
@@ -92,7 +92,7 @@ private:
   std::string run_, packing_;
 };
 
-/// On standard error, a line each.
+/// Prints to standard error, one line each.
 void print_notes(const std::vector<std::string>& notes);
 
 /// --snapshot; -1 is the last.
@@ -102,7 +102,7 @@ void add_axis(CLI::App& command, std::string& axis, const std::string& help);
 /// 0, 1 or 2 of "x", "y" or "z".
 int axis_number(const std::string& axis);
 
-/// --mesh, --title and --pixels of a picture. `when` begins their help; `patches` are what the mesh is the edges of.
+/// Adds --mesh, --title and --pixels of a picture. `when` begins their help; `patches` names the shapes with edges.
 template <class PictureRequest>
 void add_drawing(CLI::App& command, PictureRequest& request, const std::string& when, const std::string& default_title,
                  const std::string& patches) {

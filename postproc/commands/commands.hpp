@@ -1,5 +1,5 @@
 #pragma once
-// All subcommands of postproc but those of figures (figure/figure_commands.hpp), each a class of its own.
+// All subcommands of postproc except those for figures (figure/figure_commands.hpp), one class each.
 
 #include <memory>
 
@@ -12,15 +12,15 @@ namespace mpfem {
 class Command;
 using MakeCommand = std::unique_ptr<Command>(CLI::App&);
 
-// Of a run or its snapshots.
+// Tables and pictures of a run or its snapshots.
 MakeCommand summary_command, curve_command, contact_command, vtk_command, section_command, density_map_command,
     view_command, watch_command;
 
-// One number off a stage of a run.
+// One number from a stage of a run.
 MakeCommand elastic_recovery_command, modulus_command, strength_command, yield_command, hysteresis_command,
     quasi_static_command, triaxial_command, energy_command;
 
-// One number off a snapshot or a whole run.
+// One number from a snapshot or a whole run.
 MakeCommand damage_command, stress_path_command, section_stress_command, section_damage_command,
     stress_at_densities_command, compaction_quality_command;
 
@@ -28,10 +28,10 @@ MakeCommand damage_command, stress_path_command, section_stress_command, section
 MakeCommand unload_reload_modulus_command, offset_yield_command, coordination_command, inner_stress_command,
     damage_of_test_command;
 
-// What a tablet is judged by.
+// Measurements of tablets.
 MakeCommand tablet_command, heckel_command, diametral_command;
 
-// Of points, and of files of any kind.
+// For points, and for files of any kind.
 MakeCommand fit_command, validate_command, cost_command;
 
 } // namespace mpfem

@@ -60,7 +60,7 @@ private:
   void execute_through_run() const {
     if (!pair_.empty()) throw InputError("give either --pair or --history, not both");
     const schema::FileReader file = open_run();
-    Measurement end = measure_contact(file, stage_); // also refuses a stage that is not there
+    Measurement end = measure_contact(file, stage_); // also refuses a missing stage
     note_unfinished(end, file);
     const bool as_json = output().ends_with(".json");
     deliver(as_json ? to_json(end).dump(2) + "\n" : csv_text(contact_history(HistoryTable(file))));
@@ -75,7 +75,7 @@ private:
     const schema::FileReader file = open_run();
     const ContactMap map = contact_map(file, snapshot_, {pair_[0], pair_[1]});
     const std::string points = contact_points_csv(map);
-    if (!view_.empty()) // first, since it alone can still be refused
+    if (!view_.empty()) // first, because only it can still fail
       write_contact_picture(view_, read_snapshot(file, snapshot_), map, picture_);
     if (!data_.empty()) write_file(data_, points);
     deliver(to_json(map).dump(2) + "\n");

@@ -1,4 +1,4 @@
-// density-map: where in a die the powder is dense.
+// density-map: solid fraction in a die over radius and height.
 
 #include <fmt/format.h>
 

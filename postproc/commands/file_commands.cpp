@@ -1,4 +1,4 @@
-// validate and cost: many files at once.
+// validate and cost: several files at once.
 
 #include <fmt/format.h>
 

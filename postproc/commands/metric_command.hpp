@@ -1,5 +1,5 @@
 #pragma once
-// What the subcommands share that read one number off a run.
+// Shared parts of the subcommands that read one number from a run.
 
 #include <optional>
 #include <string>
@@ -9,7 +9,7 @@
 
 namespace mpfem {
 
-/// A derived class adds its options and says what it measures; one that also writes a table does so in measure().
+/// A derived class adds its options and measures in measure(); one that also writes a table does so there too.
 class MetricCommand : public RunCommand {
 protected:
   MetricCommand(CLI::App& app, const std::string& name, const std::string& help,
@@ -19,11 +19,11 @@ protected:
   virtual Measurement measure(const schema::FileReader& run) const = 0;
 
   void execute() const override;
-  /// JSON to -o, and unless --quiet is given a line for the reader.
+  /// Writes JSON to -o and, without --quiet, a line to standard output.
   void deliver_measurement(Measurement measurement, const schema::FileReader& run) const;
 };
 
-/// Of one stage: with --stage.
+/// A metric of one stage; adds --stage.
 class StageMetricCommand : public MetricCommand {
 protected:
   StageMetricCommand(CLI::App& app, const std::string& name, const std::string& help, const std::string& default_stage,

@@ -1,4 +1,4 @@
-// summary, curve and vtk: a run as it is.
+// summary, curve and vtk: the content of a run in other forms.
 
 #include <filesystem>
 
@@ -65,7 +65,7 @@ public:
   }
 
 private:
-  /// The snapshots of a run go to a folder, which is made where there is none.
+  /// The snapshots of a run are written to a folder, which is made where it does not exist.
   void check_outputs() const override {
     if (of_packing()) {
       StateCommand::check_outputs();

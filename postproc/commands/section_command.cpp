@@ -66,7 +66,7 @@ private:
     options().add_flag("!--without-tools", picture_.tools, "Leave out rigid tools");
   }
 
-  /// Without --position the plane halves the box.
+  /// Without --position the plane cuts the box in half.
   CutPlane plane_in(const Snapshot& state) const {
     const int number = axis_number(axis_);
     const auto axis = static_cast<std::size_t>(number);
@@ -109,7 +109,7 @@ private:
   double position_ = 0.5; ///< mm, or a fraction of the box
   bool relative_ = false;
   std::vector<double> range_, view_;
-  PictureRequest picture_; ///< but for what needs the state or is checked first: plane, range, view
+  PictureRequest picture_; ///< without plane, range and view, which are set in execute()
 };
 
 } // namespace

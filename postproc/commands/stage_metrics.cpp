@@ -1,4 +1,4 @@
-// One number off a stage of a run: springing back, modulus, strength, yield, cycles, quality of a loading, energies.
+// One number from a stage of a run: elastic recovery, modulus, strength, yield, cycles, quality of loading, energies.
 
 #include <map>
 

@@ -1,4 +1,4 @@
-// One number off a snapshot or a whole run: damage, sections, the end of a stress path, a compaction.
+// One number from a snapshot or a whole run: damage, sections, the end of a stress path, a compaction.
 
 #include "common/errors.hpp"
 #include "postproc/commands/commands.hpp"
@@ -49,7 +49,7 @@ private:
   Measurement measure(const schema::FileReader& run) const override { return measure_stress_path(run); }
 };
 
-/// Of the middle plane of a snapshot.
+/// A metric of the middle plane of a snapshot.
 class SectionMetricCommand : public MetricCommand {
 public:
   using Measure = Measurement(const schema::FileReader& run, int snapshot, int axis, double threshold);

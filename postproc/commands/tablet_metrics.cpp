@@ -1,4 +1,4 @@
-// What a tablet is judged by: pressing and ejection, yield pressure, strength of a disc.
+// Measurements of tablets: pressing and ejection, yield pressure, strength of a disc.
 
 #include <fmt/format.h>
 

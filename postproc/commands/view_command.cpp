@@ -1,4 +1,4 @@
-// view: a page to turn the grains in.
+// view: a page that shows the grains in three dimensions.
 
 #include <filesystem>
 

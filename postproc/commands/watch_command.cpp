@@ -18,7 +18,7 @@ namespace mpfem {
 
 namespace {
 
-/// s, of the system's clock, as files have it.
+/// Time of the system's clock since its epoch (s), as in file times.
 double now() {
   return std::chrono::duration<double>(std::chrono::system_clock::now().time_since_epoch()).count();
 }
@@ -52,14 +52,14 @@ private:
       std::string note;
       try {
         progress = read_progress(run_);
-      } catch (const InputError& error) { // what was seen stays; the next checkpoint may be good
+      } catch (const InputError& error) { // keeps the last frame; the next checkpoint may be readable
         note = fmt::format("\n{}\n", error.what());
       }
       show(watch_frame(progress, now(), terminal_width()) + note);
     }
   }
 
-  /// A terminal shows each frame in the place of the one before.
+  /// In a terminal each frame replaces the one before.
   void show(const std::string& frame) const {
     const bool in_place = !once_ && isatty(STDOUT_FILENO) == 1;
     fmt::print("{}{}", in_place ? "\x1b[H\x1b[J" : "", frame);

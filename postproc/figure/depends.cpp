@@ -91,7 +91,7 @@ private:
   }
 
   void add_table(const TableSpec& table) {
-    if (!table.file.empty()) return; // next to the figure's file, or made by a script
+    if (!table.file.empty()) return; // lies next to the figure's file, or is made by a script
     rule(path_of_table(table, folder_), fmt::format("{} {}", sources_, fmt::join(needs_of(table), " ")), "table_files");
     if (table.spread.empty()) return;
     const std::string file = fmt::format("{}/{}.spread.csv", folder_, table.name);
@@ -99,7 +99,7 @@ private:
     lists_["spread_files"].insert(file);
   }
 
-  /// With SEEDS a plot also shows the spread over packings.
+  /// With SEEDS set, a plot also shows the spread over packings.
   void add_spread(const PlotSpec& plot, const std::string& file) {
     for (const SeriesSpec& series : plot.series) {
       if (!series.spread) continue;
@@ -121,7 +121,7 @@ private:
     return add_run(runs_, *current_, current_->run(name, place), row);
   }
 
-  /// The files that a table is read from; adds the runs that they are measured on.
+  /// The files from which a table is read. Adds the runs on which they are measured.
   std::vector<std::string> needs_of(const TableSpec& table) {
     std::vector<std::string> needed;
     const auto add = [&](const std::string& file) {
@@ -145,12 +145,12 @@ private:
 
   std::string file_of_run(const RunInstance& run) const { return file_of(run, request_.results, request_.packing); }
 
-  /// The packing that a run's chain began at, with its mesh; `runs` holds it.
+  /// The meshed packing at which a run's chain began; `runs` holds it.
   std::string packing_of(const RunInstance& run, const RunGraph& runs) const {
     return run.packing.empty() ? request_.packing : file_of_run(runs.at(run.packing));
   }
 
-  /// The command of a metric: of postproc, or of another program that it names.
+  /// The command of a metric: of pack-gen where it says so, otherwise of postproc.
   std::string command_of(const std::string& metric) const {
     std::string command = metric;
     for (const auto& [name, words] : current_->metrics)
@@ -161,7 +161,7 @@ private:
   std::string add_metric(const RunInstance& run, const std::string& metric, const Case& row) {
     const std::string command = command_of(metric);
     const std::string folder = request_.results.of(run.folder), file = fmt::format("{}/{}.json", folder, metric);
-    const std::size_t end = command.find(' ', command.find(' ') + 1); // behind the program and its verb
+    const std::size_t end = command.find(' ', command.find(' ') + 1); // after the program and its subcommand
     Words words = row.values;
     words["packing"] = {packing_of(run, runs_), {}};
     words["description"] = {request_.description, {}};
@@ -182,7 +182,8 @@ private:
     return file;
   }
 
-  /// A file that tells what something was made with; where it says something else, it is made anew.
+  /// A settings file. Where the file on disk has other settings, it depends on FORCE, so that what depends on it is
+  /// made again.
   void stamp(const std::string& file, const std::string& settings) {
     variable(file, "settings", settings);
     if (content_of(file) != settings + "\n") text_ += fmt::format("{}: FORCE\n", file);
@@ -208,7 +209,7 @@ private:
     }
   }
 
-  /// One rule for each file; where several cases make the same, it needs what each of them says.
+  /// One rule for each file; where several cases make the same file, it depends on the inputs of all of them.
   void add_script(const ScriptSpec& script) {
     std::map<std::string, std::string> commands;
     for (const Case& row : cases_of(*current_, script.series, script.where, request_.results.mesh, script.place)) {
@@ -238,7 +239,8 @@ private:
     }
   }
 
-  /// Packings of a mesh's size have their rule in rules.mk; those with a command of their own have a stamp.
+  /// Packings given by an element size have their rule in rules.mk; those with a command of their own have a settings
+  /// file.
   void add_packing_rules(const RunInstance& packing) {
     if (packing.command.empty()) return;
     const std::string file = file_of_run(packing), settings = file.substr(0, file.size() - 2) + "settings";
@@ -263,10 +265,10 @@ private:
       settings.emplace_back("output.checkpoint_relative_densities", fmt::format("[{}]", fmt::join(densities, ",")));
     }
     options += set_options(settings);
-    // Of the values, not of the file: another comment makes no run old.
+    // Hash of the values, not of the file, so that a changed comment does not make a run outdated.
     std::string settings_text = fmt::format(
         "{} {}{}", run.programme, hash_text(hash_string(TomlDocument::from_file(run.programme).text())), options);
-    std::erase(settings_text, '\''); // as it stands in the file
+    std::erase(settings_text, '\''); // as make writes it to the file
     const std::string parent = run.parent.empty() ? packing : request_.results.of(run.parent) + "/run.h5";
     text_ += fmt::format("{}: {} {}\n", file, parent, settings_file);
     variable(file, "programme", run.programme);
@@ -281,7 +283,8 @@ private:
     return fmt::format("{}/work/run.{}.checkpoint.h5", request_.results.of(run.parent), run.checkpoint);
   }
 
-  /// A run whose checkpoint is missing is made again, with all that takes, for a branch that is to be made.
+  /// For every branch that is to be made, a parent run whose checkpoint is missing is made again, and so are the
+  /// parents that this needs.
   void force_lost_parents() {
     std::set<std::string> forced;
     while (!outstanding_.empty()) {
@@ -289,7 +292,7 @@ private:
       outstanding_.erase(outstanding_.begin());
       if (run.parent.empty() || forced.contains(run.parent) || std::filesystem::exists(checkpoint_of(run))) continue;
       const std::string parent = request_.results.of(run.parent) + "/run.h5";
-      if (!std::filesystem::exists(parent)) continue; // it will be made anyway
+      if (!std::filesystem::exists(parent)) continue; // is made anyway
       text_ += fmt::format("{}: FORCE\n", parent);
       forced.insert(run.parent);
       outstanding_.insert(run.parent);
@@ -297,11 +300,11 @@ private:
   }
 
   const DependsRequest& request_;
-  const Figure* current_ = nullptr; ///< with its folder, its files, and what is made of it
+  const Figure* current_ = nullptr; ///< the next members belong to it: folder, sources, files made, runs
   std::string folder_, sources_;
   std::vector<std::string> files_;
   RunGraph runs_;
-  RunGraph graph_;                    ///< of all figures
+  RunGraph graph_;                    ///< runs of all figures
   std::set<std::string> outstanding_; ///< folders of runs that are to be made
   std::map<std::string, std::string> metrics_;
   std::map<std::string, std::set<std::string>> lists_;

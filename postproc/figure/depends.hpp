@@ -1,5 +1,5 @@
 #pragma once
-// What make needs to know of figures: their files, what each is made from, and the settings of their runs.
+// Rules for make about figures: their files, what each is made from, and the settings of their runs.
 
 #include "postproc/figure/figure_table.hpp"
 
@@ -8,12 +8,12 @@ namespace mpfem {
 struct DependsRequest {
   ResultsFolder results;
   std::string packing;      ///< the meshed packing
-  std::string description;  ///< what it was made from
-  Settings common_settings; ///< element, contact surface …: of every run that does not decline them
+  std::string description;  ///< file that it was made from
+  Settings common_settings; ///< element, contact surface …: for every run that does not decline them
 };
 
-/// Lines for make (docs/figure-file.md, "What make does"): for all figures together, so that they share runs. Where the
-/// settings of a run differ from those written next to it, that file of settings depends on FORCE.
+/// Rules for make (docs/figure-file.md, "What make does"), for all figures together, so that they share runs. Where the
+/// settings of a run differ from those in the file next to it, that settings file depends on FORCE.
 /// Throws InputError: runs that two figures describe differently.
 std::string make_rules(const std::vector<Figure>& figures, const DependsRequest& request);
 

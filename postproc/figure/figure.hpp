@@ -1,5 +1,5 @@
 #pragma once
-// A figure as its TOML file declares it (docs/figure-file.md): runs, tables, fits, plots, pictures and statements.
+// A figure as declared in its TOML file (docs/figure-file.md): runs, tables, fits, plots, pictures and statements.
 
 #include <array>
 #include <map>
@@ -27,49 +27,50 @@ private:
   std::string key_;
 };
 
-/// `filled`, with the place in the message.
+/// `filled` (words.hpp), with the place in the message of the error.
 std::string filled_at(const Place& place, std::string_view pattern, const Words& words,
                       Unknown unknown = Unknown::refused);
 
 using Settings = std::vector<std::pair<std::string, std::string>>; ///< scenario key, value (a pattern)
 
-/// A run of every case, or a packing: `from` empty where a run begins at a packing.
+/// A run made for every case, or a packing. `from` is empty for a run that begins at a packing.
 struct RunTemplate {
   std::string name, folder, programme, from, chain;
   Settings settings;
-  std::vector<std::pair<std::string, Settings>> settings_unless_zero; ///< with the value that must not be 0
+  std::vector<std::pair<std::string, Settings>> settings_unless_zero; ///< each with the value that must not be 0
   bool common_settings = true;
-  std::string packing;             ///< name of the packing that it begins at; empty: that of the mesh
-  std::string mesh;                ///< of another MESH: its run is taken where it lies, and not made
-  std::vector<std::string> series; ///< of these alone, the cells of other cases are empty; empty: all
+  std::string packing;             ///< name of the packing at which it begins; empty: that of the mesh
+  std::string mesh;                ///< of another MESH: its run is read from there, and not made
+  std::vector<std::string> series; ///< for these only, other cases have empty cells; empty: all
   bool is_packing = false;
   std::string size;    ///< of a packing: nominal element size, mm
-  std::string command; ///< of a packing: options of pack-gen, in place of a size; both empty: that of the mesh
+  std::string command; ///< of a packing: options of pack-gen instead of a size; both empty: that of the mesh
   Place place;
 };
 
-/// Which rows: those whose value of `name` is one of `equal`, where that is not empty, and within the limits.
+/// Selects rows whose value of `name` is one of `equal` (unless that is empty) and within the limits.
 struct Filter {
   std::string name;
   std::vector<Value> equal;
   std::optional<double> at_least, at_most;
-  /// An empty value passes no limit.
+  /// An empty value is outside any limit.
   bool accepts(const Value& value) const;
 };
 
-/// Some of the rows of a series: every combination of the values given, the last list varying fastest.
+/// Some of the rows of a series: every combination of the given values; the last list varies fastest.
 struct CaseBlock {
   std::string series;
   std::vector<std::string> meshes; ///< empty: all
   std::vector<std::pair<std::string, std::vector<Value>>> values;
-  std::vector<Filter> only; ///< rows that are shown; chains keep their whole lists
+  std::vector<Filter> only; ///< the rows that are shown; chains still use the whole lists
   Place place;
 };
 
 struct ColumnSpec {
   std::string title, name, unit; ///< title: "name [unit]"
-  /// "RUN/METRIC.KEY:FORMAT" of a table of numbers; a column of the history, or of the list, of a table of those, that
-  /// may be taken over a metric's number; else a pattern of the case's values.
+  /// Where the cell comes from: "RUN/METRIC.KEY:FORMAT" (run, metric, key, format) in a table of numbers; `history`, a
+  /// column of the history or of the list, in a table of curves or lists, optionally over a metric's number; otherwise
+  /// `pattern`, filled with the case's values.
   std::string run, metric, key, format, history, pattern;
 };
 
@@ -78,14 +79,14 @@ struct TableSpec {
   std::vector<std::string> series; ///< empty: all
   std::vector<Filter> where;
   std::vector<ColumnSpec> columns;
-  std::vector<std::string> curves; ///< runs whose histories follow one another; empty: a row a case
+  std::vector<std::string> curves; ///< runs whose histories are joined in this order; empty: one row per case
   std::string list;                ///< "RUN/METRIC": all rows of the CSV file that the metric writes next to its JSON
-  std::vector<Filter> keep;        ///< by columns: the other rows are left out
-  std::optional<int> stage;        ///< of the curves; none: all rows
-  int digits = 6;                  ///< of the curves' numbers
-  bool distinct = false;           ///< equal rows, or curves of the same runs, once
-  std::string file;                ///< a CSV file with these columns in place of all this
-  bool beside = false;             ///< it lies next to the figure's file, else in the folder of its results
+  std::vector<Filter> keep;        ///< by columns; other rows are left out
+  std::optional<int> stage;        ///< of the curves; empty: all rows
+  int digits = 6;                  ///< significant digits of the curves' numbers
+  bool distinct = false;           ///< equal rows, or curves of the same runs, appear once
+  std::string file;                ///< a CSV file with these columns, instead of all the above
+  bool beside = false;             ///< it lies next to the figure's file, otherwise in the folder of its results
   std::vector<std::string> spread; ///< columns whose mean and deviation over packings are drawn
   Place place;
 };
@@ -98,21 +99,21 @@ struct FitSpec {
 };
 
 struct AxisSpec {
-  std::string label, format, ticks; ///< ticks: as gnuplot takes them, "0.1" or "(1, 2, 5)"
+  std::string label, format, ticks; ///< ticks: in gnuplot's syntax, "0.1" or "(1, 2, 5)"
   std::optional<double> low, high;
   bool logarithmic = false;
 };
 
 struct SeriesSpec {
   std::string table, x, y, error, group, colour_by;  ///< columns
-  std::string fit;                                   ///< or a fit
-  std::vector<std::pair<std::string, double>> model; ///< or a model with given coefficients, of `fit_model`
+  std::string fit;                                   ///< or the name of a fit
+  std::vector<std::pair<std::string, double>> model; ///< or given coefficients of `fit_model`
   std::string fit_model;
   std::optional<double> from, to, at; ///< range of x of a fit; value of z
   double x_scale = 1, y_scale = 1;
   std::vector<Filter> where;
   std::string style;                          ///< points, lines, linespoints
-  std::optional<double> fixed_x, fixed_group; ///< of a surface: points projected to this value
+  std::optional<double> fixed_x, fixed_group; ///< of a surface: points are projected to this value
   int colour = 1, point = 0;
   double width = 0, size = 0;
   std::string dash, title;
@@ -128,12 +129,12 @@ struct LineSpec {
 /// A part of the same plot, enlarged.
 struct InsetSpec {
   AxisSpec x, y;
-  std::array<double, 4> place{}; ///< left, bottom, width, height as parts of the picture
-  std::vector<Filter> where;     ///< rows of the first series' table over which x reaches
+  std::array<double, 4> place{}; ///< left, bottom, width, height as fractions of the picture
+  std::vector<Filter> where;     ///< rows of the first series' table that set the range of x
 };
 
 struct PlotSpec {
-  std::string name, title, key, key_title, caption; ///< caption: on the report, a sentence
+  std::string name, title, key, key_title, caption; ///< caption: a sentence for the report
   AxisSpec x, y, z;
   std::vector<SeriesSpec> series;
   std::vector<LineSpec> lines;
@@ -142,36 +143,36 @@ struct PlotSpec {
   Place place;
 };
 
-/// A file that a command makes.
+/// A file made by a command.
 struct CommandSpec {
   std::string name, run, command; ///< "{run}" in the command is the run's file
-  std::string caption;            ///< of a picture on the report
+  std::string caption;            ///< of a picture in the report
   std::vector<std::string> series;
   std::vector<Filter> where;
   Place place;
 };
 
-/// A picture or a table that another command of postproc makes from each run.
+/// A picture or a table made from each run by another subcommand of postproc.
 struct PictureSpec : CommandSpec {};
 
-/// A file that a command makes which is no verb of postproc, once for each text that `name` becomes.
+/// A file made by a command other than postproc's subcommands, one for each text that `name` becomes.
 struct ScriptSpec : CommandSpec {
-  std::vector<std::string> needs; ///< files of the figure that others make
+  std::vector<std::string> needs; ///< files of the figure that other commands make
 };
 
 struct QuantitySpec {
   std::string name;
-  std::string table, column, over, take, item; ///< of a table's column, divided by column `over` where that is given
+  std::string table, column, over, take, item; ///< of a table's column, divided by column `over` if that is given
   std::vector<Filter> where;
-  std::vector<Filter> relative_to; ///< each value over that of the row of these with the same `by`
+  std::vector<Filter> relative_to; ///< each value is divided by that of the row among these with the same `by`
   std::string by;
   std::string fit, coefficient, measure; ///< of a fit: a coefficient with its interval, or r_squared, points …
   std::string of, divided_by, minus;     ///< of other quantities
-  std::optional<double> otherwise;       ///< where there is no row
+  std::optional<double> otherwise;       ///< value where there is no row
   Place place;
 };
 
-/// A number or the name of a quantity.
+/// A number, or the name of a quantity.
 struct Operand {
   std::optional<double> number;
   std::string name;
@@ -185,19 +186,19 @@ struct ConditionSpec {
   std::vector<Operand> operands;
   double within = 0;
   bool absolute = false;
-  double tolerance = 0;    ///< of rises and falls: smaller changes count as none, relative unless `absolute`
-  std::string along, each; ///< of rises and falls: sorted by this column, within rows of equal `each`
+  double tolerance = 0;    ///< of rises and falls: smaller changes do not count; relative unless `absolute`
+  std::string along, each; ///< of rises and falls: sorted by column `along`, within rows of equal `each`
   Place place;
 };
 
 struct StatementSpec {
   std::string text, paper, source, ours, note;
-  std::string ours_unjudged, note_unjudged; ///< in place of both where it cannot be judged
-  std::string why;                          ///< the reason where it differs
+  std::string ours_unjudged, note_unjudged; ///< replace `ours` and `note` where it cannot be judged
+  std::string why;                          ///< the reason for a difference from the paper
   std::vector<QuantitySpec> quantities;
   std::vector<ConditionSpec> require, judged_if;
   bool only_refutes = false;   ///< agreement cannot be shown, only disagreement
-  bool only_if_judged = false; ///< left out where it cannot be judged
+  bool only_if_judged = false; ///< omitted where it cannot be judged
   bool judged = true;          ///< false: reported without a verdict
   std::vector<std::string> meshes;
   Place place;
@@ -207,7 +208,7 @@ struct Figure {
   std::string path, name, title, question, source;
   std::vector<std::string> files; ///< all that were read
   Words defaults;
-  std::map<std::string, std::map<std::string, Words>> follows; ///< values that follow from another: name, text, values
+  std::map<std::string, std::map<std::string, Words>> follows; ///< values implied by another one: name, text, values
   std::vector<CaseBlock> cases;
   std::vector<RunTemplate> runs;
   std::vector<std::pair<std::string, std::string>> metrics; ///< name, command of postproc
@@ -217,9 +218,9 @@ struct Figure {
   std::vector<PictureSpec> pictures;
   std::vector<ScriptSpec> scripts;
   std::vector<StatementSpec> statements;
-  std::string powder; ///< TOML of a packing's description, where the study has its own
+  std::string powder; ///< TOML of a packing's description, if the study has its own
   double element_size = 0;
-  std::vector<std::shared_ptr<const TomlDocument>> documents; ///< what the places refer to
+  std::vector<std::shared_ptr<const TomlDocument>> documents; ///< to which the places refer
 
   /// A run or a packing.
   const RunTemplate& run(const std::string& name, const Place& place) const;
@@ -227,9 +228,9 @@ struct Figure {
   const FitSpec& fit(const std::string& name, const Place& place) const;
 };
 
-/// Reads a figure's file and what it includes. `programmes`: folder of the scenarios that are named without a path.
-/// The name is the file's, or of "NAME/figure.toml" the folder's. Throws InputError with file and line: missing and
-/// unknown keys, values outside their range, names that nothing in the file has.
+/// Reads a figure's file and those that it includes. `programmes`: folder of the scenarios that are named without a
+/// path. The name is that of the file, or of the folder for "NAME/figure.toml". Throws InputError with file and line:
+/// missing and unknown keys, values outside their range, names that nothing in the file has.
 Figure read_figure(const std::string& path, const std::string& programmes);
 
 } // namespace mpfem

@@ -130,7 +130,7 @@ struct FigureCommands::State {
     deliver(meshes.size() == 1 ? verdicts_of_mesh(meshes.front()) : verdicts_of_meshes(meshes));
   }
 
-  /// Of at most six snapshots, so that the page stays small.
+  /// Shows at most six snapshots, so that the page stays small.
   static std::string view_of(const std::string& run) {
     if (run.empty()) return "";
     return view_page_of_run({run, schema::FileKind::run}, 6, "Compaction in three dimensions");

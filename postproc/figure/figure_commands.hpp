@@ -9,7 +9,7 @@ class App;
 
 namespace mpfem {
 
-/// Adds them to the program; after parsing, run() does the one that was given.
+/// Adds them to the program; after parsing, run() executes the one that was given.
 class FigureCommands {
 public:
   explicit FigureCommands(CLI::App& app);
@@ -17,7 +17,7 @@ public:
   FigureCommands(const FigureCommands&) = delete;
   FigureCommands& operator=(const FigureCommands&) = delete;
 
-  /// Does nothing where none of them was given. Throws InputError, SimulationError (gnuplot), StorageError.
+  /// Does nothing if none of them was given. Throws InputError, SimulationError (gnuplot), StorageError.
   void run() const;
 
 private:

@@ -15,7 +15,7 @@ namespace {
 
 constexpr int curve_points = 201;
 
-/// Colours that stay apart for colour-blind readers (Okabe and Ito), with the points that belong to them.
+/// Colours that colour-blind readers can tell apart (Okabe and Ito), each with its point type.
 constexpr const char* style = R"(set encoding utf8
 set border 3 linewidth 1.2
 set tics nomirror out
@@ -118,7 +118,7 @@ private:
       }
       block += '\n';
     }
-    if (block.find_first_of("0123456789") == std::string::npos) return; // nothing of it could be measured
+    if (block.find_first_of("0123456789") == std::string::npos) return; // none of it could be measured
     SeriesSpec drawn = s;
     drawn.colour = colour;
     if (!s.colour_by.empty())
@@ -139,13 +139,13 @@ private:
         block += fmt::format("{:.9g} {:.9g} {:.9g}\n", *row[x].number * s.x_scale, *row[y].number * s.y_scale,
                              *row[deviation].number * s.y_scale);
     if (block.empty()) return;
-    const bool first = spreads_++ == 0; // named once in the key
+    const bool first = spreads_++ == 0; // named only once in the key
     draw(block,
          fmt::format("using 1:2:3 with yerrorbars linetype {} pointtype 6 pointsize 1.5{}", first ? 5 : 4,
                      title_text(first ? fmt::format("mean and standard deviation of {} packings", packings_) : "")));
   }
 
-  /// A fit, over the range of its points or the one given, or a model with coefficients of its own.
+  /// A fit, over the range of its points or the given one, or a model with given coefficients.
   void add_model(const SeriesSpec& s) {
     std::map<std::string, double> coefficients(s.model.begin(), s.model.end());
     std::string model = s.fit_model;
@@ -198,7 +198,7 @@ private:
   std::vector<std::string> drawings_;
 };
 
-/// The points of a surface's series: x, y and z from columns x, group and y of its table.
+/// The points of a surface's series: x, y and z are the table's columns s.x, s.group and s.y.
 std::string surface_points(const SeriesSpec& s, FigureData& data) {
   const TextTable& table = data.table(s.table);
   std::string block;
@@ -240,7 +240,7 @@ std::string reference_lines(const PlotSpec& plot) {
   return text;
 }
 
-/// A round distance of ticks, so that some three fit.
+/// A round distance between ticks, so that about three fit.
 std::string few_ticks(double low, double high) {
   const double third = (high - low) / 3, power = std::pow(10, std::floor(std::log10(third)));
   for (const double digit : {1, 2, 5})
@@ -248,7 +248,7 @@ std::string few_ticks(double low, double high) {
   return fmt::format("{:g}", 10 * power);
 }
 
-/// The axis of an inset: over the rows that the inset shows, with a margin, where it does not say from where to where.
+/// The x axis of an inset. Limits that are not given come from the rows that the inset shows, with a margin.
 AxisSpec inset_x(const PlotSpec& plot, FigureData& data) {
   AxisSpec axis = plot.inset->x;
   const SeriesSpec& s = plot.series.front();

@@ -38,7 +38,8 @@ private:
   std::map<std::string, Json> files_;
 };
 
-/// Of a metric that could not be measured every key is empty; of one that could, a key that is not there is a mistake.
+/// The value of a metric's key. It is empty for every key if the metric could not be measured ("value" is null);
+/// otherwise a missing key is an error.
 Value value_of_key(const Json& metric, const std::string& key, const std::string& path, const Place& place) {
   const auto found = metric.find(key);
   if (found == metric.end()) {
@@ -58,7 +59,7 @@ Value value_of_key(const Json& metric, const std::string& key, const std::string
   place.fail(fmt::format("{}: key '{}' is a list or a table, allowed: a number or a text", one_line(path), key));
 }
 
-/// Row of a history, with the row in which its stage began.
+/// A row of a history, with the row in which its stage began.
 struct HistoryRow {
   const HistoryTable& history;
   std::size_t row, begin;
@@ -72,7 +73,8 @@ struct CurveColumn {
   std::function<double(const HistoryRow&)> value;
 };
 
-/// How often the mean stress has begun to rise again after falling to a fiftieth of its largest value.
+/// Number of times, up to `row`, that the mean stress has begun to rise again after a fall to a fiftieth of its largest
+/// value.
 double cycles_before(const HistoryTable& h, std::size_t begin, std::size_t row) {
   const auto& p = h["mean_stress"];
   const double low = *std::max_element(p.begin(), p.end()) / 50;
@@ -88,7 +90,7 @@ double cycles_before(const HistoryTable& h, std::size_t begin, std::size_t row) 
   return cycles;
 }
 
-/// N, over the six walls.
+/// Mean normal force (N) of the six walls.
 double mean_wall_force(const HistoryRow& r) {
   const double x = r("box_lengths_0"), y = r("box_lengths_1"), z = r("box_lengths_2");
   return ((r("wall_stress_0") + r("wall_stress_1")) * y * z + (r("wall_stress_2") + r("wall_stress_3")) * z * x +
@@ -144,14 +146,14 @@ std::function<double(const HistoryRow&)> curve_column(const HistoryTable& histor
                               : fmt::format("allowed: {}", fmt::join(names, ", "))));
 }
 
-/// The JSON file of the metric that a column names.
+/// Path of the JSON file of the metric that a column names.
 std::string metric_path(const Figure& figure, const ColumnSpec& column, const Place& place,
                         const ResultsFolder& results, const Case& row) {
   return fmt::format("{}/{}.json", results.of(folder_of(figure, figure.run(column.run, place), row)),
                      filled_at(place, column.metric, row.values));
 }
 
-/// What the numbers of a curve's columns are divided by: 1, or a metric's number.
+/// [columns], divisors of a curve's columns: 1, or a metric's number.
 std::vector<double> divisors_of(const Figure& figure, const TableSpec& spec, const ResultsFolder& results,
                                 const Case& row, MetricFiles& files) {
   std::vector<double> divisors;
@@ -164,8 +166,8 @@ std::vector<double> divisors_of(const Figure& figure, const TableSpec& spec, con
   return divisors;
 }
 
-/// In the column's own format, else with the table's digits; 17 stand for the shortest text that reads back to the
-/// number.
+/// A number in the column's format, otherwise with the table's digits; 17 digits stand for the shortest text that reads
+/// back to the same number.
 Value curve_cell(double number, const TableSpec& spec, const ColumnSpec& column) {
   if (!column.format.empty())
     return Value::of_text(
@@ -211,7 +213,7 @@ void add_curves(TextTable& table, const Figure& figure, const TableSpec& spec, c
     }
 }
 
-/// All rows of the CSV file next to a metric's JSON.
+/// Adds all rows of the CSV file next to a metric's JSON.
 void add_list(TextTable& table, const Figure& figure, const TableSpec& spec, const ResultsFolder& results,
               const Case& row) {
   const std::size_t slash = spec.list.find('/');
@@ -260,7 +262,7 @@ void add_row(TextTable& table, const Figure& figure, const TableSpec& spec, cons
 
 std::string ResultsFolder::of(const std::string& folder) const {
   if (!folder.starts_with("../")) return fmt::format("{}/{}", path, folder);
-  return (std::filesystem::path(path).parent_path() / folder.substr(3)).string(); // of another mesh, whatever the seed
+  return (std::filesystem::path(path).parent_path() / folder.substr(3)).string(); // the other mesh's, for any seed
 }
 
 std::string file_of(const RunInstance& run, const ResultsFolder& results, const std::string& packing) {
@@ -344,7 +346,7 @@ TextTable spread_of(const TableSpec& spec, const std::vector<std::string>& files
       m.squares.resize(columns.size());
       if (std::any_of(columns.begin(), columns.end(), [&](std::size_t c) { return !row[c].number; })) continue;
       ++m.count;
-      for (std::size_t c = 0; c < columns.size(); ++c) { // Welford: no difference of large sums
+      for (std::size_t c = 0; c < columns.size(); ++c) { // Welford's method: no difference of large sums
         const double value = *row[columns[c]].number, change = value - m.mean[c];
         m.mean[c] += change / static_cast<double>(m.count);
         m.squares[c] += change * (value - m.mean[c]);

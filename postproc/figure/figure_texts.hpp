@@ -1,5 +1,5 @@
 #pragma once
-// The texts and values of a figure's file, in which the words of `for_each` are replaced.
+// Texts and values of a figure's file, with the words of `for_each` filled in.
 
 #include <map>
 #include <optional>
@@ -12,19 +12,20 @@
 
 namespace mpfem {
 
-/// A number or a text. Throws InputError.
+/// A number or a text. Throws InputError for any other type.
 Value value_of(const toml::node& node, const Place& place);
 
-/// One value or a list of them. Throws InputError where there is none.
+/// One value or a list of values. Throws InputError for an empty list.
 std::vector<Value> values_of(TableReader& reader, const std::string& key);
 
-/// A name that becomes a file and a target of make. Throws InputError where it cannot be one.
+/// The name, which becomes a file and a target of make. Throws InputError where it has other characters than letters,
+/// digits, '.', '_' and '-'.
 std::string checked_name(TableReader& reader, const std::string& key, std::string name);
 
-/// Entries of `for_each` that are lists.
+/// The entries of `for_each` that are lists.
 using Lists = std::map<std::string, std::vector<Value>>;
 
-/// The texts of one table of the file. Everything throws InputError with the place of a mistake.
+/// The texts of one table of the file. All members throw InputError with the place of the error.
 class Texts {
 public:
   Texts(TableReader& reader, const Words& words) : reader_(reader), words_(words) {}
@@ -37,11 +38,11 @@ public:
   std::string name(const std::string& key) { return checked_name(reader_, key, required(key)); }
   std::vector<std::string> list(const std::string& key);
   std::vector<Filter> filters(const std::string& key);
-  /// A number, or a text in which a word of `for_each` stands for one; nothing where it is absent.
+  /// A number, or a text that becomes one with the words of `for_each`; empty where it is absent.
   std::optional<double> number(const std::string& key);
-  /// A whole number, or a text in which a word of `for_each` stands for one.
+  /// A whole number, or a text that becomes one with the words of `for_each`.
   int integer(const std::string& key, int fallback, Range range);
-  /// The value of a key, a list or one; "{name}" alone stands for a list of `for_each`.
+  /// The values of a key that holds one or a list; "{name}" alone stands for a list of `for_each`.
   std::vector<Value> values(const std::string& key);
   TableReader& reader() { return reader_; }
   const Words& words() const { return words_; }
@@ -56,11 +57,11 @@ private:
   const Lists* lists_ = nullptr;
 };
 
-/// The entries of a table's `for_each`: the words with one value and those with a list; one without any where there is
-/// no `for_each`.
+/// The entries of a table's `for_each`: the words with one value, and those with a list. Without `for_each` one entry
+/// without words.
 std::vector<std::pair<Words, Lists>> for_each_entries(TableReader& table);
 
-/// Calls `read` for a table of the file, once for each entry of its `for_each`, and checks that all keys were known.
+/// Calls `read` for a table of the file, once for each entry of its `for_each`. Throws InputError for unknown keys.
 template <class Read>
 void for_each(TableReader table, const Read& read) {
   const auto entries = for_each_entries(table);

@@ -19,7 +19,7 @@ namespace {
 
 namespace filesystem = std::filesystem;
 
-/// What `mpfem run --set` takes: numbers and words as they are, lists in brackets.
+/// A value in the syntax of `mpfem run --set`: numbers and words as they are, lists in brackets.
 std::string setting_text(const toml::node& node, const Place& place) {
   if (const toml::array* list = node.as_array()) {
     std::vector<std::string> parts;
@@ -47,7 +47,7 @@ Heading heading_of(const std::string& title) {
   return {title.substr(0, bracket), title.substr(bracket + 2, title.find(']') - bracket - 2)};
 }
 
-/// "RUN/METRIC.KEY" or "RUN/METRIC.KEY:FORMAT"; a metric's name may hold values in braces.
+/// Reads "RUN/METRIC.KEY" or "RUN/METRIC.KEY:FORMAT"; a metric's name may hold values in braces. False for other texts.
 bool read_metric_key(const std::string& source, ColumnSpec& column) {
   const std::size_t slash = source.find('/'), dot = source.rfind('.', source.find(':'));
   if (slash == std::string::npos || slash == 0 || dot == std::string::npos || dot < slash) return false;
@@ -244,10 +244,10 @@ ConditionSpec read_condition(TableReader reader, const Words& words) {
   return c;
 }
 
-/// Lists of columns by name, from [columns].
+/// Lists of columns from [columns], by name.
 using ColumnLists = std::map<std::string, std::vector<std::string>>;
 
-/// Names of lists become what the lists hold.
+/// Replaces names of lists by the lists' entries.
 std::vector<std::string> with_lists(const std::vector<std::string>& columns, const ColumnLists& lists) {
   std::vector<std::string> texts;
   for (const std::string& text : columns)
@@ -279,7 +279,8 @@ TableSpec read_table(Texts& t, const ColumnLists& lists) {
   return spec;
 }
 
-/// A CSV file: of the figure's results, where a script makes it, else next to the figure's file.
+/// A table from a CSV file: next to the figure's file if it exists there, otherwise among the figure's results, where a
+/// script makes it.
 TableSpec read_table_of_file(Texts& t, const filesystem::path& folder) {
   TableSpec spec;
   spec.place = Place(t.reader(), "columns");
@@ -327,7 +328,7 @@ InsetSpec read_inset(TableReader inset, const Words& words) {
   return spec;
 }
 
-/// A `for_each` of a series is inside one of its plot: the words of both are replaced.
+/// The words of the plot's `for_each` and of the series' own are both filled in.
 std::vector<SeriesSpec> read_all_series(Texts& plot) {
   std::vector<SeriesSpec> list;
   for (TableReader& series : plot.reader().tables("series"))
@@ -365,7 +366,7 @@ PlotSpec read_plot(Texts& t) {
   return plot;
 }
 
-/// A picture needs a run, a script may have one: `read_run` says which.
+/// A picture needs a run, a script may have one: `read_run` reads it accordingly.
 CommandSpec read_command(Texts& t, std::string (*read_run)(Texts&)) {
   CommandSpec spec;
   spec.place = Place(t.reader(), "command");
@@ -382,7 +383,7 @@ PictureSpec read_picture(Texts& t) {
   return {read_command(t, [](Texts& texts) { return texts.required("run"); })};
 }
 
-/// Of no run where none is named.
+/// Without a run where none is named.
 ScriptSpec read_script(Texts& t) {
   ScriptSpec spec{read_command(t, [](Texts& texts) { return texts.optional("run"); }), {}};
   spec.needs = t.list("needs");
@@ -428,7 +429,7 @@ void append_each(TableReader& root, const std::string& key, Spec (*read)(Texts&)
   for (TableReader& table : root.tables(key)) for_each(table, [&](Texts& t) { specs.push_back(read(t)); });
 }
 
-/// Reads one file into the figure; its `include`d files first.
+/// Reads a file into the figure, after the files that it includes.
 class FigureReader {
 public:
   FigureReader(Figure& figure, std::string programmes) : figure_(figure), programmes_(std::move(programmes)) {}
@@ -451,7 +452,7 @@ public:
     read_plots(root);
     append_each(root, "statements", read_statement, main ? figure_.statements : included_statements_);
     root.finish();
-    if (main) // what many figures state alike stands behind what this one states
+    if (main) // statements of included files follow the figure's own
       figure_.statements.insert(figure_.statements.end(), included_statements_.begin(), included_statements_.end());
   }
 
@@ -610,7 +611,7 @@ void check_column(const Figure& figure, const std::string& table, const std::str
                               : fmt::format("; allowed: {}", fmt::join(names, ", "))));
 }
 
-/// Names that nothing has are found before anything is run.
+/// Finds references to unknown names before anything is run.
 void check_names(const Figure& figure) {
   check_once(figure.runs, "run");
   check_once(figure.tables, "table");

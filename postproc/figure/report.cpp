@@ -68,7 +68,7 @@ std::vector<std::filesystem::path> files_with(const std::filesystem::path& folde
   return files;
 }
 
-/// The statements of a figure. Throws InputError.
+/// The statements of a figure. Throws InputError where verdict.json is missing or not a list.
 nlohmann::json statements_in(const std::filesystem::path& folder) {
   const std::filesystem::path path = folder / "verdict.json";
   auto list = nlohmann::json::parse(content_of(path), nullptr, false);
@@ -84,14 +84,14 @@ bool is_word(char c) {
   return is_letter(c) || (c >= '0' && c <= '9') || c == '_';
 }
 
-/// Whether the text ends in a symbol of one letter, Latin or Greek, and not in a word.
+/// True if the text ends in a symbol of one letter, Latin or Greek, rather than in a word.
 bool ends_in_symbol(const std::string& text) {
   const std::size_t size = text.size();
   if (size >= 2 && (text[size - 2] == '\xCE' || text[size - 2] == '\xCF')) return true;
   return size >= 1 && is_letter(text[size - 1]) && (size == 1 || !is_word(text[size - 2]));
 }
 
-/// Where an exponent or index that begins at `at` ends: "{…}", or a number or letters, with a sign.
+/// End of an exponent or index that begins at `at`: "{…}", or a number or letters, with a sign; `at` if there is none.
 std::size_t end_of_script(const std::string& text, std::size_t at) {
   if (at < text.size() && text[at] == '{') return std::min(text.find('}', at), text.size() - 1) + 1;
   std::size_t end = at;
@@ -99,12 +99,12 @@ std::size_t end_of_script(const std::string& text, std::size_t at) {
   if (text.compare(end, 3, "−") == 0) end += 3;
   const std::size_t first = end;
   while (end < text.size() && (is_word(text[end]) || text[end] == '.')) ++end;
-  while (end > first && text[end - 1] == '.') --end; // of the sentence
+  while (end > first && text[end - 1] == '.') --end; // end of the sentence
   return end > first ? end : at;
 }
 
-/// Text of a page in which exponents ("G^c", "10^{-3}") are raised and indices of symbols ("D_r", not "run_1") lowered;
-/// `code` of Markdown becomes an element, in which nothing else is changed.
+/// HTML of a text: exponents ("G^c", "10^{-3}") are raised and indices of symbols ("D_r", not "run_1") lowered; `code`
+/// of Markdown becomes an element and is otherwise unchanged.
 std::string formatted(const std::string& plain) {
   const std::string text = html_text(plain);
   std::string page;
@@ -129,7 +129,7 @@ std::string formatted(const std::string& plain) {
   return page;
 }
 
-/// How many statements of each figure agree, differ and are not judged, with links to them.
+/// Numbers of statements of each figure that agree, differ and are not judged, with links to the figures.
 std::string summary_table(const std::vector<ReportEntry>& entries, const std::filesystem::path& results) {
   std::string text = "<table class=\"summary\">\n<tr><th>study</th><th>agree</th><th>differ</th><th>not judged</th>"
                      "</tr>\n";
@@ -148,7 +148,7 @@ std::string summary_table(const std::vector<ReportEntry>& entries, const std::fi
          fmt::format("<tr><th>all</th><th>{}</th><th>{}</th><th>{}</th></tr>\n</table>\n", all[0], all[1], all[2]);
 }
 
-/// The note, and why the statement differs where it does.
+/// The note, and the reason for a difference where there is one.
 std::string note_of(const nlohmann::json& statement) {
   const std::string note = statement.at("note").get<std::string>(), why = statement.value("why", "");
   return why.empty() ? note : fmt::format("{}{}why: {}", note, note.empty() ? "" : "; ", why);
@@ -170,7 +170,7 @@ std::string statements_table(const std::filesystem::path& folder) {
   return text + "</table></div>\n";
 }
 
-/// The cells of a row "| a | b |" of Markdown.
+/// The cells of a Markdown row "| a | b |".
 std::vector<std::string> cells_of(const std::string& line) {
   std::vector<std::string> cells;
   for (std::size_t at = 1, end = 0; (end = line.find('|', at)) != std::string::npos; at = end + 1) {
@@ -180,7 +180,7 @@ std::vector<std::string> cells_of(const std::string& line) {
   return cells;
 }
 
-/// The title and the first table of a page in Markdown, with a link to it.
+/// The title and the first table of a Markdown page, with a link to it.
 std::string table_of_page(const ReportRequest& request) {
   std::istringstream lines(content_of(request.beside));
   std::string line, title, rows;
@@ -198,14 +198,14 @@ std::string table_of_page(const ReportRequest& request) {
                      html_text(title), rows, link_to(request.beside, request.page_folder, "all tables and conditions"));
 }
 
-/// The file's name as words.
+/// The file's name with spaces for hyphens, without its ending.
 std::string words_of(const std::filesystem::path& file) {
   std::string words = file.stem().string();
   std::replace(words.begin(), words.end(), '-', ' ');
   return words;
 }
 
-/// The PNG files of a figure with their captions: those that its file gives a caption, in its order, then the others.
+/// The PNG files of a figure with their captions: those with a caption in its file, in its order, then the others.
 std::vector<CaptionedPicture> pictures_in(const std::filesystem::path& folder, const ReportEntry& entry) {
   std::vector<CaptionedPicture> pictures;
   for (const CaptionedPicture& picture : entry.captions)
@@ -218,7 +218,7 @@ std::vector<CaptionedPicture> pictures_in(const std::filesystem::path& folder, c
   return pictures;
 }
 
-/// A picture, with links to what a reader may want to take along.
+/// A picture, with links to its files.
 std::string picture_of(const std::filesystem::path& picture, const std::string& caption,
                        const std::filesystem::path& page_folder) {
   std::filesystem::path vector = picture;
@@ -230,7 +230,7 @@ std::string picture_of(const std::filesystem::path& picture, const std::string& 
                      html_text(words_of(picture)), base64(content_of(picture)), formatted(caption), links);
 }
 
-/// Tables and verdicts as files.
+/// Links to the files of tables and verdicts.
 std::string links_of(const ReportEntry& entry, const std::filesystem::path& folder,
                      const std::filesystem::path& page_folder) {
   std::string text;

@@ -15,7 +15,7 @@ namespace {
 namespace fs = std::filesystem;
 namespace run = schema::run;
 
-/// A path as a link has it: what has a meaning of its own in an address is replaced.
+/// A path as a URL: characters with a special meaning there are escaped.
 std::string address_of(const fs::path& path) {
   std::string address;
   for (const char c : path.generic_string())
@@ -26,7 +26,7 @@ std::string address_of(const fs::path& path) {
   return address;
 }
 
-/// What of the scenario a reader asks for first; a dash where the run does not have it.
+/// The main settings of the scenario; a dash for those that the run lacks.
 struct RunSettings {
   std::string element = "–", surface = "–", mesh = "–";
 };
@@ -39,7 +39,7 @@ RunSettings settings_of(const schema::FileReader& file) {
     settings.element = root.at_path("element.type").value_or(settings.element);
     settings.surface = root.at_path("contact.surface").value_or(settings.surface);
     settings.mesh = fs::path(root.at_path("packing").value_or(settings.mesh)).filename().string();
-  } catch (const InputError&) { // a scenario of another make
+  } catch (const InputError&) { // a scenario of another version
     return {};
   }
   return settings;

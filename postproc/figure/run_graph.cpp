@@ -24,7 +24,8 @@ void combine(const CaseBlock& block, std::size_t next, Case& current, std::vecto
   }
 }
 
-/// Adds what follows from the values: of the sample "g0.5" its fracture energy. What the case says itself holds.
+/// Adds the values that follow from others, as the fracture energy of the sample "g0.5". Values that the case itself
+/// gives take precedence.
 void add_what_follows(const Figure& figure, Case& row) {
   for (const auto& [name, of_text] : figure.follows) {
     const auto value = row.values.find(name);
@@ -35,7 +36,7 @@ void add_what_follows(const Figure& figure, Case& row) {
   }
 }
 
-/// Values that are patterns of the others are filled in.
+/// Fills in values that are patterns of the others.
 void fill_values(Case& row, const Place& place) {
   for (auto& [key, value] : row.values)
     if (!value.number && value.text.find('{') != std::string::npos)
@@ -72,7 +73,7 @@ Settings filled_settings(const RunTemplate& run, const Case& row) {
   return result;
 }
 
-/// The relative density behind the "@" of `from`.
+/// The relative density after the "@" of `from`.
 double density_of(const std::string& text, const Place& place) {
   double density = 0;
   const auto [stop, error] = std::from_chars(text.data(), text.data() + text.size(), density);
@@ -81,7 +82,7 @@ double density_of(const std::string& text, const Place& place) {
   return density;
 }
 
-/// The case with the value before this one in a chain's list; nothing where it is the first.
+/// The case with the previous value in a chain's list; empty for the first value.
 std::optional<Case> before_in_chain(const RunTemplate& run, const Case& row) {
   const auto list = row.lists.find(run.chain);
   if (list == row.lists.end()) run.place.fail(fmt::format("chain: no case has a list '{}'", run.chain));
@@ -97,7 +98,7 @@ void collect_names(std::string_view pattern, std::set<std::string>& names) {
     names.emplace(pattern.substr(begin + 1, pattern.find_first_of(":}", begin) - begin - 1));
 }
 
-/// The values that a run, or what it begins at, depends on.
+/// Names of the values on which a run, or the run at which it begins, depends.
 std::set<std::string> values_used(const Figure& figure, const RunTemplate& run) {
   std::set<std::string> names;
   for (const auto& [key, pattern] : run.settings) collect_names(pattern, names);
@@ -119,8 +120,8 @@ std::set<std::string> values_used(const Figure& figure, const RunTemplate& run) 
   return names;
 }
 
-/// What a branch takes over of the settings of the run that its chain began with: grains, bonds, element. Stages and
-/// output are each run's own.
+/// The settings that a branch inherits from the first run of its chain: grains, bonds, element. Every run has its own
+/// stages and output.
 Settings inherited(const Settings& settings) {
   Settings result;
   for (const auto& setting : settings)
@@ -128,7 +129,7 @@ Settings inherited(const Settings& settings) {
   return result;
 }
 
-/// Where a run begins: its packing, or its parent with the checkpoint, both added to the graph.
+/// Sets where a run begins: its packing, or its parent with the checkpoint. Adds these to the graph.
 void add_origin(RunGraph& graph, const Figure& figure, const RunTemplate& run, const Case& row, RunInstance& instance) {
   std::string from = filled_at(run.place, run.from, row.values);
   const auto before = run.chain.empty() ? std::nullopt : before_in_chain(run, row);
@@ -220,7 +221,7 @@ std::string folder_of(const Figure& figure, const RunTemplate& run, const Case& 
     return mesh == row.mesh ? folder : fmt::format("../{}/{}", mesh, folder);
   }
   if (!run.folder.empty()) return filled_at(run.place, run.folder, row.values);
-  // Packings that figures share have one folder for all.
+  // Packings shared by figures have one folder.
   if (run.is_packing && run.command.empty())
     return run.size.empty() ? "packing" : fmt::format("packing-{}", filled_at(run.place, run.size, row.values));
   std::string folder = fmt::format("{}/{}/{}", figure.name, run.is_packing ? "packings" : "runs", run.name);

@@ -19,13 +19,13 @@ namespace {
 using Json = nlohmann::ordered_json;
 using Quantities = std::map<std::string, Quantity>;
 
-/// A value of a column with the row it stands in.
+/// A value of a column, with its row.
 struct Entry {
   double value;
   std::size_t row;
 };
 
-/// The value in `column` of the row, over that in column `over`.
+/// The value in `column` of the row, over that in column `over` if given.
 std::optional<double> cell(const TextTable& table, std::size_t row, std::size_t column,
                            std::optional<std::size_t> over) {
   const auto& value = table.rows[row][column].number;
@@ -148,8 +148,8 @@ const QuantitySpec& spec_of(const StatementSpec& statement, const ConditionSpec&
   condition.place.fail(fmt::format("there is no quantity '{}'", condition.quantity));
 }
 
-/// Whether the column goes up (sign 1) or down (-1) from every row to every later one, a change below the tolerance
-/// counting as none; with tolerance 0 equal values break it.
+/// True if the column rises (sign 1) or falls (-1) from every row to every later one. A change against it within the
+/// tolerance does not count; with tolerance 0 equal values break it. False for fewer than two rows.
 bool monotonic(const QuantitySpec& q, const TextTable& table, const ConditionSpec& c, double sign) {
   std::vector<Entry> entries = entries_of(q, table);
   if (!c.along.empty()) {
@@ -173,7 +173,8 @@ std::optional<double> operand(const Operand& o, const Quantities& quantities, co
   return o.number ? o.number : known(quantities, o.name, place).value.number;
 }
 
-/// "rises from each to the next" for the sentence: the words of a quantity's column.
+/// Adds a quantity's words for the texts: NAME, NAME.row, for a fit NAME.low and NAME.high, for a column NAME.rises and
+/// NAME.falls ("from each to the next", or not).
 void add_words(Words& words, const QuantitySpec& q, const Quantity& quantity, FigureData& data) {
   words[q.name] = quantity.value;
   words[q.name + ".row"] = {quantity.row, {}};

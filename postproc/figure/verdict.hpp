@@ -1,11 +1,11 @@
 #pragma once
-// A figure's statements, judged from its tables and fits.
+// A figure's statements, judged by its tables and fits.
 
 #include "postproc/figure/figure_fits.hpp"
 
 namespace mpfem {
 
-/// The tables and fits of one figure, each read when it is first needed.
+/// The tables and fits of one figure, each read when first needed. Members throw InputError where a file is missing.
 class FigureData {
 public:
   FigureData(const Figure& figure, std::string folder) : figure_(figure), folder_(std::move(folder)) {}
@@ -22,23 +22,24 @@ private:
 
 struct Quantity {
   Value value;                                   ///< empty where it is not known
-  std::optional<std::array<double, 2>> interval; ///< of a fit's coefficient, 95 %
-  std::string row; ///< first cell of the row that it was taken from, where it was taken from one
+  std::optional<std::array<double, 2>> interval; ///< 95 % interval of a fit's coefficient
+  std::string row;                               ///< first cell of the row from which it was taken; may be empty
 };
 
-/// Quantities by name. Throws InputError: names, columns and coefficients that do not exist, "only" of several rows.
+/// The quantities of a statement by name. Throws InputError: names, columns and coefficients that do not exist, "only"
+/// with several rows.
 std::map<std::string, Quantity> quantities_of(const StatementSpec& statement, FigureData& data);
 
-/// Whether a condition holds; nothing where a quantity that it needs is not known.
+/// True if a condition holds; empty where a quantity that it needs is not known.
 std::optional<bool> holds(const ConditionSpec& condition, const StatementSpec& statement,
                           const std::map<std::string, Quantity>& quantities, FigureData& data);
 
 /// {statement, paper, ours, agrees, note}, and `why` where it differs and the figure gives a reason. `agrees` is null
-/// where the statement is not judged: a condition of judged_if does not hold, a quantity is not known, nothing but
-/// disagreement could be shown and was not, or the figure wants no verdict of this case.
+/// where the statement is not judged: it requires nothing, a condition of judged_if does not hold, a quantity is not
+/// known, it can only be refuted and is not, or the figure gives no verdict for this case.
 nlohmann::ordered_json judge(const StatementSpec& statement, FigureData& data);
 
-/// The list of all statements for a mesh, one object a line.
+/// JSON list of all statements for a mesh, one object per line.
 std::string verdict_text(FigureData& data, const std::string& mesh);
 
 } // namespace mpfem

@@ -53,14 +53,14 @@ Verdicts read_verdicts(const std::string& folder) {
   return verdicts;
 }
 
-/// As a cell of a table.
+/// The text of a Markdown cell.
 std::string cell(const std::string& text) {
   std::string result;
   for (const char c : text) result += c == '|' ? "\\|" : std::string(1, c);
   return result;
 }
 
-/// "agrees / differs / not judged".
+/// "agrees / differs / not judged"; empty if all are 0.
 std::string tally(const std::array<int, 3>& count) {
   return count == std::array<int, 3>{} ? "" : fmt::format("{} / {} / {}", count[0], count[1], count[2]);
 }
@@ -71,7 +71,7 @@ const Statement* find(const std::vector<Statement>& statements, const std::strin
   return found == statements.end() ? nullptr : &*found;
 }
 
-/// The statements of all meshes, in the order in which they first come.
+/// The statements of all meshes, in order of first appearance.
 std::vector<Statement> all_statements(const std::vector<Verdicts>& meshes, const std::string& figure) {
   std::vector<Statement> all;
   for (const Verdicts& mesh : meshes)
@@ -110,7 +110,7 @@ std::string tallies(const std::vector<Verdicts>& meshes, const std::set<std::str
   return text + "\n";
 }
 
-/// The rows of a figure's table: what each mesh found, then why it differs.
+/// The rows of a figure's table: the result of each mesh, then the reason for a difference.
 std::string rows_of_figure(const std::vector<Verdicts>& meshes, const std::string& figure) {
   static constexpr std::array words = {"agrees", "**differs**", "not judged"};
   std::string text;

@@ -15,7 +15,7 @@ namespace mpfem {
 namespace {
 
 constexpr double no_value = std::numeric_limits<double>::quiet_NaN();
-/// Facets that meet at a sharper edge keep their own normals there.
+/// Facets that meet at a sharper angle keep their own normals there.
 const double cosine_of_edge = std::cos(40 * M_PI / 180);
 
 using Polygon = std::vector<SolidVertex>;
@@ -53,15 +53,15 @@ Parts split(const Polygon& polygon, const HalfSpace& half_space) {
   return parts;
 }
 
-/// As a fan.
+/// Adds the polygon as a fan of triangles.
 void add_triangles(std::vector<SolidTriangle>& triangles, const Polygon& polygon, std::int32_t grain,
                    std::int32_t face) {
   for (std::size_t i = 2; i < polygon.size(); ++i)
     triangles.push_back({{polygon[0], polygon[i - 1], polygon[i]}, grain, face});
 }
 
-/// What the half-spaces leave of a polygon of a grain's surface: in turn the part outside each, of what is inside all
-/// before it.
+/// Adds what the half-spaces leave of a polygon of a grain's surface: for each in turn, the part outside it of what is
+/// inside all half-spaces before.
 void add_surface(std::vector<SolidTriangle>& triangles, Polygon polygon, std::int32_t grain, std::int32_t face,
                  const CutAway& away) {
   for (const HalfSpace& half_space : away) {
@@ -72,8 +72,8 @@ void add_surface(std::vector<SolidTriangle>& triangles, Polygon polygon, std::in
   if (away.empty()) add_triangles(triangles, polygon, grain, face);
 }
 
-/// The section of a tet with the plane that bounds a half-space: a triangle, a quadrilateral, or nothing. It faces the
-/// half-space, since the solid is on the other side.
+/// The section of a tet with the plane that bounds a half-space: a triangle, a quadrilateral, or empty. Its normal
+/// points into the half-space, because the solid is on the other side.
 Polygon section(const SolidVertex (&corner)[4], const HalfSpace& half_space) {
   Polygon inside, outside, polygon;
   for (const SolidVertex& vertex : corner)
@@ -100,7 +100,7 @@ Polygon section(const SolidVertex (&corner)[4], const HalfSpace& half_space) {
   return polygon;
 }
 
-/// The cut along half-space `cut`, as far as it lies in all others.
+/// Adds the cut along half-space `cut`, as far as it lies in all the others.
 void add_cut(std::vector<SolidTriangle>& triangles, const SolidVertex (&corner)[4], std::int32_t grain,
              const CutAway& away, std::size_t cut) {
   Polygon polygon = section(corner, away[cut]);
@@ -120,7 +120,7 @@ std::vector<Eigen::Vector3d> area_vectors(const Snapshot& snapshot, const std::v
   return result;
 }
 
-/// The facets around every node: those of node n stand at offset[n] … offset[n + 1].
+/// The facets around every node: those of node n are facet[offset[n]] … facet[offset[n + 1] - 1].
 struct FacetsOfNodes {
   std::vector<std::size_t> offset, facet;
 };
@@ -138,7 +138,7 @@ FacetsOfNodes facets_of_nodes(std::size_t nodes, const std::vector<SurfaceFacet>
   return result;
 }
 
-/// The mean normal, by area, of the facets around a node that do not meet `own` at an edge.
+/// The area-weighted mean normal of the facets around a node that do not meet `own` at an edge.
 Eigen::Vector3d smooth_normal(const FacetsOfNodes& around, const std::vector<Eigen::Vector3d>& area_vector,
                               std::size_t node, const Eigen::Vector3d& own) {
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();

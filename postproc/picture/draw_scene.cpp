@@ -39,10 +39,10 @@ namespace mpfem {
 
 namespace {
 
-/// Everything is drawn twice as large in both directions and averaged.
+/// Everything is drawn twice as large in both directions, then averaged.
 constexpr int supersampling = 2;
-/// Okabe and Ito 2008: told apart with any colour vision.
 constexpr RodKind rod_kinds[] = {RodKind::whole, RodKind::broken, RodKind::contact};
+/// Colours of Okabe and Ito (2008), distinct for all kinds of colour vision.
 constexpr double blue[3] = {0.0, 0.45, 0.70}, vermilion[3] = {0.84, 0.37, 0.0}, dark_grey[3] = {0.25, 0.25, 0.25};
 
 using MakeColour = std::function<Colour(std::size_t triangle, std::size_t corner)>;
@@ -83,7 +83,7 @@ vtkNew<vtkActor> actor_of(vtkPolyData* mesh, bool lit) {
   return actor;
 }
 
-/// Colours that count the grains' faces, from 1: where they change there is an outline. 0 is the background's.
+/// Colours that number the grains' faces, from 1: an outline is drawn where they change. 0 is the background.
 Colour outline_key(const SolidTriangle& t) {
   const auto number = static_cast<std::uint32_t>(1 + 4 * t.grain + t.face);
   return {static_cast<std::uint8_t>(number & 255U), static_cast<std::uint8_t>(number >> 8U & 255U),
@@ -146,8 +146,8 @@ void set_camera(vtkRenderer* renderer, const ViewFrame& view, const ShownBox& sh
   camera->SetClippingRange(0.5 * reach, 3.5 * reach);
 }
 
-/// One light from the upper left, a weaker one from the camera: the three cut faces differ, and colours stay near those
-/// of the bar.
+/// One light from the upper left and a weaker one near the camera: the three cut faces look different, and colours stay
+/// close to those of the bar.
 void set_lights(vtkRenderer* renderer) {
   const struct { double x, y, z, intensity; } lights[] = {{-0.35, 0.6, 1, 0.6}, {0.5, 0.1, 1, 0.35}};
   for (const auto& given : lights) {
@@ -174,7 +174,7 @@ void add_text(vtkRenderer* renderer, const std::string& text, const Eigen::Vecto
   renderer->AddViewProp(actor);
 }
 
-/// A rectangle in pixels with a colour at its lower and one at its upper edge.
+/// A rectangle, in pixels, with one colour at its lower and one at its upper edge.
 void add_patch(vtkRenderer* renderer, const Eigen::Vector2d& low, const Eigen::Vector2d& high, const Colour& lower,
                const Colour& upper) {
   vtkNew<vtkPoints> points;
@@ -240,7 +240,8 @@ vtkNew<vtkImageData> drawn(vtkRenderWindow* window, vtkRenderer* renderer) {
   return image;
 }
 
-/// Colours, light and the shade that near grains cast on each other (screen-space ambient occlusion), with all text.
+/// The picture with colours, lights, text, and the shade that close grains cast on each other (screen-space ambient
+/// occlusion).
 vtkNew<vtkImageData> draw_colours(vtkRenderWindow* window, const PictureScene& scene, const ViewFrame& view,
                                   const ShownBox& shown) {
   vtkNew<vtkRenderer> renderer;
@@ -264,14 +265,14 @@ vtkNew<vtkImageData> draw_colours(vtkRenderWindow* window, const PictureScene& s
   return drawn(window, renderer);
 }
 
-/// The same view with a colour of its own for each face of each grain.
+/// The same view with a separate colour for each face of each grain.
 vtkNew<vtkImageData> draw_keys(vtkRenderWindow* window, const PictureScene& scene, const ViewFrame& view,
                                const ShownBox& shown) {
   vtkNew<vtkRenderer> renderer;
   renderer->SetBackground(0, 0, 0);
   const vtkNew<vtkActor> faces = actor_of(
       mesh_of(scene.triangles, [&](std::size_t t, std::size_t) { return outline_key(scene.triangles[t]); }), false);
-  faces->GetProperty()->SetAmbient(0); // ambient and diffuse shares add up: beyond 1 high keys would all become 255
+  faces->GetProperty()->SetAmbient(0); // ambient and diffuse shares add up: above 1, high keys would all become 255
   faces->GetProperty()->SetDiffuse(1);
   renderer->AddActor(faces);
   for (const RodKind kind : rod_kinds) {
@@ -283,7 +284,7 @@ vtkNew<vtkImageData> draw_keys(vtkRenderWindow* window, const PictureScene& scen
   return drawn(window, renderer);
 }
 
-/// Darkens the pixels around which the key changes: lines of two pixels.
+/// Darkens the pixels at which the key changes: lines of two pixels.
 void add_outlines(vtkImageData* image, vtkImageData* keys) {
   int size[3];
   image->GetDimensions(size);

@@ -1,5 +1,5 @@
 #pragma once
-// A scene drawn through VTK, as PNG.
+// Draws a scene with VTK, as PNG.
 
 #include <string>
 
@@ -7,7 +7,8 @@
 
 namespace mpfem {
 
-/// Writes the PNG; the picture shows all of `shown`. Throws SimulationError where nothing can be drawn, StorageError.
+/// Writes the PNG; the picture shows all of `shown`. Throws SimulationError where nothing can be drawn, StorageError
+/// where the file cannot be written.
 void draw_scene(const std::string& path, const PictureScene& scene, const ShownBox& shown, const PictureSize& size);
 
 } // namespace mpfem

@@ -1,4 +1,4 @@
-// postproc-picture: the subcommand `picture` of postproc, which starts it. An executable of its own, because nothing
+// postproc-picture: the subcommand `picture` of postproc, which starts this program. It is separate because nothing
 // else needs VTK.
 
 #include "common/command_line.hpp"

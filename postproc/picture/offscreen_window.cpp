@@ -15,7 +15,8 @@ vtkStandardNewMacro(OffscreenWindow);
 
 namespace {
 
-/// Extensions are found by name; EGL gives a pointer to a function of no arguments.
+/// The display of the surfaceless platform. Extensions are looked up by name; EGL returns a pointer to a function
+/// without arguments.
 EGLDisplay display_without_surfaces() {
   const auto get_display =
       reinterpret_cast<PFNEGLGETPLATFORMDISPLAYEXTPROC>(eglGetProcAddress("eglGetPlatformDisplayEXT"));
@@ -34,7 +35,7 @@ EGLContext make_context(EGLDisplay display) {
 } // namespace
 
 OffscreenWindow::OffscreenWindow() {
-  setenv("LIBGL_ALWAYS_SOFTWARE", "1", 1); // the same picture whatever graphics card there is
+  setenv("LIBGL_ALWAYS_SOFTWARE", "1", 1); // the same picture with any graphics card
   display_ = display_without_surfaces();
   context_ = make_context(display_);
   if (context_ == EGL_NO_CONTEXT || !eglMakeCurrent(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, context_))
@@ -48,7 +49,7 @@ OffscreenWindow::OffscreenWindow() {
 }
 
 OffscreenWindow::~OffscreenWindow() {
-  Finalize(); // VTK's buffers first, while their context is there
+  Finalize(); // frees VTK's buffers while their context exists
   eglMakeCurrent(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
   eglDestroyContext(display_, context_);
 }
@@ -62,8 +63,8 @@ bool OffscreenWindow::IsCurrent() {
 }
 
 void OffscreenWindow::OpenGLInitContext() {
-  // GLEW as Debian builds it looks for a display of X once it has found the functions, and then reports an error that
-  // VTK would take for the end.
+  // Debian's GLEW also looks for an X display after it has found the functions, and then reports an error that VTK
+  // would treat as fatal.
   const GLenum result = glewInit();
   if (result != GLEW_OK && result != GLEW_ERROR_NO_GLX_DISPLAY)
     throw SimulationError("the functions of OpenGL cannot be found");

@@ -1,12 +1,12 @@
 #pragma once
-// A window of VTK without a display: an OpenGL context of EGL that belongs to no surface, drawn by Mesa in software.
+// A VTK window without a display: an EGL context without a surface, rendered by Mesa in software.
 
 #include <vtkGenericOpenGLRenderWindow.h>
 
 namespace mpfem {
 
-/// Debian's VTK draws into windows of X alone. This one needs no X server, and its pictures are the same on every
-/// machine. New() throws SimulationError where there is no such context.
+/// Debian's VTK draws only into X windows. This window needs no X server, and its pictures are the same everywhere.
+/// New() throws SimulationError where no such context can be made.
 class OffscreenWindow : public vtkGenericOpenGLRenderWindow {
 public:
   static OffscreenWindow* New();

@@ -13,7 +13,8 @@ namespace mpfem {
 
 namespace {
 
-/// The file that -o names or, without it, run.png for run.h5: never over a file that is there already.
+/// The file that -o names, or run.png for run.h5 without it. Throws InputError rather than overwrite an existing
+/// run.png.
 std::string picture_path(const std::string& output, const std::string& input) {
   if (!output.empty()) return output;
   const std::string path = std::filesystem::path(input).replace_extension(".png").string();
@@ -126,7 +127,7 @@ private:
     if (!quiet()) fmt::print("{}\n", path);
   }
 
-  /// The scale of colours is that of the snapshot with the widest one, the scale of lengths one that shows them all.
+  /// All frames share one colour scale, the widest of all snapshots, and one length scale that shows every snapshot.
   void draw_frames(SceneRequest request, const PictureSize& size) const {
     if (of_packing() || !output().empty())
       throw InputError(fmt::format("--frames: found {}, allowed: with a run alone", of_packing() ? "--packing" : "-o"));
@@ -160,7 +161,7 @@ private:
   int snapshot_ = -1;
   std::string frames_, size_ = "1200x1000";
   std::vector<double> camera_{-55, 25}, range_;
-  SceneRequest request_; ///< but for what is checked first: camera, range
+  SceneRequest request_; ///< without camera and range, which are checked first
 };
 
 } // namespace

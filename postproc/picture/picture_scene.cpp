@@ -42,7 +42,7 @@ double area(const SolidTriangle& t) {
   return 0.5 * (t.corner[1].position - a).cross(t.corner[2].position - a).norm();
 }
 
-/// A bonded run's snapshot without bonds on a surface, and a run without any, show plain grey.
+/// Colour where the field has no value: for damage, surfaces that were never bonded and cut faces.
 constexpr Colour grey{205, 205, 205};
 
 CornerColours colours_of(const SolidTriangle& triangle, bool grains, const std::pair<double, double>& range) {
@@ -93,7 +93,7 @@ CutAway cut_away(const Snapshot& snapshot, const SceneRequest& request) {
   CutAway away;
   for (int axis = 0; axis < 3; ++axis) {
     if (request.cut != "octant" && request.cut != std::string(1, static_cast<char>('x' + axis))) continue;
-    const double side = camera[axis] < 0 ? 1 : -1; // below the plane for a camera that stands below
+    const double side = camera[axis] < 0 ? 1 : -1; // below the plane for a camera below the box
     away.push_back({side * Eigen::Vector3d::Unit(axis), side * at[axis]});
   }
   return away;
@@ -104,8 +104,8 @@ CutAway tool_cut_away(const Snapshot& snapshot, const SceneRequest& request) {
   SceneRequest of_tools = request;
   if (request.cut == "none") of_tools.cut = std::string(1, std::abs(camera[0]) > std::abs(camera[1]) ? 'x' : 'y');
   CutAway away = cut_away(snapshot, of_tools);
-  if (request.cut == "octant") away.pop_back(); // that of z
-  // A little more of tools than of grains: where both overlap, as penalty contact lets them, the grains are seen.
+  if (request.cut == "octant") away.pop_back(); // the half-space along z
+  // Slightly more of the tools than of the grains is cut, so that grains are seen where both overlap (penalty contact).
   const Eigen::Vector3d box = vector_of(snapshot.box_high) - vector_of(snapshot.box_low);
   for (HalfSpace& half_space : away) half_space.offset += 1e-3 * box.maxCoeff();
   return away;
@@ -113,7 +113,7 @@ CutAway tool_cut_away(const Snapshot& snapshot, const SceneRequest& request) {
 
 namespace {
 
-/// Of the thinnest rod that is still well seen.
+/// Radius (mm) of the thinnest rod that can be seen well.
 double thin_radius(const Snapshot& snapshot) {
   return 0.006 * (vector_of(snapshot.box_high) - vector_of(snapshot.box_low)).minCoeff();
 }

@@ -28,7 +28,7 @@ ViewFrame frame_view(const ShownBox& shown, const Eigen::Vector3d& towards_camer
   ViewFrame view;
   view.size = size;
   view.towards_camera = towards_camera;
-  // From straight above, y points up.
+  // Seen from straight above or below, y points up.
   const Eigen::Vector3d upward =
       std::abs(towards_camera[2]) > 0.999 ? Eigen::Vector3d::Unit(1) : Eigen::Vector3d::Unit(2);
   view.right = upward.cross(towards_camera).normalized();
@@ -52,7 +52,7 @@ std::array<Eigen::Vector2d, 3> axis_names_places(const ViewFrame& view, const Sh
   const Eigen::Vector2d centre = view.pixel_of(middle);
   std::array<Eigen::Vector2d, 3> places;
   for (int axis = 0; axis < 3; ++axis) {
-    // Of the four edges along this axis the one that lies furthest out: x and y below, z to the left.
+    // The outermost of the four edges along this axis: the lowest one for x and y, the leftmost one for z.
     const Eigen::Vector2d wanted = axis == 2 ? Eigen::Vector2d(-1, 0) : Eigen::Vector2d(0, -1);
     double furthest = -1e300;
     for (int c = 0; c < 4; ++c) {

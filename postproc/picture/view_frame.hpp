@@ -1,5 +1,5 @@
 #pragma once
-// Where things of space come to lie in a picture: a parallel projection.
+// Parallel projection of space onto a picture.
 
 #include <array>
 
@@ -13,11 +13,11 @@ struct PictureSize {
   int width = 1200, height = 1000; ///< pixels
 };
 
-/// Pixels count from the picture's lower left corner.
+/// A parallel projection; pixels count from the picture's lower left corner.
 struct ViewFrame {
   Eigen::Vector3d right, up, towards_camera; ///< unit vectors
-  Eigen::Vector3d focus;                     ///< what the picture's middle shows, mm
-  double pixel = 1;                          ///< mm that a pixel is wide
+  Eigen::Vector3d focus;                     ///< point in the picture's middle, mm
+  double pixel = 1;                          ///< width of a pixel, mm
   PictureSize size;
 
   Eigen::Vector2d pixel_of(const Eigen::Vector3d& x) const;
@@ -27,7 +27,7 @@ struct ViewFrame {
 ViewFrame frame_view(const ShownBox& shown, const Eigen::Vector3d& towards_camera, const PictureSize& size,
                      bool with_bar);
 
-/// Where the names of the box's edges x, y and z stand: outside the middle of an edge at the picture's rim.
+/// Pixels of the names x, y and z of the box's edges: each outside the middle of an edge at the picture's rim.
 std::array<Eigen::Vector2d, 3> axis_names_places(const ViewFrame& view, const ShownBox& box);
 
 } // namespace mpfem

@@ -24,7 +24,7 @@ bool has_field(const Snapshot& snapshot, const std::string& name) {
                                          [](const Field& field) { return field.name == "damage"; });
 }
 
-/// 0 … largest from low to high; what is not a number becomes 0.
+/// Maps low … high to 0 … largest; values that are not finite become 0.
 template <class Whole>
 Whole quantised(double value, double low, double high) {
   constexpr double largest = std::numeric_limits<Whole>::max();
@@ -55,7 +55,7 @@ void add_bounds(ViewData& data, const std::vector<Snapshot>& snapshots) {
     }
 }
 
-/// The surfaces of the tools of all snapshots.
+/// Adds the surfaces of the tools of all snapshots.
 void add_tools(ViewData& data, const std::vector<Snapshot>& snapshots) {
   std::vector<std::vector<SolidTriangle>> surfaces;
   Eigen::Vector3d low = Eigen::Vector3d::Constant(std::numeric_limits<double>::max()), high = -low;
@@ -81,7 +81,7 @@ void add_tools(ViewData& data, const std::vector<Snapshot>& snapshots) {
         }
 }
 
-/// The range of what the grains' surfaces show, by the rule of pictures.
+/// The range of the values on the grains' surfaces, by the rule of pictures.
 std::pair<double, double> surface_range(const ViewData& data, const Snapshot& snapshot,
                                         const std::vector<double>& value) {
   const auto position = [&](std::uint32_t node) {
@@ -91,19 +91,19 @@ std::pair<double, double> surface_range(const ViewData& data, const Snapshot& sn
   std::vector<std::pair<double, double>> value_and_area;
   for (std::size_t f = 0; f < data.facet.size(); f += 3) {
     const Eigen::Vector3d a = position(data.facet[f]), b = position(data.facet[f + 1]), c = position(data.facet[f + 2]);
-    const double area = (b - a).cross(c - a).norm() / 6; // a third of the facet's for each corner
+    const double area = (b - a).cross(c - a).norm() / 6; // a third of the facet's area for each corner
     for (std::size_t k = 0; k < 3; ++k) value_and_area.emplace_back(value[data.facet[f + k]], area);
   }
   return colour_range(std::move(value_and_area));
 }
 
-/// From 1: 0 stands for no value.
+/// Maps low … high to 1 … 255; 0 means no value.
 std::uint8_t quantised_or_none(double value, double low, double high) {
   if (!std::isfinite(value)) return 0;
   return static_cast<std::uint8_t>(1 + std::lround(254 * std::clamp((value - low) / (high - low), 0.0, 1.0)));
 }
 
-/// One field of all snapshots, on the scale that holds them all.
+/// Adds a field of all snapshots, on the scale that covers them all.
 void add_field(ViewData& data, const std::vector<Snapshot>& snapshots, const std::string& name) {
   std::vector<std::vector<double>> values;
   QuantisedField shown{name, shown_field(snapshots.front(), name).unit, {0, 0}, name == "damage"};

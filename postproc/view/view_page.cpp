@@ -21,7 +21,7 @@ namespace {
 template <class Whole>
 void append(std::string& bytes, const std::vector<Whole>& values) {
   const auto raw = std::as_bytes(std::span(values));
-  bytes.append(reinterpret_cast<const char*>(raw.data()), raw.size()); // little endian, as the page reads it
+  bytes.append(reinterpret_cast<const char*>(raw.data()), raw.size()); // little endian, as the page expects
 }
 
 std::string binary_part(const ViewData& data) {
@@ -41,7 +41,7 @@ std::string binary_part(const ViewData& data) {
   return bytes;
 }
 
-/// In the form of zlib (RFC 1950), which browsers call "deflate".
+/// Compresses to the zlib format (RFC 1950), which browsers call "deflate".
 std::string compressed(const std::string& bytes) {
   uLongf size = compressBound(bytes.size());
   std::string result(size, '\0');

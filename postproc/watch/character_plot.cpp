@@ -16,7 +16,7 @@ struct Point {
 
 struct Extent {
   double low, high;
-  /// 0 at the low end, 1 at the high one, one half where there is no length.
+  /// 0 at the low end, 1 at the high end; 0.5 for an extent without length.
   double share(double value) const { return high > low ? (value - low) / (high - low) : 0.5; }
 };
 
@@ -34,13 +34,13 @@ Extent extent_of(const std::vector<Point>& points, Coordinate coordinate) {
   return {coordinate(*low), coordinate(*high)};
 }
 
-/// The grid of characters, the first row on top.
+/// The grid of characters, first row on top.
 class Canvas {
 public:
   Canvas(int columns, int rows) : columns_(columns), line_(static_cast<std::size_t>(rows)) {
     for (std::string& line : line_) line.assign(static_cast<std::size_t>(columns), ' ');
   }
-  /// Shares from 0 to 1, from the lower left corner.
+  /// Draws a line between two points; coordinates from 0 to 1, from the lower left corner.
   void join(const Point& from, const Point& to) {
     const double width = columns_ - 1, height = static_cast<double>(line_.size()) - 1;
     const double cells = std::max(std::abs(to.x - from.x) * width, std::abs(to.y - from.y) * height);

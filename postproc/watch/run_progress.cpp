@@ -23,19 +23,19 @@ namespace {
 namespace check = schema::checkpoint;
 namespace run = schema::run;
 
-/// Names as solver/run/checkpoints.cpp and solver/output/run_lock.cpp give them.
+/// File names as in solver/run/checkpoints.cpp and solver/output/run_lock.cpp.
 std::string beside(const std::string& run_file, const std::string& ending) {
   return (run_file.ends_with(".h5") ? run_file.substr(0, run_file.size() - 3) : run_file) + ending;
 }
 
-/// s, of the system's clock: when a file was last written; none where there is no such file.
+/// When a file was last written (s, system clock); empty where there is none.
 std::optional<double> time_written(const std::string& path) {
   struct stat found {};
   if (stat(path.c_str(), &found) != 0) return {};
   return static_cast<double>(found.st_mtim.tv_sec) + 1e-9 * static_cast<double>(found.st_mtim.tv_nsec);
 }
 
-/// The system's list of locks is looked at; to ask for the lock itself could stop a run that begins.
+/// Reads the system's list of locks; requesting the lock itself could stop a run that is starting.
 AtWork at_work(const std::string& lock) {
   struct stat found {};
   if (stat(lock.c_str(), &found) != 0) return AtWork::no;
@@ -141,7 +141,7 @@ RunProgress progress_of_run(const std::string& path) {
   return progress;
 }
 
-/// From the checkpoint before; it is away for a moment while a new one is written.
+/// Uses the previous checkpoint; it is missing for a moment while a new one is written.
 std::optional<double> seconds_per_stage(const RunProgress& now, const std::string& previous) {
   const auto written = time_written(previous);
   if (!written || now.rows.empty()) return {};
@@ -156,12 +156,12 @@ std::optional<double> seconds_per_stage(const RunProgress& now, const std::strin
   }
 }
 
-/// Nothing where no file of the run holds a state yet. Throws InputError where one cannot be read.
+/// Empty where no file of the run holds a state yet. Throws InputError where one cannot be read.
 std::optional<RunProgress> newest_state(const std::string& run_file) {
   const std::string rolling = beside(run_file, ".checkpoint.h5"),
                     previous = beside(run_file, ".checkpoint.previous.h5");
   const auto finished = time_written(run_file), lock = time_written(beside(run_file, ".lock"));
-  // Between two renames only the checkpoint before is there.
+  // Between two renames only the previous checkpoint exists.
   const std::string checkpoint = time_written(rolling) ? rolling : previous;
   const auto saved = time_written(checkpoint);
   RunProgress progress;
@@ -182,7 +182,7 @@ std::optional<RunProgress> newest_state(const std::string& run_file) {
 } // namespace
 
 RunProgress read_progress(const std::string& run_file) {
-  constexpr int tries = 5; // a rename falls between two looks; it does not do so again and again
+  constexpr int tries = 5; // a rename may happen between two accesses, but not every time
   for (int left = tries;; --left) {
     try {
       if (auto progress = newest_state(run_file)) return *std::move(progress);

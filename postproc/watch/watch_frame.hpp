@@ -1,5 +1,5 @@
 #pragma once
-// What `postproc watch` shows of a run.
+// The display of `postproc watch`.
 
 #include <string>
 
@@ -7,8 +7,8 @@
 
 namespace mpfem {
 
-/// Several lines, each with its line end: where the run is, its last row, how sound it is, when its stage may end, and
-/// the curve of mean stress over relative density. `now`: s, of the system's clock; `width`: columns of the terminal.
+/// Several lines, each with its line break: state of the run, its last row, its quality, expected end of the stage, and
+/// the curve of mean stress over relative density. `now`: s, system clock; `width`: columns of the terminal.
 std::string watch_frame(const RunProgress& progress, double now, int width = 80);
 
 } // namespace mpfem
