@@ -23,7 +23,7 @@ std::size_t size_of(ElementType type) {
   return 0;
 }
 
-/// Where the hash of a dataset's values begins.
+/// Start value for the hash of a dataset's values.
 std::uint64_t hash_of_description(const DatasetDescription& dataset, std::string_view path, std::string_view unit,
                                   const std::vector<std::size_t>& extents) {
   return hash_string(fmt::format("{}|{}|{}|{}", path, type_name(dataset.type), fmt::join(extents, ","), unit));

@@ -1,5 +1,5 @@
 #pragma once
-// Checksums of datasets and of the list of them, which writer and reader share.
+// Checksums of datasets and of the list of datasets, shared by writer and reader.
 
 #include <map>
 #include <span>
@@ -12,11 +12,12 @@
 
 namespace mpfem::schema {
 
-/// Of a dataset's path, type, shape, unit and values; `values` holds as many elements of its type as the extents say.
+/// Checksum of a dataset's path, type, shape, unit and values; `values` holds as many elements of its type as the
+/// extents give.
 std::string checksum_of_dataset(const DatasetDescription& dataset, std::string_view path, std::string_view unit,
                                 const std::vector<std::size_t>& extents, const void* values);
 
-/// The same of numbers that come piece by piece.
+/// The same for numbers that arrive piece by piece.
 class DatasetChecksum {
 public:
   DatasetChecksum(const DatasetDescription& dataset, std::string_view path, std::string_view unit,
@@ -28,7 +29,7 @@ private:
   StreamingHash hash_;
 };
 
-/// Of a file's kind, version and creator and of the checksums of all its datasets, by path.
+/// Checksum of a file's kind, version and creator and of the checksums of all its datasets, by path.
 std::string checksum_of_list(std::string_view kind, std::string_view version, std::string_view creator,
                              const std::map<std::string, std::string>& checksum_of_path);
 

@@ -1,5 +1,5 @@
 #pragma once
-// What the grains of a packing stand in.
+// The container of a packing's grains.
 
 #include <array>
 #include <numbers>
@@ -8,8 +8,8 @@
 
 namespace mpfem {
 
-/// A box, or a cylinder: its axis is z through the middle of the box [D, D, H] that bounds it. Or the inside of a
-/// closed surface of triangles, which the box bounds.
+/// A box; a cylinder with the axis z through the middle of its bounding box [D, D, H]; or the inside of a closed
+/// surface of triangles with the box as its bounding box.
 enum class ContainerShape { box, cylinder, surface };
 
 /// Names in files, in the order of ContainerShape.
@@ -19,7 +19,8 @@ constexpr std::string_view name_of(ContainerShape shape) {
   return container_names[static_cast<std::size_t>(shape)];
 }
 
-/// Volume (mm^3) of a box or cylinder with these three edge lengths (mm) of its box: of a cylinder pi/4 D^2 H.
+/// Volume (mm^3) of a box, or of a cylinder (pi/4 D^2 H), with these three edge lengths (mm) of the bounding box. Not
+/// for surfaces.
 constexpr double container_volume(ContainerShape shape, std::span<const double> edges) {
   const double box = edges[0] * edges[1] * edges[2];
   return shape == ContainerShape::box ? box : 0.25 * std::numbers::pi * box;

@@ -1,5 +1,5 @@
 #pragma once
-// What the schema says of one dataset. The descriptors themselves are generated from results-schema/schema.toml.
+// The schema's description of one dataset. The descriptors themselves are generated from results-schema/schema.toml.
 
 #include <array>
 #include <cstddef>
@@ -12,13 +12,13 @@ namespace mpfem::schema {
 
 enum class ElementType { float64, float32, int32, int64, string };
 
-/// Name of the type as schema.toml writes it.
+/// Name of the type as in schema.toml.
 constexpr std::string_view type_name(ElementType type) {
   constexpr std::array<std::string_view, 5> names = {"float64", "float32", "int32", "int64", "string"};
   return names[static_cast<std::size_t>(type)];
 }
 
-/// One extent of a shape: a number, or (where `name` is not empty) free and the same wherever the name stands.
+/// One extent of a shape: fixed, or (where `name` is not empty) free and equal wherever the name occurs.
 struct Extent {
   std::string_view name;
   std::size_t fixed = 0;
@@ -34,13 +34,13 @@ struct DatasetDescription {
   std::string_view shape; ///< "[nodes, 3]"
   std::string_view description;
   bool required;
-  std::string_view indexes;    ///< values are indices below this extent, where not empty
-  std::string_view partitions; ///< values never fall from 0 to this extent, where not empty
+  std::string_view indexes;    ///< if not empty: values are indices below this extent
+  std::string_view partitions; ///< if not empty: values never fall, from 0 to this extent
 
-  /// Whether the path has a '*': there is one dataset for each snapshot or tool.
+  /// True if the path has a '*': there is one dataset for each snapshot or tool.
   constexpr bool of_member() const { return path.find('*') != std::string_view::npos; }
   constexpr bool of_snapshot() const { return path.starts_with("/snapshots/"); }
-  /// Of a path with '*' what stands before it: "/snapshots", "/history/tools".
+  /// The part of a path before "/*": "/snapshots", "/history/tools".
   constexpr std::string_view group() const { return path.substr(0, path.find("/*")); }
 };
 

@@ -1,5 +1,5 @@
 #pragma once
-// Typed writing and reading of the toolkit's HDF5 files. What may be written is what results-schema/schema.toml says.
+// Typed writing and reading of mpfem's HDF5 files. results-schema/schema.toml defines what may be written.
 
 #include <functional>
 #include <memory>
@@ -15,8 +15,8 @@ namespace mpfem::schema {
 
 class FileReader;
 
-/// Writes one file: beside its place as PATH.partial, renamed by commit(). Without commit() nothing is left behind, and
-/// what stood at PATH stays. Where PATH is a symbolic link, its target is written. Every dataset gets a checksum, the
+/// Writes one file as PATH.partial, which commit() renames to PATH. Without commit() no new file is left, and an
+/// existing PATH stays as it is. If PATH is a symbolic link, its target is written. Every dataset gets a checksum, the
 /// file a seal. Throws StorageError where the storage fails, InputError where PATH is a folder or a device.
 class FileWriter {
 public:
@@ -26,8 +26,7 @@ public:
   FileWriter(const FileWriter&) = delete;
   FileWriter& operator=(const FileWriter&) = delete;
 
-  /// Writes an array with `rows` rows, row by row. `snapshot`, or the name of a tool, takes the place of '*' in the
-  /// path.
+  /// Writes an array with `rows` rows, row by row. `snapshot`, or the name of a tool, replaces '*' in the path.
   /// Throws std::logic_error where the values do not fill the shape, or extents of one name differ.
   template <class T, int Rank>
   void write(const Dataset<T, Rank>& dataset, std::span<const T> values, std::size_t rows,
@@ -35,15 +34,15 @@ public:
     static_assert(Rank > 0, "write_scalar writes scalars");
     write_values(dataset, values.data(), values.size(), rows, snapshot);
   }
-  /// Begins an array with `rows` rows of `columns` values that come piece by piece: append() until all are there,
-  /// before anything else is written.
+  /// Begins an array with `rows` rows of `columns` values that are written piece by piece: append() until it is
+  /// complete, before anything else is written.
   template <class T, int Rank>
   void begin(const Dataset<T, Rank>& dataset, std::size_t rows, std::size_t columns = 1,
              std::string_view snapshot = {}) {
     static_assert(Rank > 0 && std::is_arithmetic_v<T>, "numbers in rows come piece by piece");
     begin_values(dataset, rows * columns, rows, snapshot);
   }
-  /// The next whole rows of the array that begin() has begun.
+  /// Appends whole rows to the array that begin() has begun.
   template <class T>
   void append(std::span<const T> values) {
     append_values(values.data(), values.size(), sizeof(T));
@@ -52,10 +51,10 @@ public:
   void write_scalar(const Dataset<T, 0>& dataset, const T& value, std::string_view snapshot = {}) {
     write_values(dataset, &value, 1, 1, snapshot);
   }
-  /// Writes all datasets that another file of this kind has of a snapshot, under another name, piece by piece. Throws
-  /// InputError where one of them cannot be read or a required one is missing: this file is to be given up then.
+  /// Copies all datasets of a snapshot from another file of this kind, under another name, piece by piece. Throws
+  /// InputError where one of them cannot be read or a required one is missing; this file must be given up then.
   void copy_snapshot(const FileReader& from, std::string_view source, std::string_view target);
-  /// Closes the file, waits until it is on the disk, and renames it to its place.
+  /// Closes the file, waits until it is on disk, and renames it to PATH.
   void commit();
 
 private:
@@ -68,13 +67,13 @@ private:
   std::unique_ptr<State> state_;
 };
 
-/// Reads one file. Every mistake is an InputError that names the file and the dataset.
+/// Reads one file. Every fault in it throws InputError that names the file and the dataset.
 class FileReader {
 public:
-  /// Throws InputError where the file is missing, is no HDF5 file, does not agree with its seal, was made by no program
-  /// of this toolkit, has another schema version, or is not of this kind.
+  /// Throws InputError where the file is missing, is not HDF5, does not match its seal, is not of a kind of the schema,
+  /// has another schema version, or is of another kind.
   FileReader(const std::string& path, FileKind kind);
-  /// Any kind.
+  /// The same for a file of any kind.
   explicit FileReader(const std::string& path);
   ~FileReader();
   FileReader(FileReader&&) noexcept;
@@ -84,7 +83,7 @@ public:
   const std::string& path() const;
   FileKind kind() const;
   std::string creator() const;
-  /// Hash of the whole content (root attribute `checksums`); empty in a file that is not checked.
+  /// Hash of the whole content (root attribute `checksums`); empty for a file without checksums.
   std::string checksums() const;
   bool has(const DatasetDescription& dataset, std::string_view snapshot = {}) const;
   /// All values, row by row. Type and shape are checked against the schema, the values against their checksum.
@@ -93,8 +92,8 @@ public:
     static_assert(Rank > 0, "read_scalar reads scalars");
     return read_all<T>(dataset, snapshot);
   }
-  /// All values in pieces of some megabytes: calls take(first_row, values) with whole rows, one piece after another.
-  /// Damage is known at the end only: what was taken is to be thrown away then.
+  /// All values in pieces of a few megabytes: calls take(first_row, values) with whole rows, one piece after another.
+  /// Damage is found only at the end; values taken before must then be discarded.
   template <class T, int Rank, class Take>
   void read_in_pieces(const Dataset<T, Rank>& dataset, Take&& take, std::string_view snapshot = {}) const {
     static_assert(Rank > 0 && std::is_arithmetic_v<T>, "numbers in rows are read in pieces");
@@ -110,9 +109,9 @@ public:
   void verify() const;
   /// Names of the snapshots, ascending: "0000", "0001", …
   std::vector<std::string> snapshots() const;
-  /// Names of the rigid tools that the history of a run has, ascending; none where it has no tools.
+  /// Names of the rigid tools in the history of a run, ascending; empty where it has no tools.
   std::vector<std::string> tools() const;
-  /// What takes the place of '*' in the path of a dataset: one name for each in the file, one empty name without '*'.
+  /// Names in the file that replace '*' in the path of a dataset; one empty name for a path without '*'.
   std::vector<std::string> members(const DatasetDescription& dataset) const;
 
   struct State;
@@ -144,20 +143,20 @@ private:
   std::unique_ptr<State> state_;
 };
 
-/// What validate() found.
+/// Result of validate().
 struct Validation {
   std::vector<std::string> findings; ///< one line each; empty for a good file
   std::string kind;                  ///< of the file
-  bool checked = false;              ///< whether the file has checksums
+  bool checked = false;              ///< true if the file has checksums
 
-  /// Whether nothing is wrong.
+  /// True if nothing is wrong.
   bool empty() const { return findings.empty(); }
 };
 
-/// Holds a file to the schema: seal and checksums, kind, version, every required dataset, every dataset's type, shape,
-/// unit and description, agreement of named extents, ranges of indices, finite numbers, and nothing that the schema
-/// does not know. The file is read in a process of its own: a file on which the HDF5 library crashes, or does not come
-/// to an end, is a finding. Throws InputError where the file cannot be read at all.
+/// Checks a file against the schema: seal and checksums, kind, version, every required dataset, every dataset's type,
+/// shape, unit and description, agreement of named extents, ranges of indices, finite numbers, and that it holds no
+/// unknown datasets. The file is read in a separate process: a crash or an endless run of the HDF5 library on it is a
+/// finding. Throws InputError where the file cannot be read at all.
 Validation validate(const std::string& path);
 
 } // namespace mpfem::schema

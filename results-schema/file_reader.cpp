@@ -35,7 +35,7 @@ std::string extents_text(const std::vector<hsize_t>& extents) {
 
 namespace {
 
-/// How many bytes of values one byte of a file may hold: as it is, or at most what deflate reaches.
+/// Largest number of bytes of values per byte of file: the limit of deflate.
 constexpr std::uintmax_t greatest_compression = 1032;
 
 /// Checksums of all datasets in a file, by path; empty where one has none.
@@ -205,7 +205,7 @@ void FileReader::read_piecewise(const DatasetDescription& dataset, std::string_v
   const auto fail = [&](const char* what) {
     throw InputError(fmt::format("{}: dataset {} {}", one_line(state_->path), path, what));
   };
-  count(dataset, snapshot); // looks at type and shape
+  count(dataset, snapshot); // checks type and shape
   const Handle set(H5Dopen2(state_->file, path.c_str(), H5P_DEFAULT), H5Dclose);
   const Handle type = memory_type(dataset.type), space(H5Dget_space(set), H5Sclose);
   const auto extents = extents_of(set);

@@ -1,5 +1,5 @@
 #pragma once
-// What reader and validator share of an open file.
+// An open file, as shared by reader and validator.
 
 #include "results-schema/file.hpp"
 #include "results-schema/hdf5_handle.hpp"
@@ -16,20 +16,20 @@ struct FileReader::State {
   std::string checksums; ///< root attribute; empty: none
 
   bool checked() const { return seal != Seal::absent || !checksums.empty(); }
-  /// Reads all values of a dataset of good type and shape. Returns what is wrong with it, "" for nothing.
+  /// Reads all values of a dataset whose type and shape are correct. Returns what is wrong with it, or "".
   std::string read(const DatasetDescription& dataset, const std::string& path_in_file, void* values) const;
-  /// What is wrong with a dataset's extents in view of the file's size; "" for nothing.
+  /// Returns what is wrong with a dataset's extents given the file's size, or "".
   std::string vast(hid_t set) const;
 };
 
 /// Opens a file without comparing it with its checksums. Throws InputError as FileReader's constructor does.
 std::unique_ptr<FileReader::State> open_unchecked(const std::string& path);
-/// What is wrong with the list of datasets in view of the root attribute `checksums`; "" for nothing.
+/// Returns what is wrong with the list of datasets given the root attribute `checksums`, or "".
 std::string wrong_list(const FileReader::State& state);
-/// Names of the groups below a group, ascending.
+/// Names of the links in a group, ascending; empty where there is no such group.
 std::vector<std::string> members_in(hid_t file, const std::string& group);
 
-/// Calls f(T{}) with the type of an element.
+/// Calls f(T{}) with the C++ type of an element type.
 template <class F>
 void with_element(ElementType type, F&& f) {
   switch (type) {
@@ -48,7 +48,7 @@ void with_element(ElementType type, F&& f) {
 
 /// Extents of an open dataset.
 std::vector<hsize_t> extents_of(hid_t dataset);
-/// True when the stored type has the class and size that the schema wants.
+/// True if the stored type is the one that the schema requires.
 bool has_type(hid_t dataset, ElementType type);
 /// "[12, 3]", "scalar".
 std::string extents_text(const std::vector<hsize_t>& extents);

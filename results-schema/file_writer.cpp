@@ -17,13 +17,13 @@ namespace mpfem::schema {
 
 namespace {
 
-/// Arrays of snapshots beyond this many bytes are compressed: byte shuffle and deflate at its fastest level.
+/// Arrays of snapshots from this many bytes on are compressed: byte shuffle and deflate at its fastest level.
 constexpr std::size_t compressed_from = 64 * 1024;
 constexpr hsize_t chunk_values = 64 * 1024;
-/// The seal leaves out values of datasets beyond this many bytes.
+/// The seal leaves out values of datasets from this many bytes on.
 constexpr std::size_t left_out_from = 64 * 1024;
 
-/// Where the values of a dataset stand in the file. Everything must have been flushed.
+/// Where the values of a dataset are in the file. Everything must have been flushed before.
 std::vector<ByteRange> places_of_values(hid_t set) {
   const Handle creation(H5Dget_create_plist(set), H5Pclose);
   if (H5Pget_layout(creation) == H5D_CONTIGUOUS) {
@@ -46,12 +46,12 @@ std::vector<ByteRange> places_of_values(hid_t set) {
 
 using Extents = std::array<hsize_t, 2>;
 
-/// Throws std::logic_error: the program calls the writer otherwise than the schema has it.
+/// Throws std::logic_error: the program does not call the writer as the schema requires.
 [[noreturn]] void misused(const std::string& path, const std::string& what) {
   throw std::logic_error(fmt::format("{}: {}", path, what));
 }
 
-/// The extents of so many values in so many rows; 1 beyond the dataset's rank. Throws std::logic_error where the values
+/// The extents of `count` values in `rows` rows; 1 beyond the dataset's rank. Throws std::logic_error where the values
 /// do not fill them.
 Extents extents_for(const DatasetDescription& dataset, const std::string& path, std::size_t count, std::size_t rows) {
   Extents extent{rows, 1};
@@ -72,7 +72,7 @@ Handle creation_list(const DatasetDescription& dataset, const Extents& extent, s
   return creation;
 }
 
-/// With the groups above it.
+/// Also creates the groups above it.
 Handle create_dataset(hid_t file, const DatasetDescription& dataset, const std::string& path, const Extents& extent,
                       std::size_t bytes) {
   const Handle link(H5Pcreate(H5P_LINK_CREATE), H5Pclose);
@@ -83,7 +83,7 @@ Handle create_dataset(hid_t file, const DatasetDescription& dataset, const std::
   return {H5Dcreate2(file, path.c_str(), file_type(dataset.type), space, link, creation, H5P_DEFAULT), H5Dclose};
 }
 
-/// Negative on failure.
+/// Returns a negative number on failure.
 herr_t write_elements(hid_t set, ElementType type, const void* values, std::size_t count) {
   const Handle memory = memory_type(type);
   if (type != ElementType::string) return H5Dwrite(set, memory, H5S_ALL, H5S_ALL, H5P_DEFAULT, values);
@@ -94,7 +94,7 @@ herr_t write_elements(hid_t set, ElementType type, const void* values, std::size
 
 } // namespace
 
-/// An array whose values come piece by piece.
+/// An array whose values arrive piece by piece.
 struct OpenArray {
   Handle set;
   std::string path;
@@ -105,12 +105,12 @@ struct OpenArray {
 };
 
 struct FileWriter::State {
-  std::string path, target, partial; ///< as named, where links lead, and beside that
+  std::string path, target, partial; ///< as given; after following links; target + ".partial"
   FileKind kind;
   std::string creator;
   Handle file;
-  bool complete = false;                        ///< all written and closed: .partial is worth keeping
-  std::map<std::string, std::size_t> extents;   ///< named extents seen so far; of a snapshot: its name before them
+  bool complete = false;                        ///< all written and closed: .partial must be kept
+  std::map<std::string, std::size_t> extents;   ///< named extents seen so far; for a snapshot's, its name comes first
   std::map<std::string, std::string> checksums; ///< of all datasets so far, by path
   std::vector<std::string> large;               ///< paths of datasets whose values the seal leaves out
   std::optional<OpenArray> open;                ///< begun and not yet complete
@@ -138,7 +138,7 @@ void FileWriter::State::check_call(const DatasetDescription& dataset, const std:
     misused(dataset_path, "the name of a snapshot or tool is missing or too much");
 }
 
-/// Extents of one name are the same all over the file (of a snapshot: all over the snapshot). Throws std::logic_error.
+/// Throws std::logic_error unless extents of one name are equal in the whole file (for a snapshot's: in the snapshot).
 void FileWriter::State::check_named_extents(const DatasetDescription& dataset, const std::string& dataset_path,
                                             const Extents& extent, std::string_view snapshot) {
   for (int i = 0; i < dataset.rank; ++i) {

@@ -1,4 +1,4 @@
-// Makes the C++ descriptors and the documentation page from schema.toml.
+// Generates the C++ descriptors and the documentation page from schema.toml.
 // Usage: results-schema-generator schema.toml descriptors.hpp results-schema.md
 
 #include <algorithm>
@@ -113,7 +113,7 @@ std::vector<std::string> texts(const toml::table& table, std::string_view key) {
   return lines;
 }
 
-/// In the order of the file.
+/// Reads attributes in the order of the file.
 std::vector<Attribute> read_attributes(const toml::table& root, std::string_view key) {
   const toml::table* table = root[key].as_table();
   if (!table) fail(root, fmt::format("key '{}' must be a table", key));
@@ -185,8 +185,8 @@ std::string cpp_extents(const Line& line) {
   return fmt::format("{{{}}}", fmt::join(extents, ", "));
 }
 
-/// One row of the columns /history/NAME of a kind, as a struct of doubles; nothing where it has no history. Columns of
-/// tools are not among them: a run has as many as its tools.
+/// A struct of doubles for one row of the columns /history/NAME of a kind; empty where it has no history. Columns of
+/// tools are not included, because their number depends on the run.
 std::string history_row(const Kind& kind) {
   const std::string folder = "/history/";
   std::string members, visits;

@@ -5,8 +5,8 @@
 namespace mpfem::schema {
 
 void prepare_hdf5() {
-  // A file that could not be closed (disk full) stays known to the library, which then crashes when it clears up at the
-  // end of the program, and the exit code is lost. All handles close themselves, so there is nothing to clear up.
+  // The library keeps a file that could not be closed (disk full). Its cleanup at the end of the program then crashes,
+  // and the exit code is lost. All handles close themselves, so no cleanup is needed.
   [[maybe_unused]] static const herr_t once = H5dont_atexit();
   H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
 }

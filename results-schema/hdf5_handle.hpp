@@ -1,5 +1,5 @@
 #pragma once
-// HDF5 identifiers that close themselves, and the few calls that writer, reader and validator share.
+// HDF5 identifiers that close themselves, and the few calls shared by writer, reader and validator.
 
 #include <string>
 #include <string_view>
@@ -11,7 +11,7 @@
 
 namespace mpfem::schema {
 
-/// An open HDF5 object. Negative: none.
+/// An open HDF5 object; a negative identifier means none.
 class Handle {
 public:
   using Close = herr_t (*)(hid_t);
@@ -43,23 +43,23 @@ private:
   Close close_ = nullptr;
 };
 
-/// To be called before any other function of HDF5: turns off its own messages on standard error (errors are reported as
-/// exceptions), and its clearing up at the end of the program.
+/// Must be called before any other function of HDF5. Turns off HDF5's messages on standard error (errors are reported
+/// as exceptions) and its cleanup at the end of the program.
 void prepare_hdf5();
 
-/// Type in memory, and (little endian) in the file. Strings have variable length, UTF-8.
+/// Type in memory, and in the file (little endian). Strings are UTF-8 of variable length.
 Handle memory_type(ElementType type);
 Handle file_type(ElementType type);
 
 /// "/snapshots/*/node", "0003" -> "/snapshots/0003/node".
 std::string path_of(const DatasetDescription& dataset, std::string_view snapshot);
 
-/// True when every link of an absolute path exists.
+/// True if every link of an absolute path exists.
 bool path_exists(hid_t file, const std::string& path);
 
 /// A scalar string attribute; empty where there is none.
 std::string read_text_attribute(hid_t object, const char* name);
-/// Negative on failure.
+/// Returns a negative number on failure.
 herr_t write_text_attribute(hid_t object, const char* name, std::string_view value);
 
 } // namespace mpfem::schema

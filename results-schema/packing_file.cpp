@@ -12,7 +12,7 @@ namespace mpfem::schema {
 
 namespace {
 
-/// A dataset of a file, to be complained of.
+/// A dataset of a file, for messages.
 struct Place {
   const FileReader& file;
   std::string_view dataset;
@@ -34,7 +34,7 @@ void refuse_not_finite(const std::vector<double>& points, const Place& place) {
       place.fail(fmt::format("found {:g} at index [{}, {}], allowed: finite", points[i], i / 3, i % 3));
 }
 
-/// Centres may stand on a wall (hemispheres do), known to rounding.
+/// Centres may lie on a wall (those of hemispheres do), to within rounding.
 void refuse_outside(const std::vector<double>& center, const std::vector<double>& lengths, const Place& place) {
   constexpr double rounding = 1e-9;
   for (std::size_t i = 0; i < center.size(); ++i) {
@@ -45,7 +45,7 @@ void refuse_outside(const std::vector<double>& center, const std::vector<double>
   }
 }
 
-/// "box" where the file says nothing.
+/// A box where the file names no shape.
 ContainerShape read_shape(const FileReader& file) {
   if (!file.has(packing::box_shape)) return ContainerShape::box;
   const std::string name = file.read_scalar(packing::box_shape);
@@ -55,7 +55,7 @@ ContainerShape read_shape(const FileReader& file) {
       fmt::format("found '{}', allowed: {}", one_line(name), fmt::join(container_names, ", ")));
 }
 
-/// The box that bounds a cylinder is as wide as it is deep.
+/// The bounding box of a cylinder must be as wide as it is deep.
 void refuse_oval(const std::vector<double>& lengths, const Place& place) {
   constexpr double rounding = 1e-9;
   if (!(std::abs(lengths[0] - lengths[1]) <= rounding * lengths[0]))
@@ -63,7 +63,7 @@ void refuse_oval(const std::vector<double>& lengths, const Place& place) {
                            lengths[0], lengths[1]));
 }
 
-/// As refuse_outside, of the round wall.
+/// As refuse_outside, for the round wall.
 void refuse_outside_circle(const std::vector<double>& center, double diameter, const Place& place) {
   constexpr double rounding = 1e-9;
   for (std::size_t i = 0; i + 2 < center.size(); i += 3) {
@@ -74,7 +74,7 @@ void refuse_outside_circle(const std::vector<double>& center, double diameter, c
   }
 }
 
-/// Offsets rise from 0 to the end, each grain with at least one.
+/// Offsets must rise from 0 to `end`, with at least one row for each grain.
 void refuse_wrong_offsets(const std::vector<std::int32_t>& offset, std::size_t spheres, std::size_t end,
                           const Place& place) {
   if (offset.size() != spheres + 1)

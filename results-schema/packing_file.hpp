@@ -1,5 +1,5 @@
 #pragma once
-// What every program that reads a packing demands of it beyond the schema.
+// Requirements on a packing file beyond the schema, for every program that reads one.
 
 #include <cstdint>
 #include <vector>
@@ -10,7 +10,7 @@
 namespace mpfem::schema {
 
 struct PackingSpheres {
-  std::vector<double> box_lengths; ///< [3], mm, > 0; of a cylinder diameter, diameter, height
+  std::vector<double> box_lengths; ///< [3], mm, > 0; for a cylinder diameter, diameter, height
   std::vector<double> center;      ///< [spheres][3], mm, in the container
   std::vector<double> radius;      ///< [spheres], mm, > 0; at least one
   ContainerShape shape = ContainerShape::box;
@@ -26,14 +26,16 @@ struct PackingOffsets {
   std::vector<std::int32_t> node, tet; ///< [spheres + 1]; every grain has nodes and tets
 };
 
-/// Spheres of a packing file. Throws InputError "FILE: dataset /x …" with index, what was found and what is allowed.
+/// Reads the spheres of a packing file. Throws InputError "FILE: dataset /x …" with index, what was found and what is
+/// allowed.
 PackingSpheres read_packing_spheres(const FileReader& file);
 
-/// Where the nodes and tets of each grain begin, in a packing file with so many spheres; the same errors. To be called
-/// where the file has /mesh/tet.
+/// Reads where the nodes and tets of each grain begin, in a packing file with this number of spheres and with
+/// /mesh/tet. Throws InputError in the same form.
 PackingOffsets read_packing_offsets(const FileReader& file, std::size_t spheres);
 
-/// Meshes of a packing file with so many spheres; the same errors. To be called where the file has /mesh/tet.
+/// Reads the meshes of a packing file with this number of spheres and with /mesh/tet. Throws InputError in the same
+/// form.
 PackingTets read_packing_tets(const FileReader& file, std::size_t spheres);
 
 } // namespace mpfem::schema

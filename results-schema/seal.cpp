@@ -19,7 +19,7 @@ namespace {
 
 constexpr std::string_view magic = "mpfem file seal\n";
 constexpr std::size_t piece = 1 << 20; // bytes
-/// Behind the ranges: their number, the file's length, the hash, and the magic.
+/// After the ranges: their number, the file's length, the hash, and the magic.
 constexpr std::size_t tail_size = 3 * sizeof(std::uint64_t) + magic.size();
 
 /// The part of a seal that its hash covers: ranges as (begin, size), their number, the file's length.
@@ -30,7 +30,7 @@ std::vector<std::uint64_t> numbers_of(const std::vector<ByteRange>& left_out, st
   return numbers;
 }
 
-/// Hash of the bytes [begin, end), chained to `hash`; nothing where they cannot be read.
+/// Hash of the bytes [begin, end), chained to `hash`; empty where they cannot be read.
 std::optional<std::uint64_t> hash_range(std::ifstream& file, std::uint64_t begin, std::uint64_t end,
                                         std::uint64_t hash) {
   std::vector<char> buffer(std::min<std::uint64_t>(piece, end - begin));
@@ -44,7 +44,7 @@ std::optional<std::uint64_t> hash_range(std::ifstream& file, std::uint64_t begin
   return hash;
 }
 
-/// Hash of a file's first `end` bytes but those left out (ascending, within), and of the seal's numbers.
+/// Hash of a file's first `end` bytes without those left out (ascending), and of the seal's numbers.
 std::optional<std::uint64_t> hash_structure(std::ifstream& file, const std::vector<ByteRange>& left_out,
                                             std::uint64_t end, std::span<const std::uint64_t> numbers) {
   std::optional<std::uint64_t> hash = hash_seed;

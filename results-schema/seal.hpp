@@ -1,9 +1,9 @@
 #pragma once
-// The seal of a file: a hash of its structure, behind the end of its HDF5 data. HDF5 itself does not check all of its
-// own structure, and crashes on some damage; the seal is checked before the library sees the file.
+// The seal of a file: a hash of its structure, after the end of its HDF5 data. HDF5 does not check all of its own
+// structure, and crashes on some damage; the seal is checked before the library sees the file.
 //
-// The values of large datasets are left out, so that opening a file costs no reading of all of it; each dataset's own
-// checksum covers them. docs/results-schema.md says how a seal is laid out.
+// The values of large datasets are left out, so that opening a file does not require reading all of it; each dataset's
+// own checksum covers them. docs/results-schema.md describes the layout of a seal.
 
 #include <cstdint>
 #include <string>
@@ -11,7 +11,7 @@
 
 namespace mpfem::schema {
 
-/// A run of bytes in a file.
+/// A range of bytes in a file.
 struct ByteRange {
   std::uint64_t begin = 0, size = 0;
 };
@@ -22,7 +22,7 @@ void append_seal(const std::string& path, std::vector<ByteRange> left_out);
 
 enum class Seal { absent, intact, broken };
 
-/// Whether a file agrees with its seal. Throws InputError where the file cannot be read.
+/// Compares a file with its seal. Throws InputError where the file cannot be read.
 Seal check_seal(const std::string& path);
 
 } // namespace mpfem::schema

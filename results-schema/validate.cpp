@@ -18,7 +18,7 @@ namespace mpfem::schema {
 
 namespace {
 
-/// Reports what is wrong with one file, and keeps the extents met so far with the place where each was met first.
+/// Reports what is wrong with one file. Keeps the named extents, each with the dataset in which it was found first.
 class Examination {
 public:
   using Report = std::function<void(const std::string& finding)>;
@@ -48,7 +48,7 @@ public:
     check_values(dataset, path, extents);
   }
 
-  /// Ranges of indices, once all extents are known.
+  /// Checks ranges of indices, once all extents are known.
   void check_integers() {
     for (const auto& [dataset, path, least, most, rises] : integers_) {
       const std::string name(dataset->indexes.empty() ? dataset->partitions : dataset->indexes);
@@ -64,7 +64,7 @@ public:
     }
   }
 
-  /// Everything in the file that the schema does not know.
+  /// Reports datasets that are not in the schema.
   void check_unknown() {
     std::pair<Examination*, int> data{this, 0};
     const auto visit = [](hid_t, const char* name, const H5O_info_t* info, void* at) -> herr_t {
@@ -87,7 +87,7 @@ public:
 private:
   void finding(const std::string& path, const std::string& what) { report_(one_line(path + " " + what)); }
 
-  /// False where the extent is wrong by itself.
+  /// False if the extent is wrong in itself.
   bool check_extent(const DatasetDescription& dataset, const std::string& path, const std::string& snapshot,
                     std::size_t i, hsize_t found) {
     const Extent& wanted = dataset.extent[i];
@@ -112,7 +112,7 @@ private:
     return true;
   }
 
-  /// Reads the values once: their checksum, whether they are finite, and what check_integers() needs.
+  /// Reads the values once: checks their checksum and that they are finite, and keeps what check_integers() needs.
   void check_values(const DatasetDescription& dataset, const std::string& path, const std::vector<hsize_t>& extents) {
     std::size_t count = 1;
     for (const hsize_t extent : extents) count *= extent;
@@ -164,7 +164,7 @@ void examine(const FileReader::State& state, const Examination::Report& report) 
   if (read_text_attribute(state.file, attribute::creator).empty()) report("root attribute creator is missing");
 }
 
-/// What the child tells: lines that begin with one of these.
+/// First characters of the lines that the child process writes.
 constexpr char told_finding = 'F', told_kind = 'K', told_unchecked = 'U', told_refusal = 'R', told_end = 'E';
 
 void tell(const std::string& path, const std::function<void(std::string_view)>& write) {
@@ -185,7 +185,7 @@ void tell(const std::string& path, const std::function<void(std::string_view)>& 
   line(told_end);
 }
 
-/// Far more than any file takes: so many seconds, and one for so many bytes.
+/// Time limit (s), far more than any file needs: a minute, plus a second per 5 MB.
 double longest_time(const std::string& path) {
   std::error_code error;
   const auto size = std::filesystem::file_size(path, error);

@@ -1,9 +1,9 @@
 #pragma once
 // The closest point of one triangle.
 //
-// All lengths are measured along unit vectors that are found once, from the best-conditioned edges. Barycentric
-// coordinates divide by the area squared, which loses all digits on the thin triangles that programs for construction
-// write; in-plane distances from the edges do not.
+// All lengths are measured along unit vectors, which are computed once from the best-conditioned edges. Barycentric
+// coordinates divide by the squared area and lose all digits on the thin triangles that CAD programs write; in-plane
+// distances from the edges do not.
 
 #include <algorithm>
 #include <array>
@@ -29,14 +29,14 @@ struct FlatTriangle {
   Vector3<double> normal;                ///< unit
   std::array<Vector3<double>, 3> inward; ///< unit, in the plane, from each edge towards the triangle
 
-  /// mm, of the plane; positive on the side of the normal.
+  /// Height (mm) above the plane; positive on the side of the normal.
   double height(const Vector3<double>& x) const { return dot(x - corner[0], normal); }
-  /// Puts itself, as triangle `number`, in `best` where it is closer. Points that lie beyond an edge by less than
-  /// `margin` (mm) count as over the face: its normal is exact, a direction through the edge has rounding in it.
+  /// Writes itself, as triangle `number`, to `best` if it is closer. Points beyond an edge by less than `margin` (mm)
+  /// count as over the face: the face's normal is exact, whereas a direction through the edge has rounding errors.
   inline void offer(const Vector3<double>& x, std::int32_t number, double margin, Nearest& best) const;
 };
 
-/// Of three corners that do not lie on one line.
+/// Needs three corners that do not lie on one line.
 inline FlatTriangle flat_triangle(const std::array<Vector3<double>, 3>& corner) {
   const auto edge = [&](std::size_t k) { return corner[(k + 1) % 3] - corner[k]; };
   const auto squared = [&](std::size_t k) { return dot(edge(k), edge(k)); };
@@ -61,7 +61,7 @@ inline void FlatTriangle::offer(const Vector3<double>& x, std::int32_t number, d
   for (std::size_t k = 0; k < 3; ++k) {
     const Vector3<double> from_corner = x - corner[k];
     if (dot(from_corner, inward[k]) >= -margin) continue;
-    over_face = false; // and the closest point lies on an edge beyond which the point is
+    over_face = false; // the closest point lies on an edge that the point is beyond
     const Vector3<double> edge = corner[(k + 1) % 3] - corner[k];
     const double share = std::clamp(dot(from_corner, edge) / dot(edge, edge), 0.0, 1.0);
     const Vector3<double> point = share < 1 ? corner[k] + share * edge : corner[(k + 1) % 3], way = x - point;

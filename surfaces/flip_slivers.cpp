@@ -26,7 +26,8 @@ std::int32_t start_of(const TriangleMesh& mesh, std::int32_t edge) {
   return mesh.triangle[static_cast<std::size_t>(edge / 3)][static_cast<std::size_t>(edge % 3)];
 }
 
-/// The triangles a b c and b a d across the edge a b become c a d and d b c. False where that gives no triangles.
+/// Replaces the triangles a b c and b a d, which share the edge a b, by c a d and d b c. False where that gives no
+/// valid triangles.
 bool flip(TriangleMesh& mesh, std::vector<std::int32_t>& partner, std::int32_t ab) {
   const auto across = [&](std::int32_t edge) -> std::int32_t& { return partner[static_cast<std::size_t>(edge)]; };
   const std::int32_t ba = across(ab), t = ab / 3, u = ba / 3;
@@ -35,7 +36,7 @@ bool flip(TriangleMesh& mesh, std::vector<std::int32_t>& partner, std::int32_t a
   if (t == u || c == d) return false;
   const std::int32_t beyond_bc = across(next_edge(ab)), beyond_ca = across(edge_before(ab));
   const std::int32_t beyond_ad = across(next_edge(ba)), beyond_db = across(edge_before(ba));
-  // Where the two triangles share another edge, two of these are edges of their own: a corner with two triangles.
+  // If the two triangles share another edge, the corner between the two edges has no other triangles: no flip.
   for (const std::int32_t edge : {beyond_bc, beyond_ca, beyond_ad, beyond_db})
     if (edge / 3 == t || edge / 3 == u) return false;
   const auto join = [&](std::int32_t e, std::int32_t f) { across(e) = f, across(f) = e; };
@@ -49,7 +50,7 @@ bool flip(TriangleMesh& mesh, std::vector<std::int32_t>& partner, std::int32_t a
 } // namespace
 
 SliverFlips flip_slivers(TriangleMesh& mesh, std::vector<std::int32_t>& partner, double least) {
-  // A flip can leave a sliver where corners of several triangles lie on one line; rows of them take a pass for each.
+  // A flip can leave a sliver where corners of several triangles lie on one line; a row of them needs one pass each.
   constexpr int most_passes = 100;
   SliverFlips result;
   for (int pass = 0; pass < most_passes; ++pass) {

@@ -1,23 +1,23 @@
 #pragma once
-// Triangles without area, whose three corners lie on one line, are taken out of a closed surface without a hole.
+// Removes triangles without area, whose corners lie on one line, from a closed surface without opening it.
 //
-// Programs put them where a corner of one triangle lies on the edge of another. Such a triangle has no normal, and to
-// leave it out would open the surface. Its longest edge is flipped instead: with the neighbour across that edge it
-// forms a quadrangle whose shape is the neighbour's, and the other diagonal splits that into two triangles with area.
+// Such triangles are written where a corner of one triangle lies on the edge of another. They have no normal, and
+// leaving one out would open the surface. Instead its longest edge is flipped: with the neighbour across that edge it
+// forms a quadrilateral of the neighbour's shape, which the other diagonal splits into two triangles with area.
 
 #include "surfaces/triangle_mesh.hpp"
 
 namespace mpfem {
 
-/// What became of the triangles below an area.
+/// Result for the triangles below an area.
 struct SliverFlips {
-  std::size_t flipped = 0; ///< edges
-  std::size_t left = 0;    ///< triangles that are still below the area
-  std::int32_t example = -1;
+  std::size_t flipped = 0;   ///< number of edges flipped
+  std::size_t left = 0;      ///< number of triangles still below the area
+  std::int32_t example = -1; ///< one of these; -1: none
 };
 
-/// Flips edges until no triangle has an area below `least` (mm^2) or flips no longer help. `partner` of a closed
-/// surface (EdgePairs) is kept up to date; vertices stay.
+/// Flips edges until no triangle has an area below `least` (mm^2) or flips no longer help. Updates `partner` of the
+/// closed surface (EdgePairs); vertices do not change.
 SliverFlips flip_slivers(TriangleMesh& mesh, std::vector<std::int32_t>& partner, double least);
 
 } // namespace mpfem

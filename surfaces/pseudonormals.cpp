@@ -9,14 +9,14 @@ namespace mpfem {
 
 namespace {
 
-/// rad, of a triangle at its corner k.
+/// Angle (rad) of a triangle at its corner k.
 double angle_at(const FlatTriangle& triangle, std::size_t k) {
   const Vector3<double> a = triangle.corner[(k + 1) % 3] - triangle.corner[k];
   const Vector3<double> b = triangle.corner[(k + 2) % 3] - triangle.corner[k];
   return std::atan2(norm(cross(a, b)), dot(a, b));
 }
 
-/// Where normals cancel, as along the edge of a sheet without thickness, no direction is better than any other.
+/// Where normals cancel, as along the edge of a sheet without thickness, any direction serves.
 Vector3<double> unit(const Vector3<double>& sum, const Vector3<double>& otherwise) {
   const double length = norm(sum);
   return length > 0 ? (1 / length) * sum : otherwise;

@@ -19,9 +19,9 @@ namespace mpfem {
 namespace {
 
 constexpr std::size_t most_bytes = std::size_t{512} << 20U; // ten million triangles in binary form
-constexpr double farthest = 1e9;                            // mm; beyond, products of lengths leave the doubles' range
-constexpr double weld_share = 1e-6;                         // of the box's diagonal: numbers of 32 bits have 6e-8
-constexpr double sliver_share = 1e-12;                      // of the diagonal squared, least area of a triangle
+constexpr double farthest = 1e9;                            // mm; keeps products of lengths in the range of doubles
+constexpr double weld_share = 1e-6;                         // of the box's diagonal; 32-bit numbers are exact to 6e-8
+constexpr double sliver_share = 1e-12;                      // of the diagonal squared: smallest area of a triangle
 
 using Corners = std::array<Vector3<double>, 3>;
 
@@ -29,7 +29,7 @@ std::string place(const Vector3<double>& x) {
   return fmt::format("({:.6g}, {:.6g}, {:.6g}) mm", x.x, x.y, x.z);
 }
 
-/// What the checks have in common.
+/// Shared data of the checks.
 struct Checked {
   TriangleMesh& mesh;
   std::vector<std::int32_t>& partner;
@@ -61,7 +61,7 @@ std::vector<Corners> scaled_corners(const std::vector<StlFacet>& facets, const s
   return corners;
 }
 
-/// mm, diagonal of the box around all corners.
+/// Diagonal (mm) of the box around all corners. Throws InputError where it is too short.
 double diagonal_of(const std::vector<Corners>& corners, const std::string& name) {
   TriangleMesh all;
   for (const Corners& three : corners) all.vertex.insert(all.vertex.end(), three.begin(), three.end());
@@ -72,12 +72,12 @@ double diagonal_of(const std::vector<Corners>& corners, const std::string& name)
   return length;
 }
 
-/// Whether a stored normal points away from the triangle's own. Zero and no number say nothing.
+/// True if a stored normal is more than 60 degrees off the triangle's own; false where it is zero or not finite.
 bool is_other_normal(const Vector3<double>& stored, const Corners& x) {
   const Vector3<double> own = area_vector(x[0], x[1], x[2]);
   const double length = norm(stored);
   if (!(length > 0 && std::isfinite(length))) return false;
-  constexpr double cosine = 0.5; // far beyond what rounding does, except to slivers
+  constexpr double cosine = 0.5; // far more than rounding causes, except for slivers
   return dot(stored, own) < cosine * length * norm(own);
 }
 
@@ -86,7 +86,7 @@ std::size_t count_other_normals(const std::vector<StlFacet>& facets) {
       facets.begin(), facets.end(), [](const StlFacet& facet) { return is_other_normal(facet.normal, facet.corner); }));
 }
 
-/// Leaves out triangles with two corners at one vertex: their other two edges are one, so that no hole remains.
+/// Leaves out triangles with two corners at one vertex. Their other two edges coincide, so that no hole remains.
 std::size_t drop_collapsed(TriangleMesh& mesh) {
   return std::erase_if(mesh.triangle, [](const auto& v) { return v[0] == v[1] || v[1] == v[2] || v[2] == v[0]; });
 }
@@ -108,7 +108,7 @@ std::size_t flip_all_slivers(const Checked& surface, double length) {
     surface.fail(fmt::format("found {} triangles without area, one at {}, allowed from {:.3g} mm^2", slivers.left,
                              place(surface.mesh.corner(static_cast<std::size_t>(slivers.example), 0)),
                              sliver_share * length * length));
-  // Two edges may have come to lie on each other.
+  // Two edges may now coincide.
   if (slivers.flipped > 0) check_closed(surface, pair_edges(surface.mesh));
   return slivers.flipped;
 }
@@ -129,7 +129,8 @@ std::vector<std::vector<std::size_t>> triangles_of_shells(const std::vector<std:
   return result;
 }
 
-/// A shell of positive volume lies in no other, or in a cavity; one of negative volume is a cavity and lies in a body.
+/// A shell of positive volume must lie in no other shell, or in a cavity. One of negative volume is a cavity and must
+/// lie in a body.
 void check_nesting(const Checked& surface, std::span<const std::vector<std::size_t>> shell) {
   for (std::size_t s = 0; shell.size() > 1 && s < shell.size(); ++s) {
     const Vector3<double>& x = surface.mesh.corner(shell[s].front(), 0);
@@ -138,7 +139,7 @@ void check_nesting(const Checked& surface, std::span<const std::vector<std::size
       for (const std::size_t t : shell[other])
         if (other != s) winding += winding_share(surface.mesh, t, x);
     const bool is_cavity = volume_of(surface.mesh, shell[s]) < 0;
-    constexpr double slack = 0.75; // shells that touch leave a part of a whole turn
+    constexpr double slack = 0.75; // where shells touch, the winding number is not whole
     if (std::abs(winding - (is_cavity ? 1 : 0)) > slack)
       surface.fail(fmt::format(
           "found {} shells of which the one at {} {}; allowed bodies side by side, and cavities in "
@@ -151,7 +152,7 @@ void turn_round(TriangleMesh& mesh) {
   for (auto& triangle : mesh.triangle) std::swap(triangle[1], triangle[2]);
 }
 
-/// Leaves out vertices that no triangle has.
+/// Leaves out vertices that no triangle uses.
 void drop_unused_vertices(TriangleMesh& mesh) {
   std::vector<std::int32_t> number(mesh.vertex.size(), -1);
   std::vector<Vector3<double>> used;
@@ -167,7 +168,7 @@ void drop_unused_vertices(TriangleMesh& mesh) {
   mesh.vertex = std::move(used);
 }
 
-/// Volume and shells; turns the surface round where it encloses less than nothing.
+/// Sets volume and shells; turns the surface round where its volume is negative.
 void check_volume(const Checked& surface, double length, StlFindings& findings) {
   const auto shell = triangles_of_shells(surface.partner);
   double volume = 0;

@@ -32,7 +32,7 @@ Vector3<double> binary_vector(std::string_view bytes, std::size_t at) {
   return {number(0), number(1), number(2)};
 }
 
-/// The number of triangles that a binary file says it has; 0 where it is too short to say.
+/// The number of triangles that a binary file states; 0 where it is too short for one.
 std::size_t binary_count(std::string_view bytes) {
   return bytes.size() < head_bytes ? 0 : little_endian(bytes, head_bytes - 4);
 }
@@ -63,7 +63,7 @@ class Words {
 public:
   Words(std::string_view text, std::string_view name) : text_(text), name_(name) {}
 
-  /// In lower case; empty at the end of the text.
+  /// The next word in lower case; empty at the end of the text.
   std::string next() {
     while (place_ < text_.size() && is_blank(text_[place_])) line_ += text_[place_++] == '\n' ? 1 : 0;
     const std::size_t begin = place_;
@@ -98,12 +98,12 @@ private:
   int line_ = 1;
 };
 
-/// A stored normal may be anything: nothing depends on it.
+/// A number of a stored normal, which may be anything because it is not used; NaN if it is not a number.
 double number_or_none(Words& words) {
   return finite_number(words.next()).value_or(std::numeric_limits<double>::quiet_NaN());
 }
 
-/// What follows the word "facet".
+/// Reads what follows the word "facet".
 StlFacet read_text_facet(Words& words) {
   StlFacet facet{};
   words.expect("normal");
@@ -124,7 +124,7 @@ std::vector<StlFacet> read_text(std::string_view bytes, const std::string& name)
   Words words(bytes, name);
   for (std::string word = words.next(); !word.empty(); word = words.next()) {
     if (word != "solid") words.fail(word, "'solid'");
-    words.skip_line(); // the name, which may have any number of words
+    words.skip_line(); // the name, of any number of words
     for (word = words.next(); word != "endsolid"; word = words.next()) {
       if (word != "facet") words.fail(word, "'facet' or 'endsolid'");
       facets.push_back(read_text_facet(words));

@@ -84,7 +84,8 @@ std::vector<std::int32_t> corner_fans(const std::vector<std::int32_t>& partner) 
   std::int32_t count = 0;
   for (std::size_t first = 0; first < fan.size(); ++first) {
     if (fan[first] >= 0) continue;
-    // The edge that leaves the corner is met by one that arrives there; after it the next triangle leaves the corner.
+    // The partner of the edge that leaves the corner arrives there; the edge after it leaves the corner in the next
+    // triangle.
     for (auto corner = first; fan[corner] < 0; corner = static_cast<std::size_t>(next_edge(partner[corner])))
       fan[corner] = count;
     ++count;

@@ -1,8 +1,8 @@
 #pragma once
-// A surface of triangles: which of them share an edge or a corner, and what the surface encloses.
+// A surface of triangles: shared edges and corners, and the enclosed volume.
 //
-// Edge 3 t + k of triangle t goes from its corner k to the corner after it. Two triangles of a closed and oriented
-// surface share each edge and run along it in opposite directions.
+// Edge 3 t + k of triangle t goes from its corner k to the next corner. Two triangles of a closed and oriented surface
+// share each edge and run along it in opposite directions.
 
 #include <array>
 #include <cstdint>
@@ -15,7 +15,7 @@ namespace mpfem {
 
 struct TriangleMesh {
   std::vector<Vector3<double>> vertex;               ///< mm
-  std::vector<std::array<std::int32_t, 3>> triangle; ///< vertices, counter-clockwise as seen from outside of the body
+  std::vector<std::array<std::int32_t, 3>> triangle; ///< vertices, counter-clockwise seen from outside the body
 
   const Vector3<double>& corner(std::size_t t, std::size_t k) const {
     return vertex[static_cast<std::size_t>(triangle[t][k])];
@@ -30,14 +30,14 @@ constexpr std::int32_t edge_before(std::int32_t edge) {
   return edge % 3 == 0 ? edge + 2 : edge - 1;
 }
 
-/// Edges that break the rule of a closed and oriented surface: how many, and one of them (-1: none).
+/// Edges that violate the rule of a closed and oriented surface: how many, and one of them (-1: none).
 struct EdgeFault {
   std::size_t count = 0;
   std::int32_t example = -1;
 };
 
 struct EdgePairs {
-  std::vector<std::int32_t> partner; ///< [triangles * 3]: the edge of the other triangle; -1 where there is not one
+  std::vector<std::int32_t> partner; ///< [triangles * 3]: the other triangle's edge; -1 unless there is exactly one
   EdgeFault open;                    ///< edges of one triangle only
   EdgeFault misoriented;             ///< edges along which two triangles run in the same direction
   EdgeFault crowded;                 ///< edges of more than two triangles
@@ -45,28 +45,28 @@ struct EdgePairs {
 };
 EdgePairs pair_edges(const TriangleMesh& mesh);
 
-/// [triangles]: the shell of each, shells being the parts that no edge connects, numbered by their first triangle.
-/// `partner` of a closed surface.
+/// [triangles]: the shell of each. Shells are the parts that no edge connects, numbered by their first triangle.
+/// `partner` is that of a closed surface.
 std::vector<std::int32_t> shells(const std::vector<std::int32_t>& partner);
 
-/// [triangles * 3]: for each corner the number of its fan, the triangles around it that follow each other across edges.
-/// Two bodies that touch at a vertex have a fan each there. `partner` of a closed surface.
+/// [triangles * 3]: for each corner the number of its fan: the triangles around it that follow each other across edges.
+/// Two bodies that touch at a vertex each have a fan there. `partner` is that of a closed surface.
 std::vector<std::int32_t> corner_fans(const std::vector<std::int32_t>& partner);
 
-/// mm, of all vertices; there is one at least.
+/// Bounding box (mm) of all vertices; needs at least one.
 Bounds bounds_of(const TriangleMesh& mesh);
 
-/// mm, diagonal of the bounding box.
+/// Diagonal (mm) of a bounding box.
 double diagonal(const Bounds& bounds);
 
-/// mm^2, normal times area, by the two edges that start at the corner in front of the longest edge: rounding is least.
+/// Normal times area (mm^2), from the two edges at the corner opposite the longest edge, for the least rounding.
 Vector3<double> area_vector(const Vector3<double>& a, const Vector3<double>& b, const Vector3<double>& c);
 inline Vector3<double> area_vector(const TriangleMesh& mesh, std::size_t t) {
   return area_vector(mesh.corner(t, 0), mesh.corner(t, 1), mesh.corner(t, 2));
 }
 
-/// mm^3, share of a triangle in the volume that its closed surface encloses: the tetrahedron that it has with `apex`,
-/// which may lie anywhere but is the same for all.
+/// Share of a triangle in the volume (mm^3) that its closed surface encloses: its tetrahedron with `apex`, which may
+/// lie anywhere but must be the same for all triangles.
 double volume_share(const TriangleMesh& mesh, std::size_t t, const Vector3<double>& apex);
 
 /// Share of a triangle in the winding number at a point: its solid angle over 4 pi (van Oosterom and Strackee, IEEE

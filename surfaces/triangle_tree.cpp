@@ -17,8 +17,8 @@ std::array<double, 3> coordinates(const Vector3<double>& x) {
 
 } // namespace
 
-/// Halves the triangles at the median of their centres along the longest side of the box around these, so that the tree
-/// is as deep as the logarithm of their number.
+/// Halves the triangles at the median of their centres along the longest side of the box around the centres, so that
+/// the depth of the tree is the logarithm of their number.
 struct TriangleTree::Build {
   std::span<const FlatTriangle> triangles;
   std::vector<std::int32_t>& order;
@@ -28,7 +28,7 @@ struct TriangleTree::Build {
     const auto& c = triangles[static_cast<std::size_t>(t)].corner;
     return coordinates(c[0] + c[1] + c[2]);
   }
-  /// The box around triangles.
+  /// The box around triangles begin … end - 1 of the order.
   Node box_around(std::size_t begin, std::size_t end) const {
     constexpr double far = std::numeric_limits<double>::max();
     Node box{{far, far, far}, {-far, -far, -far}};
@@ -61,7 +61,7 @@ struct TriangleTree::Build {
     const std::size_t axis = axis_of_most(begin, end), middle = begin + (end - begin) / 2;
     const auto place = [&](std::size_t i) { return order.begin() + static_cast<std::ptrdiff_t>(i); };
     std::nth_element(place(begin), place(middle), place(end), [&](std::int32_t a, std::int32_t b) {
-      return std::pair(centre(a)[axis], a) < std::pair(centre(b)[axis], b); // the same tree with every library
+      return std::pair(centre(a)[axis], a) < std::pair(centre(b)[axis], b); // the same tree with every standard library
     });
     add(begin, middle);
     node[self].second = static_cast<std::int32_t>(node.size());
@@ -93,7 +93,7 @@ Nearest TriangleTree::nearest(const Vector3<double>& x, std::int32_t first, doub
     std::int32_t node;
     double squared;
   };
-  std::array<Waiting, 64> waiting; // NOLINT: one entry a level, and 2^32 triangles have 32
+  std::array<Waiting, 64> waiting; // NOLINT: one entry per level, and 2^32 triangles have 32 levels
   std::size_t count = 0;
   waiting[count++] = {0, node_[0].squared_distance(x)};
   while (count > 0) {

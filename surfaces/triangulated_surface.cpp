@@ -9,7 +9,7 @@ namespace mpfem {
 
 namespace {
 
-constexpr double margin_share = 1e-13;   // of the diagonal: some hundred roundings of a coordinate
+constexpr double margin_share = 1e-13;   // of the diagonal: a few hundred rounding errors of a coordinate
 constexpr double touching_share = 1e-10; // of the diagonal: a direction over this distance has six digits
 
 std::vector<FlatTriangle> flat_triangles(const TriangleMesh& mesh) {
@@ -70,14 +70,14 @@ SurfaceGap TriangulatedSurface::gap(const std::array<double, 3>& x) const {
 SurfaceGap TriangulatedSurface::gap(const std::array<double, 3>& x, double reach) const {
   const Vector3<double> point{x[0], x[1], x[2]};
   const auto [block, away] = surroundings(point);
-  // Distances of two points differ by no more than these are apart.
+  // The distances of two points differ by no more than the points are apart.
   double least = sign_ * block.distance - away;
   if (sign_ > 0) least = std::max(least, outside_bounds(point));
   if (least > reach) return {least, {}};
   return grain_gap(point, block.triangle);
 }
 
-/// mm, of a point from the box around the triangles; 0 in it.
+/// Distance (mm) of a point from the box around the triangles; 0 inside.
 double TriangulatedSurface::outside_bounds(const Vector3<double>& x) const {
   const auto beyond = [&](std::size_t axis, double value) {
     return std::max({bounds_.low[axis] - value, value - bounds_.high[axis], 0.0});
@@ -138,7 +138,7 @@ TriangulatedSurface::Block TriangulatedSurface::block_at(std::array<std::size_t,
     const Block& before = block_[self - back[a]];
     first = before.triangle;
     if (std::abs(before.distance) <= width_[a]) continue;
-    // No surface lies between the two centres: they are on the same side.
+    // The surface does not pass between the two centres: they are on the same side.
     constexpr double slack = 1.1;
     const Nearest near = tree_.nearest(centre, first, slack);
     return {std::copysign(std::sqrt(near.squared) / slack, before.distance), near.triangle};

@@ -7,8 +7,7 @@ namespace mpfem {
 
 namespace {
 
-/// Vertices by the cell of a grid in which they lie. Cells are wider than the distance, so that most corners look into
-/// one cell only.
+/// Vertices by grid cell. Cells are wider than the distance, so that most corners search only one cell.
 class VertexGrid {
 public:
   VertexGrid(const Vector3<double>& low, double distance) : low_(low), distance_(distance) {}
@@ -33,14 +32,14 @@ public:
 
 private:
   using Cell = std::array<std::int64_t, 3>;
-  static constexpr double widths = 8; ///< of a cell over the distance
+  static constexpr double widths = 8; ///< width of a cell over the distance
 
   Cell cell_of(const Vector3<double>& x) const {
     const double width = widths * distance_;
     return {std::llround(std::floor((x.x - low_.x) / width)), std::llround(std::floor((x.y - low_.y) / width)),
             std::llround(std::floor((x.z - low_.z) / width))};
   }
-  /// Distinct for all cells: a million distances along each axis are 125,001 cells and one around them, below 2^20.
+  /// Distinct for all cells: 1e6 distances along each axis make 125,001 cells and one around them, fewer than 2^20.
   static std::uint64_t key(const Cell& cell) {
     const auto part = [](std::int64_t i) { return static_cast<std::uint64_t>(i + 1); };
     return part(cell[0]) << 40U | part(cell[1]) << 20U | part(cell[2]);
