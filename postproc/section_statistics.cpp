@@ -7,6 +7,7 @@
 
 #include "common/errors.hpp"
 #include "common/one_line.hpp"
+#include "postproc/snapshot_window.hpp"
 #include "postproc/statistics.hpp"
 
 namespace mpfem {
@@ -18,11 +19,11 @@ CutPlane middle(const Snapshot& snapshot, int axis) {
   return {axis, snapshot.box_low[a] + 0.5 * (snapshot.box_high[a] - snapshot.box_low[a])};
 }
 
-Measurement of_section(const char* metric, const Snapshot& snapshot, int number) {
+Measurement of_section(const char* metric, const schema::FileReader& file, int number) {
   Measurement m;
   m.metric = metric;
   m.uncertainty_meaning = "none: a section of one snapshot";
-  m.snapshot = SnapshotWindow{number, snapshot.relative_density, 0, -1, ""};
+  m.snapshot = snapshot_window(file, number);
   return m;
 }
 
@@ -68,7 +69,7 @@ Measurement measure_section_stress(const schema::FileReader& file, int number, i
   for (const SectionPolygon& polygon : cut(snapshot, middle(snapshot, axis)))
     values.emplace_back(field.values[static_cast<std::size_t>(polygon.tet)], area(polygon));
   const SectionStress s = section_stress(std::move(values), threshold);
-  Measurement m = of_section("section-stress", snapshot, number);
+  Measurement m = of_section("section-stress", file, number);
   m.value = s.mean;
   m.unit = "MPa";
   m.method = fmt::format("von Mises stress on the middle plane, weighted by area; threshold {:g} MPa", threshold);
@@ -85,7 +86,7 @@ Measurement measure_section_stress(const schema::FileReader& file, int number, i
 Measurement measure_section_damage(const schema::FileReader& file, int number, int axis, double threshold) {
   const Snapshot snapshot = read_snapshot(file, number);
   const SectionDamage s = section_damage(cut_boundaries(snapshot, middle(snapshot, axis)), threshold);
-  Measurement m = of_section("section-damage", snapshot, number);
+  Measurement m = of_section("section-damage", file, number);
   m.value = s.mean;
   m.method = fmt::format("damage along the grains' boundaries on the middle plane, weighted by length; threshold {:g}",
                          threshold);

@@ -124,7 +124,8 @@ void add_wall_at_peak(Tablet& tablet, const Reading& lower) {
   tablet.add("radial_stress_at_peak", "MPa", radial, normal.uncertainty / wall);
   if (!(slice.lower_stress > 0 && radial > 0)) {
     tablet.note("the lower punch or the die carries no force at the peak: no transmission and no wall friction");
-    for (const char* name : {"axial_transmission", "radial_over_axial_stress", "wall_friction_coefficient"})
+    for (const char* name : {"axial_transmission", "radial_over_axial_stress", "wall_friction_coefficient",
+                             "die_friction_over_normal_force"})
       tablet.add(name, "1", {});
     return;
   }

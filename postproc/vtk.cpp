@@ -19,6 +19,13 @@ namespace mpfem {
 
 namespace {
 
+/// XML allows no "--" within a comment, but a tool's name may have it.
+std::string within_comment(std::string text) {
+  for (std::size_t at = text.find("--"); at != std::string::npos; at = text.find("--", at + 1))
+    text.insert(at + 1, " ");
+  return text;
+}
+
 /// Collects arrays for the appended section, with their offsets.
 class Appended {
 public:
@@ -114,7 +121,8 @@ std::string tools_vtp_text(const Snapshot& s, const std::vector<std::string>& na
   std::string xml = "<?xml version=\"1.0\"?>\n"
                     "<VTKFile type=\"PolyData\" version=\"1.0\" byte_order=\"LittleEndian\" header_type=\"UInt64\">\n"
                     "  <!-- mm; tools by number: ";
-  for (std::size_t i = 0; i < names.size(); ++i) xml += fmt::format("{}{} {}", i > 0 ? ", " : "", i, names[i]);
+  for (std::size_t i = 0; i < names.size(); ++i)
+    xml += fmt::format("{}{} {}", i > 0 ? ", " : "", i, within_comment(names[i]));
   xml += fmt::format(" -->\n  <PolyData>\n    <FieldData>\n      <DataArray type=\"Float64\" Name=\"TimeValue\" "
                      "NumberOfTuples=\"1\" format=\"ascii\">{}</DataArray>\n    </FieldData>\n"
                      "    <Piece NumberOfPoints=\"{}\" NumberOfPolys=\"{}\">\n      <Points>\n",

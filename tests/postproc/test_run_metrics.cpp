@@ -7,6 +7,7 @@
 #include "postproc/section_statistics.hpp"
 #include "postproc/stress_path.hpp"
 #include "postproc/triaxial_test.hpp"
+#include "small_run.hpp"
 #include "stage_run.hpp"
 
 using namespace mpfem;
@@ -81,6 +82,18 @@ TEST_CASE("a section's stress is weighted by area, and polygons without area do 
   CHECK(s.largest == 30);
   CHECK(s.share_above == Approx(0.2).epsilon(1e-12));
   CHECK_THROWS_WITH(section_stress({{1, 0}}, 0), "the section is empty");
+}
+
+TEST_CASE("a section says which snapshot it cuts, at which stress and in which stage") {
+  const Folder folder;
+  RunContents run = small_run();
+  run.numbers["/snapshots/*/mean_stress"] = {7};
+  write_run(folder / "run.h5", run);
+  const schema::FileReader file(folder / "run.h5", schema::FileKind::run);
+  const Measurement section = measure_section_stress(file, -1, 2, 10);
+  CHECK(section.snapshot->number == 0);
+  CHECK(section.snapshot->mean_stress == 7);
+  CHECK(section.snapshot->stage == 0);
 }
 
 TEST_CASE("a section's damage is weighted by length, and what was never bonded does not count") {

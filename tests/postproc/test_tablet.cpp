@@ -403,7 +403,8 @@ TEST_CASE("what a run of a tablet does not tell has no value, and a note says wh
   for (double& force : run.numbers["/history/tools/lower/force"]) force = 0;
   write_run(folder / "smooth.h5", run);
   const TabletMeasurement unborne = measure_tablet({folder / "smooth.h5", schema::FileKind::run}, near_faces());
-  CHECK(std::isnan(number(unborne, "axial_transmission")));
+  for (const char* name : {"axial_transmission", "wall_friction_coefficient", "die_friction_over_normal_force"})
+    CHECK(std::isnan(number(unborne, name)));
 }
 
 TEST_CASE("postproc tablet writes JSON and a table, and refuses what it does not find") {

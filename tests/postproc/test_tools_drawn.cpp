@@ -303,4 +303,11 @@ TEST_CASE("a run with tools has their surfaces as VTK files beside those of the 
   CHECK_THAT(read_text(folder / "die/tools.pvd"),
              Catch::Contains("timestep=\"2e-06\" part=\"0\" file=\"0000-tools.vtp\""));
   CHECK_THAT(read_text(folder / "die/0000-tools.vtp"), Catch::Contains("0 die, 1 lower, 2 plate, 3 upper"));
+
+  // Two hyphens in a name must not end the comment that lists the names.
+  RunContents hyphens = die_run();
+  add_tool(hyphens, {"z---plate", "plane", {{"point", {0, 1.5, 0}}, {"direction", {0, -1, 0}}}});
+  write_run(folder / "hyphens.h5", hyphens);
+  write_run_as_vtk({folder / "hyphens.h5", schema::FileKind::run}, folder / "hyphens", true);
+  CHECK_THAT(read_text(folder / "hyphens/0000-tools.vtp"), Catch::Contains("3 upper, 4 z- - -plate -->"));
 }
