@@ -38,8 +38,10 @@ ends() {
 
 "$bin/pack-gen" spheres packing.toml -o spheres.h5 --quiet
 "$bin/pack-gen" mesh spheres.h5 --size 0.05 -o packing.h5 --quiet
+"$bin/pack-gen" spheres die-packing.toml -o die-spheres.h5 --quiet
+"$bin/pack-gen" mesh die-spheres.h5 --size 0.05 -o die-packing.h5 --quiet
 
-for scenario in loadings grips friction tools; do
+for scenario in loadings grips friction tools die; do
   run 1 1 "$scenario" "$scenario-alone"
   run 2 2 "$scenario" "$scenario-two"
   alike "$scenario-alone" "$scenario-two"
@@ -53,7 +55,7 @@ run 13 1 friction crowd
 alike friction-alone crowd
 
 # A checkpoint is one file: three ranks begin, one and two go on; four branch from what two have written.
-for scenario in loadings friction tools; do
+for scenario in loadings friction tools die; do
   for share in 3 1 2; do
     code=0
     run "$share" 1 "$scenario" parts --resume --time-limit 0.15 2>/dev/null || code=$?
