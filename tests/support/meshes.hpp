@@ -15,17 +15,20 @@ struct GrainMesh {
   std::vector<std::array<std::int32_t, 4>> tet;
 };
 
-/// The cube [-1, 1]^3 in n^3 cells of six tetrahedra each (Kuhn), all with positive volume.
-inline GrainMesh cube_mesh(int n) {
+/// The cube [-1, 1]^3 in cells[0] x cells[1] x cells[2] cells of six tetrahedra each (Kuhn), all with positive volume.
+inline GrainMesh block_mesh(const std::array<int, 3>& cells) {
   GrainMesh mesh;
-  const auto id = [n](int i, int j, int k) { return static_cast<std::int32_t>((i * (n + 1) + j) * (n + 1) + k); };
-  for (int i = 0; i <= n; ++i)
-    for (int j = 0; j <= n; ++j)
-      for (int k = 0; k <= n; ++k) mesh.node.push_back({-1 + 2.0 * i / n, -1 + 2.0 * j / n, -1 + 2.0 * k / n});
+  const auto id = [&](int i, int j, int k) {
+    return static_cast<std::int32_t>((i * (cells[1] + 1) + j) * (cells[2] + 1) + k);
+  };
+  for (int i = 0; i <= cells[0]; ++i)
+    for (int j = 0; j <= cells[1]; ++j)
+      for (int k = 0; k <= cells[2]; ++k)
+        mesh.node.push_back({-1 + 2.0 * i / cells[0], -1 + 2.0 * j / cells[1], -1 + 2.0 * k / cells[2]});
   static constexpr int order[6][3] = {{0, 1, 2}, {1, 2, 0}, {2, 0, 1}, {0, 2, 1}, {2, 1, 0}, {1, 0, 2}};
-  for (int i = 0; i < n; ++i)
-    for (int j = 0; j < n; ++j)
-      for (int k = 0; k < n; ++k)
+  for (int i = 0; i < cells[0]; ++i)
+    for (int j = 0; j < cells[1]; ++j)
+      for (int k = 0; k < cells[2]; ++k)
         for (int p = 0; p < 6; ++p) {
           int corner[3] = {i, j, k};
           std::array<std::int32_t, 4> tet{id(i, j, k)};
@@ -37,6 +40,11 @@ inline GrainMesh cube_mesh(int n) {
           mesh.tet.push_back(tet);
         }
   return mesh;
+}
+
+/// The cube [-1, 1]^3 in n^3 cells.
+inline GrainMesh cube_mesh(int n) {
+  return block_mesh({n, n, n});
 }
 
 /// A ball of the given radius: the cube's shells mapped to spheres.

@@ -182,6 +182,28 @@ TEST_CASE("a broken bond stays broken, or bonds again on the next contact, as th
   }
 }
 
+TEST_CASE("a point that broke, rubbed and opened bonds again without the friction that it had") {
+  BondParameters bond = table_1(0.02);
+  bond.rebond_on_contact = true;
+  const double aside = 6e-3; // mm, several times the opening at which a bond of 0.02 N/mm has failed
+  Scenario scenario =
+      bonded_scenario(bond, {grip("press", -6e-4, 500), grip("slide", 0, 2000, {aside, 0, 0}), grip("pull", 0.05, 4000),
+                             grip("press again", -0.05, 4000), grip("pull again", 0.05, 4000)});
+  scenario.contact.friction = 0.3;
+  const Record record = run_stages(two_cubes(4), scenario);
+  const HistoryRow &slid = record.last[1], &open = record.last[2], &pressed = record.last[3], &apart = record.last[4];
+  CHECK(slid.friction_dissipation > 0);
+  CHECK(open.bonds == 0);
+  CHECK(open.friction_energy == 0); // anchors go when points open
+  CHECK(pressed.bonds > 0.9 * cube_bonds);
+  // New bonds are whole, so they have no share that rubs; they take the fracture energy of the area anew.
+  CHECK(pressed.mean_damage < 1e-3);
+  CHECK(pressed.friction_dissipation - open.friction_dissipation < 1e-3 * slid.friction_dissipation);
+  const double area = 0.5 * pressed.bonded_area;
+  CHECK(apart.damage_dissipation - pressed.damage_dissipation == Approx(0.02 * area).epsilon(0.01));
+  CHECK(record.worst_residual < 0.01);
+}
+
 TEST_CASE("normal-only bonds do not resist sliding") {
   BondParameters bond = table_1(0.5);
   bond.normal_only = true;

@@ -272,6 +272,79 @@ TEST_CASE("friction of a die takes what Janssen's law says of the force on its w
   }
 }
 
+namespace {
+
+constexpr double disc_radius = 0.5, disc_thickness = 0.05; // mm
+
+/// A disc with its axis along z, in the corner of the axes, of n cells along its radius: squares mapped to circles.
+GrainMesh disc_mesh(int n) {
+  GrainMesh mesh = block_mesh({2 * n, 2 * n, 2});
+  for (auto& x : mesh.node) {
+    const double u = std::abs(x[0]), v = std::abs(x[1]), shell = std::max(u, v);
+    const double angle = shell > 0 ? M_PI / 4 * (v > u ? 2 - u / v : v / u) : 0;
+    x = {disc_radius + std::copysign(disc_radius * shell * std::cos(angle), x[0]),
+         disc_radius + std::copysign(disc_radius * shell * std::sin(angle), x[1]), 0.5 * disc_thickness * (1 + x[2])};
+  }
+  return mesh;
+}
+
+/// Strains along x and y in the middle of the disc, within 0.15 of its radius: the linear displacement nearest to that
+/// of its nodes.
+std::array<double, 2> strain_in_middle(const Model& model, const std::vector<double>& start) {
+  std::array<double, 2> strain{};
+  for (std::size_t axis = 0; axis < 2; ++axis) {
+    std::vector<std::array<double, 2>> place_and_shift;
+    std::array<double, 2> mean{};
+    for (std::size_t n = 0; n < static_cast<std::size_t>(model.nodes()); ++n)
+      if (std::hypot(start[4 * n] - disc_radius, start[4 * n + 1] - disc_radius) < 0.15 * disc_radius)
+        place_and_shift.push_back({start[4 * n + axis], model.position[4 * n + axis] - start[4 * n + axis]});
+    for (const auto& [x, u] : place_and_shift) mean[0] += x, mean[1] += u;
+    for (double& m : mean) m /= static_cast<double>(place_and_shift.size());
+    double xx = 0, xu = 0;
+    for (const auto& [x, u] : place_and_shift) xx += (x - mean[0]) * (x - mean[0]), xu += (x - mean[0]) * (u - mean[1]);
+    strain[axis] = xu / xx;
+  }
+  return strain;
+}
+
+} // namespace
+
+// Hertz 1883; Timoshenko and Goodier, Theory of Elasticity, section 41: 2 P/(pi D t) across the load, three times that
+// in compression along it. Without lateral contraction it holds for any thickness.
+TEST_CASE("an elastic disc between two plates is pulled apart by 2P/(pi D t) in its middle, and pressed by three times "
+          "that") {
+  constexpr double approach = 5e-4; // mm, of each plate
+  Scenario scenario = holding_scenario(1);
+  scenario.numerics.element = ElementType::tet4;
+  scenario.material.poissons_ratio = 0;
+  scenario.contact.surface = ContactSurface::facets;
+  scenario.tools = {plane("left", {0, 0, 0}, {1, 0, 0}), plane("right", {2 * disc_radius, 0, 0}, {-1, 0, 0})};
+  const double transit = 2 * disc_radius * std::sqrt(scenario.material.density / scenario.material.youngs_modulus);
+  const double speed = approach / (30 * transit);
+  scenario.stages = {driven({{.tool = 0, .velocity = {speed, 0, 0}, .direction = {1, 0, 0}},
+                             {.tool = 1, .velocity = {-speed, 0, 0}, .direction = {-1, 0, 0}}},
+                            33 * transit, 0.1 / transit)};
+  ThreadTeam team(1);
+  Simulation simulation(
+      build_model(pack({disc_mesh(20)}, {2 * disc_radius, 2 * disc_radius, disc_thickness}), scenario, "test"),
+      scenario, team);
+  const std::vector<double> start(simulation.model().position.begin(), simulation.model().position.end());
+  double force = 0, across = 0, along = 0; // sums over the last eight transits: force and strains grow together
+  for (simulation.evaluate_forces(); !simulation.stage_complete(); simulation.evaluate_forces()) {
+    if (simulation.state().time > 25 * transit) {
+      force += 0.5 * (std::abs(simulation.tools()[0].force[0]) + std::abs(simulation.tools()[1].force[0]));
+      const auto strain = strain_in_middle(simulation.model(), start);
+      along += strain[0], across += strain[1];
+    }
+    simulation.advance();
+  }
+  const double stress = 2 * force / (M_PI * 2 * disc_radius * disc_thickness);
+  const double modulus = scenario.material.youngs_modulus;
+  INFO("across " << modulus * across / stress << ", along " << modulus * along / stress);
+  CHECK(within(modulus * across, stress, 0.02));
+  CHECK(std::abs(along / across + 3) < 0.1);
+}
+
 // --------------------------------------------------------------------------------------------------------- runs
 
 /// The tablet sticks to the lower punch, which rubs, and for good to the plate.
