@@ -38,8 +38,8 @@ std::vector<std::string> quality_warnings(std::span<const QualityRow> rows) {
                                    "contact.stiffness_factor",
                                    penetration, doubtful_penetration));
   if (density > doubtful_density)
-    warnings.push_back(fmt::format("the grains' present volume is up to {:.4g} of the box's (warning above {:g}): no "
-                                   "pores are left, or grains overlap",
+    warnings.push_back(fmt::format("the grains' current volume is up to {:.4g} of the box volume (warning above {:g}): "
+                                   "no pores are left, or grains overlap",
                                    density, doubtful_density));
   if (shortest_step < doubtful_step_share * first_step)
     warnings.push_back(fmt::format("the time step fell to {:.2g} of the first one (warning below {:g}): elements are "

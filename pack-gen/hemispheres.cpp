@@ -76,8 +76,8 @@ void check(const HemisphereRequest& r) {
   if (std::fmod(r.rotation, 360) == 0) refuse("--rotate", r.rotation, "no whole turn: node would face node");
   if (!(r.gap <= r.radius)) refuse("--gap", r.gap, fmt::format("at most the radius, {:g} mm", r.radius));
   if (const double tets = expected_tets(r); tets > most_tets)
-    throw InputError(
-        fmt::format("these sizes would give {:.3g} tetrahedra a hemisphere, allowed: at most {:.3g}", tets, most_tets));
+    throw InputError(fmt::format("these sizes would give {:.3g} tetrahedra per hemisphere, allowed: at most {:.3g}",
+                                 tets, most_tets));
 }
 
 /// The lower hemisphere, with its worst tetrahedra improved. Surface nodes stay where gmsh put them: moving them would

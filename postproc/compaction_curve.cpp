@@ -60,7 +60,7 @@ Measurement measure_stress_at_densities(const schema::FileReader& file, const st
   m.uncertainty_meaning = "none: between two rows of the history";
   m.method = "mean stress where the relative density is passed first, linear between the neighbouring rows";
   if (!found.back())
-    throw InputError(fmt::format("{}: a relative density of {} is not passed", one_line(file.path()), wanted.back()));
+    throw InputError(fmt::format("{}: a relative density of {} is not reached", one_line(file.path()), wanted.back()));
   m.value = *found.back();
   for (std::size_t i = 0; i < wanted.size(); ++i) {
     auto& entry = m.details[fmt::format("at_{:.2f}", wanted[i])];

@@ -70,7 +70,7 @@ Measurement measure_elastic_recovery(const schema::FileReader& file, std::option
   m.value = r.recovery;
   m.uncertainty = r.uncertainty;
   m.uncertainty_meaning = "what the rest of the stress would add, linear or as in Hertz's theory, the 95 % interval "
-                          "of that line at zero stress, and what the last row is off it";
+                          "of that line at zero stress, and the distance of the last row from it";
   m.window = isotropic_window(history, unloading, {begin + r.densest_row, unloading.last});
   m.method =
       fmt::format("(D_max - D_min) / D_max (Eq. 9): D_max at the densest row, D_min at the unloading's last row; "

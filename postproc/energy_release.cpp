@@ -113,7 +113,7 @@ Measurement measure_energy(const schema::FileReader& file, std::optional<int> nu
   m.uncertainty = released.uncertainty;
   m.uncertainty_meaning =
       "change of the ledger's residual in the stage and 95 % of the scatter of its first and its last "
-      "rows about parabolas over time, as hypotenuse";
+      "rows about parabolas over time, added in quadrature";
   m.window = isotropic_window(history, stage, stage.rows());
   m.method = "elastic energy at the beginning of the unloading less that at its end";
   m.brief =

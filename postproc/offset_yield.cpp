@@ -102,7 +102,7 @@ Measurement offset_yield(const StageCurve& c, const OffsetYieldRule& rule) {
   m.unit = "MPa";
   m.uncertainty = uncertainty(column);
   m.uncertainty_meaning = "half of the change between two rows, the change with the elastic slope's uncertainty, and "
-                          "95 % of the rows' scatter, as hypotenuse";
+                          "95 % of the rows' scatter, added in quadrature";
   m.window = axial_window(c, {at->row, at->row + 1}, c.unconfined ? "axial_stress" : "deviatoric_stress", column);
   m.method = fmt::format("{} against {}: first point with a plastic strain of {:g}, with an elastic slope of {:.5g} "
                          "MPa{}",

@@ -42,7 +42,7 @@ void check_size(const std::vector<float>& values, std::size_t expected, std::str
 void check_places(const Snapshot& s, const std::string& path) {
   for (std::size_t i = 0; i < s.node.size(); ++i)
     if (!std::isfinite(s.node[i]))
-      throw InputError(fmt::format("{}: node {} has a place that is not finite", path, i / 3));
+      throw InputError(fmt::format("{}: node {} has a position that is not finite", path, i / 3));
   for (std::size_t axis = 0; axis < 3; ++axis)
     if (!(s.box_low[axis] < s.box_high[axis]) || !std::isfinite(s.box_high[axis] - s.box_low[axis]))
       throw InputError(fmt::format("{}: the box goes from {:g} to {:g} mm, allowed: low < high", path, s.box_low[axis],

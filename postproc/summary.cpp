@@ -187,7 +187,7 @@ std::string to_text(const Summary& s) {
   line("status", s.status);
   for (const std::string& warning : s.warnings) line("warning", warning);
   line("grains, tets, steps", fmt::format("{}  {}  {}", s.grains, s.tets, s.steps));
-  line("wall time", fmt::format("{:.1f} s on {} threads, {:.1f} ns a tet and step", s.wall_time, s.threads,
+  line("wall time", fmt::format("{:.1f} s on {} threads, {:.1f} ns per tet and step", s.wall_time, s.threads,
                                 s.nanoseconds_per_tet_step));
   line("relative density at the end", fmt::format("{:.4f}", s.relative_density));
   line("mean stress, deviatoric stress", fmt::format("{:.4g} MPa, {:.3g} MPa", s.mean_stress, s.deviatoric_stress));
@@ -200,7 +200,7 @@ std::string to_text(const Summary& s) {
   line("kinetic over internal energy, largest",
        fmt::format("{:.2e} while p is above a tenth of its largest (D_r >= {:.3f})", s.kinetic_over_internal,
                    s.loaded_from_density));
-  line("  both at their largest", fmt::format("{:.2e}", s.kinetic_over_largest_internal));
+  line("  ratio of both maxima", fmt::format("{:.2e}", s.kinetic_over_largest_internal));
   line("  at most 1 %", s.kinetic_small_from_density
                             ? fmt::format("from D_r = {:.3f} to the end", *s.kinetic_small_from_density)
                             : std::string("not at the end"));

@@ -85,7 +85,7 @@ void read_stages(Tablet& tablet) {
     if (name) return std::optional(need_stage(stages, *name, option, path));
     const auto stage = stage_by_name(stages, usual);
     if (!stage && option != "--hold")
-      tablet.note(fmt::format("no stage '{}' ({}): what it would tell has no value", usual, option));
+      tablet.note(fmt::format("no stage '{}' ({}): its results are null", usual, option));
     return stage;
   };
   tablet.hold = later(names.hold, "hold", "--hold");

@@ -65,7 +65,7 @@ double energy_change_uncertainty(const HistoryTable& history, std::string_view e
 void note_short_stage(Measurement& m, RowRange stage) {
   if (stage.count() < fewest_rows)
     m.notes.push_back(
-        fmt::format("the stage has {} rows, needed for the scatter of its rows: {}; uncertainties lack it",
+        fmt::format("the stage has {} rows, needed for the scatter of its rows: {}; not included in the uncertainty",
                     stage.count(), fewest_rows));
 }
 

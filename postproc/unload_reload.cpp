@@ -83,7 +83,7 @@ Measurement unload_reload_modulus(const StageCurve& c, int number) {
   m.uncertainty =
       0.5 * std::hypot(unloading.slope_half_width, reloading.slope_half_width, unloading.slope - reloading.slope);
   m.uncertainty_meaning =
-      "half of the 95 % interval of the mean slope, and half of the difference of both slopes, as hypotenuse";
+      "half of the 95 % interval of the mean slope, and half of the difference of both slopes, added in quadrature";
   m.window.stage = c.stage;
   m.window.stage_type = c.type;
   m.window.first_row = c.first_row + loop.top;

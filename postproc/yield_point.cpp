@@ -88,7 +88,7 @@ Measurement yield_point(const StageCurve& c, double ratio) {
   m.unit = "MPa";
   m.uncertainty = stress_uncertainty(c.deviatoric_stress, yield.at);
   m.uncertainty_meaning =
-      "half of the change between the rows on both sides, and 95 % of the stage's ringing, as hypotenuse";
+      "half of the change between the rows on both sides, and 95 % of the stage's ringing, added in quadrature";
   m.window = axial_window(c, {row, row + 1}, "deviatoric_stress", c.deviatoric_stress);
   m.method = fmt::format("first point where plastic and damage dissipation reach {:g} times their sum at the stage's "
                          "beginning, linear between rows",

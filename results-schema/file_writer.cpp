@@ -135,7 +135,7 @@ void FileWriter::State::check_call(const DatasetDescription& dataset, const std:
     misused(dataset_path, "not a dataset of this kind of file");
   if (path_exists(file, dataset_path)) misused(dataset_path, "written twice");
   if (dataset.of_member() == snapshot.empty())
-    misused(dataset_path, "the name of a snapshot or tool is missing or too much");
+    misused(dataset_path, "the name of a snapshot or tool is missing or not allowed");
 }
 
 /// Throws std::logic_error unless extents of one name are equal in the whole file (for a snapshot's: in the snapshot).
@@ -233,7 +233,7 @@ void FileWriter::append_values(const void* values, std::size_t count, std::size_
   const Handle memory = memory_type(open.type);
   const hsize_t rows = count / open.extent[1];
   if (H5Tget_size(memory) != size || rows * open.extent[1] != count || open.rows_written + rows > open.extent[0])
-    misused(open.path, fmt::format("{} values of {} bytes are no rows that are still to come", count, size));
+    misused(open.path, fmt::format("{} values of {} bytes do not fit the rows still missing", count, size));
   if (count == 0) return;
   open.checksum.update({static_cast<const std::byte*>(values), count * size});
   const Handle place(H5Dget_space(open.set), H5Sclose);

@@ -67,7 +67,7 @@ double diagonal_of(const std::vector<Corners>& corners, const std::string& name)
   for (const Corners& three : corners) all.vertex.insert(all.vertex.end(), three.begin(), three.end());
   const double length = diagonal(bounds_of(all));
   if (!(length >= 1 / farthest))
-    throw InputError(fmt::format("{}: found a surface of {} mm from end to end, allowed from {} mm", shown_path(name),
+    throw InputError(fmt::format("{}: found a largest extent of {} mm, allowed at least {} mm", shown_path(name),
                                  length, 1 / farthest));
   return length;
 }

@@ -28,15 +28,15 @@ public:
             "File to write, .json or .csv (default: CSV on standard output); with --pair JSON") {
     CLI::App& command = options();
     add_snapshot(command, snapshot_);
-    add_number(command, "--pair", pair_, whole_numbers, "", "Two grains, by comma: their contact in detail")
+    add_number(command, "--pair", pair_, whole_numbers, "", "Two grains, separated by a comma: their contact in detail")
         ->delimiter(',')
         ->expected(2);
     command.add_flag("--history", history_,
-                     "All contacts together through the run: areas, coordination, damage, a row a history row; with "
-                     "-o FILE.json at the end of a stage");
+                     "All contacts together through the run: areas, coordination, damage, one row per history row; "
+                     "with -o FILE.json at the end of a stage");
     add_number(command, "--stage", stage_, whole_numbers, "",
                "With --history: stage as in the scenario, from 0; negative from the end (default: the last)");
-    add_output("--data", data_, "With --pair: CSV file to write, a row a bond");
+    add_output("--data", data_, "With --pair: CSV file to write, one row per bond");
     add_output("--view", view_, "With --pair: PNG file to write, damage in the contact's plane", OutputKind::binary);
     add_drawing(command, picture_, "With --view: ", "the grains and the relative density", "the nodes' patches");
   }

@@ -34,7 +34,7 @@ public:
     add_plane_options();
     add_picture_options();
     add_output("--data", data_,
-               "Also write the section's polygons as CSV; of damage the cut boundaries, a row a segment");
+               "Also write the section's polygons as CSV; of damage the cut boundaries, one row per segment");
   }
 
 private:

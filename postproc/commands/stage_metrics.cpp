@@ -154,7 +154,7 @@ public:
                            "Isotropic load cycles: loop area, drift of the density and dissipation of each.\n"
                            "Example: postproc hysteresis run.h5 -o hysteresis.json --cycles cycles.csv",
                            "the last stress_cycles, else the whole run") {
-    add_output("--cycles", cycles_, "CSV file to write, a row a cycle");
+    add_output("--cycles", cycles_, "CSV file to write, one row per cycle");
   }
 
 private:

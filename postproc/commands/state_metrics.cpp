@@ -84,7 +84,7 @@ public:
                "Relative densities, separated by commas, ascending")
         ->required()
         ->delimiter(',');
-    add_output("--data", data_, "CSV file to write: a row a density");
+    add_output("--data", data_, "CSV file to write: one row per density");
     options().add_option("--reference", reference_,
                          "CSV file with relative_density, mean_stress_MPa: the run is compared with it in --data");
   }

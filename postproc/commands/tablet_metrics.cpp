@@ -28,9 +28,10 @@ public:
     options().add_option("--lower", rule_.tools.lower, "Name of the lower punch")->capture_default_str();
     options().add_option("--die", rule_.tools.die, "Name of the die")->capture_default_str();
     add_snapshot(options(), rule_.snapshot);
-    add_number(options(), "--face-distance", rule_.face_distance, lengths, "mm",
-               "Nodes so near to punches and die are those of the tablet's faces and band (default: a twentieth of the "
-               "mean grain's diameter)");
+    add_number(
+        options(), "--face-distance", rule_.face_distance, lengths, "mm",
+        "Nodes within this distance of punches and die count as the tablet's faces and band (default: a twentieth "
+        "of the mean grain's diameter)");
   }
 
 private:
@@ -55,7 +56,7 @@ public:
                            "Example: postproc heckel run.h5 --bulk-modulus 8000 -o heckel.json\n"
                            "Out of the die, of a table of pressures and densities: postproc fit --model heckel",
                            "the stage named press, else the first") {
-    add_number(options(), "--r-squared", rule_.r_squared, Range::between(0, 1), "", "Least R^2 of the window")
+    add_number(options(), "--r-squared", rule_.r_squared, Range::between(0, 1), "", "Smallest R^2 of the window")
         ->capture_default_str();
     add_number(options(), "--bulk-modulus", bulk_modulus_, moduli, "MPa",
                "Of the solid: also P_y without its elastic compression, of D / (1 + P/K)");
@@ -84,7 +85,8 @@ public:
                            "Example: postproc diametral run.h5 --diameter 2 --thickness 1 --flat-angle 10",
                            "the last") {
     options()
-        .add_option("--plates", rule_.plates, "Names of both plates, by comma (default: the run's only two tools)")
+        .add_option("--plates", rule_.plates,
+                    "Names of both plates, separated by a comma (default: the run's only two tools)")
         ->delimiter(',');
     add_number(options(), "--drop", rule_.drop, Range::between(1e-6, 1), "",
                "Fall after the largest force that makes it a peak, share")
@@ -100,7 +102,8 @@ public:
     add_number(options(), "--flat-angle", rule_.flat_angle, Range::between(0, largest_flat_angle), "degrees",
                "2 alpha under which a flat is seen from the axis (default: of the snapshot nearest to the peak)");
     add_number(options(), "--face-distance", rule_.face_distance, lengths, "mm",
-               "Pressed nodes so near to the outermost one are those of a flat (default: a hundredth of the diameter)");
+               "Pressed nodes within this distance of the outermost one count as a flat (default: a hundredth of the "
+               "diameter)");
   }
 
 private:

@@ -159,7 +159,7 @@ FigureCommands::FigureCommands(CLI::App& app) : state_(std::make_unique<State>()
   s.add_common(depends);
   depends.add_option("--packing", s.packing, "The meshed packing")->required();
   depends.add_option("--description", s.description, "The file that the packing was made from, for metrics");
-  depends.add_option("--set", s.settings, "Setting of every run that does not decline it, KEY=VALUE")
+  depends.add_option("--set", s.settings, "Setting of every run, unless it has common_settings = false: KEY=VALUE")
       ->allow_extra_args(false);
   s.add_on_figure(app, "powder", "Print the packing of a study as input for pack-gen; nothing if the study has none.",
                   [&s] { s.powder(); });

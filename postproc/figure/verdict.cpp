@@ -86,10 +86,9 @@ Quantity taken(const QuantitySpec& q, const TextTable& table, const std::vector<
     return {{fmt::format("{}", fmt::join(items, ", ")), {}}, {}, {}};
   }
   if (entries.size() > 1)
-    q.place.fail(
-        fmt::format("quantity '{}': {} rows of table '{}' are meant, allowed: one, or 'take' with first, last, "
-                    "smallest, largest, mean, sum, count, spread or list",
-                    q.name, entries.size(), q.table));
+    q.place.fail(fmt::format("quantity '{}': {} rows of table '{}' match, allowed: one, or 'take' with first, last, "
+                             "smallest, largest, mean, sum, count, spread or list",
+                             q.name, entries.size(), q.table));
   return of(entries.front());
 }
 

@@ -127,7 +127,7 @@ std::string scene_of_ranks_text(const BenchResult& r) {
   return fmt::format("scene          {} ranks of {} threads; {} {} tets ({} precision) in {} grains, D_r {:.3f}\n",
                      s.ranks, s.threads, s.tets, s.element, s.precision, s.grains, s.relative_density) +
          fmt::format("memory         {:.2f} GB at most in the first rank\n", 1e-9 * r.memory) +
-         fmt::format("messages       {:.1f} kB a step from the rank that sends most\n\n", 1e-3 * r.sent);
+         fmt::format("messages       {:.1f} kB per step from the rank that sends most\n\n", 1e-3 * r.sent);
 }
 
 std::string scene_text(const BenchResult& r) {
@@ -139,7 +139,7 @@ std::string scene_text(const BenchResult& r) {
                      "points of {} candidates, {:.0f} bonds\n",
                      s.tets, s.element, s.precision, s.lanes, s.grains, s.relative_density, s.contact_points,
                      s.candidate_points, s.bonds) +
-         fmt::format("memory         {:.0f} B a tet, {:.2f} GB at most in total\n\n", r.memory / s.tets,
+         fmt::format("memory         {:.0f} B per tet, {:.2f} GB at most in total\n\n", r.memory / s.tets,
                      1e-9 * r.memory) +
          fmt::format("element pass alone, {:.0f} % of the tets hardening: {:.2f} ns per tet-step\n\n",
                      100 * r.elements.hardening, r.elements.nanoseconds);
@@ -178,7 +178,7 @@ std::string rate_text(const BenchResult& r) {
   line("integration", integration_rate(r));
   const double points = r.scene.contact_points;
   table += fmt::format(
-      "a tet: {:.0f} B, {:.0f} operations; a contact point, its bond and its open neighbours: {:.0f} B; its "
+      "per tet: {:.0f} B, {:.0f} operations; per contact point, its bond and its open neighbours: {:.0f} B; its "
       "penalty: {:.0f} operations\n\n",
       r.tet.bytes, r.tet.operations, points > 0 ? r.contact.bytes / points : 0.0,
       points > 0 ? r.contact.operations / points : 0.0);

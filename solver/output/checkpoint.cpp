@@ -19,7 +19,7 @@ namespace check = schema::checkpoint;
 CheckpointReader::CheckpointReader(const std::string& path) : file_(path, schema::FileKind::checkpoint) {}
 
 void refuse_damaged_checkpoint(const std::string& path) {
-  throw InputError(fmt::format("{}: the checkpoint is damaged: its numbers do not belong together", one_line(path)));
+  throw InputError(fmt::format("{}: the checkpoint is damaged: its contents are inconsistent", one_line(path)));
 }
 
 std::string CheckpointReader::content_hash() const {
@@ -71,8 +71,8 @@ void CheckpointReader::check_model(const Model& model, const Communicator& ranks
   if (file_.read_scalar(check::numbering_hash) != numbering)
     fail("was written by a version of mpfem that orders nodes and tets otherwise");
   if (const auto lanes = file_.read_scalar(check::lanes); lanes != native_lanes)
-    fail(fmt::format("was written by a build with {} lanes, this one has {}: nodes and tets would not go on bitwise",
-                     lanes, native_lanes));
+    fail(fmt::format("was written by a build with {} lanes, this one has {}: results would not be identical", lanes,
+                     native_lanes));
   // Otherwise all contacts would open or close at once by the height of the smooth surface.
   if (const auto smooth = file_.read_scalar(check::smooth_grains); smooth != model.smooth_grains)
     fail(fmt::format("has {} of {} grains that touch by their smooth surface, the scenario {}; allowed the same "

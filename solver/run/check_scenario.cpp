@@ -125,7 +125,7 @@ void print_model(const Scenario& scenario, const Simulation& simulation, const N
   for (const ToolParameters& tool : scenario.tools) print_tool(tool);
   fmt::print("relative density at the start  {:.4f}\n", simulation.relative_density());
   fmt::print(
-      "memory         {:.1f} MB of model data ({:.0f} B a tet); the run needs about {:.0f} MB at most, and {:.0f} MB "
+      "memory         {:.1f} MB of model data ({:.0f} B per tet); the run needs about {:.0f} MB at most, and {:.0f} MB "
       "of disk space\n",
       1e-6 * static_cast<double>(model.memory()), static_cast<double>(model.memory()) / model.tets(),
       1e-6 * needs.memory, 1e-6 * needs.disk);
@@ -142,11 +142,10 @@ void print_bonds(const Scenario& scenario, const Simulation& simulation) {
   if (scenario.bond) {
     const BondResolution r =
         bond_resolution(model, *scenario.bond, scenario.contact, BondPartner::grain, simulation.ranks());
-    fmt::print(
-        "bonds          cohesive zone {:.3g} mm, {:.2g} elements of {:.3g} mm; fracture energy {:g} N/mm, softening "
-        "as steep as the elements at {:.3g}, none left at {:.3g} N/mm\n",
-        r.cohesive_zone, r.cohesive_zone / r.element_size, r.element_size, scenario.bond->fracture_energy,
-        r.steep_fracture_energy, r.smallest_fracture_energy);
+    fmt::print("bonds          cohesive zone {:.3g} mm, {:.2g} elements of {:.3g} mm; fracture energy {:g} N/mm: "
+               "stable softening needs {:.3g}, any softening more than {:.3g} N/mm\n",
+               r.cohesive_zone, r.cohesive_zone / r.element_size, r.element_size, scenario.bond->fracture_energy,
+               r.steep_fracture_energy, r.smallest_fracture_energy);
   }
   for (const std::string& warning : warnings) fmt::print("warning        {}\n", warning);
   if (const std::string text = earlier_bonds_text(simulation.contact()); !text.empty())
@@ -167,8 +166,8 @@ void print_stages(const Scenario& scenario, Simulation& simulation, int threads)
   const MeasuredTimes measured = measure(simulation);
   const double rows = scenario.output.history_rows * static_cast<double>(works.size()) * measured.row;
   fmt::print(
-      "estimate       {:.3g} ms a step measured here on {} threads; {:.0f} steps: {:.3g} s, with {:.3g} ms a step in "
-      "the mean of the run, and {:.2g} s for the history\n",
+      "estimate       {:.3g} ms per step measured here on {} threads; {:.0f} steps: {:.3g} s, with an average step "
+      "of {:.3g} ms and {:.2g} s for the history\n",
       1e3 * measured.step, threads, all.steps, all.cost * measured.step + rows,
       1e3 * measured.step * all.cost / all.steps, rows);
 }

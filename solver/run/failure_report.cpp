@@ -15,13 +15,13 @@ namespace mpfem {
 
 namespace {
 
-/// " at (0.1, 0.2, 0.3) mm", of the mean of some nodes; " at no finite position" where they have flown away.
+/// " at (0.1, 0.2, 0.3) mm", of the mean of some nodes; " at a position that is not finite" where they have flown away.
 std::string place_text(const Model& model, std::span<const std::int32_t> nodes) {
   std::array<double, 3> centre{};
   for (const std::int32_t node : nodes)
     for (std::size_t axis = 0; axis < 3; ++axis)
       centre[axis] += model.position[4 * static_cast<std::size_t>(node) + axis] / static_cast<double>(nodes.size());
-  if (!std::isfinite(centre[0] + centre[1] + centre[2])) return " at no finite position";
+  if (!std::isfinite(centre[0] + centre[1] + centre[2])) return " at a position that is not finite";
   return fmt::format(" at ({:.4g}, {:.4g}, {:.4g}) mm", centre[0], centre[1], centre[2]);
 }
 

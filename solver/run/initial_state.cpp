@@ -99,7 +99,7 @@ double set_initial_velocities(Model& model, const Scenario& scenario, const Comm
   const auto grains = static_cast<std::size_t>(model.grains);
   for (const auto* list : {&scenario.grain_velocity, &scenario.grain_angular_velocity})
     if (!list->empty() && list->size() != grains)
-      throw InputError(fmt::format("{}: key 'initial': found {} rows for {} grains, allowed one row a grain",
+      throw InputError(fmt::format("{}: key 'initial': found {} rows for {} grains, allowed one row per grain",
                                    scenario.packing_file, list->size(), grains));
   return sum_over_grains(ranks, model.own(), [&](std::int32_t grain) {
     const auto g = static_cast<std::size_t>(grain);

@@ -30,7 +30,7 @@ std::string earlier_bonds_text(const Contact& contact) {
   for (std::size_t i = 0; i + 1 < formed.size(); ++i)
     text += fmt::format("{}{} bonds formed earlier keep their law ({})", i == 0 ? "" : ", ", formed[i],
                         law_text(contact.bond_laws[i]));
-  return text + fmt::format("; those to come have {}", law_text(contact.bond_laws.back()));
+  return text + fmt::format("; new bonds have {}", law_text(contact.bond_laws.back()));
 }
 
 } // namespace mpfem

@@ -42,8 +42,8 @@ std::string stage_end_text(const StageResult& result) {
   std::string text = "ended by " + result.ended_by;
   if (result.overshoot > 0) text += fmt::format("; stress passed by {:.3g} MPa", result.overshoot);
   if (result.hold_stress > 0)
-    text += fmt::format("; stresses held within {:.3g} MPa ({:.2g} %), {:.3g} MPa in the root mean square",
-                        result.hold_error, 100 * result.hold_error / result.hold_stress, result.hold_rms);
+    text += fmt::format("; stresses held within {:.3g} MPa ({:.2g} %), {:.3g} MPa root mean square", result.hold_error,
+                        100 * result.hold_error / result.hold_stress, result.hold_rms);
   return text;
 }
 
@@ -259,7 +259,7 @@ private:
   /// Before a run is called complete: files that it has written may have been removed meanwhile.
   void check_promises() const {
     if (const auto missing = missing_checkpoints(promised_now(), itself()); !missing.empty())
-      throw StorageError(fmt::format("{}: was written by this run and is missing at its end; --resume writes it again",
+      throw StorageError(fmt::format("{}: disappeared during the run that wrote it; --resume writes it again",
                                      one_line(missing.front())));
   }
 
@@ -355,7 +355,7 @@ private:
     }
     const double taken = record_.history.back().damping_dissipation - before;
     if (!(elastic > 0)) return {};
-    return fmt::format("; damping {} {:.2g} % of the elastic energy", taken < 0 ? "gave" : "took",
+    return fmt::format("; damping {} {:.2g} % of the elastic energy", taken < 0 ? "added" : "removed",
                        100 * std::abs(taken) / elastic);
   }
 
@@ -470,7 +470,7 @@ private:
     if (!leader_finds(ranks_, [&] { return pays(balance, remaining, reload_seconds_); })) return;
     new_owners_ = divide_anew(ranks_, simulation_.model(), balance);
     if (!options_.quiet)
-      fmt::print(stderr, "mpfem: the busiest rank has {:.0f} % more work than the mean: grains are divided anew\n",
+      fmt::print(stderr, "mpfem: the busiest rank has {:.0f} % more work than the mean: redistributing grains\n",
                  100 * (balance.imbalance - 1));
   }
 
@@ -656,7 +656,8 @@ void check_output(const Scenario& scenario, const RunOptions& options) {
   check_output_path("--output", output, OutputKind::binary);
   const auto refuse = [&](const std::string& file, const std::string& what) {
     if (same_file(output, file))
-      throw InputError(fmt::format("--output {}: is {} of this run, allowed another name", one_line(output), what));
+      throw InputError(
+          fmt::format("--output {}: would overwrite {} of this run; choose another name", one_line(output), what));
   };
   refuse(scenario.packing_file, "the packing");
   refuse(options.scenario_file, "the scenario");

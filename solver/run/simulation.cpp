@@ -407,7 +407,7 @@ void Simulation::return_walls(std::size_t axis) {
   box_.move_clear(axis, bounds_);
   if (const double length = box_.cell().length(axis); length > largest_growth * before)
     throw SimulationError(fmt::format("stage '{}': the walls along {} cannot return: grains lie {:.4g} mm apart, the "
-                                      "walls stood {:.4g} mm apart",
+                                      "walls were {:.4g} mm apart",
                                       scenario_->stages[static_cast<std::size_t>(state_.stage)].name, "xyz"[axis],
                                       length, before));
 }

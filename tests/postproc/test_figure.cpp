@@ -330,7 +330,7 @@ TEST_CASE(
   CHECK(judged(rising, y_of_last + met + "only_refutes = true\n")["agrees"].is_null());
   CHECK(judged(rising, y_of_last + failed + "only_refutes = true\n")["agrees"] == false);
   CHECK_THROWS_WITH(judged(rising, "ours = \"{y}\"\nquantities.y = { table = \"t\", column = \"y\" }\n" + met),
-                    Contains("3 rows of table 't' are meant, allowed: one"));
+                    Contains("3 rows of table 't' match, allowed: one"));
 }
 
 TEST_CASE("values are compared row by row with those of another sample, and rows without partner are left out") {

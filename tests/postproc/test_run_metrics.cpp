@@ -117,7 +117,7 @@ TEST_CASE("the stress at a density lies between the rows around it, and there is
   CHECK_FALSE(found[5]);
 }
 
-TEST_CASE("stresses at densities are numbers by name and rows of a table; a last density that is not passed is told") {
+TEST_CASE("stresses at densities are numbers by name and rows of a table; a last density that is not reached is told") {
   const Folder folder;
   history_of(folder,
              run_of({{.axial_stress = 3, .relative_density = 0.6}, {.axial_stress = 9, .relative_density = 0.8}}));
@@ -136,7 +136,7 @@ TEST_CASE("stresses at densities are numbers by name and rows of a table; a last
   CHECK_THROWS_WITH(read_compaction_curve(folder / "r.csv"), Catch::Contains("each denser than the one before"));
   write_text(folder / "r.csv", "relative_density,stress\n0.8,6\n");
   CHECK_THROWS_WITH(read_compaction_curve(folder / "r.csv"), Catch::Contains("mean_stress_MPa"));
-  CHECK_THROWS_WITH(measure_stress_at_densities(file, {0.9}), Catch::Contains("0.9 is not passed"));
+  CHECK_THROWS_WITH(measure_stress_at_densities(file, {0.9}), Catch::Contains("0.9 is not reached"));
   CHECK_THROWS_WITH(measure_stress_at_densities(file, {0.8, 0.7}), Catch::Contains("each larger than the one before"));
 }
 

@@ -44,7 +44,7 @@ HeldStressControl::HeldStressControl(const HeldStress& stage, const StageLabel& 
 }
 
 std::string HeldStressControl::describe() const {
-  return fmt::format("all walls held at {:g} MPa, for a time", mean_stress_);
+  return fmt::format("all walls held at {:g} MPa for {:g} s", mean_stress_, expected_duration_);
 }
 
 void HeldStressControl::drive(const ObservedSample& seen) {

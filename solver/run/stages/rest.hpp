@@ -12,7 +12,7 @@ public:
   RestControl(const Rest& stage, const StageLabel& /*label*/, const StageStart& start) : TimedStage(start) {
     motion_.duration = stage.duration;
   }
-  std::string describe() const override { return "walls at rest, for a time"; }
+  std::string describe() const override { return fmt::format("walls at rest for {:g} s", motion_.duration); }
   StageResult result(const StageObservation& /*last*/) const override {
     return {.ended_by = fmt::format("duration {:g} s", motion_.duration)};
   }

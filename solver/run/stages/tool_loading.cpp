@@ -55,7 +55,7 @@ ToolLoadingControl::ToolLoadingControl(const ToolLoading& stage, const StageLabe
 }
 
 std::string ToolLoadingControl::describe() const {
-  if (stage_.drives.empty()) return "tools at rest, for a time";
+  if (stage_.drives.empty()) return "tools at rest";
   return fmt::format("{} {} driven", stage_.drives.size(), stage_.drives.size() == 1 ? "tool" : "tools");
 }
 

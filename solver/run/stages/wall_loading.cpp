@@ -76,8 +76,9 @@ void WallLoading::refuse_end_behind(const ObservedSample& seen) const {
     // A target that the stage before has reached, up to what its last steps add, may end the stage at once.
     if (state_.ended_by != end || std::abs(now - *target) <= already_there * std::max(std::abs(*target), std::abs(now)))
       return;
-    throw SimulationError(fmt::format("stage '{}': key '{}': found {:g}{}, but it begins at {:.4g}{}, beyond that end",
-                                      name_, key, *target, unit, now, unit));
+    throw SimulationError(
+        fmt::format("stage '{}': key '{}': found {:g}{}, already passed: the stage begins at {:.4g}{}", name_, key,
+                    *target, unit, now, unit));
   };
   refuse(LoadingEnd::axial_strain, "axial_strain", ends_.axial_strain, seen.strain[2], "");
   refuse(LoadingEnd::relative_density, "relative_density", ends_.relative_density, seen.relative_density, "");

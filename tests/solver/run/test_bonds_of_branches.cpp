@@ -88,7 +88,7 @@ TEST_CASE("bonds keep the law by which they formed, and those that form in a bra
   REQUIRE(apart.exit_code == 0);
   CHECK_THAT(apart.messages,
              Catch::Contains("34 bonds formed earlier keep their law (25 and 18 MPa, 0.1 N/mm, softening exponential); "
-                             "those to come have 20 and 18 MPa, 0.05 N/mm, softening energy"));
+                             "new bonds have 20 and 18 MPa, 0.05 N/mm, softening energy"));
   CHECK(results(folder / "same.h5") == results(folder / "other.h5"));
   CHECK(schema::FileReader(folder / "other.h5").read(schema::run::history_damage_dissipation).back() ==
         Approx(0.1 * area).epsilon(1e-9));

@@ -67,7 +67,7 @@ TEST_CASE("a run says what ended its stages, and how well stresses were held") {
   CHECK(rms[2] > 0);
   CHECK(rms[3] > 0);
   CHECK(rms[5] == 0);
-  CHECK_THAT(outcome.messages, Catch::Contains(fmt::format("{:.3g} MPa in the root mean square", rms[2])));
+  CHECK_THAT(outcome.messages, Catch::Contains(fmt::format("{:.3g} MPa root mean square", rms[2])));
   CHECK(file.read(schema::run::provenance_stage_overshoot)[0] > 0);
 }
 
