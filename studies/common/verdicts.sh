@@ -6,16 +6,16 @@ postproc=$1
   cat <<END
 # Verdicts
 
-Every statement that a figure of Ku, Zhao, Mollon and Zhao makes, beside what was found here, and why it differs.
+Every statement that a figure of Ku, Zhao, Mollon and Zhao makes, compared with our result, and why it differs.
 
 - \`coarse\` is the paper's packing of 329 grains at its coarsest mesh (0.03 mm), \`medium\` the same at 0.015 mm,
   \`smoke\` 25 grains.
-- The reasons begin with *the paper's choice* (something that the paper leaves unsaid decides it, and it was found
-  which), *the paper's error* (the number belongs to the method and not to the grains) or *open*.
+- The reasons begin with *the paper's choice* (an unstated choice, identified here, explains the
+  difference), *the paper's error* (the number belongs to the method and not to the grains) or *open*.
 - Statements are judged by the softening law \`energy\`, which is Eq. 5 to the letter. The law \`exponential\`, the
   curve that Fig. 3 draws, is reported without verdicts.
-- [What the paper did](what-the-paper-did.md) shows the choices. How each statement is judged stands in the notes of
-  \`studies/results/MESH/figNN/verdict.json\`.
+- [What the paper did](what-the-paper-did.md) shows the choices. The notes of
+  \`studies/results/MESH/figNN/verdict.json\` say how each statement is judged.
 
 \`make -f Makefile.studies keep MESH=NAME\` writes this page.
 
