@@ -20,10 +20,13 @@ namespace mpfem {
 namespace {
 
 /// XML allows no "--" within a comment, but a tool's name may have it.
-std::string within_comment(std::string text) {
-  for (std::size_t at = text.find("--"); at != std::string::npos; at = text.find("--", at + 1))
-    text.insert(at + 1, " ");
-  return text;
+std::string within_comment(const std::string& text) {
+  std::string result;
+  for (const char c : text) {
+    if (c == '-' && result.ends_with('-')) result += ' ';
+    result += c;
+  }
+  return result;
 }
 
 /// Collects arrays for the appended section, with their offsets.
