@@ -6,8 +6,8 @@ target_compile_options(mpfem_options INTERFACE
   # Packs wider than the target's registers are passed between inlined functions only: no ABI to keep.
   -Wno-psabi
   -Wall -Wextra -Wpedantic -Wconversion -Wshadow -Wnon-virtual-dtor -Wold-style-cast)
-# gcc 12 takes the deliberately undefined values in its own AVX-512 header for mistakes (gcc bug 105593), where it inlines
-# them: which files that concerns changes with every edit.
+# gcc 12 takes the deliberately undefined values in its own AVX-512 header for mistakes where it inlines them (gcc bug
+# 105593); any edit can bring that about.
 if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_VERSION VERSION_LESS 13)
   target_compile_options(mpfem_options INTERFACE -Wno-maybe-uninitialized -Wno-uninitialized)
 endif()
