@@ -196,11 +196,10 @@ TEST_CASE("a point that broke, rubbed and opened bonds again without the frictio
   CHECK(open.bonds == 0);
   CHECK(open.friction_energy == 0); // anchors go when points open
   CHECK(pressed.bonds > 0.9 * cube_bonds);
-  // New bonds are whole, so they have no share that rubs; they take the fracture energy of the area anew.
-  CHECK(pressed.mean_damage < 1e-3);
-  CHECK(pressed.friction_dissipation - open.friction_dissipation < 1e-3 * slid.friction_dissipation);
+  // New bonds are whole: on the way from open to open again they take the fracture energy of their area once more,
+  // whatever part of it the impact of the cubes spends while they are pressed, and their damaged share rubs.
   const double area = 0.5 * pressed.bonded_area;
-  CHECK(apart.damage_dissipation - pressed.damage_dissipation == Approx(0.02 * area).epsilon(0.01));
+  CHECK(apart.damage_dissipation - open.damage_dissipation == Approx(0.02 * area).epsilon(1e-9));
   CHECK(record.worst_residual < 0.01);
 }
 

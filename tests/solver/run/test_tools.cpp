@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cmath>
+#include <map>
 #include <string>
 
 #include <Eigen/Geometry>
@@ -276,19 +277,35 @@ namespace {
 
 constexpr double disc_radius = 0.5, disc_thickness = 0.05; // mm
 
-/// A disc with its axis along z, in the corner of the axes, of n cells along its radius: squares mapped to circles.
+/// A disc with its axis along z, in the corner of the axes, of n cells along its radius: four mirrored quarters, squares
+/// mapped to circles, whose cells are cut along the radius where two sides of the square meet.
 GrainMesh disc_mesh(int n) {
-  GrainMesh mesh = block_mesh({2 * n, 2 * n, 2});
-  for (auto& x : mesh.node) {
-    const double u = std::abs(x[0]), v = std::abs(x[1]), shell = std::max(u, v);
-    const double angle = shell > 0 ? M_PI / 4 * (v > u ? 2 - u / v : v / u) : 0;
-    x = {disc_radius + std::copysign(disc_radius * shell * std::cos(angle), x[0]),
-         disc_radius + std::copysign(disc_radius * shell * std::sin(angle), x[1]), 0.5 * disc_thickness * (1 + x[2])};
+  const GrainMesh quarter = block_mesh({n, n, 2});
+  GrainMesh disc;
+  std::map<std::array<std::int64_t, 3>, std::int32_t> number;
+  for (const auto& [sx, sy] : {std::array{1, 1}, std::array{-1, 1}, std::array{1, -1}, std::array{-1, -1}}) {
+    std::vector<std::int32_t> node;
+    for (const auto& x : quarter.node) {
+      const double u = 0.5 * (x[0] + 1), v = 0.5 * (x[1] + 1), shell = std::max(u, v);
+      const double angle = shell > 0 ? M_PI / 4 * (v > u ? 2 - u / v : v / u) : 0;
+      const std::array place = {disc_radius * (1 + sx * shell * std::cos(angle)),
+                                disc_radius * (1 + sy * shell * std::sin(angle)), 0.5 * disc_thickness * (1 + x[2])};
+      std::array<std::int64_t, 3> key{};
+      for (std::size_t axis = 0; axis < 3; ++axis) key[axis] = std::llround(1e9 * place[axis]);
+      const auto [entry, is_new] = number.try_emplace(key, static_cast<std::int32_t>(disc.node.size()));
+      if (is_new) disc.node.push_back(place);
+      node.push_back(entry->second);
+    }
+    for (auto tet : quarter.tet) {
+      for (std::int32_t& corner : tet) corner = node[static_cast<std::size_t>(corner)];
+      if (sx != sy) std::swap(tet[2], tet[3]);
+      disc.tet.push_back(tet);
+    }
   }
-  return mesh;
+  return disc;
 }
 
-/// Strains along x and y in the middle of the disc, within 0.15 of its radius: the linear displacement nearest to that
+/// Strains along x and y in the middle of the disc, to a ninth of its radius: the linear displacement nearest to that
 /// of its nodes.
 std::array<double, 2> strain_in_middle(const Model& model, const std::vector<double>& start) {
   std::array<double, 2> strain{};
@@ -296,7 +313,7 @@ std::array<double, 2> strain_in_middle(const Model& model, const std::vector<dou
     std::vector<std::array<double, 2>> place_and_shift;
     std::array<double, 2> mean{};
     for (std::size_t n = 0; n < static_cast<std::size_t>(model.nodes()); ++n)
-      if (std::hypot(start[4 * n] - disc_radius, start[4 * n + 1] - disc_radius) < 0.15 * disc_radius)
+      if (std::hypot(start[4 * n] - disc_radius, start[4 * n + 1] - disc_radius) < 0.11 * disc_radius)
         place_and_shift.push_back({start[4 * n + axis], model.position[4 * n + axis] - start[4 * n + axis]});
     for (const auto& [x, u] : place_and_shift) mean[0] += x, mean[1] += u;
     for (double& m : mean) m /= static_cast<double>(place_and_shift.size());
@@ -311,8 +328,7 @@ std::array<double, 2> strain_in_middle(const Model& model, const std::vector<dou
 
 // Hertz 1883; Timoshenko and Goodier, Theory of Elasticity, section 41: 2 P/(pi D t) across the load, three times that
 // in compression along it. Without lateral contraction it holds for any thickness.
-TEST_CASE("an elastic disc between two plates is pulled apart by 2P/(pi D t) in its middle, and pressed by three times "
-          "that") {
+TEST_CASE("an elastic disc between plates has the stresses of the closed form in its middle") {
   constexpr double approach = 5e-4; // mm, of each plate
   Scenario scenario = holding_scenario(1);
   scenario.numerics.element = ElementType::tet4;
@@ -331,7 +347,7 @@ TEST_CASE("an elastic disc between two plates is pulled apart by 2P/(pi D t) in 
   const std::vector<double> start(simulation.model().position.begin(), simulation.model().position.end());
   double force = 0, across = 0, along = 0; // sums over the last eight transits: force and strains grow together
   for (simulation.evaluate_forces(); !simulation.stage_complete(); simulation.evaluate_forces()) {
-    if (simulation.state().time > 25 * transit) {
+    if (simulation.state().time > 25 * transit && simulation.state().step % 50 == 0) {
       force += 0.5 * (std::abs(simulation.tools()[0].force[0]) + std::abs(simulation.tools()[1].force[0]));
       const auto strain = strain_in_middle(simulation.model(), start);
       along += strain[0], across += strain[1];
@@ -340,7 +356,8 @@ TEST_CASE("an elastic disc between two plates is pulled apart by 2P/(pi D t) in 
   }
   const double stress = 2 * force / (M_PI * 2 * disc_radius * disc_thickness);
   const double modulus = scenario.material.youngs_modulus;
-  INFO("across " << modulus * across / stress << ", along " << modulus * along / stress);
+  INFO(simulation.state().step << " steps; across " << modulus * across / stress << ", along "
+                               << modulus * along / stress);
   CHECK(within(modulus * across, stress, 0.02));
   CHECK(std::abs(along / across + 3) < 0.1);
 }
