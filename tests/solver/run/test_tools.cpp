@@ -277,8 +277,8 @@ namespace {
 
 constexpr double disc_radius = 0.5, disc_thickness = 0.05; // mm
 
-/// A disc with its axis along z, in the corner of the axes, of n cells along its radius: four mirrored quarters, squares
-/// mapped to circles, whose cells are cut along the radius where two sides of the square meet.
+/// A disc with its axis along z, in the corner of the axes, of n cells along its radius: four mirrored quarters,
+/// squares mapped to circles. Cells are cut along the radius where two sides of the square meet.
 GrainMesh disc_mesh(int n) {
   const GrainMesh quarter = block_mesh({n, n, 2});
   GrainMesh disc;
