@@ -14,10 +14,10 @@ namespace mpfem::test::die_column {
 
 constexpr double column_radius = 0.5, column_height = 1; // mm
 
-/// A quarter of a cylinder about z, x > 0 and y > 0, of n cells along radius and axis: the square's shells mapped to
-/// circles.
-inline GrainMesh quarter_cylinder(int n, double radius, double height) {
-  GrainMesh mesh = cube_mesh(n);
+/// A quarter of a cylinder about z, x > 0 and y > 0, of n cells along the radius and `layers` along the axis: the
+/// square's shells mapped to circles.
+inline GrainMesh quarter_cylinder(int n, int layers, double radius, double height) {
+  GrainMesh mesh = block_mesh({n, n, layers});
   for (auto& x : mesh.node) {
     const double u = 0.5 * (x[0] + 1), v = 0.5 * (x[1] + 1), shell = std::max(u, v);
     const double angle = shell > 0 ? M_PI / 4 * (v > u ? 2 - u / v : v / u) : 0;
@@ -61,7 +61,7 @@ inline Pressed press(const Settings& settings, double nu, double mu) {
   std::vector<ToolDrive> drives = {{.tool = 2, .velocity = {0, 0, -speed}, .direction = {0, 0, -1}}};
   if (settings.both_ends) drives.push_back({.tool = 1, .velocity = {0, 0, speed}, .direction = {0, 0, 1}});
   scenario.stages = {driven(drives, 33 * transit)};
-  GrainMesh column = quarter_cylinder(settings.n, column_radius, column_height);
+  GrainMesh column = quarter_cylinder(settings.n, settings.n, column_radius, column_height);
   move(column, {0, 0, 0.5 * column_height});
   ThreadTeam team(1);
   Simulation simulation(build_model(pack({column}, {column_radius, column_radius, column_height}), scenario, "test"),

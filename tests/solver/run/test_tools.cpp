@@ -277,19 +277,16 @@ namespace {
 
 constexpr double disc_radius = 0.5, disc_thickness = 0.05; // mm
 
-/// A disc with its axis along z, in the corner of the axes, of n cells along its radius: four mirrored quarters,
-/// squares mapped to circles. Cells are cut along the radius where two sides of the square meet.
+/// A disc with its axis along z, in the corner of the axes, of n cells along its radius: four mirrored quarters, so
+/// that all cells are cut along the radius where two sides of the mapped square meet.
 GrainMesh disc_mesh(int n) {
-  const GrainMesh quarter = block_mesh({n, n, 2});
+  const GrainMesh quarter = die_column::quarter_cylinder(n, 2, disc_radius, disc_thickness);
   GrainMesh disc;
   std::map<std::array<std::int64_t, 3>, std::int32_t> number;
   for (const auto& [sx, sy] : {std::array{1, 1}, std::array{-1, 1}, std::array{1, -1}, std::array{-1, -1}}) {
     std::vector<std::int32_t> node;
     for (const auto& x : quarter.node) {
-      const double u = 0.5 * (x[0] + 1), v = 0.5 * (x[1] + 1), shell = std::max(u, v);
-      const double angle = shell > 0 ? M_PI / 4 * (v > u ? 2 - u / v : v / u) : 0;
-      const std::array place = {disc_radius * (1 + sx * shell * std::cos(angle)),
-                                disc_radius * (1 + sy * shell * std::sin(angle)), 0.5 * disc_thickness * (1 + x[2])};
+      const std::array place = {disc_radius + sx * x[0], disc_radius + sy * x[1], 0.5 * disc_thickness + x[2]};
       std::array<std::int64_t, 3> key{};
       for (std::size_t axis = 0; axis < 3; ++axis) key[axis] = std::llround(1e9 * place[axis]);
       const auto [entry, is_new] = number.try_emplace(key, static_cast<std::int32_t>(disc.node.size()));
