@@ -184,6 +184,7 @@ TEST_CASE("lengths that the numbers cannot bear are refused") {
   const std::string text = text_stl(unit_cube());
   contains(input_error([&] { stl_body(text, "test.stl", 1e10); }), "allowed up to 1000000000 mm");
   contains(input_error([&] { stl_body(text, "test.stl", 1e-10); }), "allowed at least 1e-09 mm");
+  contains(input_error([&] { stl_body(text, "test.stl", 1e-10); }), "found a largest extent of");
 }
 
 TEST_CASE("a surface that is not closed and oriented is refused with the number of edges and one of them") {
