@@ -86,9 +86,6 @@ toml::table parse_toml(std::string_view text, const std::string& name) {
     throw_input_error(
         fmt::format("{}:{}", shown_path(name), *line),
         fmt::format("tables and arrays nest deeper than {} levels, which is the most that is read", deepest_toml));
-  if (const auto line = line_beyond_ascii(text))
-    throw_input_error(fmt::format("{}:{}", shown_path(name), *line),
-                      "not valid TOML: a non-ASCII letter outside quotes and comments");
   try {
     return toml::parse(text, name);
   } catch (const toml::parse_error& error) {
@@ -106,15 +103,12 @@ toml::table parse_assigned_value(std::string_view value, const std::string& sour
   if (line_nested_too_deep(value))
     throw_input_error(
         source, fmt::format("the value nests deeper than {} levels, which is the most that is read", deepest_toml));
-  const auto refuse_where_quoted = [&](std::string_view reason) {
-    if (std::string_view("\"'[{").find(value.front()) != std::string_view::npos)
-      throw_input_error(source, fmt::format("not a valid TOML value: {}", shortened(reason, longest_finding)));
-  };
   try {
-    if (!line_beyond_ascii(value)) return toml::parse(fmt::format("value = {}", value), source);
-    refuse_where_quoted("a non-ASCII letter outside quotes");
+    return toml::parse(fmt::format("value = {}", value), source);
   } catch (const toml::parse_error& error) {
-    refuse_where_quoted(error.description());
+    if (std::string_view("\"'[{").find(value.front()) != std::string_view::npos)
+      throw_input_error(source,
+                        fmt::format("not a valid TOML value: {}", shortened(error.description(), longest_finding)));
   }
   std::string literal = "value = \"";
   for (const char c : value) {

@@ -11,10 +11,9 @@
 #include <string_view>
 #include <vector>
 
-#include <toml++/toml.h>
-
 #include "common/key_places.hpp"
 #include "common/range.hpp"
+#include "common/toml.hpp"
 
 namespace mpfem {
 

@@ -4,7 +4,7 @@
 #include <optional>
 #include <string>
 
-#include <toml++/toml.h>
+#include "common/toml.hpp"
 
 namespace mpfem {
 

@@ -22,14 +22,6 @@ public:
     return std::nullopt;
   }
 
-  std::optional<std::size_t> first_line_beyond_ascii() {
-    while (at_ < text_.size()) {
-      if (static_cast<unsigned char>(text_[at_]) > 127) return line_;
-      step();
-    }
-    return std::nullopt;
-  }
-
 private:
   void step() {
     const char c = text_[at_];
@@ -39,19 +31,18 @@ private:
       return;
     case '"':
     case '\'':
-      if (!string_may_begin()) break;
       skip_string(c);
-      before_ = c;
+      blank_so_far_ = false;
       return;
     case '\n':
       end_line();
       break;
     case '[':
     case '{':
-      if (before_ == '\n' && open_.empty() && c == '[')
+      if (blank_so_far_ && open_.empty() && c == '[')
         begin_heading();
       else
-        open(c);
+        open();
       break;
     case ']':
     case '}':
@@ -62,22 +53,12 @@ private:
       break;
     case ',':
       dots_ = 0;
-      in_value_ = !open_.empty() && open_.back().bracket == '[';
-      break;
-    case '=':
-      in_value_ = true;
       break;
     default:
       break;
     }
-    if (c != ' ' && c != '\t' && c != '\r') before_ = c;
+    if (c != ' ' && c != '\t' && c != '\r' && c != '\n') blank_so_far_ = false;
     ++at_;
-  }
-
-  /// Strings are keys, parts of dotted keys and values. A quote anywhere else is an error that the parser describes by
-  /// reading on: what follows it is not within a string.
-  bool string_may_begin() const {
-    return before_ == '.' ? !in_value_ : std::string_view("\n=,[{").find(before_) != std::string_view::npos;
   }
 
   void skip_string(char quote) {
@@ -102,7 +83,7 @@ private:
   void end_line() {
     if (in_heading_) header_ = dots_;
     in_heading_ = false;
-    in_value_ = !open_.empty();
+    blank_so_far_ = true;
     dots_ = 0;
     ++line_;
   }
@@ -113,16 +94,15 @@ private:
     if (text_.substr(at_).starts_with("[[")) ++at_;
   }
 
-  void open(char bracket) {
-    open_.push_back({bracket, dots_ + 1});
-    enclosing_ += open_.back().levels;
+  void open() {
+    open_.push_back(dots_ + 1);
+    enclosing_ += open_.back();
     dots_ = 0;
-    in_value_ = bracket == '[';
   }
 
   void close() {
     if (in_heading_ || open_.empty()) return;
-    enclosing_ -= open_.back().levels;
+    enclosing_ -= open_.back();
     open_.pop_back();
     dots_ = 0;
   }
@@ -130,23 +110,14 @@ private:
   std::string_view text_;
   std::size_t at_ = 0, line_ = 1;
   std::size_t header_ = 0, enclosing_ = 0, dots_ = 0; ///< levels of the last heading, open brackets, the key at hand
-  struct Bracket {
-    char bracket;
-    std::size_t levels; ///< of nesting that it adds: its own and those of the dotted key before it
-  };
-  std::vector<Bracket> open_;
-  char before_ = '\n'; ///< the last letter that is not blank; at the beginning of a line, its end
-  bool in_heading_ = false, in_value_ = false;
+  std::vector<std::size_t> open_;
+  bool blank_so_far_ = true, in_heading_ = false;
 };
 
 } // namespace
 
 std::optional<std::size_t> line_nested_too_deep(std::string_view toml, std::size_t deepest) {
   return TomlScan(toml).first_line_deeper_than(deepest);
-}
-
-std::optional<std::size_t> line_beyond_ascii(std::string_view toml) {
-  return TomlScan(toml).first_line_beyond_ascii();
 }
 
 } // namespace mpfem

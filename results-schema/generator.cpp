@@ -8,7 +8,8 @@
 #include <vector>
 
 #include <fmt/format.h>
-#include <toml++/toml.h>
+
+#include "common/toml.hpp"
 
 namespace {
 
