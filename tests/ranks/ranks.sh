@@ -9,7 +9,7 @@ mpiexec=$3
 here=$(realpath "$(dirname "${BASH_SOURCE[0]}")")
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
-cp "$here"/*.toml "$here"/../reliability/*.toml "$work"
+cp "$here"/*.toml "$here"/*.stl "$here"/../reliability/*.toml "$work"
 cd "$work"
 export OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1
 export OMPI_MCA_rmaps_base_oversubscribe=1 OMPI_MCA_mpi_yield_when_idle=1 OMPI_MCA_hwloc_base_binding_policy=none
@@ -41,7 +41,7 @@ ends() {
 "$bin/pack-gen" spheres die-packing.toml -o die-spheres.h5 --quiet
 "$bin/pack-gen" mesh die-spheres.h5 --size 0.05 -o die-packing.h5 --quiet
 
-for scenario in loadings grips friction tools die; do
+for scenario in loadings grips friction tools die shapes; do
   run 1 1 "$scenario" "$scenario-alone"
   run 2 2 "$scenario" "$scenario-two"
   alike "$scenario-alone" "$scenario-two"
@@ -55,7 +55,7 @@ run 13 1 friction crowd
 alike friction-alone crowd
 
 # A checkpoint is one file: three ranks begin, one and two go on; four branch from what two have written.
-for scenario in loadings friction tools die; do
+for scenario in loadings friction tools die shapes; do
   for share in 3 1 2; do
     code=0
     run "$share" 1 "$scenario" parts --resume --time-limit 0.15 2>/dev/null || code=$?
