@@ -11,6 +11,7 @@
 #include "common/one_line.hpp"
 #include "postproc/janssen.hpp"
 #include "postproc/ringing.hpp"
+#include "postproc/round_die.hpp"
 #include "postproc/smoothing.hpp"
 #include "postproc/snapshot.hpp"
 #include "postproc/stages.hpp"
@@ -348,6 +349,7 @@ TabletMeasurement measure_tablet(const schema::FileReader& file, const TabletRul
   Tablet tablet{file, history, rule, {}, {}, {}, {}, {}, {}, {}, {}, {}, 0, {}, 0, 0, {}};
   read_tools(tablet);
   read_stages(tablet);
+  refuse_other_than_round_dies(tablet.file, false);
   add_peak(tablet);
   add_unloading(tablet);
   add_ejection(tablet);

@@ -1,14 +1,10 @@
 // density-map: solid fraction in a die over radius and height.
 
-#include <fmt/format.h>
-
-#include "common/errors.hpp"
-#include "common/one_line.hpp"
 #include "postproc/commands/command.hpp"
 #include "postproc/commands/commands.hpp"
 #include "postproc/density_map.hpp"
+#include "postproc/round_die.hpp"
 #include "postproc/text_file.hpp"
-#include "results-schema/descriptors.hpp"
 
 namespace mpfem {
 
@@ -38,9 +34,7 @@ private:
 
   void execute() const override {
     const schema::FileReader run = open_run();
-    if (!run.has(schema::run::history_section_share))
-      throw InputError(fmt::format("{}: the run has no [container], allowed: a run whose scenario has a round die",
-                                   one_line(run.path())));
+    refuse_other_than_round_dies(run, true);
     const DensityMap map = density_map(read_snapshot(run, snapshot_), rule_);
     if (!data_.empty()) write_file(data_, density_map_csv(map));
     if (output().ends_with(".png"))

@@ -83,5 +83,11 @@ TEST_CASE("a density map is written as CSV and drawn, of runs in a die alone") {
   const Outcome refused = postproc(fmt::format("density-map {}", folder / "box.h5"));
   CHECK(refused.exit_code == 2);
   CHECK_THAT(refused.messages, Catch::Contains("has no [container]"));
+  RunContents square = run_in_die();
+  square.numbers["/history/section_share"] = std::vector<double>(3, 1.0);
+  write_run(folder / "square.h5", square);
+  const Outcome other = postproc(fmt::format("density-map {}", folder / "square.h5"));
+  CHECK(other.exit_code == 2);
+  CHECK_THAT(other.messages, Catch::Contains("allowed: a round one"));
   CHECK(postproc(fmt::format("density-map {} --rings 0", folder / "die.h5")).exit_code == 2);
 }
