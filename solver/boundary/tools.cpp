@@ -268,29 +268,4 @@ std::optional<std::pair<std::string, double>> Tools::behind(const Model& model, 
   return found;
 }
 
-// ---------------------------------------------------------------------------------------------- container
-
-Cell Container::cell(const Tools& tools, const Cell& last) const {
-  const Tool &wall = tools[parts_.wall], &lower = tools[parts_.lower], &upper = tools[parts_.upper];
-  const auto& bore = std::get<CylinderSurface>(wall.surface);
-  Cell cell = last;
-  cell.section_share = std::numbers::pi / 4;
-  const double centre[2] = {bore.centre.x, bore.centre.y};
-  for (std::size_t axis = 0; axis < 2; ++axis) {
-    cell.low[axis] = centre[axis] + wall.moved[axis] - bore.radius;
-    cell.high[axis] = centre[axis] + wall.moved[axis] + bore.radius;
-  }
-  if (!lower.away) cell.low[2] = std::get<OrientedPlane>(lower.surface).point.z + lower.moved[2];
-  if (!upper.away) cell.high[2] = std::get<OrientedPlane>(upper.surface).point.z + upper.moved[2];
-  if (upper.away) cell.high[2] = cell.low[2] + last.length(2);
-  if (lower.away) cell.low[2] = cell.high[2] - last.length(2);
-  return cell;
-}
-
-std::array<double, 6> Container::face_forces(const Tools& tools) const {
-  // The pressure s of a bore drives its halves apart with s D H, and pushes on its wall with s pi D H.
-  const double lateral = tools.load(parts_.wall).normal_force / std::numbers::pi;
-  return {lateral, lateral, lateral, lateral, -tools.load(parts_.lower).force.z, tools.load(parts_.upper).force.z};
-}
-
 } // namespace mpfem

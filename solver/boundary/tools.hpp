@@ -135,22 +135,4 @@ private:
   std::vector<std::vector<SurfaceBond>> bonds_;     ///< [grains * tools]
 };
 
-/// The container that tools form: the cell between two punches, inside the bore of a die.
-class Container {
-public:
-  /// Indices of tools.
-  struct Parts {
-    std::size_t wall, lower, upper;
-  };
-  explicit Container(const Parts& parts) : parts_(parts) {}
-  /// The cell where the tools stand now; if a punch is away, the cell keeps the height of `last`.
-  Cell cell(const Tools& tools, const Cell& last) const;
-  /// N of each face, -x, +x, …: the forces on the punches and, at the four lateral faces, the force that drives the
-  /// halves of the bore apart.
-  std::array<double, 6> face_forces(const Tools& tools) const;
-
-private:
-  Parts parts_;
-};
-
 } // namespace mpfem

@@ -53,8 +53,8 @@ Simulation::Simulation(Model model, const Scenario& scenario, ThreadTeam& team, 
       bounds_(static_cast<std::size_t>(model_.grains)), force_sums_(bounds_.size()), motion_sums_(bounds_.size()) {
   energies_.initial = set_initial_velocities(model_, scenario, ranks);
   if (scenario.container) {
-    container_.emplace(
-        Container::Parts{scenario.container->wall, scenario.container->lower, scenario.container->upper});
+    const ContainerParameters& parts = *scenario.container;
+    container_.emplace(Container::Parts{parts.wall, parts.lower, parts.upper}, tools_);
     box_.set_cell(container_->cell(tools_, box_.cell()));
   }
   state_.initial_lengths = box_.cell().lengths();

@@ -16,6 +16,7 @@
 #include <vector>
 
 #include "solver/boundary/box.hpp"
+#include "solver/boundary/container.hpp"
 #include "solver/boundary/grips.hpp"
 #include "solver/boundary/tools.hpp"
 #include "solver/boundary/wall_friction.hpp"

@@ -148,15 +148,19 @@ StageType read_grip(TableReader& table) {
 ToolEnds read_tool_ends(TableReader& table, const StageContext& context) {
   ToolEnds ends;
   ends.relative_density = table.optional_number("relative_density", target_density);
+  ends.height = table.optional_number("height", positive_length);
   ends.axial_stress = table.optional_number("axial_stress", stress_or_zero);
   ends.travel = table.optional_number("travel", positive_length);
   ends.force = table.optional_number("force", stress_or_zero);
   ends.force_drop = table.optional_number("force_drop", {.low = 0, .high = 1, .low_open = true, .high_open = true});
   ends.duration = table.optional_number("duration", positive_time);
-  if (!ends.relative_density && !ends.axial_stress && !ends.travel && !ends.force && !ends.force_drop && !ends.duration)
-    table.fail("type", "found 'tools' without an end, expected at least one of relative_density, axial_stress, travel, "
-                       "force, force_drop and duration");
-  for (const char* key : {"relative_density", "axial_stress"})
+  if (!ends.relative_density && !ends.height && !ends.axial_stress && !ends.travel && !ends.force && !ends.force_drop &&
+      !ends.duration)
+    table.fail("type", "found 'tools' without an end, expected at least one of relative_density, height, axial_stress, "
+                       "travel, force, force_drop and duration");
+  if (ends.height && ends.relative_density)
+    table.fail("height", "found beside 'relative_density', expected one of the two: either gives the other");
+  for (const char* key : {"relative_density", "height", "axial_stress"})
     if (table.has(key) && !context.container) table.fail(key, "is used only with a [container]");
   if (table.has("smallest_peak") && !ends.force_drop) table.fail("smallest_peak", "is used only with 'force_drop'");
   ends.smallest_peak = table.number_or("smallest_peak", 0, stress_or_zero);
@@ -234,7 +238,7 @@ const std::vector<StageKeyword>& stage_keywords() {
        {"wall_speed", "ramp_fraction", "lowest_mean_stress", "highest_mean_stress", "cycles"},
        alone(read_stress_cycles)},
       {"tools",
-       {"drive", "away", "ramp_fraction", "relative_density", "axial_stress", "travel", "force", "force_drop",
+       {"drive", "away", "ramp_fraction", "relative_density", "height", "axial_stress", "travel", "force", "force_drop",
         "smallest_peak", "watch", "duration"},
        read_tool_loading},
   };

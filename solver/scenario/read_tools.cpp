@@ -224,23 +224,55 @@ std::size_t tool_named(const TableReader& table, std::string_view key, const std
                                 : fmt::format("found the tool '{}', expected one of {}", name, known));
 }
 
+namespace {
+
+void check_plane(const TableReader& table, const char* key, const ToolParameters& tool, const Vector& normal) {
+  if (!std::holds_alternative<PlaneShape>(tool.shape) || *direction_of(tool.shape) != normal)
+    table.fail(key, fmt::format("found '{}', expected a plane whose normal is [{:g}, {:g}, {:g}]", tool.name, normal[0],
+                                normal[1], normal[2]));
+}
+
+/// The tools at the faces -x, +x, -y, +y: those of a list of four planes, or one die.
+std::array<std::size_t, 4> read_container_wall(TableReader& table, std::span<const ToolParameters> tools) {
+  std::array<std::size_t, 4> wall{};
+  if (const toml::node* found = table.value("wall"); found != nullptr && found->is_array()) {
+    const std::vector<std::string> names = table.strings_or("wall", {});
+    if (names.size() != wall.size())
+      table.fail("wall",
+                 fmt::format("found {} names, expected one die or the four planes at -x, +x, -y and +y", names.size()));
+    for (std::size_t side = 0; side < wall.size(); ++side) {
+      wall[side] = tool_named(table, "wall", names[side], tools);
+      Vector normal{};
+      normal[side / 2] = side % 2 == 0 ? 1 : -1;
+      check_plane(table, "wall", tools[wall[side]], normal);
+    }
+    return wall;
+  }
+  wall.fill(tool_named(table, "wall", table.string("wall"), tools));
+  const ToolParameters& die = tools[wall[0]];
+  const auto* cylinder = std::get_if<CylinderShape>(&die.shape);
+  const auto* stl = std::get_if<StlShape>(&die.shape);
+  const bool bore = cylinder != nullptr && cylinder->axis == 2 && cylinder->inside;
+  if (!bore && !(stl != nullptr && stl->inside))
+    table.fail("wall", fmt::format("found '{}', expected a cylinder along z or an STL surface with the grains inside, "
+                                   "or a list of four planes",
+                                   die.name));
+  return wall;
+}
+
+} // namespace
+
 std::optional<ContainerParameters> read_container(TableReader& root, std::span<const ToolParameters> tools) {
   auto table = root.optional_table("container");
   if (!table) return std::nullopt;
-  const auto tool = [&](const char* key) { return tool_named(*table, key, table->string(key), tools); };
-  const ContainerParameters container{.wall = tool("wall"), .lower = tool("lower"), .upper = tool("upper")};
-  const auto* wall = std::get_if<CylinderShape>(&tools[container.wall].shape);
-  if (wall == nullptr || wall->axis != 2 || !wall->inside)
-    table->fail("wall", fmt::format("found '{}', expected a cylinder along z with the grains inside",
-                                    tools[container.wall].name));
-  const auto check_punch = [&](const char* key, std::size_t index, double sign) {
-    if (!std::holds_alternative<PlaneShape>(tools[index].shape) ||
-        *direction_of(tools[index].shape) != Vector{0, 0, sign})
-      table->fail(key,
-                  fmt::format("found '{}', expected a plane whose normal is [0, 0, {:g}]", tools[index].name, sign));
+  const auto punch = [&](const char* key, double sign) {
+    const std::size_t found = tool_named(*table, key, table->string(key), tools);
+    check_plane(*table, key, tools[found], {0, 0, sign});
+    return found;
   };
-  check_punch("lower", container.lower, 1);
-  check_punch("upper", container.upper, -1);
+  ContainerParameters container{.wall = read_container_wall(*table, tools)};
+  container.lower = punch("lower", 1);
+  container.upper = punch("upper", -1);
   table->finish();
   return container;
 }

@@ -112,14 +112,15 @@ struct GripMotion {
 
 /// What ends a loading by tools: the first of those that are given.
 struct ToolEnds {
-  std::optional<double> relative_density{};  ///< of the container
-  std::optional<double> axial_stress{};      ///< MPa, of the container's punches
-  std::optional<double> travel{};            ///< mm, of the fastest tool driven at a velocity, since the stage began
-  std::optional<double> force{};             ///< N, push of the watched tool along its direction
-  std::optional<double> force_drop{};        ///< fall of that push below its peak, over the peak
-  double smallest_peak = 0;                  ///< N, the smallest peak that counts
-  std::optional<double> duration{};          ///< s
-  std::size_t watched = 0;                   ///< the tool of `force` and `force_drop`
+  std::optional<double> relative_density{}; ///< of the container
+  std::optional<double> height{};           ///< mm, of the container; stands for the relative density that goes with it
+  std::optional<double> axial_stress{};     ///< MPa, of the container's punches
+  std::optional<double> travel{};           ///< mm, of the fastest tool driven at a velocity, since the stage began
+  std::optional<double> force{};            ///< N, push of the watched tool along its direction
+  std::optional<double> force_drop{};       ///< fall of that push below its peak, over the peak
+  double smallest_peak = 0;                 ///< N, the smallest peak that counts
+  std::optional<double> duration{};         ///< s
+  std::size_t watched = 0;                  ///< the tool of `force` and `force_drop`
   std::array<double, 3> watched_direction{}; ///< unit vector along which the push of that tool is taken
 };
 

@@ -72,7 +72,8 @@ struct ToolParameters {
 /// The tools between which relative density and stresses are taken: a die along z and two punches across z. Indices
 /// into the scenario's tools.
 struct ContainerParameters {
-  std::size_t wall = 0, lower = 0, upper = 0;
+  std::array<std::size_t, 4> wall{}; ///< at the faces -x, +x, -y, +y: four planes, or the same die four times
+  std::size_t lower = 0, upper = 0;
   bool operator==(const ContainerParameters&) const = default;
 };
 

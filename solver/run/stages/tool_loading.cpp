@@ -34,7 +34,8 @@ bool has_passed(double target, double start, double now) {
 ToolLoadingControl::ToolLoadingControl(const ToolLoading& stage, const StageLabel& label, const StageStart& start)
     : stage_(stage), name_(label.name), start_(start), transit_(wave_transit(start.sample, start.cell)),
       servo_(stage.drives.size()) {
-  const ToolEnds& ends = stage.ends;
+  ToolEnds& ends = stage_.ends;
+  if (ends.height) ends.relative_density = start.sample.solid_volume / (start.cell.area(2) * *ends.height);
   double travel = expected_strain * start.cell.length(2);
   if (ends.travel) travel = *ends.travel;
   if (ends.relative_density && closing_speed() != 0) {
@@ -170,8 +171,8 @@ void ToolLoadingControl::move(Cell& cell, double /*time*/, double /*clock_step*/
   };
   const ContainerParameters& parts = *stage_.container;
   for (std::size_t axis = 0; axis < 2; ++axis) {
-    const double shift = velocity_of(parts.wall, axis) * step;
-    cell.low[axis] += shift, cell.high[axis] += shift;
+    cell.low[axis] += velocity_of(parts.wall[2 * axis], axis) * step;
+    cell.high[axis] += velocity_of(parts.wall[2 * axis + 1], axis) * step;
   }
   // If one punch is away, the cell keeps its height and moves with the other.
   const std::size_t lower = is_away(parts.lower) ? parts.upper : parts.lower;
@@ -224,7 +225,8 @@ StageResult ToolLoadingControl::result(const StageObservation& last) const {
     result.ended_by = "not ended";
     break;
   case ToolEnd::relative_density:
-    result.ended_by = fmt::format("relative density {:g}", *ends.relative_density);
+    result.ended_by = ends.height ? fmt::format("height {:g} mm", *ends.height)
+                                  : fmt::format("relative density {:g}", *ends.relative_density);
     break;
   case ToolEnd::axial_stress:
     result.ended_by = fmt::format("axial stress {:g} MPa", *ends.axial_stress);

@@ -1,0 +1,172 @@
+// The container that tools form: dies of planes, of triangles and round ones, the heights of punches, and refusals.
+
+#include <cmath>
+#include <string>
+
+#include <catch2/catch.hpp>
+#include <fmt/format.h>
+
+#include "results-schema/file.hpp"
+#include "tests/support/small_runs.hpp"
+#include "tests/support/tolerances.hpp"
+#include "tests/support/triangle_meshes.hpp"
+
+using namespace mpfem;
+using namespace mpfem::test;
+
+namespace {
+
+const std::string punches = R"([[tools]]
+name = "lower"
+type = "plane"
+face = "-z"
+[[tools]]
+name = "upper"
+type = "plane"
+face = "+z"
+)";
+
+/// Four planes at the lateral faces of the box, 0.42 mm apart.
+const std::string four_planes = R"([[tools]]
+name = "west"
+type = "plane"
+face = "-x"
+[[tools]]
+name = "east"
+type = "plane"
+face = "+x"
+[[tools]]
+name = "south"
+type = "plane"
+face = "-y"
+[[tools]]
+name = "north"
+type = "plane"
+face = "+y"
+[container]
+wall = ["west", "east", "south", "north"]
+lower = "lower"
+upper = "upper"
+)";
+
+const std::string die_of_triangles = R"([[tools]]
+name = "die"
+type = "stl"
+file = "die.stl"
+scale = 1
+grains = "inside"
+[container]
+wall = "die"
+lower = "lower"
+upper = "upper"
+)";
+
+std::string pressing_to(const std::string& end) {
+  return fmt::format(R"([[stages]]
+name = "press"
+type = "tools"
+{}
+drive.upper.speed = 20000
+drive.lower.speed = 20000
+)",
+                     end);
+}
+
+/// Eight grains pressed in a die. `triangles`: of die.stl.
+struct Press {
+  Folder folder;
+  Outcome outcome;
+
+  Press(const std::string& die, const std::string& end, const LooseTriangles& triangles = {}) {
+    prepare(folder, 4, material_text + punches + die + pressing_to(end));
+    write_text(folder / "die.stl", text_stl(triangles));
+    outcome = mpfem_command(fmt::format("run {} -o {} --quiet", folder / "scenario.toml", folder / "run.h5"));
+  }
+  schema::FileReader file() const { return schema::FileReader(folder / "run.h5", schema::FileKind::run); }
+};
+
+const std::vector<std::array<double, 2>> square{{0, 0}, {0.42, 0}, {0.42, 0.42}, {0, 0.42}};
+
+} // namespace
+
+TEST_CASE("a square die of four planes and one of triangles give the same density and stresses") {
+  const Press planes(four_planes, "relative_density = 0.65"),
+      triangles(die_of_triangles, "relative_density = 0.65", prism(square, -0.2, 0.7));
+  INFO(planes.outcome.messages << triangles.outcome.messages);
+  REQUIRE(planes.outcome.exit_code == 0);
+  REQUIRE(triangles.outcome.exit_code == 0);
+  const auto a = planes.file().read(schema::run::history_wall_stress),
+             b = triangles.file().read(schema::run::history_wall_stress);
+  CHECK(within(planes.file().read(schema::run::history_relative_density).back(), 0.65, 1e-8));
+  CHECK(within(triangles.file().read(schema::run::history_relative_density).back(), 0.65, 1e-8));
+  CHECK(planes.file().read(schema::run::history_section_share).back() == 1);
+  CHECK(within(triangles.file().read(schema::run::history_section_share).back(), 1, 1e-12));
+  REQUIRE(a.size() == b.size());
+  REQUIRE(a.back() > 1); // MPa
+  // The punches have the same stress. Each plane has its own; a die of triangles has the mean of all four.
+  const std::size_t last = a.size() - 6;
+  for (std::size_t side = 4; side < 6; ++side) CHECK(within(b[last + side], a[last + side], 1e-6));
+  const double mean = 0.25 * (a[last] + a[last + 1] + a[last + 2] + a[last + 3]);
+  for (std::size_t side = 0; side < 4; ++side) CHECK(within(b[last + side], mean, 1e-6));
+}
+
+TEST_CASE("each plane of a die bears its force over the width and height of the die") {
+  const Press press(four_planes, "relative_density = 0.6");
+  REQUIRE(press.outcome.exit_code == 0);
+  const schema::FileReader file = press.file();
+  const auto stress = file.read(schema::run::history_wall_stress);
+  const auto lengths = file.read(schema::run::history_box_lengths);
+  const auto east = file.read(schema::run::history_tools_force, "east");
+  const double height = lengths.back();
+  REQUIRE(east[east.size() - 3] > 0);
+  CHECK(within(stress[stress.size() - 5], east[east.size() - 3] / (0.42 * height), 1e-12));
+}
+
+TEST_CASE("the density in a die of six sides refers to its cross-section") {
+  const Press press(die_of_triangles, "relative_density = 0.5",
+                    moved(prism(regular_polygon(6, 0.3), -0.2, 0.7), {0.21, 0.21, 0}));
+  INFO(press.outcome.messages);
+  REQUIRE(press.outcome.exit_code == 0);
+  const schema::FileReader file = press.file();
+  const auto lengths = file.read(schema::run::history_box_lengths);
+  const double height = lengths.back(), area = 1.5 * std::sqrt(3.0) * 0.3 * 0.3;
+  const auto solid = [](const Press& any) {
+    const auto l = any.file().read(schema::run::history_box_lengths);
+    return any.file().read(schema::run::history_relative_density)[0] * l[0] * l[1] * l[2];
+  };
+  const Press box(four_planes, "relative_density = 0.5");
+  CHECK(within(0.5 * area * height, solid(box), 1e-8));
+  CHECK(within(file.read(schema::run::history_section_share)[0], 0.75, 1e-6)); // of 2 r times sqrt(3) r
+}
+
+TEST_CASE("a stage may end when the punches are a height apart") {
+  const Press press(four_planes, "height = 0.3");
+  INFO(press.outcome.messages);
+  REQUIRE(press.outcome.exit_code == 0);
+  CHECK(within(press.file().read(schema::run::history_box_lengths).back(), 0.3, 1e-8));
+  CHECK(press.file().read(schema::run::provenance_stage_end).back() == "height 0.3 mm");
+  const Press both(four_planes, "height = 0.3\nrelative_density = 0.6");
+  CHECK(both.outcome.exit_code == 2);
+  CHECK_THAT(both.outcome.messages, Catch::Contains("height") && Catch::Contains("one of the two"));
+  const Press none("", "height = 0.3");
+  CHECK(none.outcome.exit_code == 2);
+  CHECK_THAT(none.outcome.messages, Catch::Contains("'stages.0.height'") && Catch::Contains("[container]"));
+}
+
+TEST_CASE("walls of a container that are no die are refused with what was expected") {
+  const auto refused = [](const std::string& die, const LooseTriangles& triangles = {}) {
+    const Press press(die, "relative_density = 0.6", triangles);
+    CHECK(press.outcome.exit_code == 2);
+    CHECK(press.outcome.one_error_line("mpfem"));
+    return press.outcome.messages;
+  };
+  CHECK_THAT(refused(replaced(four_planes, "\"north\"]", "]")), Catch::Contains("found 3 names"));
+  CHECK_THAT(refused(replaced(four_planes, "[\"west\", \"east\"", "[\"east\", \"west\"")),
+             Catch::Contains("found 'east', expected a plane whose normal is [1, 0, 0]"));
+  CHECK_THAT(refused(replaced(four_planes, "[\"west\", \"east\", \"south\", \"north\"]", "\"west\"")),
+             Catch::Contains("a list of four planes"));
+  CHECK_THAT(refused(replaced(die_of_triangles, "\"inside\"", "\"outside\""), prism(square, -0.2, 0.7)),
+             Catch::Contains("with the grains inside"));
+  CHECK_THAT(refused(die_of_triangles, moved(ball(8, 16, 0.6), {0.21, 0.21, 0.21})),
+             Catch::Contains("the cross-section of 'die' changes between the punches"));
+}
