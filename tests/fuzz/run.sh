@@ -60,9 +60,9 @@ fuzz() {
   fi
   mkdir -p "$corpus" "$found"
   seed "$name" "$corpus"
-  "${same_addresses[@]}" "$build/bin/fuzz-$name" "$corpus" -max_total_time="$seconds" -timeout=5 -rss_limit_mb=1024 -max_len=8192 \
-    -dict=$build/words.dict -artifact_prefix="$found/" -print_final_stats=1 "-seed=${SEED:-0}" \
-    "-runs=${INPUTS:--1}" >"$log" 2>&1 || failed=1
+  "${same_addresses[@]}" "$build/bin/fuzz-$name" "$corpus" -max_total_time="$seconds" -timeout=5 \
+    -rss_limit_mb=1024 -max_len=8192 -dict=$build/words.dict -artifact_prefix="$found/" -print_final_stats=1 \
+    "-seed=${SEED:-0}" "-runs=${INPUTS:--1}" >"$log" 2>&1 || failed=1
   printf '%-12s %s inputs tried, %s kept\n' "$name" \
     "$(sed -n 's/^stat::number_of_executed_units: *//p' "$log")" "$(find "$corpus" -type f | wc -l)"
   ((failed == 0)) || {
