@@ -67,7 +67,7 @@ struct BenchResult {
   MachineLimits machine;
   Work tet, contact, search_work, integration; ///< for a tet; all points; a search; all nodes
   double memory = 0;                           ///< bytes, the peak of the first rank
-  double sent = 0;                             ///< bytes a step, of the rank that sends most
+  double sent = 0;                             ///< bytes per step, of the rank that sends most
 
   /// ns per tet, of some seconds.
   double per_tet(double seconds) const { return 1e9 * seconds / scene.tets; }

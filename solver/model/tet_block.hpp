@@ -11,7 +11,7 @@
 namespace mpfem {
 
 /// One pack of tetrahedra: connectivity and state side by side, so that an element pass streams through memory once.
-/// 88 bytes a tet in doubles, 52 in floats. The last block of a grain repeats its last tet in unused lanes.
+/// 88 bytes per tetrahedron in doubles, 52 in floats. The last block of a grain repeats its last tet in unused lanes.
 template <class Real>
 struct alignas(native_lanes_of<Real> * sizeof(Real)) TetBlock {
   static constexpr int lanes = native_lanes_of<Real>;

@@ -5,8 +5,8 @@
 # `mpfem check` finds for the same compaction with both meshes: elements of half the size are eight times as many and
 # take steps half as long, or shorter where slivers are; but fig04 and fig05 have meshes of their own. What a tet-step
 # costs is measured on this machine in the loose packing. Dense packings with bonds take half as much again: triaxial
-# tests of 329 grains took 54 ns in quiet moments where the plan had 35.5. They take 300 B a tet, where the plan has 143
-# (docs/performance.md).
+# tests of 329 grains took 54 ns in quiet moments where the plan had 35.5. They take 300 bytes per tetrahedron, where
+# the plan has 143 (docs/performance.md).
 BEGIN { contact = 1.5; memory_of_contact = 2.1 }
 function duration(s) {
   if (s >= 36000) return sprintf("%.0f h", s / 3600)
@@ -36,7 +36,7 @@ file == 2 { ratio = size / (value("tets") * value("steps")); next }
   own_mesh = study == "fig04" || study == "fig05"
   steps = (own_mesh ? 1 : ratio) * value("tet_steps")
   if (!headed++) {
-    printf "MESH=%s: %d tets, some %.2g GB a run; %.0f ns a tet-step on %d %s here\n\n", mesh, tets, \
+    printf "MESH=%s: %d tets, some %.2g GB a run; %.0f ns per tet-step on %d %s here\n\n", mesh, tets, \
            memory_of_contact * memory / 1000, cost, threads, (threads == 1 ? "core" : "threads")
     printf "%-8s %6s %12s %10s\n", "study", "runs", "tet-steps", "here"
   }

@@ -98,8 +98,10 @@ for ((repetition = 1; repetition <= repetitions; ++repetition)); do
   done <<<"$cases"
 done
 
-printf 'ns per tet and step, medians of %s, %s tets, all cores\n\n' "$repetitions" "$(value "$work/0.1.json" tets)"
-printf '| case | whole step | elements | contact | surface | step estimate | integration | memory, B a tet |\n'
+printf 'ns per tetrahedron and step, medians of %s, %s tets, all cores\n\n' "$repetitions" \
+  "$(value "$work/0.1.json" tets)"
+printf '| case | whole step | elements | contact | surface | step estimate | integration '
+printf '| memory, bytes per tetrahedron |\n'
 printf '|---|---|---|---|---|---|---|---|\n'
 i=0
 while IFS='|' read -r name _ _; do

@@ -25,7 +25,7 @@ int tets_of_cube(int n) {
 }
 
 void print_partial_slip(int largest) {
-  fmt::print("| element | elements in the contact's radius | tets | shear force out | back | loss of a cycle | s |\n"
+  fmt::print("| element | elements in the contact's radius | tets | shear force out | back | loss per cycle | s |\n"
              "|---|---|---|---|---|---|---|\n");
   for (const ElementType element : {ElementType::tet4, ElementType::tet4_anp})
     for (int n = 10; n <= largest; n += 4) {

@@ -28,7 +28,7 @@ table() {
   local title=$1 name executable options i=0
   local names=()
   printf '\n### %s\n\n' "$title"
-  printf '| case | tets | elements alone | whole step | of it contact | search | memory, B a tet |\n'
+  printf '| case | tets | elements alone | whole step | of it contact | search | memory, bytes per tetrahedron |\n'
   printf '|---|---|---|---|---|---|---|\n'
   local cases
   cases=$(cat)
@@ -52,7 +52,7 @@ table() {
   done
 }
 
-printf 'ns per tet and step, medians of %s. ' "$repetitions"
+printf 'ns per tetrahedron and step, medians of %s. ' "$repetitions"
 "$mpfem" bench --tets 2000 --grains 4 --steps 5 --threads "$cores" --quiet | head -n 1
 
 for ((t = 1; t <= cores; t *= 2)); do echo "$t threads|$mpfem|--threads $t"; done | table 'Threads'

@@ -130,7 +130,7 @@ for ((repetition = 1; repetition <= repetitions; ++repetition)); do
   done <<<"$cases"
 done
 
-printf 'ns per tet and step, medians of %s, %s tets, %s\n\n' "$repetitions" "$(value "$work/die.1.json" tets)" \
+printf 'ns per tetrahedron and step, medians of %s, %s tets, %s\n\n' "$repetitions" "$(value "$work/die.1.json" tets)" \
   "${3:-all} threads"
 printf '| case | whole step | elements | contact | surface | step estimate | integration |\n'
 printf '|---|---|---|---|---|---|---|\n'
