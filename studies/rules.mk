@@ -62,7 +62,7 @@ THREADS ?=
 BIN ?= $(if $(wildcard $(toolkit)/../../bin/postproc),$(toolkit)/../../bin,$(source)build/bin)
 
 #: ELEMENT=TYPE     of figures: tet4-anp (default: averaged nodal pressure halves the error at the same mesh,
-#:                  docs/numerics.md), tet4 (the paper's), tet4-patch
+#:                  docs/speed-against-error), tet4 (the paper's), tet4-patch
 ELEMENT ?= tet4-anp
 $(call allowed,ELEMENT,tet4 tet4-anp tet4-patch)
 
