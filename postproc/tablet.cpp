@@ -295,7 +295,8 @@ void add_out_of_die(Tablet& tablet) {
   const auto shape = shape_out_of_die(tablet);
   if (!shape) {
     for (const char* name : {"thickness", "diameter"}) tablet.add(name, "mm", {});
-    for (const char* name : {"relative_density_out_of_die", "axial_recovery", "radial_recovery"})
+    for (const char* name :
+         {"relative_density_out_of_die", "volume_loss_out_of_die", "axial_recovery", "radial_recovery"})
       tablet.add(name, "1", {});
     return;
   }
@@ -303,8 +304,10 @@ void add_out_of_die(Tablet& tablet) {
   const double density = grain_volume(tablet) / (0.25 * std::numbers::pi * d.value * d.value * h.value);
   tablet.add("thickness", "mm", h.value, h.half_width);
   tablet.add("diameter", "mm", d.value, d.half_width);
-  tablet.add("relative_density_out_of_die", "1", density,
-             density * std::hypot(2 * d.half_width / d.value, h.half_width / h.value));
+  const double uncertainty = density * std::hypot(2 * d.half_width / d.value, h.half_width / h.value);
+  tablet.add("relative_density_out_of_die", "1", density, uncertainty);
+  const double filled = tablet.history["relative_density"].front();
+  tablet.add("volume_loss_out_of_die", "1", 1 - filled / density, filled / (density * density) * uncertainty);
   tablet.add("axial_recovery", "1", h.value / tablet.smallest_height - 1, h.half_width / tablet.smallest_height);
   tablet.add("radial_recovery", "1", d.value / tablet.diameter - 1, d.half_width / tablet.diameter);
   if (shape->grains_lost > 0)
