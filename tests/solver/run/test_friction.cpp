@@ -287,6 +287,49 @@ TEST_CASE("turning a loaded, rubbing pair as a rigid body turns its forces and l
   CHECK(worst < 1e-9 * largest); // anchors lie 1e-6 of a radius from their closest points
 }
 
+TEST_CASE("a loaded, rubbing pair that turns full circle in small steps slips nowhere and has its forces again") {
+  Scenario scenario = rubbing_scenario({grip("press", -3e-3, 2000), grip("drag", 0, 2000, {0.004, 0.002, 0})});
+  scenario.walls = false;
+  ThreadTeam team(1);
+  Simulation simulation(build_model(two_balls(5), scenario, "test"), scenario, team);
+  run_stages(simulation, scenario);
+  Model model = simulation.model();
+  Contact contact = simulation.contact();
+  const auto nodes = static_cast<std::size_t>(model.nodes());
+  double dissipated = 0;
+  const auto evaluate = [&] {
+    std::fill(model.force.begin(), model.force.end(), 0.0);
+    double stored = 0;
+    for (int grain = 0; grain < 2; ++grain) {
+      const ContactSums sums = contact_forces(model, contact, grain);
+      stored += sums.friction_energy;
+      dissipated += std::abs(sums.friction_dissipation);
+    }
+    return stored;
+  };
+  const double stored = evaluate();
+  REQUIRE(stored > 0);
+  const std::vector<double> before(model.force.begin(), model.force.end());
+  dissipated = 0;
+  constexpr int steps = 720;
+  const Eigen::Matrix3d turn = Eigen::AngleAxisd(2 * M_PI / steps, Vector(1, 2, 3).normalized()).toRotationMatrix();
+  for (int i = 0; i < steps; ++i) {
+    for (std::size_t n = 0; n < nodes; ++n)
+      for (auto* rows : {&model.position, &model.normal}) {
+        Eigen::Map<Vector> row(rows->data() + 4 * n);
+        row = turn * row;
+      }
+    CHECK(within(evaluate(), stored, 1e-8));
+  }
+  CHECK(dissipated < 1e-8 * stored); // rounding of 720 turns
+  double worst = 0, largest = 0;
+  for (std::size_t i = 0; i < 4 * nodes; ++i) {
+    worst = std::max(worst, std::abs(model.force[i] - before[i]));
+    largest = std::max(largest, std::abs(before[i]));
+  }
+  CHECK(worst < 1e-8 * largest);
+}
+
 TEST_CASE("a node dragged round a faceted ball has mu times its push on the mean") {
   // Of 0.13 R element size: chords of anchors cross an edge every few steps of their own length.
   Scenario scenario = holding_scenario(1);
