@@ -37,6 +37,7 @@ ScratchFile::ScratchFile(const std::string& content) {
   const int descriptor = mkstemp(path_.data());
   if (descriptor < 0) throw StorageError(fmt::format("{}: cannot be made", path_));
   std::FILE* file = fdopen(descriptor, "wb");
+  if (!file) close(descriptor);
   const bool good = file && std::fwrite(content.data(), 1, content.size(), file) == content.size();
   if (!file || std::fclose(file) != 0 || !good) {
     std::remove(path_.c_str());
