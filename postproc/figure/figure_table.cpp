@@ -125,13 +125,20 @@ const std::vector<CurveColumn>& curve_columns() {
        [](const HistoryRow& r) { return r("plastic_dissipation") + r("damage_dissipation"); }},
       {"cycle", "how often p has risen again from below a fiftieth of its largest value",
        [](const HistoryRow& r) { return cycles_before(r.history, r.begin, r.row); }},
-      {"kinetic_ratio", "kinetic over internal energy",
-       [](const HistoryRow& r) { return r("kinetic_energy") / (r("elastic_energy") + r("plastic_dissipation")); }}};
+      {"kinetic_ratio", "kinetic over internal energy of the row's stage; 0 where that is 0", {}}};
   return columns;
+}
+
+/// The internal energy of all rows is found once.
+std::function<double(const HistoryRow&)> kinetic_ratio(const HistoryTable& history) {
+  return [internal = internal_energy(history)](const HistoryRow& r) {
+    return internal[r.row] > 0 ? r("kinetic_energy") / internal[r.row] : 0.0;
+  };
 }
 
 std::function<double(const HistoryRow&)> curve_column(const HistoryTable& history, const std::string& name,
                                                       const Place& place) {
+  if (name == "kinetic_ratio") return kinetic_ratio(history);
   for (const CurveColumn& column : curve_columns())
     if (column.name == name) return column.value;
   std::vector<std::string> names;

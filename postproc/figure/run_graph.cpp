@@ -24,9 +24,8 @@ void combine(const CaseBlock& block, std::size_t next, Case& current, std::vecto
   }
 }
 
-/// Adds the values that follow from others, as the fracture energy of the sample "g0.5". Values that the case itself
-/// gives take precedence.
-void add_what_follows(const Figure& figure, Case& row) {
+/// Adds the values that follow directly from those that a case has.
+void add_one_link(const Figure& figure, Case& row) {
   for (const auto& [name, of_text] : figure.follows) {
     const auto value = row.values.find(name);
     const auto found = value == row.values.end() ? of_text.end() : of_text.find(value->second.text);
@@ -34,6 +33,12 @@ void add_what_follows(const Figure& figure, Case& row) {
     for (const auto& [key, entry] : found->second)
       if (!row.lists.contains(key)) row.values[key] = entry;
   }
+}
+
+/// Adds the values that follow from others, as the fracture energy of the sample "g0.5"; a value may follow from one
+/// that follows from another. Values that the case itself gives take precedence.
+void add_what_follows(const Figure& figure, Case& row) {
+  for (std::size_t links = 0; links < figure.follows.size(); ++links) add_one_link(figure, row);
 }
 
 /// Fills in values that are patterns of the others.
@@ -109,10 +114,13 @@ std::set<std::string> values_used(const Figure& figure, const RunTemplate& run) 
   for (const std::string& pattern : {run.folder, run.size, run.command, run.mesh}) collect_names(pattern, names);
   if (!run.packing.empty()) names.merge(values_used(figure, figure.run(run.packing, run.place)));
   if (!run.chain.empty()) names.insert(run.chain);
-  for (const auto& [name, of_text] : figure.follows)
-    for (const auto& [text, words] : of_text)
-      for (const auto& [key, value] : words)
-        if (names.contains(key)) names.insert(name);
+  for (std::size_t before = 0; before != names.size();) { // see add_what_follows
+    before = names.size();
+    for (const auto& [name, of_text] : figure.follows)
+      for (const auto& [text, words] : of_text)
+        for (const auto& [key, value] : words)
+          if (names.contains(key)) names.insert(name);
+  }
   if (run.from.empty()) return names;
   collect_names(run.from, names);
   const RunTemplate& parent = figure.run(run.from.substr(0, run.from.find_first_of("@:")), run.place);

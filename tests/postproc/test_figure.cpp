@@ -6,10 +6,16 @@
 #include "common/errors.hpp"
 #include "postproc/figure/depends.hpp"
 #include "postproc/figure/figure_plot.hpp"
+#include "small_run.hpp"
 #include "tests/support/folder.hpp"
+#include "tests/support/tolerances.hpp"
 
 using namespace mpfem;
 using Catch::Matchers::Contains;
+using test::RunContents;
+using test::small_run;
+using test::within;
+using test::write_run;
 using test::write_text;
 
 namespace {
@@ -185,6 +191,31 @@ settings = { "material.hardening.yield_stress" = "{yield}" }
   CHECK(graph.contains("study/runs/pressed-hard"));
 }
 
+TEST_CASE("a value may follow from one that follows from another, whatever their names") {
+  const Toolkit toolkit;
+  for (const auto& [first, second] : {std::pair("a", "b"), std::pair("b", "a")}) {
+    const Figure figure = toolkit.figure(fmt::format(R"(title = "x"
+[follows.{0}]
+"fine" = {{ {1} = "soft" }}
+"rough" = {{ {1} = "hard" }}
+[follows.{1}]
+"soft" = {{ yield = 10 }}
+"hard" = {{ yield = 40 }}
+[[cases]]
+{0} = ["fine", "rough"]
+[[runs]]
+name = "pressed"
+programme = "press"
+settings = {{ "material.hardening.yield_stress" = "{{yield}}" }}
+)",
+                                                     first, second));
+    const RunGraph graph = graph_of(figure, figure.runs[0]);
+    REQUIRE(graph.size() == 2);
+    CHECK(graph.at("study/runs/pressed-fine").settings == Settings{{"material.hardening.yield_stress", "10"}});
+    CHECK(graph.at("study/runs/pressed-rough").settings == Settings{{"material.hardening.yield_stress", "40"}});
+  }
+}
+
 TEST_CASE("one folder for two different runs is refused, in one figure and in two") {
   const Toolkit toolkit;
   std::string text = tablets;
@@ -221,6 +252,36 @@ TEST_CASE("make is told what a table, a metric and a run are made from, and rewr
   const std::size_t begin = rules.find(":= ", at) + 3;
   write_text(run + ".settings", rules.substr(begin, rules.find('\n', begin) - begin + 1));
   CHECK_THAT(make_rules({figure}, request), !Contains(fmt::format("{}.settings: FORCE", run)));
+}
+
+TEST_CASE("a curve has the columns of the history and what follows from them, row by row") {
+  const Toolkit toolkit;
+  const Figure figure = toolkit.figure(R"(title = "x"
+[[cases]]
+sample = ["a"]
+[[runs]]
+name = "pressed"
+folder = "{sample}"
+programme = "press"
+[[tables]]
+name = "t"
+curves = ["pressed"]
+columns = ["p [MPa] = mean_stress", "ke [1] = kinetic_ratio", "axial [MPa] = axial_stress"]
+)");
+  RunContents run = small_run();
+  std::filesystem::create_directories(toolkit.path("out/a"));
+  write_run(toolkit.path("out/a/run.h5"), run);
+  const TextTable table = make_table(figure, figure.tables[0], toolkit.results());
+  REQUIRE(table.rows.size() == 3);
+  CHECK(table.rows[1][0].number == 5);
+  CHECK(table.rows[0][1].number == 0); // nothing is stored or dissipated yet
+  CHECK(within(*table.rows[1][1].number, 0.04 / 2, 1e-6));
+  CHECK(within(*table.rows[2][1].number, 0.02 / 4, 1e-6));
+  CHECK(within(*table.rows[2][2].number, 11.5, 1e-6));
+  // Damage is internal energy too.
+  run.numbers["/history/damage_dissipation"] = {0, 2, 4};
+  write_run(toolkit.path("out/a/run.h5"), run);
+  CHECK(within(*make_table(figure, figure.tables[0], toolkit.results()).rows[2][1].number, 0.02 / 8, 1e-6));
 }
 
 TEST_CASE("a table has the numbers of its runs, and an empty cell for what could not be measured") {
