@@ -1,49 +1,29 @@
 // The page of postproc view in a browser without a window: no errors, and its pixels. Built where chromium is.
 
 #include <filesystem>
-#include <fstream>
 
 #include <catch2/catch.hpp>
 #include <fmt/format.h>
 
 #include "bonded_run.hpp"
+#include "browser.hpp"
 #include "postproc/figure/report.hpp"
 #include "postproc/view/view_page.hpp"
-#include "tests/support/folder.hpp"
-#include "tests/support/png_image.hpp"
 
 using namespace mpfem;
 using namespace mpfem::test;
 
 namespace {
 
-struct Shown {
-  Image image;
-  std::string console; ///< what the page's script reported
-};
-
-/// A page in a window of so many pixels, once it has come to rest.
-Shown show(const Folder& folder, const std::string& page, int width, int height) {
-  const Outcome outcome = run_command(
-      fmt::format("timeout 100 '{}' --headless=new --no-sandbox --use-gl=angle --use-angle=swiftshader "
-                  "--enable-unsafe-swiftshader --hide-scrollbars --virtual-time-budget=30000 --enable-logging=stderr "
-                  "--user-data-dir={} --window-size={},{} --screenshot={} file://{}",
-                  CHROMIUM, folder / "profile", width, height, folder / "shot.png", page));
-  REQUIRE(outcome.exit_code == 0);
-  Shown shown{read_png(folder / "shot.png"), ""};
-  for (std::size_t at = 0; (at = outcome.messages.find("CONSOLE", at)) != std::string::npos; ++at)
-    shown.console += outcome.messages.substr(at, outcome.messages.find('\n', at) - at) + "\n";
-  return shown;
-}
-
 /// The page of a run, with a script that goes on where the page is ready.
 std::string page_with(const Folder& folder, const std::string& script, const RunContents& run = small_run()) {
   write_run(folder / "run.h5", run);
   REQUIRE(run_command(fmt::format("'{}' view {} -o {}", MPFEM_POSTPROC, folder / "run.h5", folder / "view.html"))
               .exit_code == 0);
-  std::ofstream page(folder / "view.html", std::ios::app);
-  page << "<script>const wait = setInterval(() => { if (!document.body.dataset.ready) return; clearInterval(wait);\n"
-       << script << "\n}, 20);</script>\n";
+  write_text(folder / "view.html",
+             fmt::format("{}<script>const wait = setInterval(() => {{ if (!document.body.dataset.ready) return; "
+                         "clearInterval(wait);\n{}\n}}, 20);</script>\n",
+                         drawn_by_timers(read_text(folder / "view.html")), script));
   return folder / "view.html";
 }
 

@@ -1,5 +1,5 @@
 #pragma once
-// Pictures read back, to check their pixels.
+// Pictures written, and read back to check their pixels.
 
 #include <png.h>
 
@@ -39,6 +39,15 @@ inline Image read_png(const std::string& path) {
   Image image{header.width, header.height, std::vector<std::uint8_t>(PNG_IMAGE_SIZE(header))};
   REQUIRE(png_image_finish_read(&header, nullptr, image.bytes.data(), 0, nullptr) != 0);
   return image;
+}
+
+inline void write_png(const std::string& path, const Image& image) {
+  png_image header{};
+  header.version = PNG_IMAGE_VERSION;
+  header.format = PNG_FORMAT_RGB;
+  header.width = image.width;
+  header.height = image.height;
+  REQUIRE(png_image_write_to_file(&header, path.c_str(), 0, image.bytes.data(), 0, nullptr) != 0);
 }
 
 inline bool is_white(const std::array<int, 3>& c) {
