@@ -38,15 +38,30 @@ constexpr const char* style =
   tr.false td:nth-child(4) { background: #fde0c5; font-weight: bold; }
   .pictures { display: flex; flex-wrap: wrap; gap: 1rem; }
   figure { margin: 0; width: 36rem; max-width: 100%; }
-  img { width: 100%; }
+  figure:has(:checked) { width: 100%; }
+  img { width: 100%; display: block; }
+  .picture { display: block; position: relative; overflow-x: auto; cursor: zoom-in; }
+  .picture input { position: absolute; opacity: 0; }
+  .picture :focus-visible + img { outline: 2px solid #0072b2; outline-offset: -2px; }
+  .picture :checked + img { width: max(48rem, min(100%, 120vh)); cursor: zoom-out; }
   .view { width: 100%; height: 56rem; max-height: 95vh; border: 1px solid #ccc; }
-  figcaption { font-size: 0.9rem; color: #333; }
+  figcaption { font-size: 0.9rem; color: #333; margin-top: 0.3rem; }
   sup, sub { line-height: 0; }
   .files { white-space: nowrap; font-size: 0.85em; }
-  @media (max-width: 48rem) { /* a statement's cells below each other */
+  @media (max-width: 48rem) { /* small margins, links for thumbs, and a statement's cells below each other */
+    body { margin: 1rem auto; padding: 0 0.6rem; }
+    h1 { font-size: 1.5rem; }
+    h2 { font-size: 1.25rem; margin-top: 1.5rem; }
+    td, th { padding: 0.3rem 0.4rem; }
+    .summary th { font-size: 0.85rem; }
+    .runs { min-width: 75rem; } /* it scrolls: narrower, every row would be tall */
+    .view { height: calc(86vw + 30.5rem); max-height: none; } /* grains and all controls, without scrolling in it */
+    .files a, .runs a { display: inline-block; padding: 0.3rem 0.4rem; }
+    .summary a { display: block; }
+    summary { padding: 0.4rem 0; }
     .statements tr:first-child { display: none; }
-    .statements tr { display: block; border: 1px solid #bbb; margin-bottom: 0.7rem; }
-    .statements td { display: block; border: 0; }
+    .statements tr { display: block; border: 1px solid #bbb; margin-bottom: 0.7rem; padding: 0.2rem 0; }
+    .statements td { display: block; border: 0; padding: 0.1rem 0.6rem; }
     .statements td:empty { display: none; }
     .statements td:nth-child(1) { font-weight: bold; }
     .statements td:nth-child(2)::before { content: "paper: "; color: #555; }
@@ -131,7 +146,8 @@ std::string formatted(const std::string& plain) {
 
 /// Numbers of statements of each figure that agree, differ and are not judged, with links to the figures.
 std::string summary_table(const std::vector<ReportEntry>& entries, const std::filesystem::path& results) {
-  std::string text = "<table class=\"summary\">\n<tr><th>study</th><th>agree</th><th>differ</th><th>not judged</th>"
+  std::string text = "<div class=\"wide\"><table "
+                     "class=\"summary\">\n<tr><th>study</th><th>agree</th><th>differ</th><th>not judged</th>"
                      "</tr>\n";
   std::array<int, 3> all{};
   for (const ReportEntry& entry : entries) {
@@ -144,8 +160,8 @@ std::string summary_table(const std::vector<ReportEntry>& entries, const std::fi
     text += fmt::format("<tr><td><a href=\"#{0}\">{1}</a></td><td>{2}</td><td>{3}</td><td>{4}</td></tr>\n", entry.name,
                         html_text(entry.title), count[0], count[1], count[2]);
   }
-  return text +
-         fmt::format("<tr><th>all</th><th>{}</th><th>{}</th><th>{}</th></tr>\n</table>\n", all[0], all[1], all[2]);
+  return text + fmt::format("<tr><th>all</th><th>{}</th><th>{}</th><th>{}</th></tr>\n</table></div>\n", all[0], all[1],
+                            all[2]);
 }
 
 /// The note, and the reason for a difference where there is one.
@@ -218,14 +234,15 @@ std::vector<CaptionedPicture> pictures_in(const std::filesystem::path& folder, c
   return pictures;
 }
 
-/// A picture, with links to its files.
+/// A picture, which a click enlarges, with links to its files.
 std::string picture_of(const std::filesystem::path& picture, const std::string& caption,
                        const std::filesystem::path& page_folder) {
   std::filesystem::path vector = picture;
   vector.replace_extension(".svg");
   std::string links = link_to(picture, page_folder, "PNG");
   if (std::filesystem::exists(vector)) links += fmt::format(" {}", link_to(vector, page_folder, "SVG"));
-  return fmt::format("<figure><img alt=\"{0}\" src=\"data:image/png;base64,{1}\"><figcaption>{2} <span "
+  return fmt::format("<figure><label class=\"picture\"><input type=\"checkbox\" aria-label=\"large\"><img "
+                     "alt=\"{0}\" src=\"data:image/png;base64,{1}\"></label><figcaption>{2} <span "
                      "class=\"files\">{3}</span></figcaption></figure>\n",
                      html_text(words_of(picture)), base64(content_of(picture)), formatted(caption), links);
 }
@@ -267,7 +284,8 @@ std::string report_page(const std::vector<ReportEntry>& entries, const ReportReq
                   "<title>{0}</title>\n<style>\n{1}</style>\n</head>\n<body>\n<h1>{0}</h1>\n",
                   html_text(request.title), style);
   page += "<p>The tables compare what was stated or expected with the results computed here. Verdicts follow from the "
-          "data.</p>\n<div class=\"top\">\n<section><h3>Verdicts</h3>\n";
+          "data. A click on a picture enlarges it.</p>\n<div class=\"top\">\n<section><h3 "
+          "id=\"verdicts\">Verdicts</h3>\n";
   page += summary_table(entries, request.results) + "</section>\n";
   if (!request.beside.empty()) page += table_of_page(request);
   page += "</div>\n";
@@ -281,7 +299,8 @@ std::string report_page(const std::vector<ReportEntry>& entries, const ReportReq
     for (const CaptionedPicture& picture : pictures_in(folder, entry))
       page += picture_of(folder / picture.file, picture.caption, request.page_folder);
     page += "</div>\n" + statements_table(folder) +
-            fmt::format("<p>Numbers:{}</p>\n", links_of(entry, folder, request.page_folder)) +
+            fmt::format("<p>Numbers:{} · <a href=\"#verdicts\">all verdicts</a></p>\n",
+                        links_of(entry, folder, request.page_folder)) +
             runs_table(entry.runs, request.page_folder);
   }
   return page + "</body>\n</html>\n";

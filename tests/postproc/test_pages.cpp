@@ -65,7 +65,7 @@ const std::string set = "const set = (id, value) => { const e = document.getElem
 TEST_CASE("the page draws the grains without an error, on a desk and on a phone") {
   const Folder folder;
   const std::string page = page_with(folder, "");
-  for (const auto& [width, height] : {std::pair{1200, 1000}, std::pair{500, 900}}) {
+  for (const auto& [width, height] : {std::pair{1200, 1000}, std::pair{360, 780}}) {
     const Shown shown = show(folder, page, width, height);
     INFO(width << " pixels wide: " << shown.console);
     CHECK(shown.console.empty());
