@@ -79,3 +79,88 @@ async function tellPixels() {
   }
   tell(seen);
 }
+
+function isShown(element) {
+  return element.getClientRects().length > 0 && getComputedStyle(element).visibility === 'visible';
+}
+
+/// The smallest letters, apart from exponents and indices.
+function smallestText(page) {
+  const walker = page.createTreeWalker(page.body, NodeFilter.SHOW_TEXT);
+  let smallest = { pixels: 1000 };
+  while (walker.nextNode()) {
+    const text = walker.currentNode.textContent.trim(), element = walker.currentNode.parentElement;
+    if (text === '' || !isShown(element) || element.closest('sup, sub')) continue;
+    const pixels = parseFloat(getComputedStyle(element).fontSize);
+    if (pixels < smallest.pixels) smallest = { pixels, text };
+  }
+  return smallest;
+}
+
+/// The box around an element that scrolls sideways, or else the page.
+function boxAround(element) {
+  for (let box = element; box; box = box.parentElement)
+    if (['auto', 'scroll'].includes(getComputedStyle(box).overflowX)) return box;
+  return document.documentElement;
+}
+
+/// How far a table hangs out: its box, out of the page; the table, out of the box that was scrolled to its end.
+function describeTable(table) {
+  const box = boxAround(table), cells = [...table.querySelectorAll('td, th')].filter(isShown);
+  box.scrollLeft = 1e6;
+  const beyond = table.getBoundingClientRect().right - box.getBoundingClientRect().right;
+  box.scrollLeft = 0;
+  return {
+    name: table.className, beyond, out: box.getBoundingClientRect().right - document.documentElement.clientWidth,
+    clipped: cells.filter(cell => cell.scrollWidth > cell.clientWidth + 1).map(cell => cell.textContent),
+    tallest: Math.max(...cells.map(cell => cell.getBoundingClientRect().height)),
+  };
+}
+
+function describeControl(control) {
+  const { left, right, bottom, width, height } = control.getBoundingClientRect();
+  return { name: control.id, left, right, bottom, width, height };
+}
+
+/// The frame from inside: its size, and what is in it.
+function describeView(frame) {
+  const page = frame.contentDocument, root = page.documentElement;
+  const { width, height } = page.getElementById('scene').getBoundingClientRect();
+  const controls = [...page.querySelectorAll('.controls input, .controls select')].filter(isShown);
+  return {
+    width: root.clientWidth, height: root.clientHeight, contentWidth: root.scrollWidth,
+    contentHeight: page.body.getBoundingClientRect().bottom, canvas: { width, height }, smallest: smallestText(page),
+    controls: controls.map(describeControl),
+  };
+}
+
+/// The width of a picture before and after a click on it, and that of the page then.
+function enlarge(picture) {
+  const before = picture.getBoundingClientRect().width;
+  picture.click();
+  const root = document.documentElement;
+  return { before, after: picture.getBoundingClientRect().width, contentWidth: root.scrollWidth,
+    scrolls: boxAround(picture) !== root };
+}
+
+/// What is where, what hangs out and what is small, with the tables of runs open and all controls that a view can have.
+async function tellLayout() {
+  const frame = await drawnView(), root = document.documentElement;
+  frame.contentDocument.getElementById('tools-label').hidden = false;
+  document.querySelectorAll('details').forEach(runs => { runs.open = true; });
+  tell({
+    width: root.clientWidth, contentWidth: root.scrollWidth, smallest: smallestText(document),
+    tables: [...document.querySelectorAll('table')].map(describeTable), view: describeView(frame),
+    picture: enlarge(document.querySelector('img')),
+  });
+}
+
+/// The addresses of all links as the browser resolves them. Those to places of this page: whether these are there.
+function tellLinks() {
+  const describe = link => {
+    const place = link.getAttribute('href'), inside = place.startsWith('#');
+    const leads = inside && document.getElementById(place.slice(1)) !== null;
+    return { text: link.textContent, url: link.href, inside, leads };
+  };
+  tell([...document.querySelectorAll('a[href]')].map(describe));
+}

@@ -1,14 +1,10 @@
 // The page of postproc view in a browser without a window: no errors, and its pixels. Built where chromium is.
 
-#include <filesystem>
-
 #include <catch2/catch.hpp>
 #include <fmt/format.h>
 
 #include "bonded_run.hpp"
 #include "browser.hpp"
-#include "postproc/figure/report.hpp"
-#include "postproc/view/view_page.hpp"
 
 using namespace mpfem;
 using namespace mpfem::test;
@@ -44,17 +40,6 @@ std::size_t blue_pixels(const Image& image) {
       count += r < 12 && g > 50 && b > 80 && b > g + 20 && b < 195 ? 1 : 0; // the controls are brighter
     }
   return count;
-}
-
-/// What the links of a page name.
-std::vector<std::string> links_in(const std::string& page) {
-  std::vector<std::string> links;
-  const std::string mark = "<a href=\"";
-  for (std::size_t at = 0; (at = page.find(mark, at)) != std::string::npos;) {
-    at += mark.size();
-    links.push_back(page.substr(at, page.find('"', at) - at));
-  }
-  return links;
 }
 
 const std::string set = "const set = (id, value) => { const e = document.getElementById(id); e.value = value; "
@@ -101,47 +86,4 @@ TEST_CASE("bonds are drawn where they are chosen: in the part that is cut away, 
   CHECK(blue_after("set('axis', 1); set('at', 0.45); set('rods', '01');") > 200);
   CHECK(blue_after("set('axis', -1); set('rods', '01');") > 200);
   CHECK(blue_after("set('axis', -1); set('rods', '2');") < 20); // contacts are grey
-}
-
-TEST_CASE("a report is shown without an error, fits a desk and a phone, and its links lead to what they name") {
-  const Folder folder;
-  write_text(
-      folder / "out/fig03/verdict.json",
-      R"([{"statement": "strength rises with density", "paper": "yes", "ours": "yes", "agrees": true, "note": ""},
-                {"statement": "strength at 0.9", "paper": "1 MPa", "ours": "2 MPa", "agrees": false, "note": "n"}])");
-  write_text(folder / "out/fig03/a table.csv", "x\n1\n");
-  write_text(folder / "out/fig03/press/work/log.txt", "log");
-  write_text(folder / "press.toml", "");
-  write_text(folder / "page.md", "# Speed against error\n\n| error | work |\n|---|---|\n| 3 % | 11 s |\n");
-  write_run(folder / "out/fig03/press/run.h5", bonded_run());
-  const std::string page = folder / "out/report/index.html";
-  ReportRequest request{folder / "out", "Studies"};
-  request.view = view_page_of_run({folder / "out/fig03/press/run.h5", schema::FileKind::run}, 2, "Grains");
-  request.beside = folder / "page.md";
-  request.page_folder = folder / "out/report";
-  const ReportRun run{"fig03/press", folder / "out/fig03/press/run.h5", folder / "press.toml"};
-  // A page wider than its window is an error, which the console tells.
-  const std::string check = "<script>window.addEventListener('load', () => { "
-                            "if (document.documentElement.scrollWidth > window.innerWidth + 1) "
-                            "console.error('too wide: ' + document.documentElement.scrollWidth); });</script>";
-  const std::string text = report_page({{"fig03", "Strength", "What rises?", folder / "press.toml", {run}}}, request);
-  write_text(page, text + check);
-  for (const auto& [width, height] : {std::pair{1200, 1000}, std::pair{500, 900}}) {
-    const Shown shown = show(folder, page, width, height);
-    INFO(width << " pixels wide: " << shown.console);
-    CHECK(shown.console.empty());
-  }
-  const std::vector<std::string> links = links_in(text);
-  CHECK(links.size() == 7); // the figure; the page beside; the table, the verdict, figure.toml; scenario and log
-  for (const std::string& link : links) {
-    INFO(link);
-    if (link.starts_with('#')) {
-      CHECK(text.find(fmt::format("id=\"{}\"", link.substr(1))) != std::string::npos);
-      continue;
-    }
-    const std::size_t space = link.find("%20"); // in the name of the table
-    const std::string name =
-        space == std::string::npos ? link : fmt::format("{} {}", link.substr(0, space), link.substr(space + 3));
-    CHECK(std::filesystem::exists(std::filesystem::path(request.page_folder) / name));
-  }
 }

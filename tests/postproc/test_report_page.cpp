@@ -1,5 +1,6 @@
 // The page of postproc report in a browser without a window. Built where chromium is.
 
+#include <filesystem>
 #include <set>
 
 #include <catch2/catch.hpp>
@@ -104,6 +105,60 @@ std::size_t colours_in(const Image& image) {
   return colours.size();
 }
 
+/// The file that an address names: "file:///a%20b#c" is "/a b".
+std::filesystem::path file_at(const std::string& address) {
+  const std::string begin = "file://";
+  REQUIRE(address.starts_with(begin));
+  const std::string path = address.substr(begin.size(), address.find_first_of("?#") - begin.size());
+  std::string file;
+  for (std::size_t i = 0; i < path.size(); ++i) {
+    const bool escaped = path[i] == '%' && i + 2 < path.size();
+    file += escaped ? static_cast<char>(std::stoi(path.substr(i + 1, 2), nullptr, 16)) : path[i];
+    if (escaped) i += 2;
+  }
+  return file;
+}
+
+/// Every table is within the window, with all that is in it, or in a box there that scrolls to its end.
+void check_tables(const json& tables) {
+  CHECK(tables.size() == 4); // verdicts, the page beside, statements, runs
+  for (const json& table : tables) {
+    INFO(table.dump());
+    CHECK(table.at("out").get<double>() < 1);
+    CHECK(table.at("beyond").get<double>() < 1);
+    CHECK(table.at("clipped").empty());
+    CHECK(table.at("tallest").get<double>() < 150); // rows of many short lines are hard to read
+  }
+}
+
+/// All controls are in sight without scrolling in the frame, and large enough for a thumb where there is no mouse.
+void check_view(const json& view, bool phone) {
+  INFO(view.dump());
+  CHECK(view.at("contentWidth") <= view.at("width"));
+  CHECK(view.at("contentHeight") <= view.at("height"));
+  CHECK(view.at("controls").size() == 6); // snapshot, colour, cut, its position, rods between grains, tools
+  for (const json& control : view.at("controls")) {
+    INFO(control.dump());
+    CHECK(control.at("left") >= 0);
+    CHECK(control.at("right") <= view.at("width"));
+    CHECK(control.at("bottom") <= view.at("height"));
+    CHECK(control.at("width") > (control.at("name") == "tools" ? 12 : 120)); // of a box to tick, and of the others
+    CHECK(control.at("height") >= (phone ? 32 : 12));
+  }
+  const double width = view.at("width"), canvas = view.at("canvas").at("width");
+  CHECK(canvas > (phone ? 0.9 : 0.75) * width);
+  CHECK(view.at("canvas").at("height") >= 250);
+}
+
+/// A plot's letters, a fortieth of its width, can be read once it is large, in a box of its own.
+void check_picture(const json& picture, int width) {
+  INFO(picture.dump());
+  CHECK(picture.at("before") > std::min(0.9 * width, 550.0));
+  CHECK(picture.at("after") >= 760);
+  CHECK(picture.at("scrolls") == true);
+  CHECK(picture.at("contentWidth") <= width);
+}
+
 } // namespace
 
 TEST_CASE(
@@ -136,4 +191,44 @@ TEST_CASE(
   CHECK(seen.at("at first").at("state") == "snapshot 3 of 3: relative density 0.900, mean stress 100 MPa");
   CHECK(seen.at("other snapshot").at("state") == "snapshot 1 of 3: relative density 0.700, mean stress 0 MPa");
   CHECK(colours_in(shown.image) > 2000); // the browser puts them into its window
+}
+
+TEST_CASE("a report fits a desk and phones of 360 and 430 pixels, its tables scroll, its controls are in sight") {
+  const StudyReport report;
+  for (const auto& [width, height] : {std::pair{1280, 900}, std::pair{430, 930}, std::pair{360, 780}}) {
+    const Shown shown = report.ask("tellLayout", width, height);
+    INFO(width << " pixels wide: " << shown.console);
+    CHECK(shown.console.empty());
+    REQUIRE(shown.found.size() == 1);
+    const json& layout = shown.found[0];
+    CHECK(layout.at("width") == width);
+    CHECK(layout.at("contentWidth") <= width);
+    for (const json& text : {layout.at("smallest"), layout.at("view").at("smallest")}) {
+      INFO(text.dump());
+      CHECK(text.at("pixels") >= 12);
+    }
+    check_tables(layout.at("tables"));
+    check_view(layout.at("view"), width < 768);
+    check_picture(layout.at("picture"), width);
+  }
+}
+
+TEST_CASE("links of a report lead to places that are there: its studies, their tables, scenarios, settings and logs") {
+  const StudyReport report;
+  const Shown shown = report.ask("tellLinks", 1280, 900);
+  INFO(shown.console);
+  CHECK(shown.console.empty());
+  REQUIRE(shown.found.size() == 1);
+  std::multiset<std::string> texts;
+  for (const json& link : shown.found[0]) {
+    INFO(link.dump());
+    texts.insert(link.at("text"));
+    if (link.at("inside") == true)
+      CHECK(link.at("leads") == true);
+    else
+      CHECK(std::filesystem::is_regular_file(file_at(link.at("url"))));
+  }
+  CHECK(texts == std::multiset<std::string>{"fig03: the traction-separation law, force and displacement",
+                                            "all tables and conditions", "PNG", "SVG", "a table.csv", "verdict.json",
+                                            "figure.toml", "all verdicts", "scenario", "settings", "log"});
 }
