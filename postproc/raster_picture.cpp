@@ -23,10 +23,10 @@ void write_raster_picture(const std::string& path, const Raster& raster, const F
   // that a finer one looks the same in print.
   const double scale = std::max(0.6, frame.pixels / 900.0);
   const auto scaled = [scale](int pixels) { return static_cast<int>(std::lround(scale * pixels)); };
-  const int left = scaled(150), right = scaled(frame.bar ? 190 : 40), bottom = scaled(90), top = scaled(55);
+  const int left = scaled(175), right = scaled(frame.bar ? 225 : 40), bottom = scaled(115), top = scaled(70);
   const double width = left + raster.width + right, height = bottom + raster.height + top;
   std::string script = fmt::format("set terminal pngcairo size {},{} font 'Sans,{:.1f}' enhanced\nset output {}\n",
-                                   width, height, 15 * scale, gnuplot_string(picture.path()));
+                                   width, height, 19 * scale, gnuplot_string(picture.path()));
   script += fmt::format("set title {} noenhanced\nset xlabel {} noenhanced\nset ylabel {} noenhanced\nset tics out "
                         "nomirror\nset border lw {:.2f}\n"
                         "set xrange [{}:{}]\nset yrange [{}:{}]\n",
