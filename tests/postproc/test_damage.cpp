@@ -16,16 +16,13 @@
 #include "postproc/summary.hpp"
 #include "postproc/surface_facets.hpp"
 #include "postproc/vtk.hpp"
+#include "run_postproc.hpp"
 #include "tests/support/folder.hpp"
 
 using namespace mpfem;
 using namespace mpfem::test;
 
 namespace {
-
-Outcome postproc(const std::string& arguments) {
-  return run_command(fmt::format("'{}' {}", MPFEM_POSTPROC, arguments));
-}
 
 /// The cells of a CSV text without its heading.
 std::vector<std::vector<double>> rows_of(const std::string& csv) {

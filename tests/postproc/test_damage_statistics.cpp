@@ -10,6 +10,7 @@
 #include "bonded_run.hpp"
 #include "coverage.hpp"
 #include "postproc/damage_statistics.hpp"
+#include "run_postproc.hpp"
 #include "stage_run.hpp"
 #include "tests/support/tolerances.hpp"
 
@@ -17,10 +18,6 @@ using namespace mpfem;
 using namespace mpfem::test;
 
 namespace {
-
-Outcome postproc(const std::string& arguments) {
-  return run_command(fmt::format("'{}' {}", MPFEM_POSTPROC, arguments));
-}
 
 /// Numbers from 0 to 1, evenly distributed.
 class Uniform {

@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "postproc/density_map.hpp"
+#include "run_postproc.hpp"
 #include "small_run.hpp"
 #include "tests/support/folder.hpp"
 #include "tests/support/tolerances.hpp"
@@ -27,10 +28,6 @@ DensityMap map_of(const RunContents& contents, const DensityMapRule& rule) {
   const Folder folder;
   write_run(folder / "run.h5", contents);
   return density_map(read_snapshot({folder / "run.h5", schema::FileKind::run}, 0), rule);
-}
-
-Outcome postproc(const std::string& arguments) {
-  return run_command(fmt::format("'{}' {}", MPFEM_POSTPROC, arguments));
 }
 
 constexpr double disc = std::numbers::pi * 1.5 * 1.5; // mm^2

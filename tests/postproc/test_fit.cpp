@@ -10,6 +10,7 @@
 #include "common/errors.hpp"
 #include "postproc/csv_file.hpp"
 #include "postproc/fit.hpp"
+#include "run_postproc.hpp"
 #include "stage_run.hpp"
 #include "tests/support/tolerances.hpp"
 
@@ -17,10 +18,6 @@ using namespace mpfem;
 using namespace mpfem::test;
 
 namespace {
-
-Outcome postproc(const std::string& arguments) {
-  return run_command(fmt::format("'{}' {}", MPFEM_POSTPROC, arguments));
-}
 
 template <class Model>
 FitPoints points_of(int count, double low, double high, const Model& model, double noise_level = 0, unsigned seed = 1) {

@@ -15,6 +15,7 @@
 #include "postproc/modulus.hpp"
 #include "postproc/strength.hpp"
 #include "postproc/yield_point.hpp"
+#include "run_postproc.hpp"
 #include "stage_run.hpp"
 #include "tests/support/tolerances.hpp"
 
@@ -22,10 +23,6 @@ using namespace mpfem;
 using namespace mpfem::test;
 
 namespace {
-
-Outcome postproc(const std::string& arguments) {
-  return run_command(fmt::format("'{}' {}", MPFEM_POSTPROC, arguments));
-}
 
 /// Isotropic row: the same stress and strain along all axes.
 Row isotropic(int stage, double density, double stress) {

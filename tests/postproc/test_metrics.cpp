@@ -10,19 +10,12 @@
 #include "postproc/contact.hpp"
 #include "postproc/energy.hpp"
 #include "postproc/summary.hpp"
+#include "run_postproc.hpp"
 #include "small_run.hpp"
 #include "tests/support/folder.hpp"
 
 using namespace mpfem;
 using namespace mpfem::test;
-
-namespace {
-
-Outcome postproc(const std::string& arguments) {
-  return run_command(fmt::format("'{}' {}", MPFEM_POSTPROC, arguments));
-}
-
-} // namespace
 
 TEST_CASE("a branch's cost a step is that of its own steps") {
   const Folder folder;

@@ -15,6 +15,7 @@
 #include "postproc/janssen.hpp"
 #include "postproc/tablet.hpp"
 #include "postproc/tablet_shape.hpp"
+#include "run_postproc.hpp"
 #include "stage_run.hpp"
 #include "tests/support/tolerances.hpp"
 
@@ -24,10 +25,6 @@ using namespace mpfem::test;
 namespace {
 
 constexpr double pi = std::numbers::pi;
-
-Outcome postproc(const std::string& arguments) {
-  return run_command(fmt::format("'{}' {}", MPFEM_POSTPROC, arguments));
-}
 
 std::vector<double> evenly(int count, double low, double high) {
   std::vector<double> values;
