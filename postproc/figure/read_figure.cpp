@@ -47,10 +47,23 @@ Heading heading_of(const std::string& title) {
   return {title.substr(0, bracket), title.substr(bracket + 2, title.find(']') - bracket - 2)};
 }
 
-/// Reads "RUN/METRIC.KEY" or "RUN/METRIC.KEY:FORMAT"; a metric's name may hold values in braces. False for other texts.
+/// Place of the first such character outside of braces.
+std::size_t find_outside_braces(const std::string& text, char wanted, std::size_t from) {
+  bool inside = false;
+  for (std::size_t i = from; i < text.size(); ++i) {
+    if (text[i] == wanted && !inside) return i;
+    if (text[i] == '{' || text[i] == '}') inside = text[i] == '{';
+  }
+  return std::string::npos;
+}
+
+/// Reads "RUN/METRIC.KEY" or "RUN/METRIC.KEY:FORMAT"; a metric's name may hold values in braces, a key may hold dots
+/// (at_0.80). False for other texts.
 bool read_metric_key(const std::string& source, ColumnSpec& column) {
-  const std::size_t slash = source.find('/'), dot = source.rfind('.', source.find(':'));
-  if (slash == std::string::npos || slash == 0 || dot == std::string::npos || dot < slash) return false;
+  const std::size_t slash = source.find('/');
+  if (slash == std::string::npos || slash == 0) return false;
+  const std::size_t dot = find_outside_braces(source, '.', slash);
+  if (dot == std::string::npos) return false;
   const std::size_t colon = source.find(':', dot);
   column.run = source.substr(0, slash);
   column.metric = source.substr(slash + 1, dot - slash - 1);

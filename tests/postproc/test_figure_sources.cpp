@@ -142,6 +142,30 @@ columns = ["tets = mesh/quality.tets", "p = pressed/strength.value:.2f", "z = fi
   CHECK(table.rows[0][1].text == "1.24");
 }
 
+TEST_CASE("a metric's key may hold dots, and its name a value with a dot") {
+  const Studies studies;
+  const Figure figure = studies.figure(R"([[cases]]
+limit = 0.25
+[[runs]]
+name = "pressed"
+programme = "press"
+folder = "pressed"
+[metrics]
+"stress-0.25" = "section-stress --threshold 0.25"
+[[tables]]
+name = "t"
+columns = ["p = pressed/stress-at-densities.at_0.80", "q = pressed/stress-{limit:.2f}.share.a:.1f"]
+)");
+  const std::string rules = studies.rules(figure), folder = studies.path("out/pressed");
+  CHECK_THAT(rules, Contains("postproc stress-at-densities " + folder + "/run.h5\n"));
+  CHECK_THAT(rules, Contains("postproc section-stress " + folder + "/run.h5 --threshold 0.25\n"));
+  write_text(folder + "/stress-at-densities.json", R"({"value": 1, "at_0.80": 7})");
+  write_text(folder + "/stress-0.25.json", R"({"value": 1, "share.a": 0.34})");
+  const TextTable table = make_table(figure, figure.tables[0], studies.results());
+  CHECK(table.rows.at(0)[0].text == "7");
+  CHECK(table.rows.at(0)[1].text == "0.3");
+}
+
 TEST_CASE("a packing is a size or a command, and a run begins at one") {
   const Studies studies;
   CHECK_THROWS_WITH(studies.figure("[[packings]]\nname = \"p\"\nsize = \"1\"\ncommand = \"spheres\"\n"),
