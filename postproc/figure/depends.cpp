@@ -10,6 +10,7 @@
 
 #include "common/errors.hpp"
 #include "common/hash.hpp"
+#include "common/nearest_word.hpp"
 #include "common/one_line.hpp"
 
 namespace mpfem {
@@ -135,10 +136,12 @@ private:
       for (const std::string& name : table.curves)
         if (belongs(name, row)) add(file_of_run(run_of(name, row, table.place)));
       if (const std::size_t slash = table.list.find('/'); slash != std::string::npos)
-        add(add_metric(run_of(table.list.substr(0, slash), row, table.place), table.list.substr(slash + 1), row));
+        add(add_metric(run_of(table.list.substr(0, slash), row, table.place), table.list.substr(slash + 1), row,
+                       table.place));
       for (const ColumnSpec& column : table.columns)
         if (!column.run.empty() && belongs(column.run, row))
-          add(add_metric(run_of(column.run, row, table.place), filled_at(table.place, column.metric, row.values), row));
+          add(add_metric(run_of(column.run, row, table.place), filled_at(table.place, column.metric, row.values), row,
+                         table.place));
     }
     return needed;
   }
@@ -151,15 +154,23 @@ private:
   }
 
   /// The command of a metric: of pack-gen where it says so, otherwise of postproc.
-  std::string command_of(const std::string& metric) const {
+  std::string command_of(const std::string& metric, const Place& place) const {
     std::string command = metric;
     for (const auto& [name, words] : current_->metrics)
       if (name == metric) command = words;
-    return command.starts_with("pack-gen ") ? command : fmt::format("postproc {}", command);
+    if (command.starts_with("pack-gen ")) return command;
+    const std::string name = command.substr(0, command.find(' '));
+    const auto& known = request_.commands;
+    if (!known.empty() && std::find(known.begin(), known.end(), name) == known.end()) {
+      const auto nearest = nearest_word(name, known);
+      place.fail(fmt::format("metric '{}': found '{}', {}", one_line(metric), one_line(name),
+                             nearest ? fmt::format("did you mean '{}'?", *nearest) : "expected a command of postproc"));
+    }
+    return fmt::format("postproc {}", command);
   }
 
-  std::string add_metric(const RunInstance& run, const std::string& metric, const Case& row) {
-    const std::string command = command_of(metric);
+  std::string add_metric(const RunInstance& run, const std::string& metric, const Case& row, const Place& place) {
+    const std::string command = command_of(metric, place);
     const std::string folder = request_.results.of(run.folder), file = fmt::format("{}/{}.json", folder, metric);
     const std::size_t end = command.find(' ', command.find(' ') + 1); // after the program and its subcommand
     Words words = row.values;

@@ -27,6 +27,7 @@ struct FigureCommands::State {
   std::string title, run, beside;
   std::vector<std::string> files, settings;
   int packings = 0;
+  const CLI::App* program = nullptr;
   std::vector<std::pair<CLI::App*, std::function<void()>>> commands;
 
   CLI::App& add(CLI::App& app, const char* command_name, const std::string& help, std::function<void()> action) {
@@ -64,7 +65,8 @@ struct FigureCommands::State {
   void depends() const {
     std::vector<Figure> figures;
     for (const std::string& file : files) figures.push_back(read_figure(file, programmes));
-    DependsRequest request{{results, mesh}, packing, description, {}};
+    DependsRequest request{{results, mesh}, packing, description, {}, {}};
+    for (const CLI::App* command : program->get_subcommands({})) request.commands.push_back(command->get_name());
     for (const std::string& setting : settings) {
       const std::size_t equals = setting.find('=');
       if (equals == std::string::npos)
@@ -151,6 +153,7 @@ struct FigureCommands::State {
 
 FigureCommands::FigureCommands(CLI::App& app) : state_(std::make_unique<State>()) {
   State& s = *state_;
+  s.program = &app;
   CLI::App& depends = s.add(app, "depends",
                             "Dependencies of figures for make: files, their inputs, settings of runs.\n"
                             "Example: postproc depends studies/fig12/figure.toml --results out/smoke --mesh smoke",

@@ -10,6 +10,7 @@
 #include "postproc/figure/figure_plot.hpp"
 #include "postproc/figure/report.hpp"
 #include "postproc/figure/verdict_pages.hpp"
+#include "run_postproc.hpp"
 #include "small_run.hpp"
 #include "tests/support/folder.hpp"
 
@@ -29,8 +30,8 @@ public:
     return read_figure(path("study.toml"), path("programmes"));
   }
   ResultsFolder results() const { return {path("out"), "coarse"}; }
-  std::string rules(const Figure& figure) const {
-    return make_rules({figure}, {results(), path("packings/mesh-0.03.h5"), "powder.toml", {}});
+  std::string rules(const Figure& figure, const std::vector<std::string>& commands = {}) const {
+    return make_rules({figure}, {results(), path("packings/mesh-0.03.h5"), "powder.toml", {}, commands});
   }
 
 private:
@@ -164,6 +165,28 @@ columns = ["p = pressed/stress-at-densities.at_0.80", "q = pressed/stress-{limit
   const TextTable table = make_table(figure, figure.tables[0], studies.results());
   CHECK(table.rows.at(0)[0].text == "7");
   CHECK(table.rows.at(0)[1].text == "0.3");
+}
+
+TEST_CASE("a metric whose command does not exist is refused with its line before anything is made") {
+  const Studies studies;
+  const std::string begin = "[[cases]]\nx = 1\n[[runs]]\nname = \"r\"\nprogramme = \"press\"\n";
+  const std::string table = "[[tables]]\nname = \"t\"\ncolumns = [\"y = r/";
+  const std::vector<std::string> known = {"strength", "modulus"};
+  CHECK_THROWS_WITH(studies.rules(studies.figure(begin + table + "strenth.value\"]\n"), known),
+                    Contains("study.toml:9") && Contains("found 'strenth', did you mean 'strength'?"));
+  CHECK_THROWS_WITH(
+      studies.rules(studies.figure(begin + "[metrics]\nm = \"unknown --a 1\"\n" + table + "m.value\"]\n"), known),
+      Contains("metric 'm': found 'unknown', expected a command of postproc"));
+  CHECK_NOTHROW(
+      studies.rules(studies.figure(begin + "[metrics]\nm = \"modulus --a 1\"\n" + table + "m.value\"]\n"), known));
+  studies.figure(begin + table + "strenth.value\"]\n");
+  const test::Outcome refused =
+      test::postproc(fmt::format("depends '{}' --programmes '{}' --packing p.h5 -o '{}'", studies.path("study.toml"),
+                                 studies.path("programmes"), studies.path("rules.mk")));
+  CHECK(refused.exit_code == 2);
+  CHECK(refused.one_error_line("postproc"));
+  CHECK_THAT(refused.messages, Contains("study.toml:9") && Contains("did you mean 'strength'?"));
+  CHECK_FALSE(std::filesystem::exists(studies.path("rules.mk")));
 }
 
 TEST_CASE("a packing is a size or a command, and a run begins at one") {
