@@ -12,7 +12,7 @@ Every statement that a figure of Ku, Zhao, Mollon and Zhao makes, compared with 
   \`smoke\` 25 grains.
 - The reasons begin with *the paper's choice* (an unstated choice, identified here, explains the
   difference), *the paper's error* (the number belongs to the method and not to the grains) or *open*.
-- Statements are judged by the softening law \`energy\`, which is Eq. 5 to the letter. The law \`exponential\`, the
+- Statements are judged by the softening law \`energy\`, which reads Eq. 5 literally. The law \`exponential\`, the
   curve that Fig. 3 draws, is reported without verdicts.
 - [What the paper did](what-the-paper-did.md) shows the choices. The notes of
   \`studies/results/MESH/figNN/verdict.json\` say how each statement is judged.
