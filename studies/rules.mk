@@ -37,7 +37,8 @@ help:
 	  printf '  %-16s %s\n' "$$(basename "$$(dirname $$file)")" "$$(sed -n '1s/^title = "\(.*\)"$$/\1/p' $$file)"; done
 	@sed -n 's/^#: /  /p' $(MAKEFILE_LIST)
 	@echo && echo 'An interrupted run (Ctrl-C, SIGTERM, kill) goes on from its checkpoint with the same command.' && \
-	  echo 'make -n shows all commands. Results land in out/MESH/.'
+	  echo 'make -n shows all commands. Results land in out/MESH/, with another SURFACE or' && \
+	  echo 'ELEMENT in out/MESH-SURFACE/, out/MESH-ELEMENT/.'
 
 # -------------------------------------------------------------------------------- settings
 # $(call allowed,NAME,VALUES): ends where NAME has another value.
@@ -88,6 +89,11 @@ ifneq ($(and $(SEED),$(SEEDS)),)
   $(error SEED=$(SEED) SEEDS=$(SEEDS): allowed is one of both; SEEDS adds packings to the one of $(description))
 endif
 
+# Results of other elements and surfaces than the default lie in folders of their own.
+variant := $(MESH)$(patsubst %,-%,$(filter-out facets,$(SURFACE)) $(filter-out tet4-anp,$(ELEMENT)))
+empty :=
+variant := $(subst $(empty) $(empty),,$(variant))
+
 # -------------------------------------------------------------------------------- which packing
 # A study with a powder of its own has its own packing; all others share that of the figures.
 STUDY ?=
@@ -105,7 +111,7 @@ ifneq ($(of_powder),)
   description := $(out)/$(study_name)/powder.toml
   size := $(of_powder)
 else
-  out := out/$(MESH)$(SEED:%=-seed%)
+  out := out/$(variant)$(SEED:%=-seed%)
   packings := out/packings/$(packing)$(SEED:%=-seed%)
   examples := $(if $(wildcard $(source)pack-gen/examples),$(source)pack-gen/examples,$(studies)/packings)
   description := $(examples)/$(if $(filter smoke,$(packing)),mcc_ph102_smoke,mcc_ph102).toml

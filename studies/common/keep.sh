@@ -1,5 +1,6 @@
 #!/bin/sh
-# keep.sh MESH BIN FIGURE...: copies the small results of figures from out/MESH to studies/results/MESH, with what their
+# keep.sh MESH BIN FIGURE...: copies the small results of figures from out/MESH to studies/results/MESH (with another
+# element or surface MESH-ELEMENT or MESH-SURFACE), with what their
 # runs took (out/MESH/times.csv, plan.csv) and from what they came (provenance.txt: program, packing, settings of every
 # run). The verdicts of all figures kept for that mesh go to verdicts.md there, those of all meshes side by side to
 # docs/verdicts.md. Pictures and tables above 20 kB, which make writes again from the runs, are not kept.
