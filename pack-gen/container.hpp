@@ -67,11 +67,7 @@ struct PackingContainer {
     return inner;
   }
   /// Distance to the surface, negative outside, and its normal inwards.
-  SurfaceGap surface_gap(const Point& p) const {
-    SurfaceGap gap = surface->surface.gap({p[0] * unit + inset, p[1] * unit + inset, p[2] * unit + inset});
-    gap.distance = (gap.distance - inset) / unit;
-    return gap;
-  }
+  SurfaceGap surface_gap(const Point& p) const { return moved_in(surface->surface.gap(in_file(p))); }
 
   /// Calls visit(distance, wall) for each wall; negative outside.
   template <class Visit>
@@ -93,7 +89,8 @@ struct PackingContainer {
   }
 
   /// Calls visit(overlap, inward) for each wall and a sphere of radius r at p: how far it reaches beyond the wall
-  /// (negative: not at all), and the wall's normal. A surface is one wall, at its nearest place.
+  /// (negative: not at all), and by how much the overlap falls as the sphere moves: the wall's normal. A surface is one
+  /// wall, with all of its triangles (TriangulatedSurface::gap_of_sphere).
   template <class Visit>
   void for_each_overlap(const Point& p, double r, Visit visit) const {
     for (std::size_t k = 0; k < 3; ++k) {
@@ -109,7 +106,7 @@ struct PackingContainer {
       visit(distance + r - radius(), Point{scale * (p[0] - 0.5 * lengths[0]), scale * (p[1] - 0.5 * lengths[1]), 0});
     }
     if (shape == ContainerShape::surface) {
-      const SurfaceGap gap = surface_gap(p);
+      const SurfaceGap gap = moved_in(surface->surface.gap_of_sphere(in_file(p), r * unit + inset));
       visit(r - gap.distance, gap.normal);
     }
   }
@@ -120,6 +117,15 @@ struct PackingContainer {
       if (p[k] < r || p[k] > lengths[k] - r) return false;
     if (shape == ContainerShape::surface) return surface_gap(p).distance >= r;
     return shape == ContainerShape::box || from_axis(p) <= radius() - r;
+  }
+
+private:
+  /// mm in the surface's own frame, of a point here.
+  Point in_file(const Point& p) const { return {p[0] * unit + inset, p[1] * unit + inset, p[2] * unit + inset}; }
+  /// A gap to the surface, mm, as one to the wall that has moved inwards, in the present unit.
+  SurfaceGap moved_in(SurfaceGap gap) const {
+    gap.distance = (gap.distance - inset) / unit;
+    return gap;
   }
 };
 

@@ -317,14 +317,14 @@ CLI::App* add_spheres(CLI::App& app, Arguments& arguments) {
 CLI::App* add_settle(CLI::App& app, Arguments& arguments) {
   CLI::App* command = add_command(app, arguments, "settle",
                                   "Let spheres sink under their weight, along -z and without friction, until they rest "
-                                  "on each other and the bottom.\n"
+                                  "on each other, the bottom and the walls.\n"
                                   "Example: pack-gen settle spheres.h5 --fit-height -o settled.h5",
                                   "Spheres (HDF5)");
   add_output(*command, arguments);
   add_number(*command, "--gap", arguments.gap, Range::between(0, 1e9), "mm",
              "Smallest gap that stays between spheres and to the walls (default: that of the file)");
   command->add_flag("--fit-height", arguments.fit_height,
-                    "Lower the container to the bed (default: it stays, with free space above)");
+                    "Lower the box or cylinder to the bed (default: it stays, with free space above)");
   return command;
 }
 

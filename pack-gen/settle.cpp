@@ -39,11 +39,9 @@ double top_of(const SpherePacking& packing) {
 
 SettledPacking settle(const SpherePacking& packing, const SettleRequest& request) {
   const double gap = request.smallest_gap;
-  // There spheres feel only the nearest place of the surface, and never come to rest between two places.
-  if (packing.surface)
-    throw InputError(
-        "found a container that is a surface, allowed: a box or a cylinder; let grains settle in a run, by "
-        "[gravity] and a tool of type 'stl'");
+  if (packing.surface && request.fit_height)
+    throw InputError("found a container that is a surface, whose height is that of its file; allowed: a box or a "
+                     "cylinder for a height fitted to the bed");
   const Inflated spheres = inflated(packing, gap);
   std::vector<Point> start = packing.center;
   for (Point& p : start)

@@ -80,12 +80,6 @@ TriangleTree::TriangleTree(std::span<const FlatTriangle> triangles, double margi
   }
 }
 
-inline double TriangleTree::Node::squared_distance(const Vector3<double>& x) const {
-  const auto beyond = [](double value, double from, double to) { return std::max({from - value, value - to, 0.0}); };
-  const double a = beyond(x.x, low[0], high[0]), b = beyond(x.y, low[1], high[1]), c = beyond(x.z, low[2], high[2]);
-  return a * a + b * b + c * c;
-}
-
 Nearest TriangleTree::nearest(const Vector3<double>& x, std::int32_t first, double slack) const {
   Nearest best{std::numeric_limits<double>::infinity(), first, Feature::face, {}};
   triangle(first).offer(x, first, margin_, best);
@@ -93,7 +87,7 @@ Nearest TriangleTree::nearest(const Vector3<double>& x, std::int32_t first, doub
     std::int32_t node;
     double squared;
   };
-  std::array<Waiting, 64> waiting; // NOLINT: one entry per level, and 2^32 triangles have 32 levels
+  std::array<Waiting, levels> waiting; // NOLINT: set before it is read
   std::size_t count = 0;
   waiting[count++] = {0, node_[0].squared_distance(x)};
   while (count > 0) {

@@ -77,6 +77,27 @@ SurfaceGap TriangulatedSurface::gap(const std::array<double, 3>& x, double reach
   return grain_gap(point, block.triangle);
 }
 
+SurfaceGap TriangulatedSurface::gap_of_sphere(const std::array<double, 3>& x, double radius) const {
+  const SurfaceGap closest = gap(x, radius);
+  if (closest.distance >= radius || closest.distance <= touching_) return closest; // apart, or its centre is outside
+  const Vector3<double> centre{x[0], x[1], x[2]};
+  // Overlaps over the largest one: powers of small numbers would underflow.
+  const double largest = radius - closest.distance;
+  double sum = 0;
+  Vector3<double> away{};
+  tree_.for_each_within(centre, radius, [&](const Nearest& nearest) {
+    const FlatTriangle& triangle = tree_.triangle(nearest.triangle);
+    const double distance = std::sqrt(nearest.squared), share = (radius - distance) / largest;
+    const Vector3<double> way =
+        nearest.feature == Feature::face ? triangle.height(centre) * triangle.normal : centre - nearest.point;
+    sum += share * share * share * share;
+    away = away + (share * share * share / distance) * way;
+  });
+  const double norm_of_shares = std::sqrt(std::sqrt(sum));
+  const double scale = 1 / (norm_of_shares * norm_of_shares * norm_of_shares);
+  return {radius - largest * norm_of_shares, array_of(scale * away)};
+}
+
 /// Distance (mm) of a point from the box around the triangles; 0 inside.
 double TriangulatedSurface::outside_bounds(const Vector3<double>& x) const {
   const auto beyond = [&](std::size_t axis, double value) {

@@ -41,6 +41,12 @@ public:
   /// The same for distances up to `reach` (mm). Beyond, the distance returned is above `reach` but not above the true
   /// distance, and the normal may be zero; most such points need no search.
   SurfaceGap gap(const std::array<double, 3>& x, double reach) const;
+  /// The sphere of radius r around a point on the grains' side, against all triangles at once: a gap whose distance is
+  /// at most that of `gap`, and whose normal need not have the length 1. Triangle t is overlapped by o_t = r - its
+  /// distance, where that is positive. The overlap o = r - distance is (sum of o_t^4)^(1/4), and the normal is the
+  /// gradient of the distance. Both change continuously, unlike those of the closest place alone: in corners, a penalty
+  /// energy of o has a minimum where its forces balance.
+  SurfaceGap gap_of_sphere(const std::array<double, 3>& x, double radius) const;
   /// False if no point within the bounds lies behind the surface; true if one may.
   bool may_touch(const Bounds& bounds) const;
   /// Bounding box of the triangles, mm.

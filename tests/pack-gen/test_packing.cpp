@@ -9,6 +9,7 @@
 #include "pack-gen/packing.hpp"
 #include "pack-gen/settle.hpp"
 #include "pack-gen/size_distribution.hpp"
+#include "tests/support/triangle_meshes.hpp"
 
 using namespace mpfem;
 
@@ -189,6 +190,65 @@ TEST_CASE("one sphere falls to the bottom, a second one onto it") {
   CHECK(settled.packing.center[0][2] == Approx(0.105).margin(1e-4));
   CHECK(settled.packing.center[1][2] == Approx(0.31).margin(1e-4)); // the die is too narrow for it to roll off
   CHECK(settled.bed_height == Approx(0.41).margin(2e-4));
+}
+
+namespace {
+
+/// Spheres in the inside of a surface, which moves to the origin.
+SpherePacking in_surface(const test::LooseTriangles& triangles, std::vector<mpfem::Point> centers,
+                         std::vector<double> radii) {
+  const PlacedSurface placed = place_surface(test::welded(triangles));
+  return {placed.lengths, std::move(centers), std::move(radii), ContainerShape::surface, placed.container};
+}
+
+/// A cube of 1 mm on one of its corners: its three lower faces meet at the lowest point, at right angles.
+test::LooseTriangles cube_on_a_corner() {
+  test::LooseTriangles cube = test::unit_cube();
+  const double a = std::sqrt(1.0 / 2), b = std::sqrt(1.0 / 6), c = std::sqrt(1.0 / 3);
+  for (auto& triangle : cube)
+    for (auto& x : triangle) x = {a * (x.x - x.y), b * (x.x + x.y - 2 * x.z), c * (x.x + x.y + x.z)};
+  return cube;
+}
+
+} // namespace
+
+TEST_CASE("a sphere in a hopper rests on three faces at once, sqrt(3) radii above its tip") {
+  // The tip is below the middle of the cube: the box around the cube is sqrt(2) by sqrt(8/3) mm wide.
+  const SpherePacking above = in_surface(cube_on_a_corner(), {{0.75, 0.85, 0.9}}, {0.1});
+  const double gap = 0.002;
+  const SettledPacking settled = settle(above, {.smallest_gap = gap});
+  CHECK(settled.unbalanced <= 1e-4);
+  CHECK(smallest_gap(settled.packing).gap >= gap * (1 - 1e-9));
+  // Held within the margin of 2e-4 radii on each face, which the slope of the faces enlarges by sqrt(3).
+  const mpfem::Point& center = settled.packing.center[0];
+  const double margin = 2e-4 * 0.1 * std::sqrt(3.0);
+  CHECK(center[0] == Approx(std::sqrt(0.5)).margin(margin));
+  CHECK(center[1] == Approx(std::sqrt(2.0 / 3)).margin(margin));
+  CHECK(center[2] == Approx(std::sqrt(3.0) * (0.1 + gap)).margin(margin));
+}
+
+TEST_CASE("a bed in a surface is as dense as in the box or cylinder of the same shape") {
+  // Beds of 150 spheres that start elsewhere differ by about 2 % in the height of their centre.
+  const auto centre_height = [](const SpherePacking& p) {
+    double sum = 0, volume = 0;
+    for (std::size_t i = 0; i < p.radius.size(); ++i)
+      sum += std::pow(p.radius[i], 3) * p.center[i][2], volume += std::pow(p.radius[i], 3);
+    return sum / volume;
+  };
+  for (const PackingRequest& wanted : {request(150, 0.3, 4), cylinder_request(150, 0.3, 1.5, 4)}) {
+    const SpherePacking loose = pack_spheres(wanted);
+    const bool round = wanted.shape == ContainerShape::cylinder;
+    // The polygon of 96 corners goes round the cylinder: 5e-4 wider in radius, and its sides are a sphere's size.
+    const double radius = round ? 0.5 * wanted.box[0] / std::cos(M_PI / 96) : std::sqrt(0.5) * wanted.box[0];
+    auto polygon = test::regular_polygon(round ? 96 : 4, radius);
+    if (!round) polygon = {{0, 0}, {wanted.box[0], 0}, {wanted.box[0], wanted.box[1]}, {0, wanted.box[1]}};
+    const SpherePacking placed = in_surface(test::prism(polygon, 0, wanted.box[2]), loose.center, loose.radius);
+    const SettledPacking flat = settle(loose, {.smallest_gap = 0.002}),
+                         triangles = settle(placed, {.smallest_gap = 0.002});
+    CHECK(triangles.unbalanced <= 1e-4);
+    CHECK(smallest_gap(triangles.packing).gap >= 0.002 * (1 - 1e-9));
+    CHECK(centre_height(triangles.packing) == Approx(centre_height(flat.packing)).epsilon(0.03));
+  }
 }
 
 TEST_CASE("spheres that have no room for the gap do not settle, and that is said") {

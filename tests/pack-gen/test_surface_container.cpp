@@ -109,9 +109,30 @@ TEST_CASE("a surface from an STL file is filled, meshed, exported and imported w
   CHECK(import(surface).exit_code == 2); // without a scale
   CHECK(import("--surface l.stl --scale 1").exit_code == 2);
   CHECK(import(surface + " --scale 1000 --box 1,1,1").exit_code == 2);
-  const Outcome settled = pack_gen(fmt::format("settle {} -o {}", folder / "s.h5", folder / "b.h5"));
-  CHECK(settled.exit_code == 2);
-  CHECK_THAT(settled.messages, Catch::Contains("[gravity]"));
+  const Outcome fitted = pack_gen(fmt::format("settle {} --fit-height -o {}", folder / "s.h5", folder / "b.h5"));
+  CHECK(fitted.exit_code == 2);
+  CHECK_THAT(fitted.messages, Catch::Contains("height"));
+}
+
+TEST_CASE("spheres settle in a surface from an STL file, within its walls") {
+  const Folder folder;
+  write_l_shape(folder / "l.stl");
+  write_text(folder / "pack.toml", description);
+  REQUIRE(pack_gen(fmt::format("spheres {} -o {}", folder / "pack.toml", folder / "s.h5")).exit_code == 0);
+  const Outcome outcome = pack_gen(fmt::format("settle {} -o {}", folder / "s.h5", folder / "b.h5"));
+  INFO(outcome.messages);
+  REQUIRE(outcome.exit_code == 0);
+  const SpherePacking loose = read_spheres(folder / "s.h5").packing, bed = read_spheres(folder / "b.h5").packing;
+  REQUIRE(bed.surface);
+  CHECK(bed.radius == loose.radius);
+  CHECK(smallest_gap(bed).gap >= 0.001 * (1 - 1e-6));
+  double before = 0, after = 0;
+  for (std::size_t i = 0; i < bed.radius.size(); ++i) {
+    CHECK(inside_l(bed.center[i]) - bed.radius[i] >= 0.001 * (1 - 1e-6));
+    before += loose.center[i][2];
+    after += bed.center[i][2];
+  }
+  CHECK(after < before);
 }
 
 TEST_CASE("surfaces that are open, too small or without a scale are not filled") {

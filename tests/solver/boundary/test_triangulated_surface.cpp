@@ -327,3 +327,39 @@ TEST_CASE("a surface with a hole is refused, and a point that is no number has n
   const double none = std::numeric_limits<double>::quiet_NaN();
   CHECK_FALSE(TriangulatedSurface(welded(unit_cube())).gap({none, 0, 0}, 0).distance < 0);
 }
+
+TEST_CASE("a sphere's overlap with a surface is at least that of the closest place, and its normal is its gradient") {
+  const TriangleMesh mesh = welded(spiky_ball(8, 12, 3));
+  const TriangulatedSurface container(mesh, GrainSide::inside);
+  RandomPoints points(5, container.bounds(), 0);
+  const double radius = 0.25, step = 1e-6;
+  int touching = 0;
+  for (int n = 0; n < 4000; ++n) {
+    const Array x = points.next(), way = points.direction();
+    const auto at = [&](double s) {
+      return container.gap_of_sphere({x[0] + s * way[0], x[1] + s * way[1], x[2] + s * way[2]}, radius);
+    };
+    const SurfaceGap gap = at(0), closest = container.gap(x);
+    if (closest.distance < 2 * step) {
+      CHECK(gap.distance == closest.distance); // the centre is outside
+      continue;
+    }
+    CHECK(gap.distance <= closest.distance);
+    if (closest.distance > radius - 2 * step) continue;
+    ++touching;
+    // The error of a central difference is the second derivative's change: some powers of step over the distance.
+    const double slope = (at(step).distance - at(-step).distance) / (2 * step);
+    const double along = gap.normal[0] * way[0] + gap.normal[1] * way[1] + gap.normal[2] * way[2];
+    CHECK(std::abs(slope - along) < 20 * step / closest.distance);
+  }
+  CHECK(touching > 500);
+}
+
+TEST_CASE("a sphere that reaches one face only has the gap of that face") {
+  const TriangulatedSurface cube(welded(unit_cube()), GrainSide::inside);
+  const SurfaceGap gap = cube.gap_of_sphere({0.3, 0.6, 0.1}, 0.15); // the face's diagonal is 0.21 mm away
+  CHECK(std::abs(gap.distance - 0.1) < closed_form);
+  CHECK(std::abs(gap.normal[2] - 1) < closed_form);
+  const SurfaceGap apart = cube.gap_of_sphere({0.3, 0.6, 0.3}, 0.15);
+  CHECK(apart.distance >= 0.15);
+}
