@@ -37,9 +37,9 @@ std::string duration_text(double seconds) {
 std::string progress_line(std::string_view label, double fraction, std::string_view detail, double elapsed,
                           std::optional<double> remaining) {
   std::string line = fmt::format("{} {:5.1f} %", label, 100 * fraction);
-  if (!detail.empty()) line += fmt::format("  {}", detail);
   line += fmt::format("  elapsed {}", duration_text(elapsed));
-  if (remaining) line += fmt::format("  ETA {}", duration_text(*remaining));
+  if (remaining) line += fmt::format("  remaining {}", duration_text(*remaining));
+  if (!detail.empty()) line += fmt::format("  {}", detail); // last: a narrow terminal cuts the end off
   return line;
 }
 

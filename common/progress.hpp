@@ -12,7 +12,7 @@ namespace mpfem {
 /// "1:02:03", "2:03" or "4.5 s".
 std::string duration_text(double seconds);
 
-/// "LABEL  42.0 %  DETAIL  elapsed 1:02  ETA 1:25"; `remaining` in seconds, left out while unknown.
+/// "LABEL  42.0 %  elapsed 1:02  remaining 1:25  DETAIL"; `remaining` in seconds, left out while unknown.
 std::string progress_line(std::string_view label, double fraction, std::string_view detail, double elapsed,
                           std::optional<double> remaining);
 

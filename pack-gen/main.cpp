@@ -86,7 +86,7 @@ void spheres(const Arguments& arguments) {
   PackingOrigin origin{static_cast<std::int64_t>(description.seed), description.text, {}, {}};
   tabulate_target(*description.distribution, sizes.scale, origin);
   write_packing_file(arguments.output, packing, origin);
-  progress.finish(fmt::format("{} spheres, D_r = {:.6f}, smallest gap {:.4g} mm, sizes scaled by {:.5f}, {}",
+  progress.finish(fmt::format("{} spheres, relative density {:.6f}, smallest gap {:.4g} mm, sizes scaled by {:.5f}, {}",
                               packing.radius.size(), relative_density(packing), smallest_gap(packing).gap, sizes.scale,
                               arguments.output));
 }
@@ -134,9 +134,10 @@ void settle_spheres(const Arguments& arguments) {
   write_packing_file(arguments.output, settled.packing, file.origin);
   SpherePacking bed = settled.packing;
   bed.box[2] = settled.bed_height + gap;
-  progress.finish(fmt::format("{} spheres at rest, bed of {:.4g} mm with D_r = {:.6f}, smallest gap {:.4g} mm, {}",
-                              bed.radius.size(), settled.bed_height, relative_density(bed),
-                              smallest_gap(settled.packing).gap, arguments.output));
+  progress.finish(fmt::format(
+      "{} spheres at rest, height of the bed {:.4g} mm, relative density {:.6f}, smallest gap {:.4g} mm, {}",
+      bed.radius.size(), settled.bed_height, relative_density(bed), smallest_gap(settled.packing).gap,
+      arguments.output));
 }
 
 void hemispheres(const Arguments& arguments) {
@@ -208,8 +209,8 @@ void import(const Arguments& arguments) {
   if (arguments.size > 0) return write_meshed(arguments, packing, origin);
   write_packing_file(arguments.output, packing, origin);
   if (!arguments.quiet)
-    fmt::print(stderr, "pack-gen: {} spheres, D_r = {:.6f}, smallest gap {:.4g} mm, {}\n", packing.radius.size(),
-               relative_density(packing), smallest_gap(packing).gap, arguments.output);
+    fmt::print(stderr, "pack-gen: {} spheres, relative density {:.6f}, smallest gap {:.4g} mm, {}\n",
+               packing.radius.size(), relative_density(packing), smallest_gap(packing).gap, arguments.output);
 }
 
 /// A defect that would be a failure of the mesher is here a mistake in the file.

@@ -271,10 +271,10 @@ HysteresisMeasurement measure_hysteresis(const schema::FileReader& file, std::op
       "area of the last cycle's loop, integral of (p - p_low) over the volumetric strain (mJ/mm^3 = MPa); cycles "
       "from lowest over highest to lowest mean stress";
   m.details = details_of(h, result.cycles);
-  m.brief = fmt::format(
-      "loop area of the last of {} cycles, drift of D_r per cycle {:+.2e} at {:.3g} MPa and {:+.2e} at {:.3g} "
-      "MPa, last cycle {:.3g} mJ plastic and {:.3g} mJ damage",
-      whole_cycles(h), h.drift_at_low, h.low_stress, h.drift_at_high, h.high_stress, last.plastic, last.damage);
+  m.brief = fmt::format("loop area of the last of {} cycles, drift of the relative density per cycle {:+.2e} at {:.3g} "
+                        "MPa and {:+.2e} at {:.3g} MPa, last cycle {:.3g} mJ plastic and {:.3g} mJ damage",
+                        whole_cycles(h), h.drift_at_low, h.low_stress, h.drift_at_high, h.high_stress, last.plastic,
+                        last.damage);
   m.notes = notes_on(h, range_of(history["deviatoric_stress"], m.window.first_row, m.window.last_row),
                      m.window.stress[1], part("mean_stress")[h.cycles.front().rows.begin]);
   return result;

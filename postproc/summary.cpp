@@ -182,12 +182,12 @@ nlohmann::ordered_json to_json(const Summary& s) {
 std::string to_text(const Summary& s) {
   std::string text;
   const auto line = [&text](std::string_view name, const std::string& value) {
-    text += fmt::format("{:<38}{}\n", name, value);
+    text += fmt::format("{:<40}{}\n", name, value);
   };
   line("status", s.status);
   for (const std::string& warning : s.warnings) line("warning", warning);
-  line("grains, tets, steps", fmt::format("{}  {}  {}", s.grains, s.tets, s.steps));
-  line("wall time", fmt::format("{:.1f} s on {} threads, {:.1f} ns per tet and step", s.wall_time, s.threads,
+  line("grains, tetrahedra, steps", fmt::format("{}  {}  {}", s.grains, s.tets, s.steps));
+  line("wall time", fmt::format("{:.1f} s on {} threads, {:.1f} ns per tetrahedron and step", s.wall_time, s.threads,
                                 s.nanoseconds_per_tet_step));
   line("relative density at the end", fmt::format("{:.4f}", s.relative_density));
   line("mean stress, deviatoric stress", fmt::format("{:.4g} MPa, {:.3g} MPa", s.mean_stress, s.deviatoric_stress));
@@ -198,17 +198,17 @@ std::string to_text(const Summary& s) {
   }
   line("energy residual, largest over work", fmt::format("{:.2e}", s.largest_residual));
   line("kinetic over internal energy, largest",
-       fmt::format("{:.2e} while p is above a tenth of its largest (D_r >= {:.3f})", s.kinetic_over_internal,
-                   s.loaded_from_density));
+       fmt::format("{:.2e} while p is above a tenth of its largest (relative density >= {:.3f})",
+                   s.kinetic_over_internal, s.loaded_from_density));
   line("  ratio of both maxima", fmt::format("{:.2e}", s.kinetic_over_largest_internal));
   line("  at most 1 %", s.kinetic_small_from_density
-                            ? fmt::format("from D_r = {:.3f} to the end", *s.kinetic_small_from_density)
+                            ? fmt::format("from a relative density of {:.3f} to the end", *s.kinetic_small_from_density)
                             : std::string("not at the end"));
   line("inertial number under load", s.inertial_number ? fmt::format("{:.2e} in the median, {:.2e} at its largest",
                                                                      *s.inertial_number, *s.largest_inertial_number)
                                                        : std::string("not known"));
-  line("penetration over h, largest", fmt::format("{:.4f}", s.largest_penetration));
-  line("present density, largest", fmt::format("{:.4f}", s.largest_current_density));
+  line("penetration over element size, largest", fmt::format("{:.4f}", s.largest_penetration));
+  line("current relative density, largest", fmt::format("{:.4f}", s.largest_current_density));
   line("time step", fmt::format("{:.4g} … {:.4g} s", s.smallest_time_step, s.largest_time_step));
   line("coordination number", fmt::format("{:.2f}", s.coordination_number));
   line("contact area over surface", fmt::format("{:.3f}", s.contact_area_ratio));

@@ -64,7 +64,7 @@ std::string end_line(const RunProgress& progress, double now) {
   if (progress.ended()) return {};
   const auto left = remaining(progress, now);
   std::string text =
-      "ETA       " + (left ? duration_text(*left) + " to the expected end of the stage" : "not known yet");
+      "remaining " + (left ? duration_text(*left) + " to the expected end of the stage" : "not known yet");
   const auto done = static_cast<std::size_t>(progress.rows.back().stage) + 1;
   if (progress.plan.stages.size() > done)
     text += fmt::format(", then {} more stage{}", progress.plan.stages.size() - done,
@@ -76,10 +76,12 @@ std::string state_lines(const RunProgress& progress) {
   const auto& rows = progress.rows;
   const ProgressRow& row = rows.back();
   const double internal = internal_energy_at_end(rows);
-  std::string text =
-      fmt::format("step      {:.0f}, t {:.4f} us, dt {:.4f} ns\n", progress.step, 1e6 * row.time, 1e9 * row.time_step);
-  text += fmt::format("state     D_r {:.4f}, p {:.4g} MPa, q {:.4g} MPa, penetration {:.3g} h\n", row.relative_density,
-                      row.mean_stress, row.deviatoric_stress, row.penetration);
+  std::string text = fmt::format("step      {:.0f}, time {:.4f} us, time step {:.4f} ns\n", progress.step,
+                                 1e6 * row.time, 1e9 * row.time_step);
+  text += fmt::format(
+      "state     relative density {:.4f}, p {:.4g} MPa, q {:.4g} MPa\n          penetration {:.3g} of the element "
+      "size\n",
+      row.relative_density, row.mean_stress, row.deviatoric_stress, row.penetration);
   text +=
       fmt::format("energy    kinetic/internal {}, residual/work {}\n          stored {:.4g} mJ, dissipated {:.4g} mJ\n",
                   internal > 0 ? fmt::format("{:.2e}", row.kinetic / internal) : "-",
@@ -92,8 +94,9 @@ std::string curve(const std::vector<ProgressRow>& rows, int width) {
   std::vector<double> density, stress;
   for (const ProgressRow& row : rows) density.push_back(row.relative_density), stress.push_back(row.mean_stress);
   constexpr int numbers = 14, narrowest = 20, widest = 100;
-  return draw({.x_label = "D_r", .y_label = "p / MPa", .columns = std::clamp(width - numbers, narrowest, widest)},
-              density, stress);
+  return draw(
+      {.x_label = "relative density", .y_label = "p / MPa", .columns = std::clamp(width - numbers, narrowest, widest)},
+      density, stress);
 }
 
 } // namespace

@@ -102,7 +102,8 @@ StepCost measure_steps(Simulation& simulation, int steps) {
       simulation.evaluate_forces();
       simulation.advance();
     }
-    if (taken == 0) throw InputError("mpfem bench: the stage ends before the steps to measure, allowed fewer --steps");
+    if (taken == 0)
+      throw InputError("mpfem bench: the stage ends before all steps are measured; allowed: fewer --steps");
     const double scale = 1e9 / (taken * tets);
     segment.whole = scale * Profile::since(start);
     for (std::size_t p = 0; p < profile_parts; ++p)
@@ -250,7 +251,7 @@ void measure_alone(Simulation& simulation, ThreadTeam& team, BenchResult& result
   result.contact = work_of_contact(simulation.contact());
   result.search_work = work_of_search(model, simulation.contact().candidates);
   result.search = measure_search(simulation, team);
-  say("measuring the element pass");
+  say("measuring the element forces");
   result.elements = measure_elements(simulation.model_to_disturb(), simulation.step_estimate().stable_step(), team);
   say("measuring the machine");
   result.machine = {measure_triad(team), measure_fma(team)};
@@ -269,7 +270,7 @@ void run_bench(const BenchOptions& options, const Communicator& ranks) {
   Model made = make_model(options, scenario, ranks);
   Simulation simulation(std::move(made), scenario, team, options.from.has_value(), ranks);
   const Model& model = simulation.model();
-  say(fmt::format("{} tets in {} grains; warming up", model.tets(), model.grains));
+  say(fmt::format("{} tetrahedra in {} grains; warming up", model.tets(), model.grains));
   prepare(options, scenario, simulation);
 
   BenchResult result;

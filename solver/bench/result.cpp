@@ -124,32 +124,35 @@ void add_fields_of_ranks(Fields& fields, const BenchResult& r) {
 
 std::string scene_of_ranks_text(const BenchResult& r) {
   const BenchScene& s = r.scene;
-  return fmt::format("scene          {} ranks of {} threads; {} {} tets ({} precision) in {} grains, D_r {:.3f}\n",
-                     s.ranks, s.threads, s.tets, s.element, s.precision, s.grains, s.relative_density) +
+  return fmt::format(
+             "scene          {} ranks of {} threads; {} {} tets ({} precision) in {} grains, relative density {:.3f}\n",
+             s.ranks, s.threads, s.tets, s.element, s.precision, s.grains, s.relative_density) +
          fmt::format("memory         {:.2f} GB at most in the first rank\n", 1e-9 * r.memory) +
          fmt::format("messages       {:.1f} kB per step from the rank that sends most\n\n", 1e-3 * r.sent);
 }
 
 std::string scene_text(const BenchResult& r) {
   const BenchScene& s = r.scene;
-  return fmt::format(
-             "machine        {} threads, packs of {} doubles: triad {:.1f} GB/s, fused multiply-add {:.1f} GFlop/s\n",
-             s.threads, native_lanes, r.machine.triad, r.machine.fma) +
-         fmt::format("scene          {} {} tets ({} precision, packs of {}) in {} grains, D_r {:.3f}, {:.0f} contact "
-                     "points of {} candidates, {:.0f} bonds\n",
+  return fmt::format("machine        {} threads, vectors of {} doubles: memory {:.1f} GB/s (triad), arithmetic {:.1f} "
+                     "GFlop/s\n",
+                     s.threads, native_lanes, r.machine.triad, r.machine.fma) +
+         fmt::format("scene          {} {} tetrahedra ({} precision, vectors of {}) in {} grains, relative density "
+                     "{:.3f}, {:.0f} contact points in touch out of {} found by the search, {:.0f} bonds\n",
                      s.tets, s.element, s.precision, s.lanes, s.grains, s.relative_density, s.contact_points,
                      s.candidate_points, s.bonds) +
-         fmt::format("memory         {:.0f} B per tet, {:.2f} GB at most in total\n\n", r.memory / s.tets,
+         fmt::format("memory         {:.0f} bytes per tetrahedron, {:.2f} GB at most in total\n\n", r.memory / s.tets,
                      1e-9 * r.memory) +
-         fmt::format("element pass alone, {:.0f} % of the tets hardening: {:.2f} ns per tet-step\n\n",
-                     100 * r.elements.hardening, r.elements.nanoseconds);
+         fmt::format(
+             "element forces alone, {:.0f} % of the tetrahedra yielding: {:.2f} ns per tet-step (one tetrahedron, one "
+             "step)\n\n",
+             100 * r.elements.hardening, r.elements.nanoseconds);
 }
 
 std::string cost_text(const BenchResult& r) {
-  std::string table =
-      fmt::format("{:<28} {:>12} {:>8} {:>14}\n", "whole step", "ns/tet-step", "share", "ns/point-step");
+  std::string table = fmt::format("{:<28} {:>15} {:>8} {:>26}\n", "part of a step", "ns per tet-step", "share",
+                                  "ns per contact point, step");
   const auto line = [&](const char* name, double value, bool per_point) {
-    table += fmt::format("{:<28} {:>12.2f} {:>7.1f}% {:>14}\n", name, value, 100 * value / r.step.whole,
+    table += fmt::format("{:<28} {:>15.2f} {:>7.1f}% {:>26}\n", name, value, 100 * value / r.step.whole,
                          per_point && r.scene.contact_points > 0 ? fmt::format("{:.1f}", r.per_point(value)) : "");
   };
   double accounted = 0;
@@ -160,26 +163,26 @@ std::string cost_text(const BenchResult& r) {
   }
   line("waiting and rest", r.step.whole - accounted, false);
   line("total", r.step.whole, false);
-  if (r.search.steps > 0) line("a search over its steps", r.search_per_step(), true);
-  line("output over its steps", r.output_per_step(), false);
+  if (r.search.steps > 0) line("one search, per step", r.search_per_step(), true);
+  line("output, per step", r.output_per_step(), false);
   return table;
 }
 
 std::string rate_text(const BenchResult& r) {
-  std::string table = fmt::format("\n{:<28} {:>12} {:>13} {:>10} {:>13}\n", "at least moved and computed", "GB/s",
-                                  "of the triad", "GFlop/s", "of the best");
+  std::string table = fmt::format("\n{:<28} {:>12} {:>13} {:>10} {:>18}\n", "lower bound of the work", "memory, GB/s",
+                                  "of machine's", "GFlop/s", "of machine's");
   const auto line = [&](const char* name, const Rate& rate) {
-    table += fmt::format("{:<28} {:>12.1f} {:>11.0f} % {:>10.1f} {:>11.1f} %\n", name, rate.bytes,
+    table += fmt::format("{:<28} {:>12.1f} {:>11.0f} % {:>10.1f} {:>16.1f} %\n", name, rate.bytes,
                          100 * rate.bytes / r.machine.triad, rate.operations, 100 * rate.operations / r.machine.fma);
   };
-  line("element pass alone", element_rate(r));
+  line("element forces alone", element_rate(r));
   line("contact forces", contact_rate(r));
   line("contact search", search_rate(r));
   line("integration", integration_rate(r));
   const double points = r.scene.contact_points;
   table += fmt::format(
-      "per tet: {:.0f} B, {:.0f} operations; per contact point, its bond and its open neighbours: {:.0f} B; its "
-      "penalty: {:.0f} operations\n\n",
+      "per tetrahedron: {:.0f} bytes, {:.0f} operations; per contact point with its bond and the open points near it: "
+      "{:.0f} bytes, {:.0f} operations for its penalty force\n\n",
       r.tet.bytes, r.tet.operations, points > 0 ? r.contact.bytes / points : 0.0,
       points > 0 ? r.contact.operations / points : 0.0);
   return table;
@@ -214,10 +217,11 @@ std::string json_text(const BenchResult& result) {
 std::string table_text(const BenchResult& r) {
   if (r.scene.ranks > 1) return scene_of_ranks_text(r) + cost_text(r);
   return scene_text(r) + cost_text(r) + rate_text(r) +
-         fmt::format("search {:.2f} ms, lasts {:.0f} steps; history row {:.2f} ms; checkpoint {:.2f} s, {:.0f} B a "
-                     "tet, {:.2f} GB/s\n",
-                     1e3 * r.search.seconds, r.search.steps, 1e3 * r.output.row_seconds, r.output.checkpoint_seconds,
-                     r.output.checkpoint_bytes / r.scene.tets, checkpoint_speed(r));
+         fmt::format(
+             "contact search {:.2f} ms, valid for {:.0f} steps; history row {:.2f} ms; checkpoint {:.2f} s, {:.0f} "
+             "bytes per tetrahedron, {:.2f} GB/s\n",
+             1e3 * r.search.seconds, r.search.steps, 1e3 * r.output.row_seconds, r.output.checkpoint_seconds,
+             r.output.checkpoint_bytes / r.scene.tets, checkpoint_speed(r));
 }
 
 } // namespace mpfem

@@ -123,10 +123,10 @@ void print_model(const Scenario& scenario, const Simulation& simulation, const N
     fmt::print("               {:g} between materials {} and {}\n", pair.friction, pair.materials[0],
                pair.materials[1]);
   for (const ToolParameters& tool : scenario.tools) print_tool(tool);
-  fmt::print("relative density at the start  {:.4f}\n", simulation.relative_density());
+  fmt::print("density        {:.4f} (relative density at the start)\n", simulation.relative_density());
   fmt::print(
-      "memory         {:.1f} MB of model data ({:.0f} B per tet); the run needs about {:.0f} MB at most, and {:.0f} MB "
-      "of disk space\n",
+      "memory         {:.1f} MB of model data ({:.0f} bytes per tetrahedron); the run needs about {:.0f} MB at most, "
+      "and {:.0f} MB of disk space\n",
       1e-6 * static_cast<double>(model.memory()), static_cast<double>(model.memory()) / model.tets(),
       1e-6 * needs.memory, 1e-6 * needs.disk);
 }
@@ -142,10 +142,11 @@ void print_bonds(const Scenario& scenario, const Simulation& simulation) {
   if (scenario.bond) {
     const BondResolution r =
         bond_resolution(model, *scenario.bond, scenario.contact, BondPartner::grain, simulation.ranks());
-    fmt::print("bonds          cohesive zone {:.3g} mm, {:.2g} elements of {:.3g} mm; fracture energy {:g} N/mm: "
-               "stable softening needs {:.3g}, any softening more than {:.3g} N/mm\n",
-               r.cohesive_zone, r.cohesive_zone / r.element_size, r.element_size, scenario.bond->fracture_energy,
-               r.steep_fracture_energy, r.smallest_fracture_energy);
+    fmt::print(
+        "bonds          cohesive zone {:.3g} mm, {:.2g} elements of {:.3g} mm; fracture energy {:g} N/mm, needed "
+        "for stable softening {:.3g} N/mm, for any softening more than {:.3g} N/mm\n",
+        r.cohesive_zone, r.cohesive_zone / r.element_size, r.element_size, scenario.bond->fracture_energy,
+        r.steep_fracture_energy, r.smallest_fracture_energy);
   }
   for (const std::string& warning : warnings) fmt::print("warning        {}\n", warning);
   if (const std::string text = earlier_bonds_text(simulation.contact()); !text.empty())

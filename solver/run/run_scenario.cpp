@@ -136,8 +136,9 @@ public:
     leader_does(ranks_, [this] { check_promises(); });
     write_result("complete");
     leader_does(ranks_, [this] { remove_unfinished(options_.output); });
-    progress_.finish(fmt::format("{} steps, D_r = {:.4f}, p = {:.4g} MPa, {}", simulation_.state().step,
-                                 simulation_.relative_density(), simulation_.box().mean_stress(), options_.output));
+    progress_.finish(fmt::format("{} steps, relative density {:.4f}, mean stress {:.4g} MPa, {}",
+                                 simulation_.state().step, simulation_.relative_density(),
+                                 simulation_.box().mean_stress(), options_.output));
     if (!options_.quiet) print_profile();
     if (!options_.quiet) print_quality();
     return RunEnd::complete;
@@ -331,7 +332,7 @@ private:
     warned_of_stage_ = state.stage;
     if (!options_.quiet)
       fmt::print(stderr,
-                 "mpfem: warning: stage '{}', D_r = {:.4f}: the tolerances of quasi_static are not met even "
+                 "mpfem: warning: stage '{}', relative density {:.4f}: the tolerances of quasi_static are not met even "
                  "at slowest_speed\n",
                  simulation_.stage().name, simulation_.relative_density());
   }
@@ -383,8 +384,8 @@ private:
     const double error = energy_check_.take(row);
     if (!(error <= EnergyCheck::allowed))
       throw SimulationError(fmt::format(
-          "step {:.0f}, t = {:.4g} s, D_r = {:.4f}: the energy balance is off by {:.3g} % of its largest term, allowed "
-          "{:g} %: the motion is not computed stably; lower numerics.time_step_factor, or the speed",
+          "step {:.0f}, time {:.4g} s, relative density {:.4f}: the energy balance is off by {:.3g} % of its largest "
+          "term, allowed {:g} %: the motion is not stable; lower numerics.time_step_factor or the speed",
           row.step, row.time, row.relative_density, 100 * error, 100 * EnergyCheck::allowed));
     if (error <= EnergyCheck::noteworthy || warned_of_energy_ || options_.quiet) return;
     warned_of_energy_ = true;
@@ -448,8 +449,8 @@ private:
     if (reason == Reason::interval) balance();
     if (reason == Reason::none || reason == Reason::interval) return;
     write_result("interrupted");
-    throw Interrupted(fmt::format("{} at step {}, D_r = {:.4f}; continue with --resume",
-                                  reason == Reason::interrupted ? "interrupted" : "out of time",
+    throw Interrupted(fmt::format("{} at step {}, relative density {:.4f}; continue with --resume",
+                                  reason == Reason::interrupted ? "interrupted" : "stopped by --time-limit",
                                   simulation_.state().step, simulation_.relative_density()));
   }
 
@@ -549,9 +550,9 @@ private:
     const RunState& state = simulation_.state();
     if (state.step % 16 != 0) return;
     warn_of_small_step();
-    progress_.update(fraction_done(), fmt::format("step {}  D_r {:.4f}  p {:.4g} MPa  {:.0f} ns/tet-step", state.step,
-                                                  simulation_.relative_density(), simulation_.box().mean_stress(),
-                                                  nanoseconds_per_tet_step()));
+    progress_.update(fraction_done(),
+                     fmt::format("step {}  relative density {:.4f}  mean stress {:.4g} MPa", state.step,
+                                 simulation_.relative_density(), simulation_.box().mean_stress()));
   }
 
   /// Warns once: a run whose step collapses hardly writes rows that would show it.
@@ -572,12 +573,16 @@ private:
   void report_row(const HistoryRow& row) {
     const std::int64_t every = std::max(1, scenario_.output.history_rows / 20);
     if ((record_.rows_in_stage - 1) % every != 0 && !simulation_.stage_complete()) return;
-    if (reported_lines_++ % 20 == 0)
-      fmt::print(stderr, "{:>8} {:>10} {:>10} {:>8} {:>7} {:>9} {:>9} {:>8} {:>9} {:>7} {:>8}\n", "step", "t/us",
-                 "dt/ns", "limit", "D_r", "p/MPa", "q/MPa", "KE/IE", "residual", "pen/h", "ns/tet");
+    if (reported_lines_++ % 20 == 0) {
+      constexpr const char* head = "{:>8} {:>10} {:>10} {:>8} {:>8} {:>9} {:>10} {:>8} {:>9} {:>11} {:>8}\n";
+      fmt::print(stderr, head, "step", "time", "time step", "step set", "relative", "mean", "deviatoric", "kinetic/",
+                 "residual/", "penetration", "ns per");
+      fmt::print(stderr, head, "", "us", "ns", "by", "density", "p, MPa", "q, MPa", "internal", "work", "/ element",
+                 "tet-step");
+    }
     const double internal = internal_energy(record_.history).back();
     fmt::print(stderr,
-               "{:>8.0f} {:>10.4f} {:>10.4f} {:>8} {:>7.4f} {:>9.4g} {:>9.3g} {:>8} {:>9.2e} {:>7.4f} {:>8.1f}\n",
+               "{:>8.0f} {:>10.4f} {:>10.4f} {:>8} {:>8.4f} {:>9.4g} {:>10.3g} {:>8} {:>9.2e} {:>11.4f} {:>8.1f}\n",
                row.step, row.time * 1e6, row.time_step * 1e9,
                simulation_.step_estimate().state().controlled_by_contact ? "contact" : "element", row.relative_density,
                row.mean_stress, row.deviatoric_stress,
@@ -599,12 +604,12 @@ private:
   void print_profile() const {
     RunRecord record = record_;
     add_times(record);
-    fmt::print(stderr, "{:<24} {:>10} {:>8} {:>12}\n", "part", "wall s", "share", "ns/tet-step");
+    fmt::print(stderr, "{:<24} {:>12} {:>8} {:>15}\n", "part", "wall time, s", "share", "ns per tet-step");
     const double tet_steps =
         static_cast<double>(simulation_.state().step - first_step_) * static_cast<double>(simulation_.model().tets());
     double accounted = 0;
     const auto line = [&](const char* name, double seconds) {
-      fmt::print(stderr, "{:<24} {:>10.2f} {:>7.1f}% {:>12.2f}\n", name, seconds, 100 * seconds / record.wall_time,
+      fmt::print(stderr, "{:<24} {:>12.2f} {:>7.1f}% {:>15.2f}\n", name, seconds, 100 * seconds / record.wall_time,
                  1e9 * seconds / tet_steps);
     };
     for (std::size_t i = 0; i < profile_parts; ++i) {

@@ -210,9 +210,10 @@ void Simulation::check_penetration() const {
   fail_at_first_grain([&](std::int32_t grain) -> std::string {
     const double penetration = force_sums_[at(grain)].box.penetration();
     if (penetration <= deepest_penetration) return {};
-    return fmt::format("step {}, D_r = {:.4f}: a node of grain {} is {:.2f} of the element size behind a wall, allowed "
-                       "up to {:g}: raise contact.stiffness_factor or lower the speed",
-                       state_.step, relative_density(), grain, penetration, deepest_penetration);
+    return fmt::format(
+        "step {}, relative density {:.4f}: a node of grain {} is {:.2f} of the element size behind a wall, "
+        "allowed up to {:g}: raise contact.stiffness_factor or lower the speed",
+        state_.step, relative_density(), grain, penetration, deepest_penetration);
   });
 }
 
@@ -242,10 +243,10 @@ void Simulation::measure_tools() {
   energies_.friction_dissipation += tools_.total().friction_dissipation;
   for (std::size_t tool = 0; tool < tools_.size(); ++tool)
     if (const double penetration = tools_.load(tool).penetration; penetration > deepest_penetration)
-      throw SimulationError(fmt::format(
-          "step {}, D_r = {:.4f}: a node is {:.2f} of the element size behind the tool '{}', allowed up to {:g}: raise "
-          "contact.stiffness_factor or lower the speed",
-          state_.step, relative_density(), penetration, tools_[tool].name, deepest_penetration));
+      throw SimulationError(
+          fmt::format("step {}, relative density {:.4f}: a node is {:.2f} of the element size behind the tool '{}', "
+                      "allowed up to {:g}: raise contact.stiffness_factor or lower the speed",
+                      state_.step, relative_density(), penetration, tools_[tool].name, deepest_penetration));
 }
 
 /// Work of the walls, and stresses of the box at this time level, to which grips contribute.
@@ -342,8 +343,8 @@ void Simulation::renew_step_estimate(const Box& box, bool anew) {
 void Simulation::report_bad_grain() const {
   fail_at_first_grain([&](std::int32_t grain) -> std::string {
     if (motion_sums_[at(grain)].elements.admissible) return {};
-    return fmt::format("step {}, t = {:.4g} s, D_r = {:.4f}: {}", state_.step, state_.time, relative_density(),
-                       failed_grain_text(model_, grain));
+    return fmt::format("step {}, time {:.4g} s, relative density {:.4f}: {}", state_.step, state_.time,
+                       relative_density(), failed_grain_text(model_, grain));
   });
   throw std::logic_error("no grain has failed");
 }

@@ -29,10 +29,10 @@ TEST_CASE("Durations that are no durations have a word") {
   CHECK(duration_text(std::numeric_limits<double>::infinity()) == "very long");
 }
 
-TEST_CASE("A progress line holds label, per cent, detail, elapsed time and the time left when known") {
-  CHECK(progress_line("run", 0.42, "RD 0.71", 62, 85) == "run  42.0 %  RD 0.71  elapsed 1:02  ETA 1:25");
+TEST_CASE("a progress line holds label, per cent, elapsed time, the remaining time where it is known, and detail") {
+  CHECK(progress_line("run", 0.42, "RD 0.71", 62, 85) == "run  42.0 %  elapsed 1:02  remaining 1:25  RD 0.71");
   CHECK(progress_line("run", 0, "", 0, std::nullopt) == "run   0.0 %  elapsed 0.0 s");
-  CHECK(progress_line("run", 1, "", 3, 0) == "run 100.0 %  elapsed 3.0 s  ETA 0.0 s");
+  CHECK(progress_line("run", 1, "", 3, 0) == "run 100.0 %  elapsed 3.0 s  remaining 0.0 s");
 }
 
 TEST_CASE("A quiet job writes nothing") {
@@ -80,7 +80,7 @@ TEST_CASE("The time left of a resumed job is judged from what was done since it 
   const std::size_t at = text.find("elapsed ");
   REQUIRE(at != std::string::npos);
   double elapsed = 0, remaining = 0;
-  REQUIRE(std::sscanf(text.c_str() + at, "elapsed %lf s ETA %lf s", &elapsed, &remaining) == 2);
+  REQUIRE(std::sscanf(text.c_str() + at, "elapsed %lf s remaining %lf s", &elapsed, &remaining) == 2);
   CHECK(elapsed >= 0.5);
   CHECK(remaining == Approx(elapsed).margin(0.1001)); // both are rounded to 0.1 s
 }

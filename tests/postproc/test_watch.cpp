@@ -103,17 +103,17 @@ TEST_CASE("a frame says stage, state, energies over those of the stage, and when
   CHECK(contains(frame, "run.checkpoint.h5: mpfem is running, written 1:40 ago\n"));
   CHECK(contains(frame, "done      first: ended by relative density 0.62\n"));
   CHECK(contains(frame, "stage     2 of 3: second (isotropic_unloading), 45 % of its expected time\n"));
-  CHECK(contains(frame, "step      109, t 1.0000 us, dt 0.2000 ns\n"));
-  CHECK(contains(frame, "D_r 0.5600, p 16 MPa"));
+  CHECK(contains(frame, "step      109, time 1.0000 us, time step 0.2000 ns\n"));
+  CHECK(contains(frame, "relative density 0.5600, p 16 MPa"));
   CHECK(contains(frame, "kinetic/internal 3.33e-03, residual/work 1.00e-03")); // internal: 2 stored, 1 dissipated
-  CHECK(contains(frame, "ETA       2:55 to the expected end of the stage, then 1 more stage\n")); // 0.55 * 500 - 100 s
+  CHECK(contains(frame, "remaining 2:55 to the expected end of the stage, then 1 more stage\n")); // 0.55 * 500 - 100 s
   for (std::size_t begin = 0; begin < frame.size(); begin = frame.find('\n', begin) + 1)
     CHECK(frame.find('\n', begin) - begin <= 80);
   RunProgress unknown = halfway();
   unknown.seconds_per_stage.reset();
   unknown.plan = {};
   CHECK(contains(watch_frame(unknown, 1100), "stage     2, "));
-  CHECK(contains(watch_frame(unknown, 1100), "ETA       not known yet\n"));
+  CHECK(contains(watch_frame(unknown, 1100), "remaining not known yet\n"));
 }
 
 TEST_CASE("a run that is watched ends as one that is not, and the watch with it") {
@@ -147,7 +147,7 @@ TEST_CASE("what a killed run has left is shown, also between the renames of its 
   CHECK(killed.exit_code == 0);
   CHECK(contains(killed.output, "run.checkpoint.h5: no mpfem is running (--resume continues)"));
   CHECK(contains(killed.output, "p / MPa"));
-  CHECK_FALSE(contains(killed.output, "ETA       not known"));
+  CHECK_FALSE(contains(killed.output, "remaining not known"));
   write_text(folder / "run.lock", "");
   CHECK(contains(watch((folder / "run.h5") + " --once").output, "running on another machine, or was killed, written"));
   fs::remove(folder / "run.lock");

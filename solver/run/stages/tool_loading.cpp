@@ -156,9 +156,9 @@ void ToolLoadingControl::observe(const StageObservation& observation) {
   state_.ended_by = find_end(seen);
   if (state_.ended_by == ToolEnd::none && seen.time > longest_time * expected_duration_)
     throw SimulationError(
-        fmt::format("stage '{}': its end was not reached: D_r = {:.4f}, axial stress {:.4g} MPa, push "
-                    "of the watched tool {:.4g} N after {:g} times the time expected",
-                    name_, seen.density, seen.axial_stress, seen.push, longest_time));
+        fmt::format("stage '{}': its end was not reached after {:g} times the expected time: relative density "
+                    "{:.4f}, axial stress {:.4g} MPa, force on the watched tool {:.4g} N",
+                    name_, longest_time, seen.density, seen.axial_stress, seen.push));
 }
 
 void ToolLoadingControl::move(Cell& cell, double /*time*/, double /*clock_step*/, double step) const {

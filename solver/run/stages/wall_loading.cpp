@@ -117,7 +117,7 @@ double WallLoading::find_fraction_done(const ObservedSample& seen) const {
 void WallLoading::fail(const ObservedSample& seen, const std::string& what) const {
   throw SimulationError(
       fmt::format("stage '{}': its end was not reached: p = {:.4g} MPa, q = {:.4g} MPa, axial strain {:.4g}, "
-                  "D_r = {:.4f} {}",
+                  "relative density {:.4f}, {}",
                   name_, seen.mean_stress, seen.deviatoric_stress, seen.strain[2], seen.relative_density, what));
 }
 

@@ -154,7 +154,8 @@ TEST_CASE("a compaction takes the steps that check foretells") {
   const Outcome run =
       run_command(fmt::format("'{}' run {} -o {}", MPFEM_EXECUTABLE, folder / "scenario.toml", folder / "run.h5"));
   REQUIRE(run.exit_code == 0);
-  const double foretold = number_before(check.output, " steps: "), taken = number_before(run.messages, " steps, D_r");
+  const double foretold = number_before(check.output, " steps: "),
+               taken = number_before(run.messages, " steps, relative density");
   CHECK(foretold == Approx(taken).epsilon(0.05));
 }
 
