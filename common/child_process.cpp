@@ -56,9 +56,9 @@ bool read_until_end(int pipe, double seconds, std::string& output) {
 
 ChildEnd run_in_child(const std::function<void(const std::function<void(std::string_view)>&)>& body, double seconds) {
   std::array<int, 2> ends{};
-  if (pipe(ends.data()) != 0) throw std::runtime_error("no pipe to a child process could be made");
+  if (pipe(ends.data()) != 0) throw std::runtime_error("cannot open a pipe to a child process");
   const pid_t child = fork();
-  if (child < 0) throw std::runtime_error("no child process could be started");
+  if (child < 0) throw std::runtime_error("cannot start a child process");
   if (child == 0) {
     close(ends[0]);
     be_child(body, ends[1]);

@@ -44,7 +44,7 @@ std::optional<int> parse_command_line(CLI::App& app, const std::string& program,
     constexpr std::size_t longest = 240;
     std::string command = program;
     for (const CLI::App* parsed : app.get_subcommands()) command += " " + parsed->get_name();
-    throw InputError(fmt::format("{} ({} --help tells more)", shortened(error.what(), longest), command));
+    throw InputError(fmt::format("{} (see {} --help)", shortened(error.what(), longest), command));
   }
   return std::nullopt;
 }

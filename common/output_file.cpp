@@ -33,7 +33,7 @@ std::string kind_of(mode_t mode) {
   if (S_ISBLK(mode)) return "a block device";
   if (S_ISFIFO(mode)) return "a FIFO";
   if (S_ISSOCK(mode)) return "a socket";
-  return "no regular file";
+  return "a special file";
 }
 
 bool is_stream(mode_t mode) {
@@ -72,7 +72,7 @@ void refuse_special_file(std::string_view option, const std::string& path, Outpu
 }
 
 void check_output_path(std::string_view option, const std::string& path, OutputKind kind) {
-  if (path.empty()) throw InputError(fmt::format("{}: found no name, allowed: a file", option));
+  if (path.empty()) throw InputError(fmt::format("{}: found an empty name, allowed: a file", option));
   refuse_special_file(option, path, kind);
   std::error_code ignored;
   if (!std::filesystem::is_directory(folder_of(output_target(path)), ignored))

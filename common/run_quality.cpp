@@ -30,21 +30,21 @@ std::vector<std::string> quality_warnings(std::span<const QualityRow> rows) {
                                    "{:g} %): lower numerics.time_step_factor",
                                    100 * residual / work, 100 * doubtful_residual));
   if (kinetic > doubtful_kinetic)
-    warnings.push_back(fmt::format("kinetic energy is up to {:.2g} of the internal energy under load (warning above "
+    warnings.push_back(fmt::format("kinetic energy is up to {:.2g} times the internal energy under load (warning above "
                                    "{:g}): inertia carries part of the stress; reduce the speeds",
                                    kinetic, doubtful_kinetic));
   if (penetration > doubtful_penetration)
-    warnings.push_back(fmt::format("nodes penetrate by up to {:.2g} of the element size (warning above {:g}): raise "
-                                   "contact.stiffness_factor",
-                                   penetration, doubtful_penetration));
+    warnings.push_back(fmt::format(
+        "nodes penetrate by up to {:.2g} element sizes (warning above {:g}): raise contact.stiffness_factor",
+        penetration, doubtful_penetration));
   if (density > doubtful_density)
-    warnings.push_back(fmt::format("the grains' current volume is up to {:.4g} of the box volume (warning above {:g}): "
-                                   "no pores are left, or grains overlap",
+    warnings.push_back(fmt::format("the grains' current volume is up to {:.4g} times the box's volume (warning above "
+                                   "{:g}): no pores are left, or grains overlap",
                                    density, doubtful_density));
   if (shortest_step < doubtful_step_share * first_step)
-    warnings.push_back(fmt::format("the time step fell to {:.2g} of the first one (warning below {:g}): elements are "
-                                   "nearly flat",
-                                   shortest_step / first_step, doubtful_step_share));
+    warnings.push_back(fmt::format(
+        "the time step fell to {:.2g} times the first one (warning below {:g}): some elements are nearly flat",
+        shortest_step / first_step, doubtful_step_share));
   return warnings;
 }
 

@@ -85,7 +85,7 @@ toml::table parse_toml(std::string_view text, const std::string& name) {
   if (const auto line = line_nested_too_deep(text))
     throw_input_error(
         fmt::format("{}:{}", shown_path(name), *line),
-        fmt::format("tables and arrays nest deeper than {} levels, which is the most that is read", deepest_toml));
+        fmt::format("tables and arrays are nested deeper than {} levels, the most allowed", deepest_toml));
   try {
     return toml::parse(text, name);
   } catch (const toml::parse_error& error) {
@@ -101,8 +101,7 @@ toml::table parse_assigned_value(std::string_view value, const std::string& sour
   value = value.substr(first, value.find_last_not_of(" \t") - first + 1);
   if (value.find_first_of("\r\n") != std::string_view::npos) throw_input_error(source, "the value has several lines");
   if (line_nested_too_deep(value))
-    throw_input_error(
-        source, fmt::format("the value nests deeper than {} levels, which is the most that is read", deepest_toml));
+    throw_input_error(source, fmt::format("the value is nested deeper than {} levels, the most allowed", deepest_toml));
   try {
     return toml::parse(fmt::format("value = {}", value), source);
   } catch (const toml::parse_error& error) {
@@ -129,8 +128,7 @@ std::vector<std::string> split_key(std::string_view key, const std::string& sour
                                     "or 'stages.0.name'",
                                     shortened(key, longest_word)));
     if (parts.size() > deepest_toml)
-      throw_input_error(source,
-                        fmt::format("found a key of more than {} parts, which is the most that is read", deepest_toml));
+      throw_input_error(source, fmt::format("found a key of more than {} parts, the most allowed", deepest_toml));
     begin = end + 1;
   }
   return parts;
@@ -236,8 +234,8 @@ const toml::node& TableReader::require(std::string_view key, std::string_view al
     if (!asked_.contains(entry.first.str())) present.emplace_back(entry.first.str());
   if (const auto near = nearest_word(key, present)) {
     const auto line = table_->find(*near)->first.source().begin.line;
-    message += line > 0 ? fmt::format(" (is '{}' in line {} meant?)", shortened(*near, longest_word), line)
-                        : fmt::format(" (is '{}' meant?)", shortened(*near, longest_word));
+    message += line > 0 ? fmt::format(" (did you mean '{}' in line {}?)", shortened(*near, longest_word), line)
+                        : fmt::format(" (did you mean '{}'?)", shortened(*near, longest_word));
   }
   fail_at(table_->source(), key, message);
 }

@@ -79,8 +79,8 @@ std::unique_ptr<FileReader::State> open_unchecked(const std::string& path) {
   const std::string version = read_text_attribute(state->file, attribute::schema_version);
   const auto known = std::find_if(std::begin(kinds), std::end(kinds), [&](const auto& k) { return k.name == kind; });
   if (known == std::end(kinds))
-    throw InputError(
-        fmt::format("{}: not a file of this toolkit (attribute file_kind is '{}')", one_line(path), one_line(kind)));
+    throw InputError(fmt::format("{}: not a file of mpfem, pack-gen or postproc (attribute file_kind is '{}')",
+                                 one_line(path), one_line(kind)));
   if (version != schema_version)
     throw InputError(fmt::format("{}: schema version '{}', this program reads {}", one_line(path), one_line(version),
                                  schema_version));

@@ -210,7 +210,7 @@ Validation validate(const std::string& path) {
   }
   if (!ended)
     validation.findings.push_back(
-        child.out_of_time   ? std::string("cannot be read: the HDF5 library did not come to an end")
+        child.out_of_time   ? std::string("cannot be read: the HDF5 library did not finish in time")
         : child.signal != 0 ? fmt::format("cannot be read: the HDF5 library ended by signal {} ({})", child.signal,
                                           strsignal(child.signal))
                             : std::string("cannot be read: the HDF5 library ended the program (out of memory?)"));

@@ -52,7 +52,7 @@ Scenario load_scenario(const Arguments& arguments) {
 
 void add_threads(CLI::App& command, Arguments& arguments) {
   add_number(command, "--threads", arguments.run.threads, thread_numbers, "",
-             "Threads of each rank (default: all cores available to it)");
+             "Threads of each process (default: all cores available to it)");
 }
 
 void add_common(CLI::App& command, Arguments& arguments) {
@@ -85,7 +85,7 @@ CLI::App* add_bond(CLI::App& app, BondProgrammeOptions& options) {
   bond->add_option("-o,--output", options.output, "Table to write (CSV)")->required();
   bond->add_option("--set", options.assignments, "Override a value of the law: KEY=VALUE")->take_all();
   add_number(*bond, "--increments", options.increments, Range::between(1, 1e7), "",
-             "Increments where a row of the programme gives none")
+             "Increments of a row of the programme that gives none")
       ->capture_default_str();
   bond->add_flag("--quiet", options.quiet, "No summary");
   return bond;
@@ -94,9 +94,9 @@ CLI::App* add_bond(CLI::App& app, BondProgrammeOptions& options) {
 CLI::App* add_bench(CLI::App& app, Arguments& arguments, BenchOptions& options) {
   CLI::App* bench = app.add_subcommand(
       "bench",
-      "Measure the cost of a step on this machine, part by part, compared with its limits.\n"
+      "Measure the cost of each part of a time step on this machine, and compare it with the limits of the machine.\n"
       "Examples:\n"
-      "  mpfem bench                                    # 329 dense, bonded grains of 600 tets each\n"
+      "  mpfem bench                                    # 329 dense, bonded grains of 600 tetrahedra each\n"
       "  mpfem bench --tets 1600000 --threads 1 --json\n"
       "  mpfem bench --no-bonds --friction 0.3\n"
       "  mpfem bench compaction.toml --from run.compaction.checkpoint.h5 --set stages.0.relative_density=0.95");
@@ -115,7 +115,7 @@ CLI::App* add_bench(CLI::App& app, Arguments& arguments, BenchOptions& options) 
           {"tet4", ElementType::tet4}, {"tet4-anp", ElementType::tet4_anp}, {"tet4-patch", ElementType::tet4_patch}}));
   bench
       ->add_option("--precision", options.precision,
-                   "Precision of its tets: double or mixed (strains, stresses in single)")
+                   "Precision of its tetrahedra: double, or mixed with strains and stresses in single precision")
       ->transform(CLI::CheckedTransformer(
           std::map<std::string, Precision>{{"double", Precision::full}, {"mixed", Precision::mixed}}));
   bench->add_flag("!--no-bonds", options.bonds, "Built-in packing without bonds");
@@ -129,7 +129,7 @@ CLI::App* add_bench(CLI::App& app, Arguments& arguments, BenchOptions& options) 
 }
 
 constexpr const char* help_text =
-    "mpfem: compacts a meshed packing of deformable grains.\n"
+    "mpfem: compacts and tests a meshed packing of deformable grains by explicit finite elements.\n"
     "Examples:\n"
     "  mpfem check compaction.toml\n"
     "  mpfem run compaction.toml -o run.h5\n"
@@ -171,7 +171,7 @@ void measure_steps(const Arguments& arguments, BenchOptions options, const Commu
   if (!arguments.scenario.empty()) options.scenario = load_scenario(arguments);
   if (!arguments.from.empty()) options.from = arguments.from;
   if (arguments.scenario.empty() && (!arguments.from.empty() || !arguments.assignments.empty()))
-    throw InputError("mpfem bench: found --from or --set without a scenario, allowed with one only");
+    throw InputError("mpfem bench: found --from or --set without a scenario; allowed: with a scenario only");
   options.threads = arguments.run.threads;
   run_bench(options, ranks);
 }

@@ -73,25 +73,27 @@ void check(const Model& model, const ContactParameters& contact, const BondsOfSc
            const Communicator& ranks, std::vector<std::string>& warnings) {
   if (const auto stiffness = bonds.bond.stiffness; stiffness && bonds.rub)
     if (const double allowed = smallest_penalty(model, ranks); *stiffness > allowed)
-      bonds.refuse("stiffness",
-                   fmt::format("found {:g} MPa/mm, with friction allowed up to {:.3g} MPa/mm, the smallest "
-                               "penalty of a contact point",
-                               *stiffness, allowed));
+      bonds.refuse(
+          "stiffness",
+          fmt::format(
+              "found {:g} MPa/mm, allowed with friction: up to {:.3g} MPa/mm, the smallest penalty of a contact point",
+              *stiffness, allowed));
   const BondResolution r = bond_resolution(model, bonds.bond, contact, bonds.partner, ranks);
   const double energy = bonds.bond.fracture_energy;
   if (!(energy > 1.01 * r.smallest_fracture_energy))
-    bonds.refuse("fracture_energy",
-                 fmt::format("found {:g} N/mm, allowed > {:.3g} N/mm with bonds of this stiffness (strength^2/(2 K)): "
-                             "raise it or the stiffness, or lower the strength",
-                             energy, 1.01 * r.smallest_fracture_energy));
+    bonds.refuse(
+        "fracture_energy",
+        fmt::format("found {:g} N/mm, allowed > {:.3g} N/mm, which is 1.01 strength^2/(2 K) with the stiffness K of "
+                    "these bonds: raise the fracture energy or the stiffness, or lower the strength",
+                    energy, 1.01 * r.smallest_fracture_energy));
   if (energy < r.steep_fracture_energy)
-    warnings.push_back(fmt::format("{} soften more steeply than elements of {:.3g} mm can unload: fracture_energy "
-                                   "{:g} N/mm is below strength^2 h/E = {:.3g} N/mm; breaking bonds will shake the "
-                                   "grains",
-                                   bonds.subject, r.element_size, energy, r.steep_fracture_energy));
+    warnings.push_back(
+        fmt::format("{} soften more steeply than elements of {:.3g} mm can unload: fracture_energy "
+                    "{:g} N/mm is below strength^2 h/E = {:.3g} N/mm; breaking bonds will make the grains vibrate",
+                    bonds.subject, r.element_size, energy, r.steep_fracture_energy));
   if (r.cohesive_zone < 3 * r.element_size)
     warnings.push_back(fmt::format("the cohesive zone of {} ({:.3g} mm) has fewer than three elements of {:.3g} mm: "
-                                   "strengths of contacts depend on the mesh",
+                                   "the strength of a contact depends on the mesh",
                                    bonds.subject, r.cohesive_zone, r.element_size));
 }
 

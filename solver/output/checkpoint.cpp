@@ -24,8 +24,8 @@ void refuse_damaged_checkpoint(const std::string& path) {
 
 std::string CheckpointReader::content_hash() const {
   if (file_.checksums().empty())
-    throw InputError(fmt::format(
-        "{}: the checkpoint has no checksum, allowed: a file as this version of mpfem wrote it", one_line(path())));
+    throw InputError(fmt::format("{}: the checkpoint has no checksum; allowed: a file written by this version of mpfem",
+                                 one_line(path())));
   return file_.checksums();
 }
 
@@ -69,15 +69,16 @@ void CheckpointReader::check_model(const Model& model, const Communicator& ranks
   if (packing_hash() != hash_text(model.mesh_hash)) fail("belongs to another packing than the scenario's");
   // Arrays are in the order of nodes and tets, which may differ between versions.
   if (file_.read_scalar(check::numbering_hash) != numbering)
-    fail("was written by a version of mpfem that orders nodes and tets otherwise");
+    fail("was written by a version of mpfem that orders nodes and tetrahedra differently");
   if (const auto lanes = file_.read_scalar(check::lanes); lanes != native_lanes)
-    fail(fmt::format("was written by a build with {} lanes, this one has {}: results would not be identical", lanes,
-                     native_lanes));
+    fail(fmt::format("was written by a build that computes {} tetrahedra at once, this one computes {}: results would "
+                     "not be identical",
+                     lanes, native_lanes));
   // Otherwise all contacts would open or close at once by the height of the smooth surface.
   if (const auto smooth = file_.read_scalar(check::smooth_grains); smooth != model.smooth_grains)
-    fail(fmt::format("has {} of {} grains that touch by their smooth surface, the scenario {}; allowed the same "
-                     "contact.surface",
-                     smooth, model.grains, model.smooth_grains));
+    fail(fmt::format(
+        "has {} of {} grains with smooth contact surfaces, the scenario has {}; allowed: the same contact.surface",
+        smooth, model.grains, model.smooth_grains));
 }
 
 RunRecord CheckpointReader::record() const {

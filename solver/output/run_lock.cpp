@@ -37,8 +37,8 @@ RunLock::RunLock(const std::string& run_file) : path_(lock_path(run_file)) {
     if (flock(file_, LOCK_EX | LOCK_NB) != 0) {
       if (errno != EWOULDBLOCK) return;
       close(file_);
-      throw InputError(fmt::format("--output {}: another mpfem is writing this run and holds {}: wait for it, or end "
-                                   "it (kill, scancel)",
+      throw InputError(fmt::format("--output {}: another mpfem is writing this run and holds the lock {}: wait for it, "
+                                   "or end it (kill, scancel)",
                                    one_line(run_file), one_line(path_)));
     }
     if (stands(file_, path_)) return;

@@ -26,7 +26,7 @@ constexpr std::size_t largest_piece = std::size_t{1} << 30;
 
 int count_of(std::size_t bytes) {
   if (bytes > static_cast<std::size_t>(std::numeric_limits<int>::max()))
-    throw std::length_error("a message between ranks of more than 2 GiB");
+    throw std::length_error("a message between ranks is larger than 2 GiB");
   return static_cast<int>(bytes);
 }
 

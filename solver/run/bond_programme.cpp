@@ -54,7 +54,7 @@ double trapezoid(const Separation& a, const BondedPoint::Response& at_a, const S
 void refuse_overwriting(const std::string& output, const std::string& input) {
   std::error_code ignored; // if a file does not exist, they differ
   if (std::filesystem::equivalent(output, input, ignored))
-    throw InputError(fmt::format("{}: is an input, allowed another --output", shown_path(output)));
+    throw InputError(fmt::format("{}: is an input; allowed: another --output", shown_path(output)));
 }
 
 } // namespace
@@ -93,8 +93,7 @@ BondedPointLaw read_bonded_point_law(const TomlDocument& document) {
   TableReader table = root.table("bond");
   const BondParameters bond = read_bond(table);
   root.finish();
-  if (bond.stiffness_factor)
-    table.fail("stiffness_factor", "is used only with a mesh; allowed is 'stiffness' (MPa/mm)");
+  if (bond.stiffness_factor) table.fail("stiffness_factor", "is used only with a mesh; allowed: 'stiffness' (MPa/mm)");
   const double stiffness = bond.stiffness.value_or(penalty);
   const double strength =
       bond.normal_only ? bond.tensile_strength : std::max(bond.tensile_strength, bond.shear_strength);
@@ -129,7 +128,7 @@ std::vector<WayPoint> read_bond_programme(CsvReader reader, int increments) {
                   fmt::format("column increments: found {} up to here, allowed {} in all", total, most_increments));
     way_points.push_back(way_point);
   }
-  if (way_points.empty()) reader.fail("found no way point below the heading");
+  if (way_points.empty()) reader.fail("found no row below the heading, expected separations to reach");
   return way_points;
 }
 

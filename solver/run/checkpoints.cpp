@@ -56,8 +56,9 @@ void verify_written(const std::string& path, const std::string& rolling) {
   } catch (const InputError& error) {
     std::error_code ignored;
     fs::remove(path, ignored);
-    throw StorageError(fmt::format("{}: what was written cannot be read back ({}); the checkpoint before stays",
-                                   one_line(rolling), error.what()));
+    throw StorageError(
+        fmt::format("{}: the checkpoint cannot be read back after writing ({}); the previous checkpoint is kept",
+                    one_line(rolling), error.what()));
   }
 }
 

@@ -37,7 +37,7 @@ double set_velocity(Model& model, std::size_t grain, const Vector& linear, const
 }
 
 [[noreturn]] void refuse_overlap(const std::string& packing_file, const std::string& what) {
-  throw InputError(fmt::format("{}: {}, allowed no overlap: pack with a larger smallest_gap", packing_file, what));
+  throw InputError(fmt::format("{}: {}, allowed: no overlap; pack with a larger smallest_gap", packing_file, what));
 }
 
 /// Largest penetration of a pair's points over the element size.

@@ -66,7 +66,7 @@ public:
   LoadingRateControl(const QuasiStatic& tolerances, double wall_speed, double transit);
   /// Takes in an observation and changes the rate factor.
   void update(LoadingRateState& state, const LoadingRateObservation& seen) const;
-  /// "wall speed chosen between 900 and 8000 mm/s; kinetic/internal at most 0.8 %, ...".
+  /// "wall speed chosen between 900 and 8000 mm/s; under load, kinetic over internal energy was at most 0.8 %, …".
   std::string text(const LoadingRateState& state) const;
 
 private:

@@ -24,7 +24,7 @@ constexpr double of_contact = 102;    // a facet: points, their forces and candi
 constexpr double of_bonds = 65;       // a facet more
 // A facet more, as many points as bonds.
 constexpr double of_friction = of_bonds * sizeof(PointFriction) / (sizeof(PointBond) + sizeof(ContactForce));
-constexpr double margin = 0.1;        // of the available memory: the error that the forecast may have
+constexpr double margin = 0.1; // of the available memory: the error that the forecast may have
 
 template <class Real>
 double bytes_of_tet() {
@@ -79,10 +79,10 @@ std::string compare(const std::string& purpose, const char* what, double needed,
   const std::string text = fmt::format("{}: the run needs about {} of {}, {} are available", purpose, size_text(needed),
                                        what, size_text(available));
   if (needed > (1 + margin) * available)
-    throw InputError(text + (what[0] == 'm'
-                                 ? "; allowed is a coarser mesh, element.precision = \"mixed\", or a machine "
-                                   "with more"
-                                 : "; allowed are fewer checkpoints and snapshots, or another --output"));
+    throw InputError(text +
+                     (what[0] == 'm'
+                          ? "; allowed: a coarser mesh, element.precision = \"mixed\", or a machine with more memory"
+                          : "; allowed: fewer checkpoints and snapshots, or an --output on another disk"));
   return text;
 }
 

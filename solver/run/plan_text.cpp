@@ -9,19 +9,22 @@ namespace mpfem {
 std::string mass_scaling_text(const Scenario& scenario, const Model& model) {
   std::string text;
   if (const double factor = scenario.numerics.mass_scaling; factor != 1)
-    text = fmt::format("all masses times {:g}: steps {:.3g} times as long, inertia as at {:.3g} times the speed",
-                       factor, std::sqrt(factor), std::sqrt(factor));
+    text = fmt::format(
+        "all masses multiplied by {:g}: steps are {:.3g} times as long, inertia is that of {:.3g} times the speed",
+        factor, std::sqrt(factor), std::sqrt(factor));
   if (model.added_mass != 0)
-    text += fmt::format("{}mass scaled for the step: {:+.3g} % of the packing's, at most {:+.3g} % of a grain's",
-                        text.empty() ? "" : "; ", 100 * model.added_mass, 100 * model.largest_added_mass);
+    text += fmt::format(
+        "{}mass scaling to the step changes the packing's mass by {:+.3g} %, a grain's by at most {:+.3g} %",
+        text.empty() ? "" : "; ", 100 * model.added_mass, 100 * model.largest_added_mass);
   return text;
 }
 
 std::string earlier_bonds_text(const Contact& contact) {
   if (contact.bond_laws.size() < 2) return {};
   const auto law_text = [](const BondLaw& law) {
-    return fmt::format("{:g} and {:g} MPa, {:g} N/mm, softening {}", law.tensile_strength, law.shear_strength,
-                       law.fracture_energy, law.softening == SofteningLaw::energy ? "energy" : "exponential");
+    return fmt::format("tensile and shear strength {:g} and {:g} MPa, fracture energy {:g} N/mm, {} softening",
+                       law.tensile_strength, law.shear_strength, law.fracture_energy,
+                       law.softening == SofteningLaw::energy ? "energy" : "exponential");
   };
   std::vector<std::int64_t> formed(contact.bond_laws.size(), 0);
   for (const PointBond& bond : contact.bond)

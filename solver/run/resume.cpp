@@ -33,22 +33,24 @@ void check_branch(const CheckpointReader& checkpoint, bool bonded, const Scenari
     throw InputError(fmt::format("{}: {}", one_line(checkpoint.path()), what));
   };
   if (before.material != now.material || before.grain_materials != now.grain_materials)
-    refuse("the checkpoint's material differs from the scenario's, allowed the same [material]");
+    refuse("the checkpoint's material differs from the scenario's; allowed: the same [material]");
   if (now.initial_velocity != std::array<double, 3>{} || !now.grain_velocity.empty() ||
       !now.grain_angular_velocity.empty())
-    refuse("[initial] cannot be used in a run that begins at a checkpoint: grains keep the velocities they had there");
+    refuse("[initial] cannot be used in a run that begins at a checkpoint: grains keep the velocities that they have "
+           "there");
   if (tools_differ(before.tools, now.tools) || before.container != now.container)
-    refuse("the checkpoint's tools differ from the scenario's, allowed the same [[tools]] and [container] (another "
-           "friction is allowed)");
+    refuse("the checkpoint's tools differ from the scenario's; allowed: the same [[tools]] and [container]; only their "
+           "friction may differ");
   if (!bonded) return;
   // Bonds keep the law by which they formed, and [bond] is the law of future bonds. Whether bonds resist sliding
   // decides how all bonds are tracked.
-  if (!now.bond) refuse("the checkpoint has bonds, the scenario has none, allowed a [bond] with the same normal_only");
+  if (!now.bond) refuse("the checkpoint has bonds, the scenario has none; allowed: a [bond] with the same normal_only");
   if (before.bond->normal_only != now.bond->normal_only)
-    refuse("the checkpoint has bonds of the other bond.normal_only, allowed a [bond] with the same normal_only");
+    refuse("the checkpoint's bonds were formed with another bond.normal_only; allowed: a [bond] with the same "
+           "normal_only");
   if (before.contact.penalty_differs(now.contact)) // the separations of a damaged bond depend on its stiffness
-    refuse("the checkpoint has bonds of another penalty than the scenario's, allowed the same contact.stiffness and "
-           "contact.stiffness_factor");
+    refuse("the checkpoint's bonds were formed with another penalty than the scenario's; allowed: the same "
+           "contact.stiffness and contact.stiffness_factor");
 }
 
 /// Restores the state; for a `branch`, as that of the scenario's first stage. `bonded`: with bonds.

@@ -40,7 +40,7 @@ namespace {
 /// "ended by axial strain 0.15; stresses held within 0.05 MPa (0.6 %)"
 std::string stage_end_text(const StageResult& result) {
   std::string text = "ended by " + result.ended_by;
-  if (result.overshoot > 0) text += fmt::format("; stress passed by {:.3g} MPa", result.overshoot);
+  if (result.overshoot > 0) text += fmt::format("; target stress exceeded by {:.3g} MPa", result.overshoot);
   if (result.hold_stress > 0)
     text += fmt::format("; stresses held within {:.3g} MPa ({:.2g} %), {:.3g} MPa root mean square", result.hold_error,
                         100 * result.hold_error / result.hold_stress, result.hold_rms);
@@ -129,7 +129,7 @@ public:
         save_snapshot();
         write_result(fmt::format("failed: {}", error.what()));
       } catch (const StorageError& storage) {
-        throw SimulationError(fmt::format("{}; and its state could not be saved: {}", error.what(), storage.what()));
+        throw SimulationError(fmt::format("{}; its state could not be saved: {}", error.what(), storage.what()));
       }
       throw SimulationError(fmt::format("{}; history and last state are in {}{}", error.what(), options_.output, good));
     }
@@ -150,11 +150,11 @@ public:
   double age() const { return Profile::since(made_); }
 
 private:
-  /// "; the last checkpoint before is FILE", or that there is none.
+  /// "; the last checkpoint before the failure is FILE", or that there is none.
   std::string last_checkpoint_text() const {
     const auto checkpoints = leader_lists(ranks_, [this] { return resumable_checkpoints(scenario_, itself()); });
     return checkpoints.empty() ? "; there is no earlier checkpoint"
-                               : fmt::format("; the last checkpoint before is {}", checkpoints.front());
+                               : fmt::format("; the last checkpoint before the failure is {}", checkpoints.front());
   }
 
   void begin() {
@@ -184,7 +184,7 @@ private:
     already_complete_ = leader_finds(ranks_, [&] { return !rolling_checkpoint_exists() && is_complete(lost); });
     if (already_complete_) {
       leader_does(ranks_, [this] { remove_unfinished(options_.output); }); // of a run killed while it tidied up
-      if (!options_.quiet) fmt::print(stderr, "mpfem: {} is complete already\n", options_.output);
+      if (!options_.quiet) fmt::print(stderr, "mpfem: {} is already complete\n", options_.output);
       return true;
     }
     lost = leader_lists(ranks_, [&] { return lost; });
@@ -208,7 +208,8 @@ private:
     if (!lost.empty())
       warn(fmt::format("{} is missing; the run starts again to write it", lost.front()));
     else if (!damage.empty())
-      throw InputError(fmt::format("{}; no earlier one can be used: run without --resume to start again", damage));
+      throw InputError(
+          fmt::format("{}; no earlier checkpoint can be used: run without --resume to start again", damage));
     must_begin_anew_ = taken_up_;
     return false;
   }
@@ -221,16 +222,17 @@ private:
     record_ = {};
     mpfem::resume(path, simulation_, record_, ranks_);
     if (options_.from && !record_.from.empty() && record_.from != identity_.from)
-      throw InputError(fmt::format("{}: the run did not begin at {}; run without --resume to start again", path,
-                                   one_line(*options_.from)));
+      throw InputError(fmt::format(
+          "{}: the checkpoint belongs to a run that did not begin at {}; run without --resume to start again", path,
+          one_line(*options_.from)));
     const auto missing = leader_lists(ranks_, [this] { return missing_checkpoints(promised_now(), itself()); });
     lost.insert(lost.end(), missing.begin(), missing.end());
     if (!missing.empty()) return false;
     for (const std::string& part : leader_lists(ranks_, [this] { return missing_snapshots(); })) {
       if (!rolling || !lost.empty()) return false;
       throw InputError(fmt::format(
-          "{}: the snapshot {} that was taken before the checkpoint is missing; run without --resume to start again",
-          path, part));
+          "{}: the snapshot {}, taken before this checkpoint, is missing; run without --resume to start again", path,
+          part));
     }
     if (!record_.history.empty()) first_step_ = static_cast<std::int64_t>(record_.history.front().step);
     return true;
@@ -260,7 +262,7 @@ private:
   /// Before a run is called complete: files that it has written may have been removed meanwhile.
   void check_promises() const {
     if (const auto missing = missing_checkpoints(promised_now(), itself()); !missing.empty())
-      throw StorageError(fmt::format("{}: disappeared during the run that wrote it; --resume writes it again",
+      throw StorageError(fmt::format("{}: the run has written this file, but it is gone; --resume writes it again",
                                      one_line(missing.front())));
   }
 
@@ -273,10 +275,10 @@ private:
   void drop_unfinished_run() const {
     const std::string rolling = checkpoint_path(options_.output);
     if (!options_.quiet && std::filesystem::exists(rolling))
-      fmt::print(
-          stderr,
-          "mpfem: {} of an unfinished run is discarded: this run starts again (--resume would have continued it)\n",
-          rolling);
+      fmt::print(stderr,
+                 "mpfem: discarding {} of an unfinished run, because this run starts again (--resume would have "
+                 "continued it)\n",
+                 rolling);
     remove_unfinished(options_.output);
   }
 
@@ -562,11 +564,10 @@ private:
     if (step >= doubtful_step_share * first_stable_step_ || warned_of_step_) return;
     warned_of_step_ = true;
     if (!options_.quiet)
-      fmt::print(
-          stderr,
-          "mpfem: warning: the stable step fell from {:.3g} s to {:.3g} s: elements are nearly flat, and the run "
-          "becomes ever slower\n",
-          first_stable_step_, step);
+      fmt::print(stderr,
+                 "mpfem: warning: the stable step fell from {:.3g} s to {:.3g} s: some elements are nearly flat, and "
+                 "the run becomes ever slower\n",
+                 first_stable_step_, step);
   }
 
   /// Fixed-width report lines, twenty a stage.
@@ -675,7 +676,7 @@ void check_output(const Scenario& scenario, const RunOptions& options) {
     for (const std::string& path : written)
       if (same_file(path, *options.from))
         throw InputError(
-            fmt::format("--from {}: this run would write its own checkpoint there, allowed another --output",
+            fmt::format("--from {}: this run would write its own checkpoint there; allowed: another --output",
                         one_line(*options.from)));
   }
   const std::string trial = output_target(output) + ".partial";

@@ -407,8 +407,8 @@ void Simulation::return_walls(std::size_t axis) {
   share_of_grains(*ranks_, model_.ownership, std::span(bounds_));
   box_.move_clear(axis, bounds_);
   if (const double length = box_.cell().length(axis); length > largest_growth * before)
-    throw SimulationError(fmt::format("stage '{}': the walls along {} cannot return: grains lie {:.4g} mm apart, the "
-                                      "walls were {:.4g} mm apart",
+    throw SimulationError(fmt::format("stage '{}': the walls along {} cannot return: the grains extend over {:.4g} mm, "
+                                      "the walls were {:.4g} mm apart; allowed up to twice that",
                                       scenario_->stages[static_cast<std::size_t>(state_.stage)].name, "xyz"[axis],
                                       length, before));
 }

@@ -137,7 +137,7 @@ StageType read_grip(TableReader& table) {
   const bool slides = grip.sliding != std::array<double, 3>{};
   if (slides && !grip.lateral_fixed) table.fail("sliding", "cannot be used with lateral = 'free'");
   if (grip.sliding[static_cast<std::size_t>(grip.axis)] != 0)
-    table.fail("sliding", fmt::format("found a part along the axis {}, allowed only across it", axis));
+    table.fail("sliding", fmt::format("found a component along the axis {}, allowed: across it only", axis));
   if (grip.displacement == 0 && !slides)
     table.fail("displacement", "missing or 0, expected a number < 0 (together) or > 0 (apart), or 'sliding'");
   grip.speed = table.number("speed", positive_speed);
@@ -324,7 +324,7 @@ std::vector<Stage> read_stages(TableReader& root, const StageContext& context) {
     stages.push_back(read_stage(table, stages.size() + 1, context));
     const std::string& name = stages.back().name;
     if (!names.insert(name).second)
-      table.fail("name", fmt::format("found '{}', which an earlier stage has, expected different names", name));
+      table.fail("name", fmt::format("found '{}', the name of an earlier stage; expected different names", name));
   }
   return stages;
 }

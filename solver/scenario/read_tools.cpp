@@ -208,7 +208,7 @@ std::vector<ToolParameters> read_tools(TableReader& root, const std::string& sce
       stl->file = (std::filesystem::path(scenario_file).parent_path() / stl->file).lexically_normal().string();
     const std::string& name = tools.back().name;
     if (!names.insert(name).second)
-      table.fail("name", fmt::format("found '{}', which an earlier tool has, expected different names", name));
+      table.fail("name", fmt::format("found '{}', the name of an earlier tool; expected different names", name));
   }
   return tools;
 }

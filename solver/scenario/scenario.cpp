@@ -168,7 +168,7 @@ void read_gravity(TableReader table, Scenario& scenario) {
   scenario.gravity = table.vector3("acceleration", Range::between(-1e12, 1e12)); // mm/s^2
   if (scenario.has_gravity() && scenario.numerics.mass_scaling_step > 0)
     table.fail("acceleration", "cannot be used with 'numerics.mass_scaling_step', which makes single nodes heavier; "
-                               "allowed is 'numerics.mass_scaling'");
+                               "allowed: 'numerics.mass_scaling'");
   table.finish();
 }
 
@@ -191,9 +191,9 @@ void check_adhesion(const Scenario& scenario) {
       throw InputError(fmt::format("{}tool '{}': adhesion key 'stiffness_factor': {}",
                                    tool.adhesion_places.prefix("stiffness_factor"), tool.name, what));
     };
-    if (scenario.contact.stiffness) fail("cannot be used with 'contact.stiffness'; allowed is 'stiffness' (MPa/mm)");
+    if (scenario.contact.stiffness) fail("cannot be used with 'contact.stiffness'; allowed: 'stiffness' (MPa/mm)");
     if (tool.friction > 0 && factor > scenario.contact.stiffness_factor)
-      fail(fmt::format("found {:g}, with friction allowed up to contact.stiffness_factor = {:g}", factor,
+      fail(fmt::format("found {:g}, allowed with friction: up to contact.stiffness_factor = {:g}", factor,
                        scenario.contact.stiffness_factor));
   }
 }
@@ -259,7 +259,7 @@ Scenario read_scenario(const TomlDocument& document) {
     scenario.bond_places = table->places();
     scenario.bond = read_bond(*table);
     if (scenario.bond->stiffness_factor && scenario.contact.stiffness)
-      table->fail("stiffness_factor", "cannot be used with 'contact.stiffness'; allowed is 'stiffness' (MPa/mm)");
+      table->fail("stiffness_factor", "cannot be used with 'contact.stiffness'; allowed: 'stiffness' (MPa/mm)");
   }
   check_adhesion(scenario);
   if (contact) check_friction(*contact, scenario);

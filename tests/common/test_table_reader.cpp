@@ -200,7 +200,7 @@ TEST_CASE("A missing key is named with what is expected, in the table where it s
 
 TEST_CASE("A missing key is answered with a present one that looks like it") {
   CHECK_THAT(mistake("x = 1\nwall_sped = 2", [](auto& t) { t.number("wall_speed"); }),
-             Catch::EndsWith("key 'wall_speed': missing, expected a number (is 'wall_sped' in line 2 meant?)"));
+             Catch::EndsWith("key 'wall_speed': missing, expected a number (did you mean 'wall_sped' in line 2?)"));
 }
 
 TEST_CASE("An unknown key is answered with the nearest known one, or with all") {

@@ -66,7 +66,7 @@ TEST_CASE("A programme that is no table of separations is refused with file and 
            {endless + "," + endless + "," + endless, ":1"},
            {std::string(100'000, ','), ":1"},
            {std::string(1000, '\0'), ":1"},
-           {heading, "no way point"},
+           {heading, "found no row below the heading"},
            {heading + "1e-5,0,0\n", ":2"},
            {heading + "1e-5,0,0,1,1\n", ":2"},
            {heading + ",0,0,1\n", ":2"},

@@ -156,7 +156,8 @@ TEST_CASE("a run that fails names the last checkpoint before") {
   const Folder folder;
   const Outcome outcome = run_with(folder, "type = \"isotropic_unloading\"\nmean_stress = 900\nwall_speed = 10000\n");
   CHECK(outcome.exit_code == 3);
-  CHECK_THAT(outcome.messages, Catch::Contains("the last checkpoint before is " + (folder / "run.checkpoint.h5")));
+  CHECK_THAT(outcome.messages,
+             Catch::Contains("the last checkpoint before the failure is " + (folder / "run.checkpoint.h5")));
 }
 
 TEST_CASE("a run is doubtful where its energies, penetration, density or step say so, and only there") {

@@ -9,7 +9,7 @@ class GripMotionControl final : public TimedStage {
 public:
   /// Throws InputError where the grips would meet.
   GripMotionControl(const GripMotion& stage, const StageLabel& label, const StageStart& start);
-  std::string describe() const override { return "grips, to a displacement"; }
+  std::string describe() const override { return "grips moved to a displacement"; }
   const GripMotion* grips() const override { return &stage_; }
   std::array<double, 3> sliding(double time) const override;
   StageResult result(const StageObservation& last) const override;

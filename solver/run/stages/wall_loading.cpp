@@ -130,7 +130,7 @@ void WallLoading::check_limits(const ObservedSample& seen) const {
 
 void WallLoading::check_time(const ObservedSample& seen) const {
   if (seen.time > longest_time * expected_duration_)
-    fail(seen, fmt::format("after {:g} times the time expected", longest_time));
+    fail(seen, fmt::format("after {:g} times the expected time", longest_time));
 }
 
 std::string WallLoading::end_text() const {

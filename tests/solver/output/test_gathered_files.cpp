@@ -453,7 +453,8 @@ TEST_CASE("all ranks see that a checkpoint is of another order of nodes, whoever
     if (grain == part.model.grains - 1)
       std::swap(part.model.file_node[static_cast<std::size_t>(part.model.node_offset[7])],
                 part.model.file_node[static_cast<std::size_t>(part.model.node_offset[7]) + 1]);
-  CHECK_THROWS_WITH(reader.check_model(part.model, test_ranks()), Catch::Contains("orders nodes and tets otherwise"));
+  CHECK_THROWS_WITH(reader.check_model(part.model, test_ranks()),
+                    Catch::Contains("orders nodes and tetrahedra differently"));
 }
 
 TEST_CASE("the pressure at nodes and the forces of pairs are sums over all contact points") {

@@ -191,7 +191,7 @@ TEST_CASE("what cannot be driven is refused in one line with its place, exit cod
   };
   for (const Case& c : {
            Case{"", "", law_text, "programme.csv:1: found no heading"},
-           Case{"opening,shear1,shear2\n", "", law_text, "programme.csv: found no way point"},
+           Case{"opening,shear1,shear2\n", "", law_text, "programme.csv: found no row below the heading"},
            Case{"opening,slide,shear2\n1,0,0\n", "", law_text,
                 "programme.csv:1: column shear1: found the heading 'slide'"},
            Case{"opening,shear1\n1,0\n", "", law_text, "programme.csv:1: found a heading of 2 columns"},

@@ -87,8 +87,9 @@ TEST_CASE("bonds keep the law by which they formed, and those that form in a bra
   INFO(apart.messages);
   REQUIRE(apart.exit_code == 0);
   CHECK_THAT(apart.messages,
-             Catch::Contains("34 bonds formed earlier keep their law (25 and 18 MPa, 0.1 N/mm, softening exponential); "
-                             "new bonds have 20 and 18 MPa, 0.05 N/mm, softening energy"));
+             Catch::Contains("34 bonds formed earlier keep their law (tensile and shear strength 25 and 18 MPa, "
+                             "fracture energy 0.1 N/mm, exponential softening); new bonds have tensile and shear "
+                             "strength 20 and 18 MPa, fracture energy 0.05 N/mm, energy softening"));
   CHECK(results(folder / "same.h5") == results(folder / "other.h5"));
   CHECK(schema::FileReader(folder / "other.h5").read(schema::run::history_damage_dissipation).back() ==
         Approx(0.1 * area).epsilon(1e-9));

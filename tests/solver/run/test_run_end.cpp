@@ -112,7 +112,7 @@ TEST_CASE("a run says what mass scaling does and what damping takes") {
   const Outcome outcome = mpfem_command(
       fmt::format("run {} -o {} --set numerics.mass_scaling=4", folder / "scenario.toml", folder / "run.h5"));
   CHECK(outcome.exit_code == 0);
-  CHECK_THAT(outcome.messages, Catch::Contains("all masses times 4: steps 2 times as long") &&
+  CHECK_THAT(outcome.messages, Catch::Contains("all masses multiplied by 4: steps are 2 times as long") &&
                                    Catch::Contains("ended by relative density 0.62; damping ") &&
                                    Catch::Contains("% of the elastic energy"));
 }
