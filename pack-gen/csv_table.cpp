@@ -41,7 +41,7 @@ std::vector<std::vector<double>> read_csv(CsvReader reader, const std::vector<Cs
       values.push_back(reader.number(*row, i, columns[i].name, columns[i].range));
     rows.push_back(std::move(values));
   }
-  if (rows.empty()) reader.fail(fmt::format("no rows; allowed: {}", names_of(columns)));
+  if (rows.empty()) reader.fail(fmt::format("found no rows; allowed: rows of {}", names_of(columns)));
   return rows;
 }
 

@@ -254,13 +254,14 @@ UnitBall mesh_unit_ball(double size_ratio, std::uint64_t seed, bool optimise) {
     if (step > best.smallest_step && ball_defect(ball.mesh).empty()) best = {std::move(ball), 0, step, {}};
   }
   if (best.ball.mesh.tet.empty())
-    throw SimulationError(fmt::format("gmsh gave no valid mesh of a ball at radius/size {:.3f} in {} attempts: {}",
-                                      size_ratio, tries + static_cast<std::size_t>(std::min(search.failures(), 10)),
-                                      search.last_defect()));
+    throw SimulationError(fmt::format(
+        "gmsh gave no valid mesh of a sphere with radius/element size {:.3f} in {} attempts: {}", size_ratio,
+        tries + static_cast<std::size_t>(std::min(search.failures(), 10)), search.last_defect()));
   best.volume = mesh_volume(best.ball.mesh);
   if (search.failures() > 0)
-    best.note = fmt::format("radius/size {:.3f}: gmsh failed {} times ({}); repeated with the size changed by 1 %",
-                            size_ratio, search.failures(), search.last_defect());
+    best.note =
+        fmt::format("radius/element size {:.3f}: gmsh failed {} times ({}); repeated with a size changed by 1 %",
+                    size_ratio, search.failures(), search.last_defect());
   return best;
 }
 
@@ -317,14 +318,14 @@ Library make_library(const std::set<int>& wanted, const MeshRequest& request) {
   for (const int k : keys) work += std::pow(library_step, 3 * k);
   Library library;
   std::mutex guard;
-  report(request, 0, "meshing balls");
+  report(request, 0, "meshing spheres");
   for_each_parallel(keys.size(), request.threads, [&](std::size_t i) {
     UnitBall unit =
         mesh_unit_ball(std::pow(library_step, keys[i]), static_cast<std::uint64_t>(keys[i] + 10000), request.optimise);
     const std::lock_guard lock(guard);
     library.emplace(keys[i], std::move(unit));
     done += std::pow(library_step, 3 * keys[i]);
-    report(request, 0.9 * done / work, fmt::format("meshing balls, {} sizes", keys.size()));
+    report(request, 0.9 * done / work, fmt::format("meshing spheres of {} sizes", keys.size()));
   });
   return library;
 }
@@ -367,10 +368,10 @@ PackingMesh mesh_packing(const SpherePacking& packing, const MeshRequest& reques
   });
 
   // Meshes of neighbours must stay apart.
-  report(request, 0.9, "turning grains apart");
+  report(request, 0.9, "rotating grains until none touch");
   if (const std::size_t turned = separate_grains(packing, mesh, request.nominal_size, request.threads, place);
       turned > 0)
-    mesh.notes.push_back(fmt::format("{} grains were turned to keep their facets apart", turned));
+    mesh.notes.push_back(fmt::format("{} grains were rotated to keep their facets apart", turned));
   return mesh;
 }
 

@@ -13,6 +13,7 @@
 #include "common/progress.hpp"
 #include "common/table_reader.hpp"
 #include "common/version.hpp"
+#include "pack-gen/container.hpp"
 #include "pack-gen/hemispheres.hpp"
 #include "pack-gen/mesh_report.hpp"
 #include "pack-gen/packing_description.hpp"
@@ -102,12 +103,14 @@ void write_meshed(const Arguments& arguments, const SpherePacking& packing, cons
                 .progress = [&](double fraction, const std::string& what) { progress.update(fraction, what); }});
   const MeshReport report = report_mesh(packing, mesh, arguments.size, arguments.material, arguments.threads);
   if (!(report.facet_gap.gap > 0))
-    throw SimulationError(fmt::format("{}: no positive facet gap could be proven (grains {} and {})", arguments.input,
-                                      report.facet_gap.first, report.facet_gap.second));
+    throw SimulationError(fmt::format("{}: no positive gap could be proven between the facets of grain {} and {}",
+                                      arguments.input, report.facet_gap.first,
+                                      report.facet_gap.second < 0 ? wall_name(-1 - report.facet_gap.second)
+                                                                  : fmt::format("grain {}", report.facet_gap.second)));
   write_packing_file(arguments.output, packing, origin,
                      MeshForFile{&mesh, arguments.size, report.facet_gap.gap, report.smallest_quality});
-  progress.finish(fmt::format("{} tets, {}", report.tets, arguments.output));
-  for (const std::string& note : mesh.notes) fmt::print(stderr, "note: {}\n", note);
+  progress.finish(fmt::format("{} tetrahedra, {}", report.tets, arguments.output));
+  for (const std::string& note : mesh.notes) fmt::print(stderr, "pack-gen: note: {}\n", note);
   if (!arguments.quiet) fmt::print("{}", report_text(report));
 }
 
@@ -156,15 +159,14 @@ void hemispheres(const Arguments& arguments) {
        {},
        {}},
       MeshForFile{&pair.mesh, request.size, report.facet_gap.gap, report.smallest_quality, true});
-  progress.finish(fmt::format("{} tets, {}", report.tets, arguments.output));
+  progress.finish(fmt::format("{} tetrahedra, {}", report.tets, arguments.output));
   if (!arguments.quiet)
-    fmt::print(
-        "{} nodes, {} tets, {} of them in the lower hemisphere, {} near the contact in both; smallest edge {:.4g} "
-        "mm; gap {:.4g} mm; smallest quality {:.3f}; critical step {:.4g} s = {:.3f} contact size/c, median "
-        "{:.4g} s\n",
-        report.nodes, report.tets, pair.mesh.grain_tet_offset[1], detail.tets_near, detail.smallest_edge, pair.tip_gap,
-        report.smallest_quality, report.smallest_step,
-        report.smallest_step * arguments.material.wave_speed() / request.contact_size, report.median_step);
+    fmt::print("{} nodes, {} tetrahedra, {} of them in the lower hemisphere, {} near the contact in both; smallest "
+               "edge {:.4g} mm; gap {:.4g} mm; smallest quality {:.3f}; critical step {:.4g} s = {:.3f} contact "
+               "size/wave speed, median {:.4g} s\n",
+               report.nodes, report.tets, pair.mesh.grain_tet_offset[1], detail.tets_near, detail.smallest_edge,
+               pair.tip_gap, report.smallest_quality, report.smallest_step,
+               report.smallest_step * arguments.material.wave_speed() / request.contact_size, report.median_step);
 }
 
 /// Throws InputError if options of different containers are mixed, or those of one are incomplete.
@@ -242,19 +244,21 @@ void quality(const Arguments& arguments) {
 void add_quality_outputs(CLI::App& command, Arguments& arguments) {
   command.add_option("-o,--output", arguments.output, "JSON file to write: the report's numbers by name");
   command.add_option("--description", arguments.description,
-                     "Description of the packing (TOML); reports how far its sizes are from it");
+                     "Description of the packing (TOML); the report then compares the sizes of the grains with it");
   command.add_option("--sizes", arguments.sizes, "CSV file to write: diameters with their cumulative fraction");
   command.add_option("--target", arguments.target, "CSV file to write: the size table of --description")
       ->needs("--description");
 }
 
 void add_material(CLI::App& command, StepMaterial& material) {
-  add_number(command, "--youngs-modulus", material.youngs_modulus, moduli, "MPa", "For the critical step")
+  add_number(command, "--youngs-modulus", material.youngs_modulus, moduli, "MPa",
+             "Of the grains' material, for the critical time step")
       ->capture_default_str();
   add_number(command, "--poissons-ratio", material.poissons_ratio, Range::between(-0.99, 0.499), "",
-             "For the critical step")
+             "Of the grains' material, for the critical time step")
       ->capture_default_str();
-  add_number(command, "--density", material.density, densities, "tonne/mm^3", "For the critical step")
+  add_number(command, "--density", material.density, densities, "tonne/mm^3",
+             "Of the grains' material, for the critical time step")
       ->capture_default_str();
 }
 
@@ -280,13 +284,13 @@ void add_threads(CLI::App& command, Arguments& arguments) {
 void add_container(CLI::App& command, Arguments& arguments, const std::string& otherwise) {
   command
       .add_option("--container", arguments.container,
-                  "box, cylinder: its axis is z, or surface: a closed one from an STL file (default: " + otherwise +
-                      ")")
+                  "box, cylinder (along z) or surface (a closed one from an STL file) (default: " + otherwise + ")")
       ->check(CLI::IsMember({"box", "cylinder", "surface"}));
   add_number(command, "--diameter", arguments.diameter, lengths, "mm", "Diameter of the cylinder");
   add_number(command, "--height", arguments.height, lengths, "mm", "Height of the cylinder");
   command.add_option("--surface", arguments.surface, "STL file of the surface; its lowest corner becomes the origin");
-  add_number(command, "--scale", arguments.scale, Range::between(1e-9, 1e9), "mm", "Length of the STL file's unit");
+  add_number(command, "--scale", arguments.scale, Range::between(1e-9, 1e9), "mm",
+             "Length of one unit of the STL file");
 }
 
 /// A command that reads a file, described by `input`.
@@ -309,7 +313,7 @@ CLI::App* add_spheres(CLI::App& app, Arguments& arguments) {
                   "         pack-gen spheres powder.toml --container cylinder --diameter 1 --height 1.2 -o spheres.h5",
                   "Description of the packing (TOML)");
   add_output(*command, arguments);
-  add_number(*command, "--seed", arguments.seed, seed_numbers, "", "Seed, in place of the description's");
+  add_number(*command, "--seed", arguments.seed, seed_numbers, "", "Seed, instead of the one in the description");
   add_container(*command, arguments, "the description's, else a box");
   command->add_option("--set", arguments.assignments, "Override a value: KEY=VALUE, e.g. count=400")->take_all();
   return command;
@@ -336,8 +340,7 @@ CLI::App* add_mesh(CLI::App& app, Arguments& arguments) {
   add_output(*command, arguments);
   add_number(*command, "--size", arguments.size, lengths, "mm", "Nominal element size")->required();
   add_number(*command, "--seed", arguments.seed, seed_numbers, "", "Seed of the meshes' orientations (default: 1)");
-  command->add_flag("!--no-optimise", arguments.optimise,
-                    "Keep meshes as first laid out, without optimising them for a larger time step");
+  command->add_flag("!--no-optimise", arguments.optimise, "Do not optimise meshes for a larger time step");
   add_threads(*command, arguments);
   add_material(*command, arguments.material);
   return command;
@@ -345,7 +348,7 @@ CLI::App* add_mesh(CLI::App& app, Arguments& arguments) {
 
 CLI::App* add_import(CLI::App& app, Arguments& arguments) {
   CLI::App* command = add_command(app, arguments, "import",
-                                  "Read spheres from a table x,y,z,radius (mm), e.g. of a DEM code.\n"
+                                  "Read spheres from a table x,y,z,radius (mm), e.g. from a discrete-element program.\n"
                                   "Example: pack-gen import spheres.csv --box 1,1,1 -o spheres.h5\n"
                                   "         pack-gen import spheres.csv --size 0.03 -o packing.h5\n"
                                   "         pack-gen import spheres.csv --container cylinder --diameter 1 --height "
@@ -355,12 +358,12 @@ CLI::App* add_import(CLI::App& app, Arguments& arguments) {
   add_number(*command, "--size", arguments.size, lengths, "mm", "Nominal element size (default: not meshed)");
   add_threads(*command, arguments);
   add_number(*command, "--box", arguments.box, lengths, "mm",
-             "Edge lengths X,Y,Z of the box from the origin (default: the tightest box)")
+             "Edge lengths X,Y,Z of the box, which begins at the origin (default: the smallest box around the spheres)")
       ->delimiter(',')
       ->expected(3);
   add_container(*command, arguments, "box");
   add_number(*command, "--bottom-center", arguments.bottom_center, coordinates, "mm",
-             "X,Y,Z of the centre of the cylinder's bottom in the table (default: half of the diameter, the same, 0)")
+             "X,Y,Z of the centre of the cylinder's bottom in the table's coordinates (default: D/2,D/2,0)")
       ->delimiter(',')
       ->expected(3);
   return command;
@@ -376,7 +379,9 @@ CLI::App* add_export(CLI::App& app, Arguments& arguments) {
 }
 
 CLI::App* add_quality(CLI::App& app, Arguments& arguments) {
-  CLI::App* command = add_command(app, arguments, "quality", "Measure a mesh.\nExample: pack-gen quality packing.h5",
+  CLI::App* command = add_command(app, arguments, "quality",
+                                  "Report the quality of a mesh: volumes, shapes, gaps and critical time "
+                                  "step.\nExample: pack-gen quality packing.h5",
                                   "Meshed packing (HDF5)");
   add_quality_outputs(*command, arguments);
   add_threads(*command, arguments);
@@ -398,15 +403,15 @@ CLI::App* add_hemispheres(CLI::App& app, Arguments& arguments) {
   length("--radius", pair.radius, "Radius", true);
   length("--size", pair.size, "Element size far from the contact", true);
   length("--contact-size", pair.contact_size, "Element size on the curved face near the tip", true);
-  length("--contact-radius", pair.contact_radius, "How far from the tip that size reaches", true);
+  length("--contact-radius", pair.contact_radius, "Distance from the tip over which elements have that size", true);
   length("--bulk-size", pair.bulk_size,
          "Largest element size within 1.5 contact radii under the tip (default: 3 contact sizes)", false);
   add_number(*command, "--growth", pair.growth, Range::between(1e-6, 1e6), "",
-             "Growth of the size with distance (default: 0.3)");
+             "Increase of the element size per distance (default: 0.3)");
   length("--gap", pair.gap, "Distance of the tips (default: 1e-6)", false);
   length("--box-width", pair.box_width, "Width of the box in x and y (default: 2.4 radii)", false);
   add_number(*command, "--rotate", pair.rotation, Range::between(-360, 360), "degrees",
-             "Turn of the upper hemisphere about the axis")
+             "Rotation of the upper hemisphere about the axis")
       ->capture_default_str();
   add_output(*command, arguments);
   command->add_flag("--quiet", arguments.quiet, "No report");

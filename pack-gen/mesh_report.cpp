@@ -189,15 +189,15 @@ std::string report_text(const MeshReport& report) {
   const SphereGap& gap = report.facet_gap;
   std::string text;
   const auto line = [&](std::string_view name, const std::string& value) {
-    text += fmt::format("{:<34}{}\n", name, value);
+    text += fmt::format("{:<42}{}\n", name, value);
   };
-  line("grains, nodes, tets", fmt::format("{}  {}  {}", report.grains, report.nodes, report.tets));
-  line("nominal size h", fmt::format("{:g} mm", report.nominal_size));
-  line("volume error, largest of a grain", fmt::format("{:.2e}", report.largest_volume_error));
-  line("volume error, all", fmt::format("{:.2e}", report.total_volume_error));
-  line("quality, smallest and median",
-       fmt::format("{:.3f}  {:.3f}   (3 inradius/circumradius)", report.smallest_quality, report.median_quality));
-  line("tets with 4 surface nodes", fmt::format("{}", report.surface_only_tets));
+  line("grains, nodes, tetrahedra", fmt::format("{}  {}  {}", report.grains, report.nodes, report.tets));
+  line("nominal element size h", fmt::format("{:g} mm", report.nominal_size));
+  line("relative volume error, largest of a grain", fmt::format("{:.2e}", report.largest_volume_error));
+  line("relative volume error, all grains", fmt::format("{:.2e}", report.total_volume_error));
+  line("quality, smallest and median", fmt::format("{:.3f}  {:.3f}   (3 inradius/circumradius, 1 is best)",
+                                                   report.smallest_quality, report.median_quality));
+  line("tetrahedra with 4 surface nodes", fmt::format("{}", report.surface_only_tets));
   line("nodes outside the sphere by", fmt::format("{:.2f} % of the radius at most", 100 * report.largest_excess));
   line("facet gap, smallest",
        fmt::format("{:.4g} mm   (grain {} and {})", gap.gap, gap.first,
@@ -205,9 +205,11 @@ std::string report_text(const MeshReport& report) {
   line("critical step, smallest", fmt::format("{:.3e} s = {:.3f} h/c   (grain {})", report.smallest_step,
                                               report.smallest_step / unit, report.smallest_step_grain));
   line("critical step, median", fmt::format("{:.3e} s = {:.3f} h/c", report.median_step, report.median_step / unit));
-  line("  for",
-       fmt::format("E = {:g} MPa, nu = {:g}, density {:g} t/mm^3, c = {:.4g} mm/s", report.material.youngs_modulus,
-                   report.material.poissons_ratio, report.material.density, report.material.wave_speed()));
+  line(
+      "  for this material",
+      fmt::format("Young's modulus {:g} MPa, Poisson's ratio {:g}, density {:g} tonne/mm^3, wave speed c = {:.4g} mm/s",
+                  report.material.youngs_modulus, report.material.poissons_ratio, report.material.density,
+                  report.material.wave_speed()));
   return text;
 }
 

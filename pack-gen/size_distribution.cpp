@@ -73,7 +73,7 @@ public:
     inside_ = standard_normal_cumulative(normal(largest)) - below_;
     if (!(inside_ > 1e-9))
       throw InputError(
-          fmt::format("log-normal size distribution: nothing of it lies between {:g} and {:g} mm", smallest, largest));
+          fmt::format("log-normal size distribution: it has no sizes between {:g} and {:g} mm", smallest, largest));
   }
 
   double quantile(double cumulative) const override {
@@ -157,7 +157,7 @@ std::unique_ptr<SizeDistribution> log_normal_distribution(double median, double 
 }
 
 std::unique_ptr<SizeDistribution> list_distribution(std::vector<double> diameter) {
-  if (diameter.empty()) throw InputError("size list: it is empty; allowed: one size or more");
+  if (diameter.empty()) throw InputError("size list: found no size; allowed: one or more");
   for (const double value : diameter)
     if (!(value > 0) || !std::isfinite(value))
       throw InputError(fmt::format("size list: found {:g}; allowed: > 0", value));

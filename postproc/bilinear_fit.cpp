@@ -89,7 +89,8 @@ Fit bilinear_fit(const FitProblem& problem) {
     result.coefficients.push_back(symmetric(names[static_cast<std::size_t>(i)], p[i], widen * solution->half_width[i]));
   set_quality(result, y, solution->squares);
   if (from == 0 || to == kinks)
-    result.notes.emplace_back("the kink's interval reaches the last points on a side: hardly better than one line");
+    result.notes.emplace_back(
+        "the interval of the kink reaches the last points on one side: two lines fit hardly better than one");
   result.at = [kink, p](double at, double) { return p[0] + (at < kink ? p[1] : p[2]) * (at - kink); };
   return result;
 }

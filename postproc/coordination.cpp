@@ -111,8 +111,8 @@ Measurement measure_coordination(const schema::FileReader& file, int snapshot, i
   m.details["rattlers"] = rattlers;
   m.details["contacts_between_grains"] = graph.pairs.size();
   m.details["contacts_with_walls"] = std::accumulate(graph.walls.begin(), graph.walls.end(), 0);
-  m.brief = fmt::format("without rattlers ({} of {} grains), with walls; {:.3g} between grains alone, of all", rattlers,
-                        graph.walls.size(), m.details["coordination_number"].get<double>());
+  m.brief = fmt::format("without rattlers ({} of {} grains), with walls; {:.3g} between grains only, with rattlers",
+                        rattlers, graph.walls.size(), m.details["coordination_number"].get<double>());
   return m;
 }
 

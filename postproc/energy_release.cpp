@@ -115,7 +115,7 @@ Measurement measure_energy(const schema::FileReader& file, std::optional<int> nu
       "change of the ledger's residual in the stage and 95 % of the scatter of its first and its last "
       "rows about parabolas over time, added in quadrature";
   m.window = isotropic_window(history, stage, stage.rows());
-  m.method = "elastic energy at the beginning of the unloading less that at its end";
+  m.method = "elastic energy at the beginning of the unloading minus that at its end";
   m.brief =
       fmt::format("elastic energy released, {:.4g} mJ locked in; damage {:.3g} mJ, plastic {:.3g} mJ in the unloading",
                   history["elastic_energy"][stage.last], energy_change(history, "damage_dissipation", stage).value,

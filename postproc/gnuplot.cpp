@@ -61,7 +61,7 @@ std::string gnuplot_string(const std::string& text) {
 void run_gnuplot(const std::string& script) {
   const ScratchFile file(script);
   std::FILE* pipe = popen(fmt::format("gnuplot -d {} 2>&1", in_single_quotes(file.path(), "'\\''")).c_str(), "r");
-  if (!pipe) throw SimulationError("gnuplot cannot be started");
+  if (!pipe) throw SimulationError("cannot start gnuplot");
   std::string message;
   char buffer[256];
   while (std::fgets(buffer, sizeof buffer, pipe)) message += buffer;

@@ -176,9 +176,9 @@ Measurement measure_heckel(const schema::FileReader& file, const StageRows& stag
   }
   add_corrected(m, "mean_yield_pressure_of_present_volumes", *fit, pressure, cut("relative_density_current"));
   if (*std::max_element(density.begin(), density.end()) > rule.largest_density)
-    m.notes.push_back(fmt::format("rows denser than {:g} are left out: there the logarithm takes errors of the density "
-                                  "for pressure",
-                                  rule.largest_density));
+    m.notes.push_back(
+        fmt::format("rows denser than {:g} are left out: there ln 1/(1 - D) magnifies errors of the density",
+                    rule.largest_density));
   m.brief = fmt::format("A = {:.3f}, D from {:.3f} to {:.3f}", fit->intercept, m.window.strain[0], m.window.strain[1]);
   return m;
 }

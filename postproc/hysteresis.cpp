@@ -241,8 +241,8 @@ std::vector<std::string> notes_on(const Hysteresis& h, std::array<double, 2> dev
     notes.push_back(fmt::format("the cycles are not isotropic: q is between {:.3g} and {:.3g} MPa in them",
                                 deviatoric[0], deviatoric[1]));
   if (!h.cycles.front().rows.whole)
-    notes.push_back(fmt::format("the first loading begins at {:.3g} MPa, between the cycles' stresses: it is no cycle "
-                                "and has number 0",
+    notes.push_back(fmt::format("the first loading begins at {:.3g} MPa, between the cycles' stresses: it does not "
+                                "count as a cycle and has number 0",
                                 first_stress));
   if (whole_cycles(h) == 1) notes.emplace_back("one whole cycle: no drift from cycle to cycle");
   return notes;

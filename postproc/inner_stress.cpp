@@ -102,9 +102,10 @@ Measurement measure_inner_stress(const schema::FileReader& file, int snapshot, d
   const Eigen::Matrix3d stress = love_weber_stress(region, lines);
   const auto grains = std::count_if(centre.begin(), centre.end(), [&](const auto& x) { return region.contains(x); });
   if (grains == 0)
-    throw InputError(fmt::format("{}: snapshot {}: no grain is centred in the inner {:g} of the box, allowed: a larger "
-                                 "--share",
-                                 one_line(file.path()), s.name, share));
+    throw InputError(
+        fmt::format("{}: snapshot {}: no grain has its centre in the inner {:g} of the box, allowed: a larger "
+                    "--share",
+                    one_line(file.path()), s.name, share));
   Measurement m;
   m.metric = "inner-stress";
   m.value = stress.trace() / 3;
@@ -127,7 +128,8 @@ Measurement measure_inner_stress(const schema::FileReader& file, int snapshot, d
   m.brief = fmt::format("{:.5g} MPa by the solid, {:.5g} MPa by the walls; {} grains",
                         m.details["mean_stress_of_solid_MPa"].get<double>(), s.mean_stress, grains);
   if (grains < 8)
-    m.notes.push_back(fmt::format("only {} grains are centred inside: the value is of few contacts", grains));
+    m.notes.push_back(
+        fmt::format("only {} grains have their centres inside: the value is a mean over few contacts", grains));
   return m;
 }
 

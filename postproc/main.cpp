@@ -19,7 +19,7 @@ constexpr const char* help =
     "  postproc section run.h5 --snapshot -1 --axis z --position 0.5 --relative --field von_mises -o section.png\n"
     "  postproc section run.h5 --field damage -o damage.png\n"
     "  postproc picture run.h5 --color von-mises -o run.png      (in three dimensions, cut open)\n"
-    "  postproc view run.h5 -o view.html                         (a page to turn the grains in)\n"
+    "  postproc view run.h5 -o view.html                         (a page with the grains in three dimensions)\n"
     "  postproc watch run.h5                                     (a run in progress, in the terminal)\n"
     "  postproc contact run.h5 --pair 3,17 --view contact.png\n"
     "  postproc elastic-recovery run.h5 -o recovery.json   (and modulus, strength, yield, hysteresis, energy)\n"
@@ -28,7 +28,7 @@ constexpr const char* help =
     "  postproc fit points.csv --x relative_density --y strength --model exponential -o fits.json\n"
     "  postproc vtk run.h5 -o vtk        (open vtk/run.pvd in ParaView)\n"
     "  postproc validate run.h5\n"
-    "  postproc table, fits, plot, verdict, report: of a figure or study declared in one file (docs/figure-file.md)\n"
+    "  postproc table, fits, plot, verdict, report: for a figure or study declared in one file (docs/figure-file.md)\n"
     "Exit codes: 0 done, 2 bad usage or input, 3 a picture could not be drawn, 4 storage failed.";
 
 /// In the order of the help text, before and after the subcommands of figures.

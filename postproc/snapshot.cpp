@@ -65,7 +65,7 @@ const Field& Snapshot::node_field(const std::string& field_name) const {
   for (const Field& field : node_fields)
     if (field.name == field_name) return field;
   throw InputError(fmt::format("no field '{}' at the nodes of snapshot {}{}", one_line(field_name), name,
-                               field_name == "damage" ? ": the run is without bonds" : ""));
+                               field_name == "damage" ? ": the run has no bonds" : ""));
 }
 
 std::string snapshot_name(const schema::FileReader& file, int number) {

@@ -229,7 +229,7 @@ Measurement strength(const StageCurve& c, const StrengthRule& rule) {
   m.uncertainty = reading.stress_uncertainty;
   m.uncertainty_meaning = "twice the scatter of the window's rows about parabolas over twice as many rows";
   if (at_onset)
-    m.uncertainty_meaning += ", and what the tangent's noise and length move the onset by, added in quadrature";
+    m.uncertainty_meaning += ", and the shift of the onset by noise and length of the tangent, added in quadrature";
   m.method = fmt::format("{}; parabolas over {} rows", reading.method, 2 * smoothing_half_rows(c.rows()) + 1);
   m.window = axial_window(c, ringing_rows(reading.at.row, c.rows()),
                           test.unconfined ? "axial_stress" : "deviatoric_stress", test.raw);

@@ -18,8 +18,8 @@ Verdict verdict_on(const std::string& path) {
     if (verdict.valid)
       verdict.text = fmt::format("{}: valid ({}, schema {})\n", name, found.kind, schema::schema_version);
     if (!found.checked)
-      verdict.text += fmt::format("{}: note: carries no checksums (written by an earlier version or another program): "
-                                  "damage to its values cannot be noticed\n",
+      verdict.text += fmt::format("{}: note: has no checksums (written by an earlier version or another program): "
+                                  "damage to its values cannot be detected\n",
                                   name);
   } catch (const InputError& error) { // its message begins with the file's name
     verdict.text += fmt::format("{}\n", error.what());

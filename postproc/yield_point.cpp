@@ -38,9 +38,10 @@ YieldPoint find_yield(const StageCurve& c, double ratio) {
   for (std::size_t row = 0; row < c.rows(); ++row)
     dissipated[row] = c.plastic_dissipation[row] + c.damage_dissipation[row];
   if (!(dissipated.front() > 0))
-    throw InputError(fmt::format("{}: nothing was dissipated before stage {}, so {:g} times as much is no criterion; "
-                                 "allowed: a probe after a compaction",
-                                 c.path, c.stage, ratio));
+    throw InputError(
+        fmt::format("{}: nothing was dissipated before stage {}, so {:g} times that dissipation is not a criterion; "
+                    "allowed: a probe after a compaction",
+                    c.path, c.stage, ratio));
   const double threshold = ratio * dissipated.front();
   std::size_t next = 1;
   while (next < c.rows() && dissipated[next] < threshold) ++next;

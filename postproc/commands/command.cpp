@@ -55,13 +55,13 @@ StateCommand::StateCommand(CLI::App& app, const std::string& name, const std::st
                            const std::string& output_help, OutputKind kind)
     : ResultCommand(app, name, help, output_help, kind) {
   add_input("run", run_, "Run file (HDF5)");
-  add_input("--packing", packing_, "A meshed packing in place of a run (HDF5)");
+  add_input("--packing", packing_, "Meshed packing, instead of a run (HDF5)");
 }
 
 Snapshot StateCommand::read_state(int snapshot) const {
   if (packing_.empty() == run_.empty())
     throw InputError(
-        fmt::format("found {} of RUN.h5 and --packing, allowed: one of them", run_.empty() ? "neither" : "both"));
+        fmt::format("found {} of RUN.h5 and --packing, allowed: exactly one", run_.empty() ? "neither" : "both"));
   return packing_.empty() ? read_snapshot({run_, schema::FileKind::run}, snapshot) : read_packing_snapshot(packing_);
 }
 

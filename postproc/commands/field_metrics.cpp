@@ -36,14 +36,15 @@ private:
 class OffsetYieldCommand : public StageMetricCommand {
 public:
   explicit OffsetYieldCommand(CLI::App& app)
-      : StageMetricCommand(app, "offset-yield",
-                           "Yield by plastic strain: where a loading curve leaves its elastic line by a given offset.\n"
-                           "Example: postproc offset-yield run.h5 --offset 0.002 -o yield.json",
-                           "the last probe, unconfined or triaxial compression, else the last") {
+      : StageMetricCommand(
+            app, "offset-yield",
+            "Yield by plastic strain: where a loading curve lies a given strain away from its elastic line.\n"
+            "Example: postproc offset-yield run.h5 --offset 0.002 -o yield.json",
+            "the last probe, unconfined or triaxial compression, else the last") {
     add_number(options(), "--offset", rule_.offset, Range::between(1e-9, 1), "", "Plastic strain at yield")
         ->capture_default_str();
     add_number(options(), "--slope", rule_.slope, Range::between(1e-9, 1e12), "MPa",
-               "Elastic slope (default: read by the rule of modulus)");
+               "Elastic slope (default: measured by the rule of modulus)");
   }
 
 private:
@@ -62,7 +63,7 @@ public:
                       "Example: postproc coordination run.h5 --snapshot -1 -o coordination.json") {
     add_snapshot(options(), snapshot_);
     add_number(options(), "--fewest-contacts", fewest_contacts_, whole_numbers, "",
-               "Grains with fewer contacts, walls included, and no bond are rattlers")
+               "Grains without bonds and with fewer contacts than this, walls included, are rattlers")
         ->capture_default_str();
   }
 
@@ -77,13 +78,13 @@ private:
 class InnerStressCommand : public MetricCommand {
 public:
   explicit InnerStressCommand(CLI::App& app)
-      : MetricCommand(
-            app, "inner-stress",
-            "Mean stress of the inner part of the box by the forces between grains (Love and Weber), together with the "
-            "walls'.\n"
-            "Example: postproc inner-stress run.h5 --share 0.5 -o inner.json") {
+      : MetricCommand(app, "inner-stress",
+                      "Mean stress in the inner part of the box, from the forces between grains (Love and Weber), and "
+                      "at the walls.\n"
+                      "Example: postproc inner-stress run.h5 --share 0.5 -o inner.json") {
     add_snapshot(options(), snapshot_);
-    add_number(options(), "--share", share_, Range::between(1e-3, 1), "", "Of each length of the box")
+    add_number(options(), "--share", share_, Range::between(1e-3, 1), "",
+               "Length of the inner part, as a fraction of the box's")
         ->capture_default_str();
   }
 
@@ -107,7 +108,7 @@ public:
     add_input("--before", before_,
               "Run file with the state in which the test began (default: the run's own snapshot 0)");
     add_number(options(), "--snapshot-before", snapshot_before_, whole_numbers, "",
-               "Number of the snapshot of that state (default: 0 of the run itself, -1 of another)");
+               "Number of the snapshot of that state (default: 0 for the run itself, -1 with --before)");
   }
 
 private:

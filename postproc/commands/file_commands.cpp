@@ -40,7 +40,8 @@ class CostCommand : public Command {
 public:
   explicit CostCommand(CLI::App& app)
       : Command(app, "cost",
-                "Total cost of runs: runs,tet_steps,wall_time_s,core_time_s.\nExample: postproc cost a.h5 b.h5") {
+                "Total cost of runs as CSV: runs,tet_steps,wall_time_s,core_time_s; a tet-step is one tetrahedron in "
+                "one step.\nExample: postproc cost a.h5 b.h5") {
     options().add_option("files", files_, "Run files (HDF5); none: zeros");
   }
 

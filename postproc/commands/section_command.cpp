@@ -34,7 +34,7 @@ public:
     add_plane_options();
     add_picture_options();
     add_output("--data", data_,
-               "Also write the section's polygons as CSV; of damage the cut boundaries, one row per segment");
+               "Also write the section's polygons as CSV; for damage the cut boundaries, one row per segment");
   }
 
 private:
@@ -53,7 +53,7 @@ private:
                     "damage: along the cut boundaries")
         ->capture_default_str();
     add_number(options(), "--range", range_, Range::between(-1e12, 1e12), "",
-               "low,high of the colour scale (default: from the data; of damage 0,1)")
+               "low,high of the colour scale (default: from the data; for damage 0,1)")
         ->delimiter(',')
         ->expected(2);
     add_number(

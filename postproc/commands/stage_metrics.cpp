@@ -48,16 +48,17 @@ public:
             "Example: postproc modulus run.h5 --stage -1 -o modulus.json\n"
             "Example: postproc modulus run.h5 --strain-range 0,0.002",
             "the last unconfined_compression, else the last") {
-    add_share("--slope-change", rule_.slope_change, "Largest change of slope between the window's halves, share");
-    add_share("--damage-share", rule_.damage_share, "Largest damage dissipation over axial work in the window");
+    add_share("--slope-change", rule_.slope_change,
+              "Largest relative change of slope between the halves of the window");
+    add_share("--damage-share", rule_.damage_share, "Largest ratio of damage dissipation to axial work in the window");
     add_share("--stress-fraction", rule_.stress_fraction, "The window ends at this share of the rise to the peak");
     add_number(options(), "--strain-range", strain_range_, Range::between(-1e3, 1e3), "",
-               "low,high: axial strain since the stage began, in place of the rule")
+               "low,high: axial strain since the stage began, instead of the rule")
         ->delimiter(',')
         ->expected(2);
     options().add_flag("--need-window", need_window_, "Fail where no window meets the rule");
     add_number(options(), "--youngs-modulus", youngs_modulus_, moduli, "MPa",
-               "Of the grains (default: the scenario's)");
+               "Young's modulus of the grains (default: the scenario's)");
   }
 
 private:
@@ -103,10 +104,11 @@ public:
         "--criterion", "peak, or damage-onset: the stress where damage begins to grow (default: peak)",
         {{"peak", StrengthCriterion::peak}, {"damage-onset", StrengthCriterion::damage_onset}},
         [this](StrengthCriterion criterion) { rule_.criterion = criterion; });
-    add_number(options(), "--drop", rule_.drop, share, "", "Fall after the largest stress that makes it a peak, share")
+    add_number(options(), "--drop", rule_.drop, share, "",
+               "Relative fall after the largest stress that makes it a peak")
         ->capture_default_str();
     add_number(options(), "--at-strain", rule_.at_strain, strains, "",
-               "Axial strain since the stage began, where q has no peak by then")
+               "Axial strain since the stage began at which q is read if it has no peak before")
         ->capture_default_str();
   }
 
@@ -137,7 +139,7 @@ public:
                            "Example: postproc yield probe.h5 -o yield.json",
                            "the last probe, else the last") {
     add_number(options(), "--ratio", ratio_, Range::between(1.0 + 1e-9, 100.0), "",
-               "Of the dissipation at yield to that at the stage's beginning")
+               "Ratio of the dissipation at yield to that at the beginning of the stage")
         ->capture_default_str();
   }
 
@@ -189,7 +191,9 @@ public:
             "the lateral force was kept.\n"
             "Example: postproc triaxial run.h5 --lateral-stress 8 -o triaxial.json",
             "the last triaxial_compression") {
-    add_number(options(), "--lateral-stress", lateral_stress_, moduli, "MPa", "At the beginning")->required();
+    add_number(options(), "--lateral-stress", lateral_stress_, moduli, "MPa",
+               "Lateral stress at the beginning of the stage")
+        ->required();
   }
 
 private:
@@ -203,19 +207,18 @@ private:
 class EnergyCommand : public StageMetricCommand {
 public:
   explicit EnergyCommand(CLI::App& app)
-      : StageMetricCommand(
-            app, "energy",
-            "Energies: the ledger over time as CSV, or with -o FILE.json what an unloading releases and dissipates, "
-            "also over\n"
-            "E R^3 of the grains.\n"
-            "Example: postproc energy run.h5 -o energy.csv\n"
-            "Example: postproc energy run.h5 --packing packing.h5 -o energy.json",
-            "as for elastic-recovery",
-            "File to write, .json, or CSV with any other ending (default: CSV on standard output)") {
+      : StageMetricCommand(app, "energy",
+                           "Energies: the energy balance over time as CSV, or with -o FILE.json what an unloading "
+                           "releases and dissipates,\n"
+                           "also divided by E R^3 of the grains.\n"
+                           "Example: postproc energy run.h5 -o energy.csv\n"
+                           "Example: postproc energy run.h5 --packing packing.h5 -o energy.json",
+                           "as for elastic-recovery",
+                           "File to write, .json, or CSV with any other ending (default: CSV on standard output)") {
     add_number(options(), "--youngs-modulus", scale_.youngs_modulus, moduli, "MPa",
-               "Of the grains (default: the scenario's)");
+               "Young's modulus of the grains (default: the scenario's)");
     add_number(options(), "--mean-radius", scale_.mean_radius, lengths, "mm",
-               "Of the grains (default: from --packing, else from a snapshot)");
+               "Mean radius of the grains (default: from --packing, else from a snapshot)");
     add_input("--packing", packing_, "Packing file (HDF5) to take the mean radius from");
   }
 

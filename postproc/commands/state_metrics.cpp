@@ -107,7 +107,7 @@ public:
   explicit CompactionQualityCommand(CLI::App& app)
       : MetricCommand(
             app, "compaction-quality",
-            "How sound a compaction is from a relative density on: kinetic over internal energy, balance of energy, "
+            "Quality of a compaction from a relative density on: kinetic over internal energy, energy balance, "
             "penetration.\n"
             "Example: postproc compaction-quality run.h5 --from-density 0.7 -o quality.json") {
     add_number(options(), "--from-density", from_density_, relative_densities, "",

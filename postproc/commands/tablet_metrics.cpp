@@ -20,10 +20,10 @@ public:
                       "Example: postproc tablet run.h5 -o tablet.json\n"
                       "Example: postproc tablet run.h5 --press compaction --eject push-out --snapshot -1") {
     options().add_option("--press", rule_.stages.press, "Name of the stage that presses")->capture_default_str();
-    options().add_option("--hold", rule_.stages.hold, "Of the stage that holds (default: hold, where there is one)");
+    options().add_option("--hold", rule_.stages.hold, "Name of the stage that holds (default: hold, if there is one)");
     options().add_option("--unload", rule_.stages.unload,
-                         "Of the stage in which the upper punch leaves (default: unload)");
-    options().add_option("--eject", rule_.stages.eject, "Of the stage that ejects (default: eject)");
+                         "Name of the stage in which the upper punch leaves (default: unload)");
+    options().add_option("--eject", rule_.stages.eject, "Name of the stage that ejects (default: eject)");
     options().add_option("--upper", rule_.tools.upper, "Name of the upper punch")->capture_default_str();
     options().add_option("--lower", rule_.tools.lower, "Name of the lower punch")->capture_default_str();
     options().add_option("--die", rule_.tools.die, "Name of the die")->capture_default_str();
@@ -50,16 +50,16 @@ private:
 class HeckelCommand : public StageMetricCommand {
 public:
   explicit HeckelCommand(CLI::App& app)
-      : StageMetricCommand(app, "heckel",
-                           "Mean yield pressure by Heckel, in-die: ln 1/(1 - D) = P/P_y + A over the longest straight "
-                           "window.\n"
-                           "Example: postproc heckel run.h5 --bulk-modulus 8000 -o heckel.json\n"
-                           "Out of the die, of a table of pressures and densities: postproc fit --model heckel",
-                           "the stage named press, else the first") {
+      : StageMetricCommand(
+            app, "heckel",
+            "Mean yield pressure by Heckel, in-die: ln 1/(1 - D) = P/P_y + A over the longest straight window.\n"
+            "Example: postproc heckel run.h5 --bulk-modulus 8000 -o heckel.json\n"
+            "For densities measured out of the die, in a table with pressures: postproc fit --model heckel",
+            "the stage named press, else the first") {
     add_number(options(), "--r-squared", rule_.r_squared, Range::between(0, 1), "", "Smallest R^2 of the window")
         ->capture_default_str();
     add_number(options(), "--bulk-modulus", bulk_modulus_, moduli, "MPa",
-               "Of the solid: also P_y without its elastic compression, of D / (1 + P/K)");
+               "Bulk modulus K of the solid; P_y is then also given without elastic compression, from D / (1 + P/K)");
   }
 
 private:
@@ -79,8 +79,8 @@ class DiametralCommand : public StageMetricCommand {
 public:
   explicit DiametralCommand(CLI::App& app)
       : StageMetricCommand(app, "diametral",
-                           "Tensile strength of a disc between two plates (Brazilian test): 2 F / (pi D t), and that "
-                           "corrected for flats.\n"
+                           "Tensile strength of a disc between two plates (Brazilian test): 2 F / (pi D t), and the "
+                           "same corrected for flats.\n"
                            "Example: postproc diametral run.h5 --plates left,right -o strength.json\n"
                            "Example: postproc diametral run.h5 --diameter 2 --thickness 1 --flat-angle 10",
                            "the last") {
@@ -89,18 +89,18 @@ public:
                     "Names of both plates, separated by a comma (default: the run's only two tools)")
         ->delimiter(',');
     add_number(options(), "--drop", rule_.drop, Range::between(1e-6, 1), "",
-               "Fall after the largest force that makes it a peak, share")
+               "Relative fall after the largest force that makes it a peak")
         ->capture_default_str();
     options()
         .add_option("--disc-axis", disc_axis_, "Axis of the disc, along its thickness")
         ->check(CLI::IsMember({"x", "y", "z"}))
         ->capture_default_str();
     add_number(options(), "--diameter", rule_.diameter, lengths, "mm",
-               "Of the disc (default: extent of the grains along the load before the test)");
+               "Diameter of the disc (default: extent of the grains along the load before the test)");
     add_number(options(), "--thickness", rule_.thickness, lengths, "mm",
-               "Of the disc (default: extent of the grains along its axis before the test)");
+               "Thickness of the disc (default: extent of the grains along its axis before the test)");
     add_number(options(), "--flat-angle", rule_.flat_angle, Range::between(0, largest_flat_angle), "degrees",
-               "2 alpha under which a flat is seen from the axis (default: of the snapshot nearest to the peak)");
+               "Angle 2 alpha that a flat spans at the axis (default: from the snapshot nearest to the peak)");
     add_number(options(), "--face-distance", rule_.face_distance, lengths, "mm",
                "Pressed nodes within this distance of the outermost one count as a flat (default: a hundredth of the "
                "diameter)");

@@ -19,7 +19,8 @@ public:
                    "Example: postproc view run.h5 -o view.html",
                    "HTML file to write") {
     output_option()->required();
-    add_number(options(), "--most", most_, Range::between(1, 1000), "", "Snapshots at most, evenly spread")
+    add_number(options(), "--most", most_, Range::between(1, 1000), "",
+               "Largest number of snapshots, evenly spread over the run")
         ->capture_default_str();
     options().add_option("--title", title_, "Title of the page (default: the name of the run's file)");
   }

@@ -34,7 +34,7 @@ public:
       : Command(app, "watch",
                 "Show a running simulation in the terminal: stage, density, stress, step, energies, remaining time and "
                 "the curve so far,\nfrom the checkpoint that mpfem leaves every output.checkpoint_interval (60 s by "
-                "default). Reads only. Ends with the run, or with Ctrl-C.\n"
+                "default). It only reads files. It ends with the run, or with Ctrl-C.\n"
                 "Example: postproc watch run.h5\nExample: postproc watch run.h5 --once") {
     add_input("run", run_, "Run file (HDF5) that mpfem will write: its --output")->required();
     add_number(options(), "--interval", interval_, Range::between(0.1, 86400), "s", "Time between two updates")

@@ -47,7 +47,7 @@ struct FigureCommands::State {
   }
 
   void add_common(CLI::App& command) {
-    command.add_option("--mesh", mesh, "Name of the mesh: which cases there are")->capture_default_str();
+    command.add_option("--mesh", mesh, "Name of the mesh, which selects the cases")->capture_default_str();
     command.add_option("--programmes", programmes, "Folder of the scenarios named without a path")
         ->capture_default_str();
   }
@@ -88,7 +88,7 @@ struct FigureCommands::State {
     const Figure f = read();
     const TableSpec& spec = f.table(name, {});
     const TextTable result = files.empty() ? make_table(f, spec, {results, mesh}) : spread_of(spec, files);
-    if (output.empty()) throw InputError("found no -o, allowed: the CSV file to write");
+    if (output.empty()) throw InputError("found no -o; allowed: -o with the CSV file to write");
     write_text_table(output, result);
   }
 
@@ -155,7 +155,7 @@ FigureCommands::FigureCommands(CLI::App& app) : state_(std::make_unique<State>()
   State& s = *state_;
   s.program = &app;
   CLI::App& depends = s.add(app, "depends",
-                            "Dependencies of figures for make: files, their inputs, settings of runs.\n"
+                            "Write the rules by which make produces figures: files, their inputs, settings of runs.\n"
                             "Example: postproc depends studies/fig12/figure.toml --results out/smoke --mesh smoke",
                             [&s] { s.depends(); });
   depends.add_option("figures", s.files, "Figures' files (TOML)")->required();
@@ -175,8 +175,9 @@ FigureCommands::FigureCommands(CLI::App& app) : state_(std::make_unique<State>()
                           "-o modulus.csv",
                       [&s] { s.table(); });
   table.add_option("name", s.name, "Name of the table")->required();
-  table.add_option("--spread", s.files,
-                   "Instead mean and deviation over these tables of several packings, that of this one first");
+  table.add_option(
+      "--spread", s.files,
+      "Write mean and deviation over these tables of several packings instead, the table of this packing first");
   s.add_on_figure(app, "fits", "Make all fits of a figure from its tables, as JSON.", [&s] { s.fits(); });
   CLI::App& plot =
       s.add_on_figure(app, "plot",
@@ -185,7 +186,8 @@ FigureCommands::FigureCommands(CLI::App& app) : state_(std::make_unique<State>()
                       "modulus.png",
                       [&s] { s.plot(); });
   plot.add_option("name", s.name, "Name of the plot")->required();
-  add_number(plot, "--packings", s.packings, Range::between(0, 1e6), "", "Draw the spread over so many packings");
+  add_number(plot, "--packings", s.packings, Range::between(0, 1e6), "",
+             "Draw the spread over this number of packings");
   plot.get_option("--output")->required();
   s.add_on_figure(app, "verdict", "Compare the statements of a figure with the results, as JSON.",
                   [&s] { s.verdict(); });
@@ -193,7 +195,7 @@ FigureCommands::FigureCommands(CLI::App& app) : state_(std::make_unique<State>()
         "Write verdicts as Markdown: one mesh figure by figure, or several meshes side by side.\n"
         "Example: postproc verdicts coarse=studies/results/coarse smoke=studies/results/smoke -o verdicts.md",
         [&s] { s.verdicts(); })
-      .add_option("folders", s.files, "MESH=FOLDER: where its figures have their verdict.json")
+      .add_option("folders", s.files, "MESH=FOLDER: name of a mesh and the folder with a verdict.json for each figure")
       ->required();
   CLI::App& report =
       s.add(app, "report",
@@ -205,7 +207,7 @@ FigureCommands::FigureCommands(CLI::App& app) : state_(std::make_unique<State>()
   s.add_common(report);
   report.add_option("--title", s.title, "Title of the page")->required();
   report.add_option("--beside", s.beside, "A page (Markdown) whose first table is shown next to the verdicts");
-  report.add_option("--view", s.run, "A run to turn in three dimensions on the page (HDF5)");
+  report.add_option("--view", s.run, "Run shown in three dimensions on the page (HDF5)");
 }
 
 FigureCommands::~FigureCommands() = default;

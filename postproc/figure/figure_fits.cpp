@@ -67,7 +67,7 @@ Json make_fits(const Figure& figure, const std::string& folder) {
 const Json& fit_by_name(const Json& fits, const std::string& name) {
   for (const Json& fit : fits)
     if (fit.value("name", "") == name) return fit;
-  throw InputError(fmt::format("the list of fits has no '{}'; make it again", one_line(name)));
+  throw InputError(fmt::format("the list of fits has no '{}'; run postproc fits again", one_line(name)));
 }
 
 std::function<double(double, double)>

@@ -261,7 +261,7 @@ AxisSpec inset_x(const PlotSpec& plot, FigureData& data) {
       low = std::min(low.value_or(*value), *value);
       high = std::max(high.value_or(*value), *value);
     }
-  if (!low) plot.place.fail(fmt::format("inset of plot '{}': no row that it shows", plot.name));
+  if (!low) plot.place.fail(fmt::format("inset of plot '{}': no row lies inside it", plot.name));
   const double margin = 0.08 * (*high - *low);
   axis.low = axis.low.value_or((*low - margin) * s.x_scale);
   axis.high = axis.high.value_or((*high + margin) * s.x_scale);
@@ -302,7 +302,8 @@ std::string plot_script(const PlotSpec& plot, FigureData& data, const std::strin
   Script script(plot, data, folder, packings);
   if (plot.surface) return text + surface_script(plot, data, script);
   for (const SeriesSpec& s : plot.series) script.add(s);
-  if (script.empty()) plot.place.fail(fmt::format("plot '{}': nothing that it shows could be measured", plot.name));
+  if (script.empty())
+    plot.place.fail(fmt::format("plot '{}': none of the values that it shows could be measured", plot.name));
   for (const LineSpec& line : plot.lines)
     if (line.x)
       text += fmt::format("set arrow from {0},graph 0 to {0},graph 1 nohead dashtype (2, 3) linecolor rgb '#777777'\n",

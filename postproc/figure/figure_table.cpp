@@ -121,9 +121,9 @@ const std::vector<CurveColumn>& curve_columns() {
        [](const HistoryRow& r) { return r.since("plastic_dissipation"); }},
       {"stage_damage_dissipation", "since the stage began, mJ",
        [](const HistoryRow& r) { return r.since("damage_dissipation"); }},
-      {"dissipation", "plastic and damage, since the run's chain began, mJ",
+      {"dissipation", "plastic and damage, since the beginning of the first run of the chain, mJ",
        [](const HistoryRow& r) { return r("plastic_dissipation") + r("damage_dissipation"); }},
-      {"cycle", "how often p has risen again from below a fiftieth of its largest value",
+      {"cycle", "number of times that p has risen again from below a fiftieth of its largest value",
        [](const HistoryRow& r) { return cycles_before(r.history, r.begin, r.row); }},
       {"kinetic_ratio", "kinetic over internal energy of the row's stage; 0 where that is 0", {}}};
   return columns;

@@ -55,7 +55,8 @@ std::string last_stage(const std::string& programme) {
   if (stages == nullptr || stages->empty()) throw InputError(fmt::format("{}: no [[stages]]", programme));
   const auto name = (*stages->as_array())[stages->size() - 1].as_table()->get("name");
   if (name == nullptr || !name->is_string())
-    throw InputError(fmt::format("{}: the last stage has no name, which others begin at", programme));
+    throw InputError(
+        fmt::format("{}: the last stage has no name; runs that begin at its checkpoint need one", programme));
   return name->as_string()->get();
 }
 
@@ -258,9 +259,9 @@ const RunInstance& add_run(RunGraph& graph, const Figure& figure, const RunTempl
 
   const auto [at, added] = graph.try_emplace(instance.folder, instance);
   if (!added && !same_run(at->second, instance))
-    run.place.fail(fmt::format("folder '{}' is that of two runs with different settings; the folder's name must tell "
-                               "them apart",
-                               instance.folder));
+    run.place.fail(fmt::format(
+        "folder '{}' is that of two runs with different settings; the folder's name must differ between them",
+        instance.folder));
   return at->second;
 }
 

@@ -40,7 +40,7 @@ OffscreenWindow::OffscreenWindow() {
   context_ = make_context(display_);
   if (context_ == EGL_NO_CONTEXT || !eglMakeCurrent(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, context_))
     throw SimulationError(
-        "there is no OpenGL in software; ./bootstrap pictures installs it (libgl1-mesa-dri, libegl1)");
+        "OpenGL without a screen is not available; ./bootstrap pictures installs it (libgl1-mesa-dri, libegl1)");
   SetOffScreenRendering(true);
   SetMultiSamples(0);
   SetReadyForRendering(true);

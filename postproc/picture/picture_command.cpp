@@ -20,7 +20,7 @@ std::string picture_path(const std::string& output, const std::string& input) {
   const std::string path = std::filesystem::path(input).replace_extension(".png").string();
   std::error_code ignored;
   if (std::filesystem::exists(path, ignored))
-    throw InputError(fmt::format("{}: is there already; allowed: -o with the picture to write", one_line(path)));
+    throw InputError(fmt::format("{}: already exists; allowed: -o with the picture to write", one_line(path)));
   check_output_path("--output", path, OutputKind::binary);
   return path;
 }
@@ -44,12 +44,13 @@ public:
             "Example: postproc picture run.h5 -o run.png\n"
             "Example: postproc picture run.h5 --snapshot 3 --color plastic-strain --cut z --cut-at 0.6 -o z.png\n"
             "Example: postproc picture run.h5 --frames film\n"
-            "Stresses and strains are averaged around nodes; postproc section shows them tet by tet.",
+            "Stresses and strains are averaged around nodes; postproc section shows the value of each tetrahedron.",
             "PNG file to write (default: RUN.png next to RUN.h5)", OutputKind::binary) {
     add_snapshot(options(), snapshot_);
-    options().add_option("--frames", frames_, "Instead every snapshot as FOLDER/NNNN.png, all in one scale");
+    options().add_option("--frames", frames_, "Draw every snapshot as FOLDER/NNNN.png, all with the same scales");
     add_choices();
-    add_number(options(), "--cut-at", request_.cut_at, Range::between(0, 1), "", "Where, as a fraction of the box")
+    add_number(options(), "--cut-at", request_.cut_at, Range::between(0, 1), "",
+               "Position of the cut, as a fraction of the box")
         ->capture_default_str();
     add_number(options(), "--camera", camera_, Range::between(-360, 360), "degrees",
                "Azimuth,elevation of the camera: from the x axis towards y, and above the x-y plane")
@@ -57,17 +58,17 @@ public:
         ->expected(2)
         ->capture_default_str();
     add_number(options(), "--range", range_, Range::between(-1e12, 1e12), "",
-               "low,high of the colour scale (default: from the data; of damage 0,1)")
+               "low,high of the colour scale (default: from the data; for damage 0,1)")
         ->delimiter(',')
         ->expected(2);
     options().add_option("--size", size_, "WIDTHxHEIGHT in pixels")->capture_default_str();
     options().add_option("--title", request_.title, "Title (default: relative density and mean stress)");
     options().add_flag("--bonds", request_.bonds,
-                       "Draw bonds from grain to grain in the part that is cut away: whole ones blue, as thick as "
-                       "their area is large, broken ones orange");
+                       "Draw bonds from grain to grain in the part that is cut away: unbroken ones blue, with a "
+                       "thickness that grows with their area, broken ones orange");
     options().add_flag("--contacts", request_.contacts,
-                       "Draw contacts from grain to grain in the part that is cut away, grey, as thick as the root of "
-                       "their force");
+                       "Draw contacts from grain to grain in the part that is cut away, grey, with a thickness "
+                       "proportional to the square root of their force");
     options().add_flag("!--without-tools", request_.tools, "Leave out rigid tools");
   }
 
@@ -107,7 +108,7 @@ private:
     const CutAway away = cut_away(state, request);
     if (request.bonds) {
       scene.rods = bond_rods(file, state, away);
-      scene.note += "; bonds: blue whole, orange broken";
+      scene.note += "; bonds: blue unbroken, orange broken";
     }
     if (request.contacts) {
       const std::vector<PairRod> contacts = contact_rods(file, state, away);
@@ -130,7 +131,7 @@ private:
   /// All frames share one colour scale, the widest of all snapshots, and one length scale that shows every snapshot.
   void draw_frames(SceneRequest request, const PictureSize& size) const {
     if (of_packing() || !output().empty())
-      throw InputError(fmt::format("--frames: found {}, allowed: with a run alone", of_packing() ? "--packing" : "-o"));
+      throw InputError(fmt::format("--frames: found {}, allowed: with a run only", of_packing() ? "--packing" : "-o"));
     const int count = static_cast<int>(schema::FileReader(path_of_run(), schema::FileKind::run).snapshots().size());
     std::optional<ShownBox> shown;
     std::pair<double, double> range{0, 0};

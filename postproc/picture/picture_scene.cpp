@@ -142,7 +142,7 @@ std::vector<PairRod> contact_rods(const schema::FileReader& file, const Snapshot
 std::vector<PairRod> bond_rods(const schema::FileReader& file, const Snapshot& snapshot, const CutAway& away) {
   namespace run = schema::run;
   if (!file.has(run::snapshots_pair_damage, snapshot.name))
-    throw InputError(fmt::format("{}: --bonds: the run is without bonds", one_line(file.path())));
+    throw InputError(fmt::format("{}: --bonds: the run has no bonds", one_line(file.path())));
   const auto grains = file.read(run::snapshots_pair_grains, snapshot.name);
   const auto damage = file.read(run::snapshots_pair_damage, snapshot.name);
   const auto area = file.read(run::snapshots_pair_bonded_area, snapshot.name);
@@ -194,8 +194,7 @@ PictureScene make_scene(const Snapshot& snapshot, const SceneRequest& request) {
   PictureScene scene;
   scene.triangles = cut_solid(snapshot, field, cut_away(snapshot, request));
   if (scene.triangles.empty())
-    throw InputError(
-        fmt::format("--cut {}: nothing is left of the grains at --cut-at {}", request.cut, request.cut_at));
+    throw InputError(fmt::format("--cut {}: the cut at --cut-at {} removes all grains", request.cut, request.cut_at));
   const auto range = request.range.value_or(range_of(scene.triangles, field));
   scene.colours.reserve(scene.triangles.size());
   for (const SolidTriangle& t : scene.triangles)

@@ -186,5 +186,5 @@ TEST_CASE("grains that stick out of their spheres are turned until none touch, o
 TEST_CASE("spheres too near for so coarse a mesh are refused, with the grains named") {
   // At radius/size 1.2 nodes lie 6 % of the radius outside: no orientation clears twelve neighbours all but touching.
   CHECK_THROWS_WITH(mesh_packing(cluster(0.06, 1e-9), {.nominal_size = 0.05}),
-                    Catch::Contains("grain") && Catch::Contains("allowed: a finer size or a larger smallest_gap"));
+                    Catch::Contains("grain") && Catch::Contains("allowed: a smaller size or a larger smallest_gap"));
 }

@@ -349,8 +349,8 @@ TEST_CASE("damage that is not there is refused with one line and exit code 2") {
            {"contact " + run + " --data " + picture, "allowed: --pair FIRST,SECOND"},
            {"contact " + run + " --pair 0,1 -o " + (folder / "x.csv"), "allowed: .json"},
            {"contact " + run + " --pair 0,1 --view " + run, "is the input"},
-           {"section " + plain + " --field damage -o " + picture, "the run is without bonds"},
-           {"section " + plain + " --field damage --data " + picture, "the run is without bonds"},
+           {"section " + plain + " --field damage -o " + picture, "the run has no bonds"},
+           {"section " + plain + " --field damage --data " + picture, "the run has no bonds"},
            {"section " + run + " --field damag -o " + picture, "grain, damage"}}) {
     const Outcome outcome = postproc(arguments);
     INFO(arguments << ": " << outcome.messages);

@@ -432,7 +432,8 @@ series = [
   write_text(folder + "/strength.csv", "name,density [1],strength [MPa]\na,,\n");
   write_text(folder + "/fits.json", R"([{"name": "line", "refused": "too few points"}])");
   FigureData empty(figure, folder);
-  CHECK_THROWS_WITH(plot_script(figure.plots[0], empty, folder, "svg", "p.svg", 0), Contains("nothing that it shows"));
+  CHECK_THROWS_WITH(plot_script(figure.plots[0], empty, folder, "svg", "p.svg", 0),
+                    Contains("none of the values that it shows"));
 }
 
 TEST_CASE("every model is drawn with the coefficients that its fit gives") {

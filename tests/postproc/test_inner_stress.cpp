@@ -89,5 +89,5 @@ TEST_CASE("the inner stress of a snapshot is of its grains' forces, centres and 
   write_run(folder / "walls.h5", contents);
   const Measurement with_walls = measure_inner_stress(schema::FileReader(folder / "walls.h5"), -1, 1);
   CHECK(with_walls.details["stress_xx_MPa"].get<double>() == Approx((20.0 + 6) / 75).epsilon(single));
-  CHECK_THROWS_WITH(measure_inner_stress(file, -1, 0.01), Catch::Contains("no grain is centred"));
+  CHECK_THROWS_WITH(measure_inner_stress(file, -1, 0.01), Catch::Contains("no grain has its centre"));
 }

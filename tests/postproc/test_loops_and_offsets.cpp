@@ -75,7 +75,7 @@ TEST_CASE("loops are counted, and what is none is refused") {
   CHECK(within(unload_reload_modulus(two, 1).value, 2000, straight));
   CHECK_THROWS_WITH(unload_reload_modulus(two, 2), Catch::Contains("--loop: found 2, allowed 0 … 1"));
   const StageCurve unloaded = curve_of(folder, along({{0, 0}, {0.01, 5}, {0.0095, 4}}, 20)); // and not reloaded
-  CHECK_THROWS_WITH(unload_reload_modulus(unloaded, -1), Catch::Contains("no loop"));
+  CHECK_THROWS_WITH(unload_reload_modulus(unloaded, -1), Catch::Contains("found no loop"));
 }
 
 TEST_CASE("the curve of a loop goes over the stages of one type that follow each other") {

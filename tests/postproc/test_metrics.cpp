@@ -171,7 +171,7 @@ TEST_CASE("postproc refuses what it cannot use with one line and exit code 2") {
            {"section " + run + " --field colour -o " + (folder / "x.png"), "von_mises"},
            {"section " + run + " --position 7 -o " + (folder / "x.png"), "cuts no grain"},
            {"section " + run + " --range 5,5 -o " + (folder / "x.png"), "low < high"},
-           {"section " + run + " --packing " + run + " -o " + (folder / "x.png"), "one of them"},
+           {"section " + run + " --packing " + run + " -o " + (folder / "x.png"), "exactly one"},
            {"section --packing " + run + " -o " + (folder / "x.png"), "expected a packing file"},
            {"section " + run + " --view 5,6,5,6 -o " + (folder / "x.png"), "no grain is cut in the view"},
            {"section " + run, "-o, --data or both"},

@@ -94,7 +94,7 @@ TEST_CASE("without -o the picture is named after the run, and is not written ove
   REQUIRE(picture(folder / "run.h5" + " --size 200x200").exit_code == 0);
   const Outcome again = picture(folder / "run.h5" + " --size 200x200");
   CHECK(again.exit_code == 2);
-  CHECK(again.messages.find("run.png: is there already") != std::string::npos);
+  CHECK(again.messages.find("run.png: already exists") != std::string::npos);
 }
 
 TEST_CASE("frames are one picture for each snapshot") {
@@ -110,10 +110,10 @@ TEST_CASE("what cannot be drawn is refused in one line") {
   const std::pair<const char*, const char*> mistakes[] = {{"--size 10x10", "--size: found '10x10'"},
                                                           {"--size big", "--size: found 'big'"},
                                                           {"--range 3,2", "--range: found 3,2"},
-                                                          {"--color damage", "the run is without bonds"},
+                                                          {"--color damage", "the run has no bonds"},
                                                           {"--cut none --bonds", "--bonds: found --cut"},
                                                           {"--cut none --contacts", "--contacts: found --cut"},
-                                                          {"--bonds", "the run is without bonds"},
+                                                          {"--bonds", "the run has no bonds"},
                                                           {"--cut w", "--cut"},
                                                           {"--color height", "--color"}};
   for (const auto& [options, message] : mistakes) {

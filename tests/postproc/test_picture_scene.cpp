@@ -65,7 +65,8 @@ TEST_CASE("a cut through nodes, and one beside the grains, leave closed solids t
   CHECK(std::abs(enclosed_volume(triangles_of(snapshot, cut_of("octant", 0.5)), {5, 5, 5}) - 7) < 1e-10);
   CHECK(std::abs(enclosed_volume(triangles_of(snapshot, cut_of("z", 1)), {5, 5, 5}) - 8) < 1e-10);
   CHECK(triangles_of(snapshot, cut_of("z", 0)).empty());
-  CHECK_THROWS_WITH(make_scene(snapshot, cut_of("z", 0)), Catch::Contains("--cut z: nothing is left"));
+  CHECK_THROWS_WITH(make_scene(snapshot, cut_of("z", 0)),
+                    Catch::Contains("--cut z: the cut at --cut-at 0 removes all grains"));
 }
 
 TEST_CASE("cut faces carry the field at the cut, and face what was cut away") {
