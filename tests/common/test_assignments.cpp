@@ -60,7 +60,7 @@ TEST_CASE("The last assignment of a key wins") {
   CHECK(TableReader(document).integer("size") == 4);
 }
 
-TEST_CASE("What is no TOML value is a string: words, paths, texts with quotes and equal signs") {
+TEST_CASE("Text that is not a TOML value becomes a string: words, paths, texts with quotes and equal signs") {
   for (const std::string value :
        {"hold", "runs/a b.h5", "a=b", "C:\\runs\\x", "say \"this\"", "1.2.3", "Größe", "5 mm"}) {
     CAPTURE(value);
@@ -123,7 +123,7 @@ TEST_CASE("Assignments that cannot be understood are refused in one line and cha
   CHECK_THAT(refusal("size=a\x01"), Catch::StartsWith("--set size=a\\x01: "));
 }
 
-TEST_CASE("An assignment does not make array elements, nor keys below what has none") {
+TEST_CASE("An assignment creates neither array elements nor keys below a value that is not a table") {
   CHECK(refusal("stages.2.speed=1") == "--set stages.2.speed=1: found element '2' of an array, allowed 0 … 1");
   CHECK(refusal("stages.first.speed=1") ==
         "--set stages.first.speed=1: found element 'first' of an array, allowed 0 … 1");

@@ -30,13 +30,13 @@ TEST_CASE("A child that crashes is reported with its signal and what it wrote be
   CHECK(end.output == "so far");
 }
 
-TEST_CASE("A child that an exception leaves ends with exit code 1") {
+TEST_CASE("A child that an uncaught exception ends has exit code 1") {
   const ChildEnd end = run_in_child([](const auto&) { throw std::runtime_error("no"); }, 60);
   CHECK(end.exit_code == 1);
   CHECK(end.signal == 0);
 }
 
-TEST_CASE("A child that does not come to an end is killed when its time is over") {
+TEST_CASE("A child that does not end is killed when its time is over") {
   using Clock = std::chrono::steady_clock;
   const auto start = Clock::now();
   const ChildEnd end = run_in_child(

@@ -45,7 +45,7 @@ TEST_CASE("Options take numbers within their range") {
   CHECK(options.box == std::vector<double>{1, 2, 3});
 }
 
-TEST_CASE("Options refuse what is no finite number of their range, in one line") {
+TEST_CASE("Options refuse anything but a finite number within their range, in one line") {
   CHECK(refusal({"--size", "0"}) == "--size: found '0', allowed a number 1e-12 … 1e+09 mm (see example --help)");
   for (const char* text : {"nan", "-nan", "inf", "1e400", "-1", "0", "abc", "1mm", "", " ", "0x1p3"}) {
     INFO(text);

@@ -30,7 +30,7 @@ std::vector<double> random_terms(int count, int spread, unsigned seed) {
 
 } // namespace
 
-TEST_CASE("An exact sum of one term is the term, of two what the processor's correctly rounded addition gives") {
+TEST_CASE("An exact sum of one term is that term, and of two terms their correctly rounded sum") {
   for (const int spread : {3, 30, 60, 120}) {
     const std::vector<double> terms = random_terms(20000, spread, 1);
     for (std::size_t i = 0; i + 1 < terms.size(); i += 2) {
@@ -41,7 +41,7 @@ TEST_CASE("An exact sum of one term is the term, of two what the processor's cor
   }
 }
 
-TEST_CASE("An exact sum keeps what cancels in doubles") {
+TEST_CASE("An exact sum keeps digits that cancel in a sum of doubles") {
   CHECK(sum_of({1e30, 1, -1e30}) == 1);
   CHECK(sum_of({1e60, 1e-60, -1e60, -3e-60}) == 1e-60 - 3e-60);
   // Half of the last place, rounded to even, and just above half.
@@ -51,7 +51,7 @@ TEST_CASE("An exact sum keeps what cancels in doubles") {
   CHECK(sum_of({-1, -last / 2, -1e-70}) == -1 - last);
 }
 
-TEST_CASE("An exact sum does not depend on the order of its terms nor on who adds which") {
+TEST_CASE("An exact sum does not depend on the order of its terms or on how they are divided among partial sums") {
   std::vector<double> terms = random_terms(5000, 100, 2);
   const double whole = sum_of(terms);
   std::mt19937_64 random(3);
@@ -66,7 +66,7 @@ TEST_CASE("An exact sum does not depend on the order of its terms nor on who add
   }
 }
 
-TEST_CASE("An exact sum of 400,000 terms is the sum of a series that is known") {
+TEST_CASE("An exact sum of 400,000 terms of a series is its known value") {
   for (const double sign : {1.0, -1.0}) {
     ExactSum sum;
     double weights = 0;
@@ -83,7 +83,7 @@ TEST_CASE("An exact sum of 400,000 terms is the sum of a series that is known") 
   }
 }
 
-TEST_CASE("An exact sum is NaN where a term is not finite, and where it is too large to be one of energies") {
+TEST_CASE("An exact sum is NaN if a term is not finite or the sum is out of range") {
   const double infinite = std::numeric_limits<double>::infinity();
   for (const double bad : {infinite, -infinite, std::numeric_limits<double>::quiet_NaN(), 1e80, -1e300}) {
     ExactSum sum;

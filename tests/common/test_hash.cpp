@@ -42,7 +42,7 @@ TEST_CASE("XXH64 gives the values of the reference implementation's self test") 
   CHECK(hash_bytes(sanity_buffer(size), seed) == hash);
 }
 
-TEST_CASE("XXH64 of texts is the published one and prints as sixteen digits") {
+TEST_CASE("XXH64 of known texts has the published values and is printed as sixteen digits") {
   CHECK(hash_text(hash_string("")) == "ef46db3751d8e999");
   CHECK(hash_text(hash_string("a")) == "d24ec4f1a98c6e5b");
   CHECK(hash_text(hash_string("abc")) == "44bc2cf5ad770999");

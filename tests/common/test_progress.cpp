@@ -23,7 +23,7 @@ TEST_CASE("Durations are written as a person reads them") {
   CHECK(duration_text(360'000) == "100:00:00");
 }
 
-TEST_CASE("Durations that are no durations have a word") {
+TEST_CASE("A duration that is negative or not finite is written as a word") {
   CHECK(duration_text(-1) == "unknown");
   CHECK(duration_text(std::numeric_limits<double>::quiet_NaN()) == "unknown");
   CHECK(duration_text(std::numeric_limits<double>::infinity()) == "very long");

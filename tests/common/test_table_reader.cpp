@@ -71,7 +71,7 @@ name = "second"
   CHECK_NOTHROW(table.finish());
 }
 
-TEST_CASE("What is absent has its fallback, and asking for it makes it a known key") {
+TEST_CASE("An absent key takes its default, and reading it makes it a known key") {
   const TomlDocument document = parse("");
   TableReader table(document);
   CHECK(table.number_or("a", 2.5) == 2.5);
@@ -178,7 +178,7 @@ TEST_CASE("A vector has three numbers") {
         "case.toml:1:13: key 'a.0.2': found the string 'x', expected a number");
 }
 
-TEST_CASE("A word that is none of the choices is answered with the choices and the nearest") {
+TEST_CASE("A word that is not among the choices is refused with the choices and the nearest one") {
   CHECK(mistake("a = 'rigit'", [](auto& t) {
           t.choice("a", {"rigid", "free"});
         }) == "case.toml:1:5: key 'a': found 'rigit', allowed 'rigid', 'free' (did you mean 'rigid'?)");
@@ -261,7 +261,7 @@ TEST_CASE("A file that is missing or a folder is refused with its name") {
   CHECK(input_error([&] { TomlDocument::from_file(folder); }) == folder + ": is a folder, expected a file");
 }
 
-TEST_CASE("A file is read as its text is") {
+TEST_CASE("Reading a file gives the same as reading its text") {
   const auto path =
       std::filesystem::temp_directory_path() / ("mpfem-test-common-" + std::to_string(getpid()) + ".toml");
   std::ofstream(path) << "\xEF\xBB\xBF"
@@ -308,7 +308,7 @@ every = 2
   CHECK(table.string("text") == "tab\t quote\" backslash\\ newline\n bell\a Größe");
 }
 
-TEST_CASE("A whole number beyond the reach of doubles is no number, but an integer") {
+TEST_CASE("A whole number too large for a double is refused as a number and read as an integer") {
   CHECK_THAT(mistake("a = 9007199254740993", [](auto& t) { t.number("a"); }), Catch::Contains("key 'a'"));
   const TomlDocument document = parse("a = 9007199254740993");
   CHECK(TableReader(document).integer("a") == 9007199254740993);

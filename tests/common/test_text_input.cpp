@@ -38,7 +38,7 @@ TEST_CASE("A long text keeps its ends in a message, and a short one is whole") {
   CHECK(shortened(std::string(200'000, 'x')).size() < 90);
 }
 
-TEST_CASE("Bytes that are no text are shown as numbers") {
+TEST_CASE("Bytes that are not valid text are shown as numbers") {
   CHECK(one_line("\xff") == "\\xff");
   CHECK(one_line("\xc3") == "\\xc3");
   CHECK(one_line("a\xc2\x9b"
@@ -162,7 +162,7 @@ TEST_CASE("A row of very many columns is refused") {
   CHECK(input_error([&] { (void)reader.next(); }) == "t.csv:1: found more than 10000 columns");
 }
 
-TEST_CASE("Two documents differ in the first key that one of them holds otherwise") {
+TEST_CASE("The difference of two documents is the first key whose values differ") {
   const auto difference = [](const char* first, const char* second) {
     const auto found = first_difference(toml::parse(first), toml::parse(second));
     return found ? found->key + ": " + found->first + " | " + found->second : "none";

@@ -52,7 +52,7 @@ TEST_CASE("A bond law with one spoilt value is refused with file, key and line")
                 good_programme, {"law.toml:5", "fracture_energy"});
 }
 
-TEST_CASE("A programme that is no table of separations is refused with file and line") {
+TEST_CASE("A programme that is not a table of separations is refused with file and line") {
   Bonds bonds;
   const std::string heading = "opening,shear1,shear2,increments\n";
   const std::string endless(100'000, 'x');

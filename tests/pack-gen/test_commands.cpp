@@ -409,7 +409,7 @@ TEST_CASE("a table goes to standard output or a FIFO, a packing to neither") {
   CHECK(std::filesystem::is_fifo(folder / "fifo"));
 }
 
-TEST_CASE("a packing that means nothing is refused by its meaning") {
+TEST_CASE("a packing with meaningless values is refused, and the message names them") {
   const Folder folder;
   write_packing_file(folder / "s.h5", {.box = {1, 1, 1}, .center = {{0.3, 0.5, 0.5}}, .radius = {-0.25}}, {});
   for (const std::string& arguments : {fmt::format("mesh {} --size 0.1 -o {}", folder / "s.h5", folder / "p.h5"),
@@ -422,7 +422,7 @@ TEST_CASE("a packing that means nothing is refused by its meaning") {
   }
 }
 
-TEST_CASE("a packing's quality is numbers by name, its sizes a table, and their distance that from the description") {
+TEST_CASE("quality reports named numbers, a table of sizes, and their distance from the description") {
   const Folder folder;
   write_text(folder / "pack.toml", description);
   REQUIRE(pack_gen(fmt::format("spheres {} -o {}", folder / "pack.toml", folder / "s.h5")).exit_code == 0);

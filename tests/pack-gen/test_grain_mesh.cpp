@@ -169,7 +169,8 @@ SpherePacking cluster(double radius, double gap) {
 
 } // namespace
 
-TEST_CASE("grains that stick out of their spheres are turned until none touch, on any number of threads alike") {
+TEST_CASE("grains that extend beyond their spheres are rotated until none touch, with the same result on any number of "
+          "threads") {
   // At radius/size 3 nodes lie 1.2 % of the radius outside: two of them need more than the gap of 1 %.
   const SpherePacking packing = cluster(0.06, 0.0006);
   const PackingMesh one = mesh_packing(packing, {.nominal_size = 0.02, .seed = 1, .threads = 1});

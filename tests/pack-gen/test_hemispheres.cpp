@@ -102,7 +102,7 @@ TEST_CASE("hemispheres: boundary nodes lie on the sphere or exactly on the flat 
   }
 }
 
-TEST_CASE("hemispheres: triangles at the contact have the size asked for and no poor place at the tip") {
+TEST_CASE("hemispheres: triangles at the contact have the requested size and good shapes at the tip") {
   const Hemispheres pair = mesh_hemispheres(request());
   for (std::size_t g = 0; g < 2; ++g) {
     const TetMesh grain = grain_of(pair.mesh, g);

@@ -92,7 +92,7 @@ TEST_CASE("spheres in a cylinder reach its walls all around: the packing is abou
   for (const int spheres : beside_the_wall) CHECK(spheres > 10);
 }
 
-TEST_CASE("what a sphere beyond a cylinder's wall touches is said to be the round wall") {
+TEST_CASE("the message about a sphere beyond a cylinder's wall names the round wall") {
   const SpherePacking packing{{1, 1, 2}, {{0.5, 0.5, 1}, {0.8, 0.8, 1}}, {0.1, 0.1}, ContainerShape::cylinder};
   const SphereGap gap = smallest_wall_gap(packing);
   CHECK(gap.gap == Approx(0.5 - 0.1 - 0.3 * std::sqrt(2.0)));
@@ -251,7 +251,7 @@ TEST_CASE("a bed in a surface is as dense as in the box or cylinder of the same 
   }
 }
 
-TEST_CASE("spheres that have no room for the gap do not settle, and that is said") {
+TEST_CASE("spheres that have no room for the gap do not settle, and the message says so") {
   const SpherePacking full{{0.2, 0.2, 0.4}, {{0.1, 0.1, 0.1}, {0.1, 0.1, 0.3}}, {0.1, 0.1}};
   CHECK_THROWS_AS(settle(full, {.smallest_gap = 0.01}), InputError);
   CHECK_THROWS_WITH(settle(full, {.smallest_gap = 0.01}), Catch::Contains("do not come to rest with gaps of 0.01 mm"));

@@ -38,7 +38,7 @@ TEST_CASE("a table by volume gives a sample whose volumes follow the table") {
   }
 }
 
-TEST_CASE("a log-normal distribution has the median and the deviation asked for, by number and by volume") {
+TEST_CASE("a log-normal distribution has the requested median and deviation, by number and by volume") {
   const double median = 0.14, deviation = 0.2;
   const auto by_number = log_normal_distribution(median, deviation, SizeWeight::number, 0.03, 0.7);
   CHECK(by_number->quantile(0.5) == Approx(median).epsilon(1e-6));

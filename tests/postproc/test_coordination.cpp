@@ -48,7 +48,7 @@ TEST_CASE("every grain of a cubic lattice between walls has six contacts, and fe
   CHECK(std::count(rattlers.begin(), rattlers.end(), true) == 0);
 }
 
-TEST_CASE("rattlers are taken away until none is left, and their contacts with them") {
+TEST_CASE("rattlers are removed with their contacts until none is left") {
   ContactGraph graph = lattice(2);
   // A string of three that hangs on a corner: the last has one contact, and each but for the one behind it two.
   for (std::int32_t i = 0; i < 3; ++i) {
@@ -64,7 +64,7 @@ TEST_CASE("rattlers are taken away until none is left, and their contacts with t
   for (std::size_t grain = 8; grain < 11; ++grain) CHECK(contacts[grain] == 0);
 }
 
-TEST_CASE("a grain that an unbroken bond holds is no rattler") {
+TEST_CASE("a grain that an unbroken bond holds is not a rattler") {
   ContactGraph graph = lattice(2);
   graph.walls.push_back(0);
   graph.pairs.push_back({{3, 8}, true});
@@ -72,7 +72,7 @@ TEST_CASE("a grain that an unbroken bond holds is no rattler") {
   CHECK(std::count(rattlers.begin(), rattlers.end(), true) == 0);
 }
 
-TEST_CASE("coordination is of pairs that touch or are held, and of walls that push") {
+TEST_CASE("coordination counts pairs that touch or are bonded, and walls that push") {
   const Folder folder;
   RunContents contents = bonded_run();
   contents.numbers["/snapshots/*/pair_area"] = {0, 0}; // the first is held by bonds, the second by nothing

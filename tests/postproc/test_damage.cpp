@@ -52,7 +52,7 @@ constexpr double single = 1e-6;
 
 } // namespace
 
-TEST_CASE("the test's bonded file holds to the schema, with and without its bonds") {
+TEST_CASE("the bonded file of these tests follows the schema, with and without its bonds") {
   const Folder folder;
   write_run(folder / "bonded.h5", bonded_run());
   write_run(folder / "plain.h5", small_run());
@@ -266,7 +266,7 @@ TEST_CASE("pictures of damage are drawn") {
   CHECK(nlohmann::json::parse(outcome.output)["bonds"] == 50); // JSON on standard output where -o is not given
 }
 
-TEST_CASE("a pair that touches without ever a bond has a map without points") {
+TEST_CASE("a touching pair that never had a bond has a map without points") {
   const Folder folder;
   write_run(folder / "run.h5", bonded_run());
   const Outcome outcome = postproc(fmt::format("contact {} --pair 0,2", folder / "run.h5"));
@@ -299,7 +299,7 @@ TEST_CASE("the .vtu file has the damage of nodes where the run has it") {
   CHECK(vtu_text(plain).find("damage") == std::string::npos);
 }
 
-TEST_CASE("the contact table, ledger and summary of a run with bonds have them, those of another do not") {
+TEST_CASE("the contact table, energy balance and summary report bonds of a run that has them, and only of such a run") {
   const Folder folder;
   write_run(folder / "run.h5", bonded_run());
   write_run(folder / "plain.h5", small_run());
@@ -332,7 +332,7 @@ TEST_CASE("the contact table, ledger and summary of a run with bonds have them, 
   CHECK_THAT(to_text(summarise(plain)), !Catch::Contains("bonds, area"));
 }
 
-TEST_CASE("damage that is not there is refused with one line and exit code 2") {
+TEST_CASE("missing bonds, contacts and snapshots are refused with one line and exit code 2") {
   const Folder folder;
   write_run(folder / "run.h5", bonded_run());
   write_run(folder / "plain.h5", small_run());

@@ -21,7 +21,7 @@ const std::string with_bonds = "[bond]\nfracture_energy = 0.5\n";
 
 } // namespace
 
-TEST_CASE("bonds of a test are those it found, those that formed in it, and those that were broken before") {
+TEST_CASE("a test has three kinds of bonds: found by it, formed in it, and broken before it") {
   const std::vector<BondRow> before = {bond(1, 0, 1, 0.2), bond(2, 0, 1, 1), bond(3, 0, 1, 1), bond(1, 4, 1, 0.5)};
   const std::vector<BondRow> now = {bond(1, 0, 1, 0.6), bond(2, 0, 1, 1), bond(3, 0, 1, 0.1), bond(1, 4, 1, 1),
                                     bond(9, 0, 1, 0.3)};
@@ -52,7 +52,7 @@ TEST_CASE("damage by energy is what bonds dissipated over half of G^c times thei
   CHECK(energy->share() == Approx(1.1 / 1.5).epsilon(1e-14));
 }
 
-TEST_CASE("the damage of a test tells the growth of what it found") {
+TEST_CASE("the damage of a test is the growth of damage in the bonds that it found") {
   const Folder folder;
   RunContents before = bonded_run(), now = bonded_run();
   before.texts["/provenance/scenario"] = now.texts["/provenance/scenario"] = {with_bonds};

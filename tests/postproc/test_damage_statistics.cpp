@@ -112,7 +112,7 @@ TEST_CASE("the damage of a population of contacts lies within its interval in 95
   CHECK(as_if_single.share() < 0.8);
 }
 
-TEST_CASE("a share of none or of all is as unsure as so few contacts leave it") {
+TEST_CASE("a share of 0 or 1 has the uncertainty that follows from the number of contacts") {
   std::vector<BondSample> bonds;
   for (std::size_t pair = 0; pair < 60; ++pair) bonds.push_back({pair, 1, 0.5});
   const DamageStatistics s = damage_statistics(bonds);
@@ -125,7 +125,7 @@ TEST_CASE("a share of none or of all is as unsure as so few contacts leave it") 
   CHECK(std::pow(1 - 3.0 / 60, 60) < 0.05);
 }
 
-TEST_CASE("damage tells the bonds of a snapshot as JSON, as one line and as a distribution") {
+TEST_CASE("damage reports the bonds of a snapshot as JSON, as one line and as a distribution") {
   const Folder folder;
   RunContents contents =
       bonded_run(); // damage rises from 0 to 1 over five lines of nodes, of an eighth, a quarter … of the area

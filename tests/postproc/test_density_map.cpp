@@ -58,7 +58,7 @@ TEST_CASE("layers and rings of a density map hold what stands in them") {
   CHECK(within(rings.cells[2].density, 2.0 / 3 * (4 - std::numbers::pi) / (1.25 * std::numbers::pi), 0.15));
 }
 
-TEST_CASE("a filling that leans to one side is known less well than one that does not") {
+TEST_CASE("the density map of a filling that leans to one side has a larger uncertainty") {
   const DensityMap even = map_of(run_in_die(), {.rings = 1, .layers = 1});
   RunContents leaning = run_in_die();
   for (std::size_t i = 0; i < leaning.numbers["/snapshots/*/node"].size(); i += 3)
@@ -68,7 +68,7 @@ TEST_CASE("a filling that leans to one side is known less well than one that doe
   CHECK(uneven.cells[0].uncertainty > 3 * even.cells[0].uncertainty);
 }
 
-TEST_CASE("a density map is written as CSV and drawn, of runs in a die alone") {
+TEST_CASE("a density map is written as CSV and drawn, for runs in a die only") {
   const Folder folder;
   write_run(folder / "die.h5", run_in_die());
   write_run(folder / "box.h5", small_run());

@@ -96,7 +96,7 @@ TEST_CASE("names in braces become values, numbers in the format given") {
   CHECK_THROWS_WITH(filled("{density:.2q}", words), Contains("found the format '.2q'"));
 }
 
-TEST_CASE("a mistake in a figure's file is told with file, line and the nearest word") {
+TEST_CASE("a mistake in a figure's file is reported with file, line and the nearest word") {
   const Toolkit toolkit;
   CHECK_THROWS_WITH(toolkit.figure("tilte = \"x\"\n"),
                     Contains("key 'title': missing") && Contains("'tilte' in line 1"));
@@ -171,7 +171,7 @@ programme = "press"
   CHECK(graph.at("bonded").settings == Settings{{"bond.fracture_energy", "0.5"}});
 }
 
-TEST_CASE("a folder named of its own accord tells apart what a run depends on by way of another value") {
+TEST_CASE("an automatic folder name distinguishes runs that depend on a value through another one") {
   const Toolkit toolkit;
   const Figure figure = toolkit.figure(R"(title = "x"
 [follows.powder]

@@ -314,7 +314,7 @@ TEST_CASE("a statement that cannot be judged says so in its own words, or is lef
   CHECK(verdict("only_if_judged = true\n").empty());
 }
 
-TEST_CASE("a statement may want no verdict of some of its cases, and tells why it differs where it does") {
+TEST_CASE("a statement may exempt some of its cases from the verdict, and says why it differs where it does") {
   const Studies studies;
   const auto verdict = [&](const std::string& filter) {
     const Figure figure =
@@ -338,7 +338,7 @@ TEST_CASE("a statement may want no verdict of some of its cases, and tells why i
   CHECK_THROWS_WITH(verdict("verdict_where = { lwa = \"a\" }\n"), Contains("for_each has no 'lwa'"));
 }
 
-TEST_CASE("numbers of axes, limits and lines may be words of for_each, and what is no number is told") {
+TEST_CASE("numbers of axes, limits and lines may be words of for_each, and a word that is not a number is refused") {
   const Studies studies;
   const std::string text = R"([[tables]]
 name = "t"

@@ -255,7 +255,7 @@ TEST_CASE("two lines are told apart at their kink") {
   CHECK_FALSE(none.notes.empty());
 }
 
-TEST_CASE("relative densities become porosities where they are asked to") {
+TEST_CASE("relative densities are converted to porosities on request") {
   const auto strength_of_density = [](double d) { return 900 * std::exp(-14 * (1 - d)); };
   const FitPoints points = points_of(6, 0.62, 0.77, strength_of_density);
   const Fit result = fit("ryshkewitch-duckworth", points, true);

@@ -34,7 +34,8 @@ const std::string material = "[material]\ndensity = 2e-9\nyoungs_modulus = 5000\
 
 } // namespace
 
-TEST_CASE("a test is held against its own energy, not against the plastic work of the compaction before it") {
+TEST_CASE("a test's kinetic energy is compared with its own internal energy, without the plastic work of the "
+          "compaction before") {
   const Folder folder;
   RunContents contents = run_of({{.stage = 0, .axial_stress = 9, .lateral_stress = 8, .plastic = 90, .elastic = 2},
                                  {.stage = 1, .axial_stress = 9, .lateral_stress = 8, .plastic = 90, .elastic = 2},
@@ -82,7 +83,7 @@ TEST_CASE("a stage's first row and one without stress have no inertial number") 
   CHECK(inertial_numbers(history, {.density = 2e-9, .diameter = 0.1}) == std::vector<double>{0, 0, 0});
 }
 
-TEST_CASE("the density that inertia counts with is that of all grains, scaled as the run scaled it, or not known") {
+TEST_CASE("the inertial number uses the density of all grains with the run's mass scaling, or is not known") {
   const Folder folder;
   const auto density = [&](const std::string& scenario) {
     return scenario_facts(file_of(folder, run_of(straining(), scenario))).density;

@@ -47,7 +47,7 @@ TEST_CASE("the part of a line inside a box is what its planes leave of it") {
   CHECK(share_inside(region, {-1, 2, 0.5}, {2, 2, 0.5}) == 0); // along a face, outside
 }
 
-TEST_CASE("Love and Weber's stress of a lattice is the stress that it is under, with shear") {
+TEST_CASE("Love and Weber's stress of a lattice is the applied stress, with shear") {
   Eigen::Matrix3d stress;
   stress << 7, 1, -2, 1, 11, 3, -2, 3, 30;
   const Region box{{0, 0, 0}, {6, 6, 6}};
@@ -61,7 +61,7 @@ TEST_CASE("Love and Weber's stress of a lattice is the stress that it is under, 
   CHECK((without - 5.0 / 6 * stress).cwiseAbs().maxCoeff() < rounding * 30);
 }
 
-TEST_CASE("the solid's mean stress counts pores as bearing nothing") {
+TEST_CASE("the mean stress by the solid counts pores as free of stress") {
   const Region region{{0, 0, 0}, {2, 1, 1}};
   const std::vector<PressedVolume> solid = {
       {{0.5, 0.5, 0.5}, 0.5, 10}, {{1.5, 0.5, 0.5}, 0.25, -4}, {{2.5, 0.5, 0.5}, 1, 1000}};

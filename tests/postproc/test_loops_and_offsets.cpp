@@ -65,7 +65,7 @@ TEST_CASE("a loop with hysteresis has the mean slope of its branches, and the ar
   CHECK(within(m.details["loop_area_MPa"].get<double>(), -0.5 * 0.0005 * 1, 1e-6));
 }
 
-TEST_CASE("loops are counted, and what is none is refused") {
+TEST_CASE("loops are counted, and a stage without one is refused") {
   const Folder folder;
   auto corners = one_loop;
   corners.insert(corners.end(), {{0.019, 8}, {0.02, 10}, {0.03, 14}});
@@ -118,7 +118,7 @@ TEST_CASE("a toe does not count as plastic strain, and a slope may be given") {
   CHECK(steeper.value > 3.5);
 }
 
-TEST_CASE("offset yield of a probe is told by the strain that its path works on, whatever its direction") {
+TEST_CASE("offset yield of a probe uses the strain that is work-conjugate to its path, whatever its direction") {
   const Folder folder;
   constexpr double bulk = 3000, shear = 1000, p_0 = 60, yields_at = 12, compliance = 4e-4;
   for (const auto& direction :
@@ -144,7 +144,7 @@ TEST_CASE("offset yield of a probe is told by the strain that its path works on,
   }
 }
 
-TEST_CASE("an unconfined strength is told over the face that was and over the face that is") {
+TEST_CASE("an unconfined strength is given over the initial and over the current cross-section") {
   const Folder folder;
   // Rises to 20 MPa at a strain of 0.02 and falls; each lateral axis widens by a third of the axial strain.
   auto rows = along({{0, 0}, {0.02, 20}, {0.04, 15}}, 100);

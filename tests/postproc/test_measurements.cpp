@@ -84,7 +84,7 @@ TEST_CASE("elastic recovery is that of Eq. 9, from the densest row to the end of
   CHECK(m.uncertainty < 1e-10); // straight to the end, and nothing left to extrapolate
 }
 
-TEST_CASE("the uncertainty of the recovery holds what the rest of the stress hides") {
+TEST_CASE("the uncertainty of the recovery includes the effect of the remaining stress") {
   const Folder folder;
   for (const double exponent : {1.0, 2.0 / 3.0}) // linear, and contacts that open as Hertz's do
     for (const double residual : {0.1, 1.0, 5.0}) {
@@ -105,7 +105,7 @@ TEST_CASE("the uncertainty of the recovery holds what the rest of the stress hid
     }
 }
 
-TEST_CASE("the uncertainty of the recovery holds what ringing of the stress adds") {
+TEST_CASE("the uncertainty of the recovery includes the ringing of the stress") {
   const Folder folder;
   Noise noise(11);
   int held = 0, held_at_zero = 0, held_of_stress = 0;
@@ -309,7 +309,7 @@ TEST_CASE("a stress that never falls is no peak, and the strength says so") {
   CHECK_THAT(m.notes.front(), Catch::Contains("no peak"));
 }
 
-TEST_CASE("pulling is no compression: it has no strength and no modulus here") {
+TEST_CASE("a pulled sample has no compressive strength and no modulus") {
   const Folder folder;
   auto rows = reloading(
       100, 0.05, [](double e) { return -300 * e; }, no_damage, 0.01, 1);
@@ -443,7 +443,7 @@ TEST_CASE("load cycles have the area, drift and dissipation that were put into t
   for (const double damage : column("damage_dissipation")) CHECK(within(damage, 0.002, 0.03));
 }
 
-TEST_CASE("a cycle that is not closed is none, and the first loading from nothing is one") {
+TEST_CASE("an unclosed cycle does not count, and a first loading from zero stress does") {
   CHECK(find_cycles(std::vector<double>{0, 10, 20, 30, 20, 12}).empty());
   CHECK(find_cycles(std::vector<double>{30, 20, 1, 15, 30}).empty());
   CHECK(find_cycles(std::vector<double>{5, 5, 5}).empty());
@@ -455,7 +455,7 @@ TEST_CASE("a cycle that is not closed is none, and the first loading from nothin
   CHECK(find_cycles(std::vector<double>{85, 40, 1, 40, 84, 40, 1, 40, 85, 40, 0.5, 40}).size() == 2);
 }
 
-TEST_CASE("a first loading from between the cycles' stresses is told from whole cycles and counts for none") {
+TEST_CASE("a first loading from between the cycles' stresses is distinguished from whole cycles and does not count") {
   const std::vector<double> p = {40, 60, 85, 40, 1, 40, 85, 40, 1, 40, 85, 40, 1};
   const auto rows_of_cycles = find_cycles(p);
   REQUIRE(rows_of_cycles.size() == 3);

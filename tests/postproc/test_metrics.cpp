@@ -88,7 +88,7 @@ TEST_CASE("a run that ends in motion has no density from which it is quasi-stati
   CHECK_THAT(to_text(s), Catch::Contains("not at the end"));
 }
 
-TEST_CASE("a curve has the columns asked for, with units, and its numbers read back exactly") {
+TEST_CASE("a curve has the requested columns, with units, and its numbers read back exactly") {
   const Folder folder;
   RunContents contents = small_run();
   contents.numbers["/history/mean_stress"] = {0.1, 1.0 / 3.0, 1e-300};

@@ -88,7 +88,7 @@ TEST_CASE("rigid tools are drawn, unless they are not wanted") {
   CHECK(share_of_white("--without-tools") > 0.7);
 }
 
-TEST_CASE("without -o the picture is named after the run, and is not written over") {
+TEST_CASE("without -o the picture is named after the run, and an existing one is not overwritten") {
   const Folder folder;
   write_run(folder / "run.h5", small_run());
   REQUIRE(picture(folder / "run.h5" + " --size 200x200").exit_code == 0);

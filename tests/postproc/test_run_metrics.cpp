@@ -117,7 +117,8 @@ TEST_CASE("the stress at a density lies between the rows around it, and there is
   CHECK_FALSE(found[5]);
 }
 
-TEST_CASE("stresses at densities are numbers by name and rows of a table; a last density that is not reached is told") {
+TEST_CASE(
+    "stresses at densities are numbers by name and rows of a table; a last density that is not reached is reported") {
   const Folder folder;
   history_of(folder,
              run_of({{.axial_stress = 3, .relative_density = 0.6}, {.axial_stress = 9, .relative_density = 0.8}}));

@@ -120,7 +120,7 @@ TEST_CASE("the colour scale gets lighter from end to end") {
   CHECK((none[0] == none[1] && none[1] == none[2]));
 }
 
-TEST_CASE("a picture is drawn where some values are no numbers") {
+TEST_CASE("a picture is drawn even if some values are not finite") {
   const Folder folder;
   RunContents contents = small_run();
   write_run(folder / "run.h5", contents);

@@ -214,7 +214,7 @@ TEST_CASE("a grain that has left the tablet does not count in its thickness") {
   CHECK(shape->diameter.value == Approx(2 * 1.012).margin(1e-3));
 }
 
-TEST_CASE("without nodes at a punch there is no thickness, and it is said why") {
+TEST_CASE("without nodes at a punch there is no thickness, and a note says why") {
   const Cylinder cylinder = cylinder_of_grains();
   const std::vector<float> pressed = single(cylinder.node);
   std::string why;
@@ -322,7 +322,7 @@ TabletRule near_faces() {
 
 } // namespace
 
-TEST_CASE("a tablet gives back what was put into its run") {
+TEST_CASE("the numbers of a tablet are those that its run was made from") {
   const Folder folder;
   const TabletCase t;
   const TabletMeasurement tablet = tablet_of(folder, t, near_faces());
@@ -385,7 +385,7 @@ TEST_CASE("forces, friction and wall stress of a tablet hold their true values i
   }
 }
 
-TEST_CASE("what a run of a tablet does not tell has no value, and a note says why") {
+TEST_CASE("numbers that do not follow from a tablet's run are null, and a note says why") {
   const Folder folder;
   TabletCase t;
   t.ejects = false;
@@ -451,7 +451,7 @@ TEST_CASE("columns of tools stand in the history by tool and name") {
   CHECK(curve.output.starts_with("tools/upper/force_2 [N],tools/lower/normal_force [N]\n"));
 }
 
-TEST_CASE("the stress of a disc under two loads, and how flats lessen it") {
+TEST_CASE("the stress of a disc under two loads is that of the closed form, and flats reduce it") {
   CHECK(diametral_stress(pi, 2, 1) == Approx(1));
   CHECK(flat_correction(0) == 1);
   for (const auto& [degrees, factor] : {std::pair{10.0, 0.990}, {20.0, 0.960}, {30.0, 0.910}})
@@ -484,7 +484,7 @@ TEST_CASE("the angle of a flat is that of its pressed nodes, of the wider flat")
   CHECK_FALSE(flat_half_angle({node, pressure, 0, 2, 2, 0.02}));
 }
 
-TEST_CASE("bonds that broke in a disc count by where they stood before, those broken already do not") {
+TEST_CASE("bonds that break in a disc are counted by their position before, and bonds broken earlier are not counted") {
   // A disc of diameter 2 about (1, 1), loaded along x: bonds in the centre, at a load, aside, and one broken before.
   const std::vector<float> node = {1, 1, 0, 0.1F, 1, 0, 1, 1.8F, 0, 1, 1, 1};
   const auto bond = [](std::int32_t at, double area, double damage) {

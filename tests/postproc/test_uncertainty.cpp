@@ -80,7 +80,7 @@ TEST_CASE("the rows about a row are the seven nearest of its stage") {
   CHECK(rows_about(11, {10, 12}).count() == 3);
 }
 
-TEST_CASE("a row's uncertainty counts no steady change, and fewer than four rows tell none") {
+TEST_CASE("the uncertainty of a row leaves out steady change, and fewer than four rows give none") {
   const std::vector<double> x = {0, 1, 2, 3, 4, 5, 6}, constant(7, 0.97);
   std::vector<double> bent;
   for (const double t : x) bent.push_back(3 - 2 * t + 0.5 * t * t);
@@ -325,7 +325,7 @@ TEST_CASE("the numbers beside a strength hold their true values in vibration, at
   CHECK_COVERAGE(fall);
 }
 
-TEST_CASE("the modulus over the grains' is as sure as the modulus") {
+TEST_CASE("the modulus divided by the grains' has the relative uncertainty of the modulus") {
   const Folder folder;
   Noise noise(27);
   std::vector<Row> rows;

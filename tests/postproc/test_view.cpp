@@ -74,7 +74,7 @@ TEST_CASE("a view keeps places to a half of a 65535th of their range and fields 
   CHECK(*std::max_element(data.states[0].value[0].begin(), data.states[0].value[0].end()) == 255);
 }
 
-TEST_CASE("the page holds all of its data, asks nothing of a network, and shows titles as they are") {
+TEST_CASE("the page holds all of its data, loads nothing from a network, and shows titles as they are") {
   const Folder folder;
   write_run(folder / "run.h5", small_run());
   const std::string title = "a <b> & \"c\"";

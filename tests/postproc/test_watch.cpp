@@ -97,7 +97,7 @@ TEST_CASE("points that are not finite are left out of a curve, and no point give
   CHECK(contains(draw(plot, same, same), "  |  *\n")); // without extent: in the middle
 }
 
-TEST_CASE("a frame says stage, state, energies over those of the stage, and when the stage may end") {
+TEST_CASE("a frame shows the stage, its state, energies over those of the stage, and when the stage may end") {
   const std::string frame = watch_frame(halfway(), 1100);
   INFO(frame);
   CHECK(contains(frame, "run.checkpoint.h5: mpfem is running, written 1:40 ago\n"));
@@ -116,7 +116,7 @@ TEST_CASE("a frame says stage, state, energies over those of the stage, and when
   CHECK(contains(watch_frame(unknown, 1100), "remaining not known yet\n"));
 }
 
-TEST_CASE("a run that is watched ends as one that is not, and the watch with it") {
+TEST_CASE("watching a run does not change its results, and the watch ends with the run") {
   const Folder folder;
   prepare(folder, 4, often_saved(20, 20000));
   REQUIRE(run_command(run_text(folder, folder / "alone.h5")).exit_code == 0);
@@ -135,7 +135,7 @@ TEST_CASE("a run that is watched ends as one that is not, and the watch with it"
   CHECK_FALSE(fs::exists(folder / "run.checkpoint.h5"));
 }
 
-TEST_CASE("what a killed run has left is shown, also between the renames of its checkpoints") {
+TEST_CASE("the state that a killed run has left is shown, even between the renames of its checkpoints") {
   const Folder folder;
   make_unfinished(folder);
   const Outcome stopped = watch((folder / "run.h5") + " --once");
@@ -172,7 +172,7 @@ TEST_CASE("rows of a checkpoint are those of the run file that is written with i
   }
 }
 
-TEST_CASE("a run that has begun over an older run file shows nothing of that one") {
+TEST_CASE("a run that replaces an older run file shows nothing of the older one") {
   const Folder folder;
   make_unfinished(folder);
   fs::remove(folder / "run.checkpoint.h5");

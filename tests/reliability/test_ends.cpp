@@ -123,7 +123,8 @@ TEST_CASE("rows of a stage are even up to ten times its expected time, and bound
   CHECK(static_cast<double>(rows) <= most_rows(100));
 }
 
-TEST_CASE("poisoned motion stops every kind of stage, and the message names grain, place, cause and last checkpoint") {
+TEST_CASE("motion that is not finite stops every kind of stage, and the message names grain, place, cause and last "
+          "checkpoint") {
   const Folder folder;
   const std::vector<std::string> stages = {
       "type = \"isotropic_compaction\"\nrelative_density = 0.7\nwall_speed = 20000\n",
@@ -152,7 +153,7 @@ TEST_CASE("poisoned motion stops every kind of stage, and the message names grai
   }
 }
 
-TEST_CASE("a run that fails names the last checkpoint before") {
+TEST_CASE("a run that fails names the last checkpoint before the failure") {
   const Folder folder;
   const Outcome outcome = run_with(folder, "type = \"isotropic_unloading\"\nmean_stress = 900\nwall_speed = 10000\n");
   CHECK(outcome.exit_code == 3);

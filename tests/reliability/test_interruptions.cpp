@@ -116,7 +116,7 @@ TEST_CASE("a file size limit ends a run with exit code 4, not with a signal, and
   CHECK(run_stages(folder, "run.h5", "--resume").exit_code == 0);
 }
 
-TEST_CASE("a run that is asked to stop while its packing loads ends with exit code 5 and says what can be resumed") {
+TEST_CASE("a run that is told to stop while its packing loads ends with exit code 5 and says what can be resumed") {
   const Folder folder;
   prepare_stages(folder, two_stages, 14);
   // The lock stands before the packing is read.

@@ -50,7 +50,7 @@ void read(const std::string& path) {
 
 } // namespace
 
-TEST_CASE("A packing that means something is read") {
+TEST_CASE("A packing with valid values is read") {
   const test::TemporaryFolder folder;
   const std::string path = folder.file("p.h5");
   Contents contents;
@@ -84,7 +84,7 @@ TEST_CASE("The shape of the container is a box where the file does not say other
   }
 }
 
-TEST_CASE("A packing that means nothing is refused with its dataset, index, what was found and what is allowed") {
+TEST_CASE("A packing with invalid values is refused with dataset, index, what was found and what is allowed") {
   constexpr double nan = std::numeric_limits<double>::quiet_NaN(), infinite = std::numeric_limits<double>::infinity();
   struct Case {
     std::function<void(Contents&)> spoil;

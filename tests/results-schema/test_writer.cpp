@@ -183,7 +183,7 @@ TEST_CASE("A complete file whose place is taken by a folder is kept beside it an
   CHECK_NOTHROW(FileReader(path + ".partial"));
 }
 
-TEST_CASE("A program that met a full disk still ends with the exit code that it chose") {
+TEST_CASE("A program that has met a full disk still ends with its own exit code") {
   const test::TemporaryFolder folder;
   const std::string path = folder.file("f.h5");
   const std::vector<double> many(1'000'000, 1.0);

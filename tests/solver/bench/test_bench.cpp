@@ -15,7 +15,7 @@
 using namespace mpfem;
 using namespace mpfem::test;
 
-TEST_CASE("the packing of the measurements is dense, free of overlap, and of about the size asked for") {
+TEST_CASE("the built-in packing is dense, free of overlap, and of about the requested size") {
   const DensePacking dense = make_dense_packing(60'000, 120, 1);
   CHECK(dense.packing.tet.size() / 4 > 42'000);
   CHECK(dense.packing.tet.size() / 4 < 84'000);

@@ -30,7 +30,7 @@ TEST_CASE("the stress of a face is its force over its present area, and the mean
   CHECK(within(box.axis_force()[2], 4, rounding));
 }
 
-TEST_CASE("walls do the work of the mean of their forces before and after a step over the way in it") {
+TEST_CASE("the work of a wall in a step is the mean of its forces before and after times its displacement") {
   Box box(unit_cell, none);
   box.take_loads({10, 0, 0, 0, 0, 0}, {});
   Cell next = box.cell();

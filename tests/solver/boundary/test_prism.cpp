@@ -33,7 +33,7 @@ TEST_CASE("the cross-section of a prism has the area, perimeter and rectangle of
   CHECK(within(ring->perimeter, 16, 1e-12));
 }
 
-TEST_CASE("what is no prism between the two heights has no cross-section") {
+TEST_CASE("a surface that is not a prism between the two heights has no cross-section") {
   CHECK_FALSE(section_of_prism(welded(ball(6, 12, 1)), -0.5, 0.5));
   CHECK_FALSE(section_of_prism(welded(unit_cube()), 0.5, 1.5)); // it ends between them
   CHECK_FALSE(section_of_prism(welded(unit_cube()), 2, 3));     // it ends before

@@ -180,7 +180,7 @@ TEST_CASE("what is not an STL file is refused with what was found and what is al
   contains(input_error([] { read_stl("/nonexistent.stl", 1); }), "No such file");
 }
 
-TEST_CASE("lengths that the numbers cannot bear are refused") {
+TEST_CASE("lengths that are too large or too small are refused") {
   const std::string text = text_stl(unit_cube());
   contains(input_error([&] { stl_body(text, "test.stl", 1e10); }), "allowed up to 1000000000 mm");
   contains(input_error([&] { stl_body(text, "test.stl", 1e-10); }), "allowed at least 1e-09 mm");

@@ -80,7 +80,7 @@ void check_bounds(const Surface& surface) {
 
 } // namespace
 
-TEST_CASE("a die is as far as its bore, its end faces and its rounded mouth are") {
+TEST_CASE("the distance to a die is that to its bore, its end faces or its rounded mouth") {
   CHECK(within(distance(die, {0.5, 0.8, 0.5}), 0.1, 1e-14));    // in the bore
   CHECK(within(distance(die, {0.95, 0.5, 0.3}), -0.05, 1e-14)); // behind it
   CHECK(within(distance(die, {1.4, 0.5, 1.3}), 0.2, 1e-14));    // above the upper face, at z = 1.1
@@ -99,7 +99,7 @@ TEST_CASE("a rod pushes outwards and ends where its extent ends") {
   CHECK(within(normal(rod, {1.2, 0.5, 0.7})[0], 1, 1e-14));
 }
 
-TEST_CASE("spheres and cones are as far as their closed forms say") {
+TEST_CASE("distances to spheres and cones are those of their closed forms") {
   CHECK(within(distance(SphereSurface{{0, 0, 0}, 2, false}, {3, 0, 4}), 3, 1e-14));
   CHECK(within(distance(SphereSurface{{0, 0, 0}, 6, true}, {3, 0, 4}), 1, 1e-14));
   // Half an angle of 45 degrees: a point on the axis is s/sqrt(2) from the side.
@@ -132,7 +132,7 @@ TEST_CASE("bounds never hide a point that is behind a tool") {
   check_bounds(ConeSurface{2, 1, {0.5, 0.5, 0.1}, 0.6, 0.8, true});
 }
 
-TEST_CASE("a tool that has moved is as far as it was from a point that has moved with it") {
+TEST_CASE("the distance of a tool to a point that moves with it does not change") {
   const Vector3<double> by{0.1, -0.2, 0.3};
   const Shifted<CylinderSurface> moved{die, by};
   for (const Point& x : {Point{0.5, 0.8, 0.5}, Point{0.95, 0.5, 1.15}, Point{1.4, 0.5, 1.3}})

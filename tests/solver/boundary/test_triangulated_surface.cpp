@@ -223,7 +223,7 @@ TEST_CASE("a body with a flipped sliver has the distance of the body without it"
   }
 }
 
-TEST_CASE("the gap is continuous: along random lines it changes by no more than the way") {
+TEST_CASE("the gap is continuous: along random lines it changes by no more than the distance travelled") {
   const TriangulatedSurface surface(welded(spiky_ball(7, 11, 11)));
   RandomPoints random(12, surface.bounds(), 0.2);
   for (int line = 0; line < 200; ++line) {

@@ -227,7 +227,7 @@ TEST_CASE("pressures of nodes and of patches do not lock in isochoric flow, and 
   CHECK(volumetric[ElementType::tet4_patch] < 0.2 * volumetric[ElementType::tet4]);
 }
 
-TEST_CASE("patches are eight tets that lie together, and the last of a grain what is left") {
+TEST_CASE("patches are eight adjacent tets, and the last patch of a grain holds the remaining ones") {
   const GrainMesh mesh = ball_mesh(5, 1.0);
   const Model model = single_grain(mesh, HardeningLaw::elastic, ElementType::tet4_patch);
   const auto tets = static_cast<std::size_t>(model.tets());

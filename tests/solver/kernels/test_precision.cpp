@@ -80,7 +80,7 @@ HistoryRow compacted(Precision precision, ElementType element) {
 
 } // namespace
 
-TEST_CASE("packs of floats of any width load edges, and add forces that leave no sum") {
+TEST_CASE("packs of floats of any width load edges, and their forces add up to zero") {
   check_rows_of_floats<4>();
   check_rows_of_floats<8>();
   check_rows_of_floats<16>();

@@ -398,7 +398,7 @@ TEST_CASE("a snapshot and a run file of all ranks are those of one") {
   CHECK(file.rows(schema::run::snapshots_pair_grains, "0000") > 0);
 }
 
-TEST_CASE("each of some ranks reads from a checkpoint what belongs to its grains, and nothing else") {
+TEST_CASE("each rank reads the data of its own grains from a checkpoint, and nothing else") {
   Scene scene;
   scene.simulation.advance();
   const Simulation& simulation = scene.simulation;
@@ -440,7 +440,7 @@ TEST_CASE("each of some ranks reads from a checkpoint what belongs to its grains
   }
 }
 
-TEST_CASE("all ranks see that a checkpoint is of another order of nodes, whoever owns the grain") {
+TEST_CASE("all ranks detect a checkpoint with another order of nodes, whichever rank owns the grain") {
   Scene scene;
   scene.simulation.advance();
   const SharedFolder folder;

@@ -46,7 +46,7 @@ TEST_CASE("The imbalance of ranks is the largest share of the work over the mean
   CHECK_FALSE(pays(uneven, 1, 1));
 }
 
-TEST_CASE("A rank that is three times as slow gives work away") {
+TEST_CASE("A rank that is three times as slow hands over work") {
   const Model model = model_of_eight_grains();
   const int ranks = test_ranks().size();
   const Balance balance = measure_balance(test_ranks(), model, test_ranks().leads() ? 3.0 : 1.0);

@@ -61,7 +61,7 @@ TEST_CASE("a row of equal grains is cut into equal parts, neighbours together") 
   CHECK(divide_among_ranks(centre, weight, 1) == std::vector<std::int32_t>(12, 0));
 }
 
-TEST_CASE("a heavy grain has a rank nearly for itself") {
+TEST_CASE("a heavy grain has a rank almost to itself") {
   Centres centre;
   for (int g = 0; g < 5; ++g) centre.push_back({0.3 * g, 0, 0});
   CHECK(divide_among_ranks(centre, Weights{1, 1, 1, 1, 8}, 2) == std::vector<std::int32_t>{0, 0, 0, 0, 1});

@@ -46,7 +46,7 @@ double work_to(ContactPoint& point, const Vector3<double>& end, int steps) {
 
 } // namespace
 
-TEST_CASE("an undamaged bond gives back all work, on a closed way through opening, sliding and closing") {
+TEST_CASE("an undamaged bond returns all work along a closed path through opening, sliding and closing") {
   for (const double penalty_ratio : {0.0, 0.2, 1.0, 5.0}) { // 0: a stiffness of its own
     BondLaw law = law_of(1e6, 1e6);
     law.stiffness = penalty_ratio == 0 ? 120 : 0;
@@ -81,7 +81,8 @@ TEST_CASE("the stiffness of a bond acts on opening and sliding, the penalty alon
   }
 }
 
-TEST_CASE("damage leaves the work that a closed point takes to what it spends, whatever the bond's stiffness") {
+TEST_CASE(
+    "the work done on a closed point is its stored energy plus what damage dissipates, whatever the bond's stiffness") {
   for (const double stiffness : {20.0, 50.0, 400.0}) {
     BondLaw law = law_of(25, 18);
     law.stiffness = stiffness;

@@ -104,7 +104,8 @@ TEST_CASE("a point that sticks keeps its anchor bitwise, whatever its normal for
   CHECK(point.rubbing.weight2 == before.weight2);
 }
 
-TEST_CASE("a cycle of sliding under constant push loses 4 mu N (U - mu N/k), whatever the length of a step") {
+TEST_CASE(
+    "a cycle of sliding under constant normal force dissipates 4 mu N (U - mu N/k), whatever the length of a step") {
   const double depth = 1e-3, amplitude = 2e-3;
   for (const int steps : {50, 500}) {
     ContactPoint point = pressed_point(depth);
@@ -120,7 +121,8 @@ TEST_CASE("a cycle of sliding under constant push loses 4 mu N (U - mu N/k), wha
   }
 }
 
-TEST_CASE("on a random way under varying push the work is what is stored and lost, and friction never gives") {
+TEST_CASE("along a random path under varying normal force the work is what is stored and dissipated, and friction "
+          "never releases energy") {
   // The anchor slips along the drift that is left, of length L = mu g. Both forces of the trapezoidal rule do work on
   // it: k (L + e.n) times the slip, with the drift e before and its direction n now. This is negative only if e.n < -L,
   // and then the node has moved by more than 2 L in one step.

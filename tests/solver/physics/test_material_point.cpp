@@ -171,7 +171,7 @@ TEST_CASE("the table law follows its points and stays constant beyond the last")
   CHECK(within(point.stress_xx(), 60, 1e-9));
 }
 
-TEST_CASE("points that do not yield have no say in how others of their pack are returned, and keep their state") {
+TEST_CASE("points that do not yield keep their state and do not affect the return of others in their pack") {
   using S = NativePack;
   const PowerLaw law{25, 125, 0.3};
   for (const double strain : {1e-6, 1e-3, 0.1}) {

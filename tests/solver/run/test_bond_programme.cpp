@@ -143,7 +143,7 @@ TEST_CASE("compression is carried by the undamaged penalty, negative, and leaves
   CHECK(closed_and_damaged > 30);
 }
 
-TEST_CASE("unloading points at the origin and reloading comes back to where it left the curve") {
+TEST_CASE("unloading goes towards the origin, and reloading returns to where it left the curve") {
   for (const std::string softening : {"exponential", "energy"})
     for (const auto& [there, column, traction] :
          {std::array<std::string, 3>{"2e-5,0,0", "opening_mm", "normal_traction_MPa"},
@@ -160,7 +160,7 @@ TEST_CASE("unloading points at the origin and reloading comes back to where it l
     }
 }
 
-TEST_CASE("a broken point that has opened bonds anew on contact only where the law says so") {
+TEST_CASE("a broken point that has opened bonds again on contact only if the law says so") {
   const std::string programme = "opening,shear1,shear2\n1e-3,1e-6,0\n-1e-6,1e-6,0\n-1e-6,3e-6,0\n1e-3,3e-6,0\n";
   const Result never = walk(programme);
   CHECK(never.state.back() == "broken");

@@ -179,7 +179,7 @@ TEST_CASE("a packing that was unloaded is compacted again to less than before, f
         Approx(idle.read(schema::run::history_relative_density).front()).epsilon(1e-12));
 }
 
-TEST_CASE("a branch may change how it is computed, but not the matter") {
+TEST_CASE("a branch may change numerical settings, but not the material") {
   const Folder folder;
   prepare(folder);
   const std::string from = " --quiet --from " + (folder / "first.compaction.checkpoint.h5");

@@ -252,7 +252,7 @@ TEST_CASE("balls dragged over each other keep momentum and angular momentum, and
   }
 }
 
-TEST_CASE("turning a loaded, rubbing pair as a rigid body turns its forces and lets nothing slip") {
+TEST_CASE("turning a loaded, rubbing pair as a rigid body turns its forces and causes no slip") {
   Scenario scenario = rubbing_scenario({grip("press", -3e-3, 2000), grip("drag", 0, 2000, {0.004, 0.002, 0})});
   scenario.walls = false;
   ThreadTeam team(1);
@@ -287,7 +287,8 @@ TEST_CASE("turning a loaded, rubbing pair as a rigid body turns its forces and l
   CHECK(worst < 1e-9 * largest); // anchors lie 1e-6 of a radius from their closest points
 }
 
-TEST_CASE("a loaded, rubbing pair that turns full circle in small steps slips nowhere and has its forces again") {
+TEST_CASE("a loaded, rubbing pair that turns by a full circle in small steps does not slip and has its initial forces "
+          "again") {
   Scenario scenario = rubbing_scenario({grip("press", -3e-3, 2000), grip("drag", 0, 2000, {0.004, 0.002, 0})});
   scenario.walls = false;
   ThreadTeam team(1);
@@ -330,7 +331,7 @@ TEST_CASE("a loaded, rubbing pair that turns full circle in small steps slips no
   CHECK(worst < 1e-8 * largest);
 }
 
-TEST_CASE("a node dragged round a faceted ball has mu times its push on the mean") {
+TEST_CASE("a node dragged around a faceted ball has a mean friction force of mu times its normal force") {
   // Of 0.13 R element size: chords of anchors cross an edge every few steps of their own length.
   Scenario scenario = holding_scenario(1);
   const Model model = build_model(pack({ball_mesh(10, 1)}, {4, 4, 4}), scenario, "test");
@@ -403,7 +404,7 @@ TEST_CASE(
   }
 }
 
-TEST_CASE("a ball that is set sliding rolls with 5/7 of its speed, after 2 v/(7 mu g)") {
+TEST_CASE("a ball that starts sliding rolls with 5/7 of its speed after 2 v/(7 mu g)") {
   constexpr double radius = 0.1, gravity = 1e9, speed = 1e4; // mm, mm/s^2, mm/s
   Scenario scenario = rubbing_scenario({damped_rest(4e-6, 2e6), holding_scenario(1).stages[0]});
   // A ball of facets drops by 0.005 of its radius from edge to edge: 1 % of its kinetic energy.

@@ -74,7 +74,8 @@ EnergyCheck check_of(const Model& model) {
 
 } // namespace
 
-TEST_CASE("the energy check compares the residual with the largest term so far, and knows what is no number") {
+TEST_CASE(
+    "the energy check compares the residual with the largest term so far, and reports values that are not finite") {
   EnergyCheck check(10); // negligible: 1e-6 mJ
   HistoryRow row{};
   row.external_work = 1e-7;
@@ -239,7 +240,7 @@ TEST_CASE("a tenth more than the estimated step of a free grain is found by the 
   }
 }
 
-TEST_CASE("a compaction to a stress beyond all densities ends with a message") {
+TEST_CASE("a compaction to a stress that no density reaches ends with a message") {
   Scenario scenario = holding_scenario(1e-6);
   scenario.walls = true;
   Stage stage;

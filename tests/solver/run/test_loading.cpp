@@ -200,7 +200,7 @@ TEST_CASE("a fixed die presses an elastic block to the stress of uniaxial strain
   CHECK(bench.result.overshoot < 1);
 }
 
-TEST_CASE("a soft block on a wider one a hundred times as stiff gives way by its own modulus") {
+TEST_CASE("a soft block on a wider one a hundred times as stiff shortens according to its own modulus") {
   GrainMesh soft = cube_mesh(4), stiff = cube_mesh(4);
   scale(soft, 0.1), scale(stiff, 0.15);
   move(soft, {0.15, 0.15, 0.1}), move(stiff, {0.15, 0.15, 0.35});
@@ -269,7 +269,7 @@ TEST_CASE("lateral walls hold the force that acts within 1 % while a packing is 
   CHECK(rows.back().kinetic_energy < 0.01 * (rows.back().elastic_energy + rows.back().plastic_dissipation));
 }
 
-TEST_CASE("a packing is held at a mean stress within 1 %, and is brought to it, up or down") {
+TEST_CASE("a packing is held at a mean stress within 1 %, and is brought to it from above or below") {
   const double stress = GENERATE(8.0, 25.0);
   const HeldStress loading{.mean_stress = stress, .duration = 4e-6, .servo_speed = 6000};
   Stage held = loading_stage("held", loading);

@@ -74,7 +74,8 @@ TEST_CASE(
   }
 }
 
-TEST_CASE("the loading rate settles where inertia bears no more of the stress than it may, between walls or within") {
+TEST_CASE(
+    "the loading rate settles where inertia carries no more of the stress than allowed, between walls or within") {
   const LoadingRateControl control(tolerances(), 1000, transit);
   for (const auto borne : {&LoadingRateObservation::imbalance, &LoadingRateObservation::dynamic}) {
     LoadingRateState state;
@@ -89,7 +90,7 @@ TEST_CASE("the loading rate settles where inertia bears no more of the stress th
   }
 }
 
-TEST_CASE("walls that are about to stop are not hurried") {
+TEST_CASE("walls that are about to stop are not accelerated") {
   const LoadingRateControl control(tolerances(), 1000, transit);
   LoadingRateState state{.factor = 3};
   for (int look = 0; look < 40; ++look) {
@@ -139,7 +140,7 @@ TEST_CASE("the loading rate keeps to its bounds, and says when the slowest is no
   CHECK(calm.time_beyond == 0);
 }
 
-TEST_CASE("a loose packing, and one whose elapsed dissipation is another stage's, are told apart") {
+TEST_CASE("a loose packing is distinguished from one whose dissipation belongs to another stage") {
   const LoadingRateControl control(tolerances(), 1000, transit);
   LoadingRateState loose;
   LoadingRateObservation flight = seen(1, 10.0);
@@ -153,7 +154,8 @@ TEST_CASE("a loose packing, and one whose elapsed dissipation is another stage's
   CHECK(later.factor < 1);
 }
 
-TEST_CASE("a compaction that chooses its speed meets its target, slows down while it jams and hurries when it may") {
+TEST_CASE(
+    "a compaction that chooses its speed meets its target, slows down while it jams and accelerates where it may") {
   QuasiStatic q{.kinetic_tolerance = 0.02,
                 .stress_tolerance = 0.1, // eight grains: each is a quarter of a wall
                 .slowest_speed = 1000,

@@ -145,7 +145,7 @@ TEST_CASE("a run that cannot fit is refused in one line that says what it needs 
   CHECK_THROWS_WITH(check_needs("run.h5", {1e9, 1e9}, {2e9, 0.5e9}), Catch::Contains("of disk space"));
 }
 
-TEST_CASE("a compaction takes the steps that check foretells") {
+TEST_CASE("a compaction takes the number of steps that check predicts") {
   const Folder folder;
   write_packing(folder / "packing.h5", eight_grains(4), std::vector<double>(8, 0.1));
   write_text(folder / "scenario.toml", compaction_text);
@@ -154,13 +154,13 @@ TEST_CASE("a compaction takes the steps that check foretells") {
   const Outcome run =
       run_command(fmt::format("'{}' run {} -o {}", MPFEM_EXECUTABLE, folder / "scenario.toml", folder / "run.h5"));
   REQUIRE(run.exit_code == 0);
-  const double foretold = number_before(check.output, " steps: "),
+  const double predicted = number_before(check.output, " steps: "),
                taken = number_before(run.messages, " steps, relative density");
-  CHECK(foretold == Approx(taken).epsilon(0.05));
+  CHECK(predicted == Approx(taken).epsilon(0.05));
 }
 
 #if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__) // which keep books of their own
-TEST_CASE("a run has at most the memory that is foretold, within 15 %") {
+TEST_CASE("a run needs at most the predicted memory, within 15 %") {
   const Folder folder;
   const MeshedPacking packing = eight_grains(16);
   write_packing(folder / "packing.h5", packing, std::vector<double>(8, 0.1));
@@ -168,8 +168,8 @@ TEST_CASE("a run has at most the memory that is foretold, within 15 %") {
   const rusage usage = usage_of_mpfem({"run", folder / "scenario.toml", "-o", folder / "run.h5", "--quiet", "--set",
                                        "output.history_rows=20", "--time-limit", "2"});
   const Scenario scenario = one_stage();
-  const double foretold = needs_of(read_packing_counts(folder / "packing.h5"), scenario).memory;
-  CHECK(1024.0 * static_cast<double>(usage.ru_maxrss) == Approx(foretold).epsilon(0.15));
+  const double predicted = needs_of(read_packing_counts(folder / "packing.h5"), scenario).memory;
+  CHECK(1024.0 * static_cast<double>(usage.ru_maxrss) == Approx(predicted).epsilon(0.15));
 }
 #endif
 

@@ -58,7 +58,7 @@ void stretch_grains(Model& model, const std::array<double, 3>& stretch) {
 
 } // namespace
 
-TEST_CASE("the present density counts the grains' volume as it is, and so tells of overlap that no node sees") {
+TEST_CASE("the current density uses the grains' current volume, and so shows overlap that no node detects") {
   Beginning b;
   b.simulation.evaluate_forces();
   const HistoryRow before = b.simulation.observe();

@@ -11,7 +11,8 @@ using namespace mpfem::test;
 // Three elements in the contact's radius: forces were 2 % (out) and 4 % (back) of mu P off, the loss 13 %. With four
 // (n = 18, three times the work) it was 1.6 %, 2.2 % and 3 %. The theory leaves out that normal and tangential slip are
 // coupled.
-TEST_CASE("two caps that are dragged slip from the edge of their contact inwards, as Cattaneo and Mindlin say") {
+TEST_CASE(
+    "two caps that are dragged slip from the edge of their contact inwards, as in the theory of Cattaneo and Mindlin") {
   const auto [out, back, loss, amplitude, other_share] = partial_slip::errors({.n = 14}, 0.3);
   CAPTURE(out, back, loss, amplitude);
   CHECK(std::abs(other_share) < 0.08); // and so little it is
@@ -22,7 +23,8 @@ TEST_CASE("two caps that are dragged slip from the edge of their contact inwards
 }
 
 // Four elements in the contact's radius, plain tetrahedra: 1.9 %, 2.6 % and 1.7 % were measured.
-TEST_CASE("with four elements in the contact's radius two caps lose in a cycle what Mindlin says, to 3 %") {
+TEST_CASE("with four elements across the contact's radius two caps dissipate in a cycle what Mindlin's theory gives, "
+          "within 3 %") {
   const auto [out, back, loss, amplitude, other_share] = partial_slip::errors({18, mpfem::ElementType::tet4}, 0.3);
   CAPTURE(out, back, loss, amplitude, other_share);
   REQUIRE(amplitude > 0.7);

@@ -98,7 +98,8 @@ const std::vector<Poison> poisons = {
 
 } // namespace
 
-TEST_CASE("a number that is none stops every type of stage within two steps and is located by grain, tet and place") {
+TEST_CASE(
+    "a value that is not finite stops every type of stage within two steps and is located by grain, tet and place") {
   ThreadTeam team(1);
   for (const std::string& keys : stages_of_all_types)
     for (const ElementType element : {ElementType::tet4, ElementType::tet4_anp})

@@ -81,7 +81,7 @@ TEST_CASE("a killed run goes on from its checkpoint, and ends bitwise as if it h
   CHECK(results(folder / "whole.h5") == results(folder / "killed.h5"));
 }
 
-TEST_CASE("a run that is asked several times at once to stop, as batch systems do, saves its state and stops") {
+TEST_CASE("a run that is told to stop several times at once, as batch systems do, saves its state and stops") {
   const Folder folder;
   prepare(folder, 6);
   // The first checkpoint, at a density just above the start's, says that the time loop has begun.

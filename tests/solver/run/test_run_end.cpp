@@ -71,7 +71,7 @@ TEST_CASE("a run says what ended its stages, and how well stresses were held") {
   CHECK(file.read(schema::run::provenance_stage_overshoot)[0] > 0);
 }
 
-TEST_CASE("one process at a time works on a run, and what a killed one left stops nobody") {
+TEST_CASE("one process at a time works on a run, and the lock of a killed one stops no other") {
   const Folder folder;
   prepare(folder, 3);
   const std::string command = fmt::format("run {} -o {} --quiet --resume", folder / "scenario.toml", folder / "run.h5");

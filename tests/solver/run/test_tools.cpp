@@ -131,7 +131,7 @@ TEST_CASE("a stage of tools in a scene without tools lets its time pass") {
   CHECK(simulation.stage_result().ended_by == "duration 1e-07 s");
 }
 
-TEST_CASE("a tool that holds its push comes to rest where it bears it") {
+TEST_CASE("a tool that holds a force comes to rest where the grains carry it") {
   constexpr double force = 0.4; // N, on a block of 0.04 mm^2
   Scenario scenario = holding_scenario(1);
   scenario.tools = {plane("floor", {0.5, 0.5, 0.4}, {0, 0, 1}), plane("ram", {0.5, 0.5, 0.6001}, {0, 0, -1})};
@@ -263,7 +263,7 @@ TEST_CASE("the flat face of a body in an STL file pushes and rubs as a plane doe
   }
 }
 
-TEST_CASE("friction of a die takes what Janssen's law says of the force on its way from punch to punch") {
+TEST_CASE("friction of a die reduces the force from punch to punch as Janssen's law says") {
   for (const auto& [nu, mu, reference] : {std::array{0.3, 0.1, 0.8453}, std::array{0.4, 0.3, 0.4497}}) {
     const die_column::Pressed pressed = die_column::press({.n = 12}, nu, mu);
     INFO("nu " << nu << ", mu " << mu << ": " << pressed.transmission);

@@ -214,7 +214,7 @@ TEST_CASE("every bad input is refused with one clear line and exit code 2") {
   }
 }
 
-TEST_CASE("help and version are there for every command") {
+TEST_CASE("every command has help and version") {
   for (const std::string arguments :
        {"--help", "run --help", "check --help", "bench --help", "bond --help", "--version"})
     CHECK(mpfem_command(arguments).exit_code == 0);
