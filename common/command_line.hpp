@@ -44,6 +44,7 @@ CLI::Option* add_number(CLI::App& command, const std::string& name, Variable& va
 
 /// Largest number that fits in an option's variable, for options without a limit of their own.
 constexpr Range whole_numbers = Range::between(-2147483647.0, 2147483647.0);
+/// Numbers of threads.
 constexpr Range thread_numbers = Range::between(1, 1024);
 /// Seeds of random numbers. Larger whole numbers are not exact in all programs that read them.
 constexpr Range seed_numbers = Range::between(0, 9007199254740991.0);

@@ -18,6 +18,7 @@ struct QualityRow {
   double time_step = 0;       ///< 0: none yet
 };
 
+/// Limits beyond which quality_warnings() warns; the time step warns below its limit.
 inline constexpr double doubtful_residual = 0.01; ///< of the largest work
 inline constexpr double doubtful_kinetic =
     0.1; ///< of the stage's internal energy, while p is above a tenth of its largest

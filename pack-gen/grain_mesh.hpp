@@ -56,6 +56,7 @@ struct PackingMesh {
   std::vector<std::string> notes;              ///< changes that had to be made, one line each
 };
 
+/// How the spheres of a packing are to be meshed.
 struct MeshRequest {
   double nominal_size = 0; ///< mm
   std::uint64_t seed = 1;  ///< of the grains' orientations

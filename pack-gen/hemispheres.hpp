@@ -13,6 +13,7 @@
 
 namespace mpfem {
 
+/// Sizes of the two hemispheres and of their elements.
 struct HemisphereRequest {
   double radius = 0;         ///< R, mm
   double size = 0;           ///< element size far from the contact, mm
@@ -25,6 +26,7 @@ struct HemisphereRequest {
   double box_width = 0;      ///< in x and y, mm; 0: 2.4 R
 };
 
+/// Both hemispheres, meshed, in their box.
 struct Hemispheres {
   SpherePacking packing; ///< the full spheres, of which half lies in the box
   PackingMesh mesh;
@@ -40,6 +42,7 @@ struct Refinement {
   double smallest_edge = 0;  ///< mm
   std::size_t tets_near = 0; ///< tets at whose middle an edge below twice the contact size was requested
 };
+/// Measures the meshes of `pair`, which mesh_hemispheres() has made for this request.
 Refinement refinement(const HemisphereRequest& request, const Hemispheres& pair);
 
 } // namespace mpfem

@@ -18,6 +18,7 @@ struct StepMaterial {
 
 /// Signed volume (mm^3).
 double tet_volume(const Point& a, const Point& b, const Point& c, const Point& d);
+/// Sum of the signed volumes of all tets (mm^3).
 double mesh_volume(const TetMesh& mesh);
 
 /// 3 inradius/circumradius: 1 for the regular tetrahedron, 0 for a flat one.

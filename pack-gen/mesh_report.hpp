@@ -13,6 +13,7 @@ namespace mpfem {
 /// spheres prove a larger gap no plane is needed.
 SphereGap smallest_facet_gap(const SpherePacking& packing, const PackingMesh& mesh, int threads = 1);
 
+/// Quality of a packing's mesh.
 struct MeshReport {
   std::size_t grains = 0, nodes = 0, tets = 0;
   double largest_volume_error = 0; ///< relative, over grains

@@ -10,6 +10,7 @@
 
 namespace mpfem {
 
+/// Distance of two points, in their own unit.
 inline double point_distance(const Point& a, const Point& b) {
   const double x = a[0] - b[0], y = a[1] - b[1], z = a[2] - b[2];
   return std::sqrt(x * x + y * y + z * z);

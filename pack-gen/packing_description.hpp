@@ -28,12 +28,13 @@ struct PackingDescription {
 /// as the command line gives another container. Throws InputError.
 PackingDescription read_packing_description(const TomlDocument& document, bool without_box = false);
 
-/// Radii (mm) for the description: the distribution's quantiles, scaled by `scale` so that their volume is the wanted
-/// one. Throws InputError if the scale is further from 1 than the description allows.
+/// Radii for a description.
 struct DrawnSizes {
-  std::vector<double> radius;
-  double scale = 1;
+  std::vector<double> radius; ///< mm
+  double scale = 1;           ///< factor on the sizes of the distribution
 };
+/// The distribution's quantiles, scaled so that the spheres have the relative density of the description. Throws
+/// InputError if the scale is farther from 1 than the description allows.
 DrawnSizes draw_sizes(const PackingDescription& description);
 
 } // namespace mpfem

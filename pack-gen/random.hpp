@@ -9,6 +9,7 @@
 
 namespace mpfem {
 
+/// A generator (64-bit Mersenne Twister) that gives the same numbers for the same seed everywhere.
 class Random {
 public:
   explicit Random(std::uint64_t seed) : generator_(seed) {}

@@ -12,12 +12,14 @@
 
 namespace mpfem {
 
+/// How spheres are to settle.
 struct SettleRequest {
   double smallest_gap = 0; ///< mm, between spheres and to the walls, kept in the bed
   bool fit_height = false; ///< lower the container to the bed, a gap above its highest sphere
   std::function<void(const std::string& state)> progress{};
 };
 
+/// Spheres at rest.
 struct SettledPacking {
   SpherePacking packing;
   double bed_height = 0; ///< mm, of the top of the highest sphere

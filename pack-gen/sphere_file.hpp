@@ -18,6 +18,7 @@ struct PackingOrigin {
   std::vector<double> target_diameter, target_cumulative_number; ///< the wanted distribution, empty if there is none
 };
 
+/// The spheres of a packing file, and where they come from.
 struct SphereFile {
   SpherePacking packing;
   PackingOrigin origin;
@@ -43,11 +44,12 @@ struct MeshForFile {
 void write_packing_file(const std::string& path, const SpherePacking& packing, const PackingOrigin& origin,
                         const std::optional<MeshForFile>& mesh = {});
 
-/// The mesh of a meshed packing file, with its nominal size. Throws InputError if there is none.
+/// A mesh as a packing file has it.
 struct MeshFromFile {
   PackingMesh mesh;
-  double nominal_size = 0;
+  double nominal_size = 0; ///< mm
 };
+/// Reads the mesh of a packing file. Throws InputError if there is none.
 MeshFromFile read_mesh(const std::string& path);
 
 } // namespace mpfem

@@ -16,6 +16,7 @@ void refuse_overlap(const SpherePacking& packing, const std::string& name);
 /// Spheres of a CSV table with the columns x, y, z, radius (mm). Without a box: the tightest around all spheres.
 /// Spheres are moved so that the box begins at the origin. Throws InputError.
 SpherePacking import_spheres(const std::string& path, const std::optional<Point>& box);
+/// The same for a table that is already open.
 SpherePacking import_spheres(CsvReader table, const std::optional<Point>& box);
 
 /// A cylinder about z, and where the centre of its bottom is in a table of spheres.

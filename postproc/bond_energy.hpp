@@ -8,6 +8,7 @@
 
 namespace mpfem {
 
+/// What the bonds have dissipated, and the energy that breaks them all.
 struct BondEnergy {
   double dissipation = 0;     ///< mJ, by damage up to now
   double energy_to_break = 0; ///< mJ: G^c times area, each side of a contact counts half of its own

@@ -9,6 +9,7 @@
 
 namespace mpfem {
 
+/// The contacts of one snapshot, one row per pair of grains.
 struct ContactTable {
   double relative_density = 0, mean_stress = 0; ///< 1, MPa
   double contact_area_ratio = 0;  ///< area in contact over total surface, in the history row nearest in time
@@ -20,6 +21,7 @@ struct ContactTable {
 
 /// The contacts of a snapshot (numbered as in snapshot_name). Throws InputError where the run has no such snapshot.
 ContactTable contact_table(const schema::FileReader& file, int snapshot);
+/// All numbers by name, and the columns as "columns".
 nlohmann::ordered_json to_json(const ContactTable& table);
 
 } // namespace mpfem

@@ -23,6 +23,7 @@ struct ContactBond {
   double opening = 0, sliding = 0;  ///< mm
 };
 
+/// One contact with all of its bonds.
 struct ContactMap {
   std::string snapshot;
   double relative_density = 0, mean_stress = 0;   ///< 1, MPa
@@ -39,6 +40,7 @@ struct ContactMap {
 /// where there is no such snapshot, where it has no bonds, and where these are not two grains in contact.
 ContactMap contact_map(const schema::FileReader& file, int snapshot, std::pair<int, int> grains);
 
+/// All numbers by name.
 nlohmann::ordered_json to_json(const ContactMap& map);
 
 /// The bonds as CSV: node, grain of the node, position, in-plane coordinates, damage, area, opening, sliding.

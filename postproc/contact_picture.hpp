@@ -8,6 +8,7 @@
 
 namespace mpfem {
 
+/// How a contact is drawn.
 struct ContactPictureRequest {
   std::string title; ///< default: the grains and the relative density
   int pixels = 900;

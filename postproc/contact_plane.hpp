@@ -12,6 +12,7 @@ struct AreaPoint {
   double area = 0;           ///< mm^2
 };
 
+/// A plane with right-handed coordinates u, v in it.
 struct ContactPlane {
   std::array<double, 3> origin{};           ///< area centroid of the points, mm
   std::array<double, 3> normal{}, u{}, v{}; ///< right-handed, unit length; the normal points along `across`

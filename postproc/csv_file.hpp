@@ -12,6 +12,7 @@ namespace mpfem {
 /// Columns of a CSV file. The first line that is neither empty nor a comment (#) names them: "name [unit]", the unit
 /// optional, quotes allowed. Every other such line has a number in each column. Throws InputError with file and line.
 std::vector<Column> read_csv(const std::string& path);
+/// The same for a table that is already open.
 std::vector<Column> read_csv(CsvReader reader);
 
 /// A column by its name without unit. Throws InputError that suggests the nearest name.

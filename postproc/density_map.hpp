@@ -8,6 +8,7 @@
 
 namespace mpfem {
 
+/// How the die is divided into cells.
 struct DensityMapRule {
   int rings = 4;  ///< of equal width, from the axis to the wall
   int layers = 4; ///< of equal height, from the lower punch to the upper
@@ -21,6 +22,7 @@ struct DensityCell {
   double uncertainty = 0;      ///< half of the 95 % interval of the mean over sectors
 };
 
+/// Solid fraction of every cell and of the whole.
 struct DensityMap {
   std::string snapshot;
   double radius = 0, height = 0; ///< mm, of the container

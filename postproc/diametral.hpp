@@ -19,6 +19,7 @@ double diametral_stress(double force, double diameter, double thickness);
 /// (Hondros, Aust. J. Appl. Sci. 10, 243, 1959). 1 for a line load; 0.910 at 2 alpha = 30 degrees, beyond which the
 /// disc no longer breaks from its centre.
 double flat_correction(double half_angle);
+/// Largest angle of a flat at which the disc still breaks from its centre.
 inline constexpr double largest_flat_angle = 30; ///< degrees, 2 alpha
 
 /// Load on a disc in each row (N) from the forces of both plates on one axis: the mean of their magnitudes. It is 0
@@ -31,6 +32,7 @@ struct FirstPeak {
   std::size_t row = 0;
   bool falls = false; ///< false: the largest of all values, no such fall after it
 };
+/// Finds that peak among the values of a stage, one per row.
 FirstPeak first_peak(const std::vector<double>& values, double drop);
 
 /// One state of the disc, for flat_half_angle.
@@ -46,6 +48,7 @@ struct DiscState {
 /// the loaded diameter. Empty where an end has no pressed node.
 std::optional<double> flat_half_angle(const DiscState& state);
 
+/// How a diametral test is read.
 struct DiametralRule {
   std::vector<std::string> plates;           ///< two tools; default: the only two of the run
   std::optional<int> stage;                  ///< default: the last

@@ -8,6 +8,7 @@
 
 namespace mpfem {
 
+/// The recovery by Eq. 9, and the numbers that it is computed from.
 struct ElasticRecovery {
   double largest_density = 0, smallest_density = 0;  ///< D_max in the densest row, D_min in the last
   double stress_at_largest = 0, residual_stress = 0; ///< MPa, mean stress in those rows

@@ -15,11 +15,13 @@ struct FitPoints {
   std::string path = "points"; ///< for messages
 };
 
+/// A fitted coefficient with its interval.
 struct Coefficient {
   std::string name;
   double value = 0, low = 0, high = 0; ///< low and high: ends of the 95 % interval
 };
 
+/// A model fitted to points.
 struct Fit {
   std::string model, formula;
   std::string fitted_in = "y"; ///< "y", "ln y", "x/y" …: quantity whose squares are summed; r_squared is of it
@@ -59,6 +61,7 @@ std::string fit_help();
 /// coefficient.
 Fit fit(const std::string& model, const FitPoints& points, bool x_is_relative_density = false);
 
+/// All of it but the function `at`.
 nlohmann::ordered_json to_json(const Fit& fit);
 
 } // namespace mpfem

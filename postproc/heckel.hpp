@@ -10,6 +10,7 @@
 
 namespace mpfem {
 
+/// Which rows may form the window.
 struct HeckelRule {
   double r_squared = 0.999;      ///< smallest coefficient of determination allowed in the window
   double largest_density = 0.98; ///< rows with a larger relative density are left out

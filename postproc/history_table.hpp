@@ -9,6 +9,7 @@
 
 namespace mpfem {
 
+/// A named column of numbers, one value per row.
 struct Column {
   std::string name; ///< as in /history ("tools/upper/force_2"), with _0, _1 … for the components of a row
   std::string unit;

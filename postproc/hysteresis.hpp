@@ -26,6 +26,7 @@ std::vector<CycleRows> find_cycles(std::span<const double> mean_stress);
 /// both lowest stresses, so that a drift of the strain does not add to the area where the loop is not closed.
 double loop_area(std::span<const double> mean_stress, std::span<const double> volumetric_strain, CycleRows cycle);
 
+/// Results of one cycle.
 struct CycleResult {
   CycleRows rows;
   double lowest_stress = 0, highest_stress = 0;   ///< MPa
@@ -38,6 +39,7 @@ struct CycleResult {
   double plastic_uncertainty = 0, damage_uncertainty = 0;
 };
 
+/// Results of all cycles of a curve.
 struct Hysteresis {
   std::vector<CycleResult> cycles; ///< the first may be a loading that is not whole; drifts are of whole ones
   double low_stress = 0;  ///< MPa: highest of the cycles' end stresses; density at low stress is read here, unloading
@@ -60,6 +62,7 @@ Hysteresis hysteresis(std::span<const double> mean_stress, std::span<const doubl
 /// before it, and change of the densities from the cycle before.
 std::vector<Column> cycle_table(const Hysteresis& hysteresis, std::size_t first_row);
 
+/// The measured number, and the table of all cycles.
 struct HysteresisMeasurement {
   Measurement measurement;
   std::vector<Column> cycles;

@@ -31,6 +31,7 @@ struct Inertia {
   std::optional<double> inertial_number, largest_inertial_number; ///< median and largest of the rows that have one
 };
 
+/// Inertia over these rows of the history. The inertial numbers are empty where `grains` are not known.
 Inertia inertia_of_rows(const HistoryTable& history, std::span<const std::size_t> rows,
                         const std::optional<GrainInertia>& grains);
 

@@ -8,6 +8,7 @@
 
 namespace mpfem {
 
+/// Parameters that minimise a sum of squares.
 struct LeastSquares {
   Eigen::VectorXd parameters;
   Eigen::VectorXd half_width; ///< of the linearised 95 % intervals (Student's t); 0 without degrees of freedom

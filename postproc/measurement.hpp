@@ -31,6 +31,7 @@ struct SnapshotWindow {
   std::string stage_type;                       ///< empty where it is not known
 };
 
+/// A number read from a run, with everything that is needed to judge it.
 struct Measurement {
   std::string metric;
   double value = 0;
@@ -51,6 +52,7 @@ void note_unfinished(Measurement& measurement, const schema::FileReader& run);
 /// The number, or null where it is empty.
 nlohmann::ordered_json number_or_null(const std::optional<double>& number);
 
+/// The content of the JSON file of a metric.
 nlohmann::ordered_json to_json(const Measurement& measurement);
 
 /// One line: "modulus: 1234 ± 56 MPa; BRIEF (stage 2, rows 401 … 433)", or "… (stage 2, snapshot 3)".

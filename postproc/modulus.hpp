@@ -9,6 +9,7 @@
 
 namespace mpfem {
 
+/// Limits of the window in which the slope is read.
 struct ModulusRule {
   double slope_change = 0.05;   ///< the slopes of the window's halves differ by no more than this share of its slope
   double damage_share = 0.01;   ///< largest damage dissipation over axial work in the window

@@ -24,6 +24,7 @@ struct LoadingPath {
 /// probe ends where it begins.
 LoadingPath loading_path(const StageCurve& curve);
 
+/// What counts as yield.
 struct OffsetYieldRule {
   double offset = 0.002;         ///< plastic strain at yield
   std::optional<double> slope{}; ///< MPa, elastic slope given by hand (an unload-reload modulus)

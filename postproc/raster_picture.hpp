@@ -9,11 +9,13 @@
 
 namespace mpfem {
 
+/// A colour scale next to a picture.
 struct ColourBar {
   std::pair<double, double> range;
   std::string label; ///< with its unit
 };
 
+/// Axes, title and colour bar of a raster.
 struct Frame2d {
   View view;                           ///< what the raster shows, mm
   std::string title, x_label, y_label; ///< labels with units

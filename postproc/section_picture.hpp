@@ -11,6 +11,7 @@
 
 namespace mpfem {
 
+/// What a picture of a section shows.
 struct PictureRequest {
   CutPlane plane;
   std::string field = "von_mises";

@@ -20,11 +20,13 @@ SectionStress section_stress(std::vector<std::pair<double, double>> value_and_ar
 struct SectionDamage {
   double bonded_length = 0, mean = 0, share_above = 0;
 };
+/// All zero where no segment was ever bonded.
 SectionDamage section_damage(const std::vector<BoundarySegment>& segments, double threshold);
 
 /// Statistics on the middle plane of a snapshot (numbered as in snapshot_name) normal to `axis` (0, 1, 2); the values
 /// are the mean von Mises stress (MPa, as `threshold`) and the mean damage. Throws InputError.
 Measurement measure_section_stress(const schema::FileReader& file, int snapshot, int axis, double threshold);
+/// The same for damage; `threshold` is a damage, 0 … 1.
 Measurement measure_section_damage(const schema::FileReader& file, int snapshot, int axis, double threshold);
 
 } // namespace mpfem

@@ -17,6 +17,7 @@ struct Field {
   std::vector<float> values;
 };
 
+/// The grains at one time: nodes, tets and fields.
 struct Snapshot {
   std::string name;                                       ///< "0003", "packing"
   double time = 0, relative_density = 0, mean_stress = 0; ///< s, 1, MPa

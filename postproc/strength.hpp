@@ -8,12 +8,15 @@
 
 namespace mpfem {
 
+/// Whether the lateral walls carry load.
 enum class StrengthTest { unconfined, triaxial };
+/// Which point of the curve is the strength.
 enum class StrengthCriterion {
   peak,        ///< unconfined: largest axial stress; triaxial: peak of q, otherwise q at a given strain
   damage_onset ///< axial stress (triaxial: q) where damage begins to grow
 };
 
+/// How a strength is read.
 struct StrengthRule {
   std::optional<StrengthTest> test; ///< default: by the stage's type, otherwise by whether the lateral walls carry load
   StrengthCriterion criterion = StrengthCriterion::peak;

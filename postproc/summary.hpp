@@ -12,6 +12,7 @@
 
 namespace mpfem {
 
+/// Results of a run, its quality and its cost.
 struct Summary {
   std::vector<std::string> warnings; ///< what makes the results doubtful
   std::string status, version, host;
@@ -44,7 +45,9 @@ struct Summary {
 /// and the ratio of single rows has no meaning; therefore kinetic_over_internal uses rows under load only, and
 /// kinetic_over_largest_internal the whole run. Throws InputError.
 Summary summarise(const schema::FileReader& file);
+/// All numbers by name.
 nlohmann::ordered_json to_json(const Summary& summary);
+/// A table of lines for the terminal.
 std::string to_text(const Summary& summary);
 /// CSV "name,value" of the numbers at the top level of the JSON.
 std::string to_csv(const Summary& summary);

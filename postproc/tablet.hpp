@@ -20,6 +20,7 @@ struct TabletTools {
   std::string upper = "upper", lower = "lower", die = "die";
 };
 
+/// Which stages, tools and snapshot of a run are read.
 struct TabletRule {
   TabletStages stages;
   TabletTools tools;
@@ -33,6 +34,7 @@ struct TabletNumber {
   std::optional<double> value, uncertainty; ///< in `unit`; no uncertainty where the number is exact
 };
 
+/// All numbers of a tablet.
 struct TabletMeasurement {
   Measurement measurement; ///< its value is the relative density in the die at the peak
   std::vector<TabletNumber> numbers;

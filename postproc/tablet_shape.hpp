@@ -26,6 +26,7 @@ struct TabletStates {
                                             ///< die of diameter high[0] - low[0] around its middle
 };
 
+/// Which nodes and grains count.
 struct TabletShapeRule {
   double face_distance = 0;     ///< mm, largest distance of face and band nodes from punches and die
   double largest_departure = 0; ///< mm: a grain displaced farther relative to the others has left the tablet

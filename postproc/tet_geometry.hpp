@@ -9,11 +9,13 @@
 
 namespace mpfem {
 
+/// Centre and volume of a tet.
 struct TetGeometry {
   Eigen::Vector3d centre; ///< mm
   double volume;          ///< mm^3; negative where the tet is inverted
 };
 
+/// Geometry of the tet with this number.
 TetGeometry tet_geometry(const Snapshot& snapshot, std::size_t tet);
 
 /// [grains], centroids of all grains from their tets, mm.

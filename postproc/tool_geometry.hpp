@@ -11,8 +11,10 @@
 
 namespace mpfem {
 
+/// Shapes of tools, as in a run file.
 enum class ToolKind { plane, cylinder, sphere, cone, triangles };
 
+/// The surface of a rigid tool; each shape uses some of the members.
 struct ToolGeometry {
   std::string name;
   ToolKind shape = ToolKind::plane;

@@ -22,11 +22,12 @@ std::string grains_vtp_text(const Snapshot& snapshot);
 /// (N), area (mm^2); with bonds their area, damage and energies.
 std::string contacts_vtp_text(const schema::FileReader& file, const Snapshot& snapshot);
 
-/// A .pvd file that lists files over time.
+/// A file of a series.
 struct Frame {
   std::string file;
   double time; ///< s
 };
+/// A .pvd file that lists files over time.
 std::string pvd_text(const std::vector<Frame>& frames);
 
 /// Writes FOLDER/NNNN.vtu, NNNN-grains.vtp and NNNN-contacts.vtp for every snapshot of a run, run.pvd, grains.pvd and

@@ -15,6 +15,7 @@ enum class ContainerShape { box, cylinder, surface };
 /// Names in files, in the order of ContainerShape.
 inline constexpr std::array<std::string_view, 3> container_names = {"box", "cylinder", "surface"};
 
+/// Name of a shape in files.
 constexpr std::string_view name_of(ContainerShape shape) {
   return container_names[static_cast<std::size_t>(shape)];
 }

@@ -10,6 +10,7 @@
 
 namespace mpfem::schema {
 
+/// Types of the values of a dataset.
 enum class ElementType { float64, float32, int32, int64, string };
 
 /// Name of the type as in schema.toml.

@@ -49,6 +49,7 @@ void prepare_hdf5();
 
 /// Type in memory, and in the file (little endian). Strings are UTF-8 of variable length.
 Handle memory_type(ElementType type);
+/// The same type as it is stored in the file.
 Handle file_type(ElementType type);
 
 /// "/snapshots/*/node", "0003" -> "/snapshots/0003/node".

@@ -9,6 +9,7 @@
 
 namespace mpfem::schema {
 
+/// The spheres of a packing, and their container.
 struct PackingSpheres {
   std::vector<double> box_lengths; ///< [3], mm, > 0; for a cylinder diameter, diameter, height
   std::vector<double> center;      ///< [spheres][3], mm, in the container
@@ -16,12 +17,14 @@ struct PackingSpheres {
   ContainerShape shape = ContainerShape::box;
 };
 
+/// The meshes of all grains, one after another.
 struct PackingTets {
   std::vector<double> node;                                      ///< [nodes][3], mm
   std::vector<std::int32_t> tet;                                 ///< [tets][4]; a grain's tets have its own nodes
   std::vector<std::int32_t> grain_node_offset, grain_tet_offset; ///< [spheres + 1]; every grain has nodes and tets
 };
 
+/// Where the nodes and tets of each grain begin, and the end.
 struct PackingOffsets {
   std::vector<std::int32_t> node, tet; ///< [spheres + 1]; every grain has nodes and tets
 };

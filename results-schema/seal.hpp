@@ -20,6 +20,7 @@ struct ByteRange {
 /// Throws StorageError.
 void append_seal(const std::string& path, std::vector<ByteRange> left_out);
 
+/// Whether a file has a seal, and whether the seal matches the file.
 enum class Seal { absent, intact, broken };
 
 /// Compares a file with its seal. Throws InputError where the file cannot be read.

@@ -17,6 +17,7 @@ namespace mpfem {
 /// Where a triangle is closest: on its face (0), on the edge from corner k (1 + k), or at corner k (4 + k).
 enum class Feature : std::int32_t { face = 0, first_edge = 1, first_corner = 4 };
 
+/// The closest point found so far.
 struct Nearest {
   double squared; ///< mm^2, distance
   std::int32_t triangle;
@@ -24,6 +25,7 @@ struct Nearest {
   Vector3<double> point; ///< mm; unset where the feature is a face
 };
 
+/// A triangle with its unit vectors.
 struct FlatTriangle {
   std::array<Vector3<double>, 3> corner; ///< mm
   Vector3<double> normal;                ///< unit

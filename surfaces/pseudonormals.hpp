@@ -15,6 +15,7 @@
 
 namespace mpfem {
 
+/// The directions of all edges and corners of a surface.
 struct Pseudonormals {
   std::vector<Vector3<double>> direction; ///< unit vectors of edges and corners, each shared by its triangles
   std::vector<std::array<std::int32_t, 6>> edge_or_corner; ///< [triangles]: indices for its edges, then its corners

@@ -14,6 +14,7 @@
 
 namespace mpfem {
 
+/// What was found in a file, and what was repaired.
 struct StlFindings {
   bool binary = false;
   std::size_t triangles = 0, vertices = 0; ///< of the surface after repairs
@@ -26,6 +27,7 @@ struct StlFindings {
   bool turned = false;                     ///< the surface was inside out in the file
 };
 
+/// A surface that can be used, with the report on it.
 struct StlBody {
   TriangleMesh mesh; ///< closed, oriented, every triangle with area
   StlFindings findings;

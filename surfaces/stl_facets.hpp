@@ -21,6 +21,7 @@ struct StlFacet {
   std::array<Vector3<double>, 3> corner;
 };
 
+/// All triangles of a file.
 struct StlFacets {
   std::vector<StlFacet> facet;
   bool binary = false;

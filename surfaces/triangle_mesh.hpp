@@ -13,6 +13,7 @@
 
 namespace mpfem {
 
+/// Vertices, and triangles as numbers of vertices.
 struct TriangleMesh {
   std::vector<Vector3<double>> vertex;               ///< mm
   std::vector<std::array<std::int32_t, 3>> triangle; ///< vertices, counter-clockwise seen from outside the body
@@ -36,6 +37,7 @@ struct EdgeFault {
   std::int32_t example = -1;
 };
 
+/// Which edges belong together, and which violate the rule.
 struct EdgePairs {
   std::vector<std::int32_t> partner; ///< [triangles * 3]: the other triangle's edge; -1 unless there is exactly one
   EdgeFault open;                    ///< edges of one triangle only
@@ -43,6 +45,7 @@ struct EdgePairs {
   EdgeFault crowded;                 ///< edges of more than two triangles
   bool closed() const { return open.count + misoriented.count + crowded.count == 0; }
 };
+/// Pairs the edges of any mesh, closed or not.
 EdgePairs pair_edges(const TriangleMesh& mesh);
 
 /// [triangles]: the shell of each. Shells are the parts that no edge connects, numbered by their first triangle.
@@ -61,6 +64,7 @@ double diagonal(const Bounds& bounds);
 
 /// Normal times area (mm^2), from the two edges at the corner opposite the longest edge, for the least rounding.
 Vector3<double> area_vector(const Vector3<double>& a, const Vector3<double>& b, const Vector3<double>& c);
+/// The same for triangle `t` of a mesh.
 inline Vector3<double> area_vector(const TriangleMesh& mesh, std::size_t t) {
   return area_vector(mesh.corner(t, 0), mesh.corner(t, 1), mesh.corner(t, 2));
 }

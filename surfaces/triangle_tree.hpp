@@ -11,6 +11,7 @@
 
 namespace mpfem {
 
+/// Immutable after construction.
 class TriangleTree {
 public:
   /// `margin` in mm, see FlatTriangle::offer. Needs at least one triangle.

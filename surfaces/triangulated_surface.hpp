@@ -25,6 +25,7 @@ enum class GrainSide {
   inside   ///< the surface is a container, as the inside of a die or a hopper
 };
 
+/// Distance of a point from a surface, and the direction in which the surface pushes it.
 struct SurfaceGap {
   double distance;              ///< mm, negative behind the surface
   std::array<double, 3> normal; ///< unit, towards the grains

@@ -5,6 +5,7 @@
 
 namespace mpfem {
 
+/// What the rules need besides the figures.
 struct DependsRequest {
   ResultsFolder results;
   std::string packing;                    ///< the meshed packing

@@ -66,6 +66,7 @@ struct CaseBlock {
   Place place;
 };
 
+/// One column of a table.
 struct ColumnSpec {
   std::string title, name, unit; ///< title: "name [unit]"
   /// Where the cell comes from: "RUN/METRIC.KEY:FORMAT" (run, metric, key, format) in a table of numbers; `history`, a
@@ -74,6 +75,7 @@ struct ColumnSpec {
   std::string run, metric, key, format, history, pattern;
 };
 
+/// A table made from the metrics, curves or lists of runs, or read from a file.
 struct TableSpec {
   std::string name, row;
   std::vector<std::string> series; ///< empty: all
@@ -91,6 +93,7 @@ struct TableSpec {
   Place place;
 };
 
+/// A fit of a model through rows of a table; x, y and z are names of columns.
 struct FitSpec {
   std::string name, table, x, y, z, model;
   bool relative_density = false;
@@ -98,12 +101,14 @@ struct FitSpec {
   Place place;
 };
 
+/// An axis of a plot.
 struct AxisSpec {
   std::string label, format, ticks; ///< ticks: in gnuplot's syntax, "0.1" or "(1, 2, 5)"
   std::optional<double> low, high;
   bool logarithmic = false;
 };
 
+/// A series of a plot: rows of a table, a fit, or a model with given coefficients.
 struct SeriesSpec {
   std::string table, x, y, error, group, colour_by;  ///< columns
   std::string fit;                                   ///< or the name of a fit
@@ -121,6 +126,7 @@ struct SeriesSpec {
   Place place;
 };
 
+/// A reference line of a plot.
 struct LineSpec {
   std::optional<double> y, x, slope; ///< horizontal, vertical, or through the origin
   std::string title;
@@ -133,6 +139,7 @@ struct InsetSpec {
   std::vector<Filter> where;     ///< rows of the first series' table that set the range of x
 };
 
+/// A plot, drawn by gnuplot.
 struct PlotSpec {
   std::string name, title, key, key_title, caption; ///< caption: a sentence for the report
   AxisSpec x, y, z;
@@ -160,6 +167,7 @@ struct ScriptSpec : CommandSpec {
   std::vector<std::string> needs; ///< files of the figure that other commands make
 };
 
+/// A number or a column of numbers that a statement uses.
 struct QuantitySpec {
   std::string name;
   std::string table, column, over, take, item; ///< of a table's column, divided by column `over` if that is given
@@ -178,6 +186,7 @@ struct Operand {
   std::string name;
 };
 
+/// A condition on a quantity of a statement.
 struct ConditionSpec {
   /// near, at_least, at_most, above, below, between, rises, falls, ordered, interval_includes, interval_excludes,
   /// interval_width_at_most, or either: one of several conditions.
@@ -191,6 +200,7 @@ struct ConditionSpec {
   Place place;
 };
 
+/// A statement, of the paper or expected, and the conditions by which it is judged.
 struct StatementSpec {
   std::string text, paper, source, ours, note;
   std::string ours_unjudged, note_unjudged; ///< replace `ours` and `note` where it cannot be judged
@@ -204,6 +214,7 @@ struct StatementSpec {
   Place place;
 };
 
+/// Everything that a figure's file declares.
 struct Figure {
   std::string path, name, title, question, source;
   std::vector<std::string> files; ///< all that were read

@@ -8,6 +8,7 @@
 
 namespace mpfem {
 
+/// Columns with titles, and rows of cells.
 struct TextTable {
   std::string path;                       ///< for messages
   std::vector<std::string> titles, names; ///< "name [unit]" and "name" of each column

@@ -20,6 +20,7 @@ private:
   std::optional<nlohmann::ordered_json> fits_;
 };
 
+/// The value of a statement's quantity.
 struct Quantity {
   Value value;                                   ///< empty where it is not known
   std::optional<std::array<double, 2>> interval; ///< 95 % interval of a fit's coefficient

@@ -19,6 +19,7 @@ struct HalfSpace {
 /// The part that is cut away: the points that lie in all of these half-spaces. Empty: nothing is cut.
 using CutAway = std::vector<HalfSpace>;
 
+/// A corner of a triangle that is drawn.
 struct SolidVertex {
   Eigen::Vector3d position; ///< mm
   Eigen::Vector3d normal;   ///< outward, length 1; smooth over a grain's surface except at edges over 40 degrees

@@ -10,6 +10,7 @@ class App;
 namespace mpfem {
 
 class Command;
+/// Adds the subcommand to the program.
 std::unique_ptr<Command> picture_command(CLI::App& app);
 
 } // namespace mpfem

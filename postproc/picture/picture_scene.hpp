@@ -13,6 +13,7 @@
 
 namespace mpfem {
 
+/// What a picture shows.
 struct SceneRequest {
   std::string colour = "von-mises";      ///< one of colour_names()
   std::string cut = "octant";            ///< one of cut_names()
@@ -25,7 +26,9 @@ struct SceneRequest {
   bool tools = true; ///< draw the rigid tools that are in place
 };
 
+/// What grains can be coloured by, as on the command line.
 const std::vector<std::string>& colour_names();
+/// What can be cut away, as on the command line.
 const std::vector<std::string>& cut_names();
 
 /// Unit vector from the box towards the camera.
@@ -60,6 +63,7 @@ std::vector<PairRod> bond_rods(const schema::FileReader& file, const Snapshot& s
 /// Colours of a triangle's corners.
 using CornerColours = std::array<Colour, 3>;
 
+/// Everything that a picture shows, in numbers.
 struct PictureScene {
   std::vector<SolidTriangle> triangles; ///< of grains, then of tools, which are numbered after the grains
   std::vector<CornerColours> colours;   ///< [triangles]
@@ -86,6 +90,7 @@ struct ShownBox {
 /// The box around the scene's box, its grains and its tools. Grains count up to 0.3 of the box's lengths outside it,
 /// because grains of a failing sample fly off.
 ShownBox bounds_of(const PictureScene& scene);
+/// The smallest box around both.
 ShownBox united(const ShownBox& a, const ShownBox& b);
 
 /// Round values for the ticks of a scale, spaced by 1, 2 or 5 times a power of ten; at most `most` + 1 of them.

@@ -9,6 +9,7 @@
 
 namespace mpfem {
 
+/// Size of a picture.
 struct PictureSize {
   int width = 1200, height = 1000; ///< pixels
 };

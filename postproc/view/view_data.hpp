@@ -33,6 +33,7 @@ struct ViewState {
   std::vector<std::uint8_t> rod_width; ///< [rods], radius, 0 … 255 from 0 to widest_rod of ViewData
 };
 
+/// The grains of all snapshots, as the page holds them.
 struct ViewData {
   std::array<double, 3> low{}, high{};           ///< mm: box of the positions, around all snapshots
   std::array<double, 3> tool_low{}, tool_high{}; ///< mm, around all tools; 0 where there are none

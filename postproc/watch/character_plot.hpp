@@ -6,6 +6,7 @@
 
 namespace mpfem {
 
+/// Size and labels of a drawing.
 struct CharacterPlot {
   std::string x_label, y_label; ///< with units
   int columns = 64, rows = 14;  ///< size of the drawing in characters, without numbers and labels; at least 2

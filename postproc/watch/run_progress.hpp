@@ -24,6 +24,7 @@ struct ProgressRow {
   double penetration = 0;                                              ///< over the element size
 };
 
+/// A stage as in the scenario.
 struct PlannedStage {
   std::string name, type;
 };
@@ -41,6 +42,7 @@ enum class AtWork {
   unknown ///< no visible process holds it: mpfem runs on another machine, or was killed
 };
 
+/// The newest state of a run.
 struct RunProgress {
   std::string file;   ///< the file that was read
   double written = 0; ///< s, when it was written (system clock)

@@ -10,6 +10,7 @@
 
 namespace mpfem {
 
+/// What is measured, and on which packing.
 struct BenchOptions {
   int threads = 1;
   std::int64_t tets = 200'000;

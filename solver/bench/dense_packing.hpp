@@ -9,6 +9,7 @@
 
 namespace mpfem {
 
+/// A meshed packing and its density.
 struct DensePacking {
   MeshedPacking packing;
   double relative_density = 0; ///< at the start

@@ -11,6 +11,7 @@
 
 namespace mpfem {
 
+/// Operations and bytes of one part of a step.
 struct Work {
   double operations = 0;
   double bytes = 0;

@@ -23,6 +23,7 @@ struct BoxSums {
   }
 };
 
+/// The six walls, or those of them that are there, and the forces on them.
 class Box {
 public:
   /// `withdrawn`: axes whose two walls are away; there the cell has bare faces.

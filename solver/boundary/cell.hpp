@@ -8,6 +8,7 @@
 
 namespace mpfem {
 
+/// A box along the axes, or the cylinder along z inside it.
 struct Cell {
   std::array<double, 3> low{};  ///< mm
   std::array<double, 3> high{}; ///< mm

@@ -12,6 +12,7 @@
 
 namespace mpfem {
 
+/// Computes the cell and the forces on its faces from the tools that form it.
 class Container {
 public:
   /// Indices of tools.

@@ -15,6 +15,7 @@ struct AxisNormal {
   void push(Model& model, std::size_t node, double force) const { model.push_contact_point(node, axis, sign * force); }
 };
 
+/// The grains are on the side to which the normal points.
 struct Plane {
   static constexpr bool curved = false;
   AxisNormal normal; ///< towards the grains

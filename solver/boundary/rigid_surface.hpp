@@ -29,6 +29,7 @@ struct NodePoint {
   double operator()(std::size_t axis) const { return model.contact_coordinate(node, axis); }
 };
 
+/// What a type must offer to be used as a surface below.
 template <class Surface>
 concept RigidSurface = requires(const Surface& surface, const NodePoint& point, const Bounds& bounds, Model& model) {
   /// False if no point within the bounds can lie behind the surface.

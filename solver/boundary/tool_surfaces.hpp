@@ -48,6 +48,7 @@ inline Vector3<double> along_axis(std::size_t axis, double along) {
   return {axis == 0 ? along : 0.0, axis == 1 ? along : 0.0, axis == 2 ? along : 0.0};
 }
 
+/// The coordinates (mm) of a point that gives them one by one.
 template <class Point>
 Vector3<double> vector_of(const Point& point) {
   return {point(0), point(1), point(2)};
@@ -71,6 +72,7 @@ struct DistanceRange {
   }
 };
 
+/// A plane in any direction; the grains are where its normal points.
 struct OrientedPlane {
   static constexpr bool curved = false;
   Vector3<double> point;  ///< mm
@@ -122,6 +124,7 @@ struct CylinderSurface {
   }
 };
 
+/// A ball, or the material around a ball-shaped hollow.
 struct SphereSurface {
   static constexpr bool curved = true;
   Vector3<double> centre; ///< mm

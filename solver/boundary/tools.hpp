@@ -66,6 +66,7 @@ struct Tool {
   }
 };
 
+/// All tools of a run: their places, forces and work, and what sticks to them.
 class Tools {
 public:
   Tools(std::vector<Tool> tools, int grains);

@@ -22,6 +22,7 @@ struct WallFrictionSums {
   }
 };
 
+/// The stick springs between all grains and the six walls.
 class WallFriction {
 public:
   /// `friction` mu; 0: none.

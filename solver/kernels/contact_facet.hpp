@@ -24,6 +24,7 @@ struct Facet {
   Vector3<double> x[3];
 };
 
+/// Gathers a facet's corners.
 inline Facet facet_geometry(const Model& model, std::int32_t facet) {
   Facet result;
   for (int c = 0; c < 3; ++c) {

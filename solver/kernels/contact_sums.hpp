@@ -35,6 +35,7 @@ struct BondSums {
     bonds += other.bonds;
   }
 };
+/// Sums over the bonds of one ordered pair: those of the first grain's nodes to the second grain.
 BondSums bond_sums(const Model& model, const Contact& contact, std::int32_t pair);
 
 /// Sums over the friction of a pair of grains.

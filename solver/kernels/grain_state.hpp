@@ -14,11 +14,12 @@ double elastic_energy(const Model& model, int grain);
 /// Current volume of a grain, mm^3.
 double current_volume(const Model& model, int grain);
 
-/// Index in the packing file of the first inverted (or not finite) tet of a grain, and its volume ratio.
+/// A tet that is inverted or not finite.
 struct BadTet {
-  std::int32_t file_tet = -1;
-  double volume_ratio = 0;
+  std::int32_t file_tet = -1; ///< index in the packing file; -1: none
+  double volume_ratio = 0;    ///< J
 };
+/// The first inverted (or not finite) tet of a grain in the order of memory; none if all are good.
 BadTet find_bad_tet(const Model& model, int grain);
 
 /// Fields of a grain's tets for output, in their order in the packing file.
@@ -27,6 +28,7 @@ struct TetFields {
   std::vector<float> pressure;  ///< MPa, compression positive
   std::vector<float> plastic_strain;
 };
+/// Fields of all tets of a grain.
 TetFields tet_fields(const Model& model, int grain);
 
 } // namespace mpfem

@@ -10,6 +10,7 @@
 
 namespace mpfem {
 
+/// A frequency, and how well it is known.
 struct LargestFrequency {
   double squared;  ///< 1/s^2: Lanczos' value plus its residual, within which an eigenvalue lies
   double residual; ///< 1/s^2, included in `squared`

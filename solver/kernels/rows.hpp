@@ -10,6 +10,7 @@
 
 namespace mpfem {
 
+/// A row of four doubles in one register.
 typedef double Row __attribute__((vector_size(32), aligned(32), may_alias));
 
 namespace detail {
@@ -23,9 +24,11 @@ inline void transpose(Row a, Row b, Row c, Row d, Row& x, Row& y, Row& z) {
   y = __builtin_shufflevector(ab_high, cd_high, 0, 1, 4, 5);
 }
 
+/// Row `index` of an array of rows.
 inline Row row(const double* rows, std::int32_t index) {
   return *reinterpret_cast<const Row*>(rows + 4 * index);
 }
+/// Adds to row `index` of an array of rows.
 inline void add_row(double* rows, std::int32_t index, Row value) {
   *reinterpret_cast<Row*>(rows + 4 * index) += value;
 }
@@ -66,12 +69,15 @@ inline void add_balanced4(double* rows, const std::int32_t* const (&index)[4], c
 /// of 128 bits holds four cells, so that one transpose serves all of them.
 template <int W>
 using Floats = typename NativeVector<W, float>::Numbers;
+/// The four numbers as floats.
 inline Floats<4> narrow(Row row) {
   return __builtin_convertvector(row, Floats<4>);
 }
+/// The four numbers as doubles.
 inline Row widen(Floats<4> values) {
   return __builtin_convertvector(values, Row);
 }
+/// W floats from groups of four.
 template <int W>
 Floats<W> join(const Floats<4> (&part)[W / 4]) {
   if constexpr (W == 4) {
@@ -83,6 +89,7 @@ Floats<W> join(const Floats<4> (&part)[W / 4]) {
                                    9, 10, 11, 12, 13, 14, 15);
   }
 }
+/// Group `part` of four floats out of W.
 template <int W>
 Floats<4> part_of(Floats<W> whole, int part) {
   if constexpr (W == 4) {
@@ -106,6 +113,7 @@ Floats<W> of_fours(Floats<W> a, Floats<W> b) {
   (std::make_integer_sequence<int, W>());
 }
 
+/// Edges of W cells, as load_edges() gives them.
 template <int W, int N>
 void float_edges(const double* rows, const std::int32_t (&index)[N + 1][W], Vector3<Pack<W, float>> (&edge)[N]) {
   Row base[W];
@@ -147,6 +155,7 @@ void add_balanced_floats(double* rows, const std::int32_t (&index)[4][W], const 
   for (int cell = 0; cell < W; ++cell) add_row(rows, index[0][cell], -total[cell]);
 }
 
+/// Adds the first `lanes` (1 … 4) of four vectors to the rows `index`.
 inline void add4(double* rows, const std::int32_t* index, int lanes, Row x, Row y, Row z) {
   const Row zero = {0, 0, 0, 0};
   const Row xy_low = __builtin_shufflevector(x, y, 0, 4, 2, 6), xy_high = __builtin_shufflevector(x, y, 1, 5, 3, 7);

@@ -10,9 +10,11 @@
 
 namespace mpfem {
 
+/// A pack with one number for each tet of a block.
 template <class Real>
 using TetPack = Pack<TetBlock<Real>::lanes, Real>;
 
+/// Deviators (MPa) of a block.
 template <class Real>
 Deviator<TetPack<Real>> load_deviator(const TetBlock<Real>& block) {
   using S = TetPack<Real>;
@@ -20,18 +22,21 @@ Deviator<TetPack<Real>> load_deviator(const TetBlock<Real>& block) {
           S::load(block.deviator[3]), S::load(block.deviator[4])};
 }
 
+/// Deviators, flow stresses (MPa) and plastic strains of a block.
 template <class Real>
 TetState<TetPack<Real>> load_state(const TetBlock<Real>& block) {
   using S = TetPack<Real>;
   return {load_deviator(block), {S::load(block.flow_stress), S::load(block.plastic_strain)}};
 }
 
+/// Writes deviators (MPa) to a block.
 template <class Real>
 void store_deviator(TetBlock<Real>& block, const Deviator<TetPack<Real>>& s) {
   s.xx.store(block.deviator[0]), s.yy.store(block.deviator[1]), s.xy.store(block.deviator[2]);
   s.yz.store(block.deviator[3]), s.zx.store(block.deviator[4]);
 }
 
+/// Geometry of a block's tets; `position` are the rows (mm) of the grain's nodes.
 template <class Real>
 TetGeometry<TetPack<Real>> current_geometry(const TetBlock<Real>& block, const double* position) {
   Vector3<TetPack<Real>> edge[3];
@@ -51,12 +56,14 @@ void prefetch_block_after(const Model& model, std::int32_t b) {
   for (std::size_t i = 0; i < sizeof(TetBlock<Real>); i += line) __builtin_prefetch(bytes + i);
 }
 
+/// J = V/V_0 of a block's tets.
 template <class Real>
 TetPack<Real> volume_ratio(const TetBlock<Real>& block, const TetGeometry<TetPack<Real>>& geometry) {
   using S = TetPack<Real>;
   return S(1.0 / 6.0) * geometry.det * S::load(block.inverse_volume);
 }
 
+/// The same from the positions of the grain's nodes.
 template <class Real>
 TetPack<Real> current_volume_ratio(const TetBlock<Real>& block, const double* position) {
   return volume_ratio(block, current_geometry(block, position));

@@ -7,6 +7,7 @@
 
 namespace mpfem {
 
+/// Allocates at multiples of 64 bytes.
 template <class T>
 struct CacheLineAllocator {
   using value_type = T;

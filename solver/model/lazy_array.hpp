@@ -21,6 +21,7 @@ enum class Pages {
   small  ///< small pages: for arrays with holes, which large pages would fill
 };
 
+/// An array of `size()` values, all zero at first. It does not grow.
 template <class T>
 class LazyArray {
   static_assert(std::is_trivially_copyable_v<T> && alignof(T) <= 64);

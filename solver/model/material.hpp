@@ -13,6 +13,7 @@ namespace mpfem {
 
 using FlowLaw = std::variant<ElasticLaw, PowerLaw, TotalStrainLaw, TableLaw>;
 
+/// Constants of a grain's material.
 struct Material {
   ElasticModuli moduli; ///< MPa
   double density;       ///< tonne/mm^3, mass scaling included

@@ -56,12 +56,14 @@ void for_each_grain_array(Steps& steps, ContactType& contact, Visitor&& visit) {
   visit(check::grain_travel_at_search, contact.travel_at_search);
 }
 
+/// The same for arrays with one number for each pair of grains.
 template <class ContactType, class Visitor>
 void for_each_pair_array(ContactType& contact, Visitor&& visit) {
   visit(check::contact_pair_first, contact.candidates.pair_first);
   visit(check::contact_pair_second, contact.candidates.pair_second);
 }
 
+/// The same for arrays with one number for each contact point.
 template <class ContactType, class Visitor>
 void for_each_point_array(ContactType& contact, Visitor&& visit) {
   visit(check::contact_point_node, contact.candidates.point_node);
@@ -121,6 +123,7 @@ inline SurfaceBond tool_bond_of(std::int32_t node, std::span<const double> v) {
 
 // ---- anchors and bonds between rigid surfaces and nodes, by grain, surface and node
 
+/// Datasets of one kind of anchors or bonds; all three have one row for each of them.
 struct SurfaceDatasets {
   const decltype(check::wall_friction_node)& node;
   const decltype(check::wall_friction_side)& surface;

@@ -21,6 +21,7 @@
 
 namespace mpfem {
 
+/// A file that is being written.
 class GatheredFile {
 public:
   /// All arguments must outlive the file. Throws StorageError, and InputError if `path` is a folder or a device.

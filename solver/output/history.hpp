@@ -20,6 +20,7 @@ void write_history(schema::FileWriter& file, const std::vector<HistoryRow>& rows
 /// Rows as plain numbers, one after another, and back (for checkpoints). unflatten throws std::length_error if the
 /// numbers are not whole rows.
 std::vector<double> flatten(const std::vector<HistoryRow>& rows);
+/// The reverse of flatten().
 std::vector<HistoryRow> unflatten(const std::vector<double>& values);
 
 } // namespace mpfem

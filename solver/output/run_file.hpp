@@ -35,6 +35,7 @@ struct SnapshotState {
 void write_snapshot_file(const std::string& path, const SnapshotState& state,
                          const Communicator& ranks = Communicator());
 
+/// How a run was made and how it ended.
 struct Provenance {
   std::string scenario_text;
   std::string status; ///< complete, failed: REASON, interrupted

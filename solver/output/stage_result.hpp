@@ -5,6 +5,7 @@
 
 namespace mpfem {
 
+/// The end of one stage.
 struct StageResult {
   std::string name{};
   std::string ended_by{}; ///< "relative density 0.92", and which speed the stage chose, if it chose one

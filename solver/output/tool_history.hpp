@@ -36,6 +36,7 @@ void write_tool_history(schema::FileWriter& file, std::span<const NamedTool> too
 /// Rows as plain numbers, one after another, and back (for checkpoints). tool_rows_of throws std::length_error if the
 /// numbers are not whole rows.
 std::vector<double> flatten(const std::vector<ToolRow>& rows);
+/// The reverse of flatten().
 std::vector<ToolRow> tool_rows_of(const std::vector<double>& values);
 
 } // namespace mpfem

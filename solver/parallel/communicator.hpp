@@ -17,6 +17,7 @@ namespace mpfem {
 
 using Bytes = std::vector<std::byte>;
 
+/// The ranks of a run as one of them sees them.
 class Communicator {
 public:
   /// This process alone, whatever others there are.
@@ -107,6 +108,7 @@ void append(Bytes& message, std::span<const T> values) {
   const auto bytes = bytes_of(values);
   message.insert(message.end(), bytes.begin(), bytes.end());
 }
+/// The same for one value.
 template <class T>
 void append(Bytes& message, const T& value) {
   append(message, std::span<const T>(&value, 1));

@@ -8,6 +8,7 @@
 
 namespace mpfem {
 
+/// The division of grains as one rank sees it.
 struct Ownership {
   int rank = 0;
   std::vector<std::int32_t> owner; ///< [grains]: rank

@@ -90,6 +90,7 @@ Sums total_of(const Communicator& ranks, std::span<const std::int32_t> own, std:
   return totals[0];
 }
 
+/// A single term, for sum_over_grains().
 struct OneNumber {
   double value = 0;
 

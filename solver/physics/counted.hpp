@@ -6,6 +6,7 @@
 
 namespace mpfem {
 
+/// A double whose arithmetic adds to `operations`.
 struct Counted {
   double v;
   static inline std::int64_t operations = 0; ///< additions, multiplications, divisions and square roots so far
@@ -26,6 +27,7 @@ struct Counted {
   friend bool operator<=(Counted a, Counted b) { return a.v <= b.v; }
   friend bool operator>=(Counted a, Counted b) { return a.v >= b.v; }
 };
+/// The functions that laws of physics use besides arithmetic (pack.hpp).
 inline Counted select(bool mask, Counted yes, Counted no) {
   return mask ? yes : no;
 }

@@ -16,6 +16,7 @@ struct ElasticModuli {
   double youngs() const { return 9.0 * bulk * shear / (3.0 * bulk + shear); }
 };
 
+/// K = E/(3 (1 - 2 nu)), G = E/(2 (1 + nu)). `youngs_modulus` E in MPa, `poissons_ratio` nu in (-1, 0.5).
 inline ElasticModuli elastic_moduli(double youngs_modulus, double poissons_ratio) {
   return {youngs_modulus / (3.0 * (1.0 - 2.0 * poissons_ratio)), youngs_modulus / (2.0 * (1.0 + poissons_ratio))};
 }

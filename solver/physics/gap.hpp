@@ -50,13 +50,16 @@ inline ClosestPoint<S> closest_point_on_triangle(const Vector3<S>& p, const Vect
   return result(vb / sum, vc / sum, true);
 }
 
-// Outward direction at a closest point, not normalised: the facet's own normal in its interior, the interpolated nodal
-// normal on edges and corners. A node is inside the grain where (node - closest point) . direction < 0.
+// A node is inside the grain where (node - closest point) . direction < 0, with the outward direction at the closest
+// point, not normalised: the facet's own normal in its interior, the interpolated nodal normal on edges and corners.
+
+/// Outward direction (mm^2) in a facet's interior; `x` are its corners (mm).
 
 template <class S>
 inline Vector3<S> facet_direction(const Vector3<S> (&x)[3]) {
   return cross(x[1] - x[0], x[2] - x[0]);
 }
+/// Outward direction on an edge or corner; `nodal_normal` are the unit normals of the facet's nodes.
 inline Vector3<double> edge_direction(const ClosestPoint<double>& closest, const Vector3<double> (&nodal_normal)[3]) {
   return nodal_normal[0] + closest.weight1 * (nodal_normal[1] - nodal_normal[0]) +
          closest.weight2 * (nodal_normal[2] - nodal_normal[0]);

@@ -13,6 +13,7 @@
 
 namespace mpfem {
 
+/// Where a point is on its flow curve.
 template <class S>
 struct HardeningState {
   S flow_stress;    ///< MPa

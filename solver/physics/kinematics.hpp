@@ -14,6 +14,7 @@ struct TetGeometry {
   S det;              ///< mm^3
 };
 
+/// From the edges (mm) from node 0 to nodes 1, 2, 3.
 template <class S>
 TetGeometry<S> tet_geometry(const Vector3<S>& e1, const Vector3<S>& e2, const Vector3<S>& e3) {
   TetGeometry<S> geometry{{cross(e2, e3), cross(e3, e1), cross(e1, e2)}, S(0.0)};

@@ -86,6 +86,7 @@ struct Mask {
   Mask operator!() const { return {~v}; }
 };
 
+/// W numbers on which every operation acts lane by lane.
 template <int W, class Real = double>
 struct Pack {
   using Native = typename NativeVector<W, Real>::Numbers;
@@ -138,6 +139,7 @@ struct Resolution<Pack<W, float>> {
   static constexpr double tiny = 1e-37, settled = 5e-7;
 };
 
+/// Lane by lane `yes` where the mask holds, else `no`.
 template <int W, class Real>
 Pack<W, Real> select(Mask<W, Real> mask, Pack<W, Real> yes, Pack<W, Real> no) {
   return mask.v ? yes.v : no.v;
@@ -150,6 +152,7 @@ template <int W, class Real>
 Pack<W, Real> min(Pack<W, Real> a, Pack<W, Real> b) {
   return a.v < b.v ? a.v : b.v;
 }
+/// True if the mask holds in at least one lane.
 template <int W, class Real>
 bool any(Mask<W, Real> mask) {
 #if defined(__AVX__) // one instruction in place of ten
@@ -187,18 +190,21 @@ Pack<W, Real> log(Pack<W, Real> a) {
   detail::as_array(result) = detail::as_array(a).log();
   return result;
 }
+/// Sum of all lanes, added in doubles.
 template <int W, class Real>
 double sum(Pack<W, Real> a) {
   double total = 0;
   for (int i = 0; i < W; ++i) total += a.v[i];
   return total;
 }
+/// The largest of all lanes.
 template <int W, class Real>
 double largest(Pack<W, Real> a) {
   Real value = a.v[0];
   for (int i = 1; i < W; ++i) value = a.v[i] > value ? a.v[i] : value;
   return value;
 }
+/// The smallest of all lanes.
 template <int W, class Real>
 double smallest(Pack<W, Real> a) {
   Real value = a.v[0];

@@ -8,6 +8,7 @@
 
 namespace mpfem {
 
+/// The state at the end of an increment.
 template <class S>
 struct ReturnedStress {
   Deviator<S> deviator; ///< MPa

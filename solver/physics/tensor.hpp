@@ -5,6 +5,7 @@
 
 namespace mpfem {
 
+/// A vector; its unit is that of its use.
 template <class S>
 struct Vector3 {
   S x, y, z;

@@ -25,6 +25,7 @@ struct TetState {
   HardeningState<S> hardening;
 };
 
+/// What one step gives for a tet.
 template <class S>
 struct TetUpdate {
   TetState<S> state;

@@ -58,6 +58,7 @@ private:
   double spent_ = 0;    ///< N/mm, dissipated by earlier bonds of the point
 };
 
+/// Options of `mpfem bond`.
 struct BondProgrammeOptions {
   std::string law;                      ///< TOML file: `stiffness` in MPa/mm and the table [bond]
   std::vector<std::string> assignments; ///< KEY=VALUE, which override the law
@@ -74,6 +75,7 @@ BondedPointLaw read_bonded_point_law(const TomlDocument& document);
 /// Reads way points from a CSV file with the heading "opening,shear1,shear2" (mm) and, optionally, ",increments" (a
 /// whole number; empty: `increments`). '#' begins a comment. Throws InputError "FILE:LINE: column …".
 std::vector<WayPoint> read_bond_programme(const std::string& path, int increments);
+/// The same for a table that is already open.
 std::vector<WayPoint> read_bond_programme(CsvReader reader, int increments);
 
 /// Walks a point through the programme and writes a row for the start and for each increment; prints where it ended.

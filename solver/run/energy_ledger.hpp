@@ -23,6 +23,7 @@ struct StoredEnergies {
   double damage_dissipation = 0; ///< a function of the bonds' states, not accumulated over time
 };
 
+/// Energies that are added up step by step since the start of the run.
 struct EnergyLedger {
   double initial = 0;              ///< mJ, of motion and strain at the start
   double plastic_dissipation = 0;  ///< mJ

@@ -16,6 +16,7 @@
 
 namespace mpfem {
 
+/// The ghosts of one rank, and the messages about them.
 class Ghosts {
 public:
   /// `velocities`: contact needs the velocities of ghosts, too.

@@ -9,6 +9,7 @@
 
 namespace mpfem {
 
+/// Options of `mpfem run`.
 struct RunOptions {
   std::string output;              ///< RUN.h5
   std::string scenario_file;       ///< never to be overwritten

@@ -87,6 +87,7 @@ struct MotionSums {
   }
 };
 
+/// A packing with everything that acts on it, and one step of its motion.
 class Simulation {
 public:
   /// Begins at rest apart from the scenario's initial velocities. With `branch`, the first stage is not begun: that

@@ -17,6 +17,7 @@ struct StepPlan {
   std::array<double, 3> sliding{}; ///< mm, of the grips
 };
 
+/// One stage of a scenario while it runs.
 class StageRun {
 public:
   /// What a checkpoint keeps beside the states of control and loading rate.

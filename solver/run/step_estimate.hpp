@@ -25,6 +25,7 @@ struct Boundaries {
   const Tools& tools;
 };
 
+/// The stable step, and when it has to be estimated again.
 class StepEstimate {
 public:
   struct State {

@@ -30,6 +30,7 @@ inline constexpr Range positive_stiffness = Range::between(1e-9, 1e18); // MPa/m
 inline constexpr Range positive_energy = Range::between(1e-18, 1e12);   // N/mm
 inline constexpr Range friction_or_zero = Range::between(0, 2); // mu; above 2, the drift exceeds twice the depth
 inline constexpr Range strain_or_zero = Range::between(0, 1e3);
+/// Largest grain number that a scenario may name.
 inline constexpr double most_grains = 1e9;
 
 /// Refuses keys of `all` that are given but do not belong to the choice made ("law = 'elastic'").

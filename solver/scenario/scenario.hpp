@@ -27,6 +27,7 @@ enum class HardeningLaw {
   table,        ///< piecewise linear in eps_p, constant beyond the last point
 };
 
+/// The table [material.hardening].
 struct HardeningParameters {
   HardeningLaw law = HardeningLaw::power;
   double yield_stress = 0;                  ///< sigma_y, MPa (power)
@@ -37,6 +38,7 @@ struct HardeningParameters {
   bool operator==(const HardeningParameters&) const = default;
 };
 
+/// The table [material].
 struct MaterialParameters {
   double density = 0;        ///< tonne/mm^3
   double youngs_modulus = 0; ///< MPa
@@ -65,6 +67,7 @@ struct MaterialPair {
   double friction = 0;                    ///< Coulomb's mu
 };
 
+/// The table [contact].
 struct ContactParameters {
   double stiffness_factor = 10;    ///< penalty K = factor * E / h, h the mean facet edge of the grain
   std::optional<double> stiffness; ///< K itself, MPa/mm, if it is given instead (locally refined meshes)
@@ -109,6 +112,7 @@ enum class StepEstimateMethod {
   tet,   ///< the worst tet by itself: a proven bound, with a step about a quarter shorter
 };
 
+/// The tables [element] and [numerics].
 struct NumericsParameters {
   ElementType element = ElementType::tet4;
   double own_pressure = 0; ///< tet4_anp, tet4_patch: share of each tet's own pressure, [0, 1]; 1 is tet4
@@ -122,6 +126,7 @@ struct NumericsParameters {
   bool mass_scaling_lighten = false; ///< and lighter where it would be larger: locally refined meshes, slow processes
 };
 
+/// The table [output].
 struct OutputParameters {
   int history_rows = 200;                          ///< rows per stage
   std::vector<double> snapshot_relative_densities; ///< a snapshot when the density first passes each of these
@@ -130,6 +135,7 @@ struct OutputParameters {
   double checkpoint_interval = 60;                   ///< s of wall-clock time between rolling checkpoints
 };
 
+/// Everything that a scenario's file says.
 struct Scenario {
   std::string packing_file; ///< meshed packing; relative to the scenario's folder
   bool walls = true;        ///< the six walls of the box

@@ -156,6 +156,7 @@ struct QuasiStatic {
   double loose_stress = 0;         ///< MPa: below this wall stress the packing is loose and the speed stays as it is
 };
 
+/// One entry of [[stages]].
 struct Stage {
   std::string name;
   StageType type;

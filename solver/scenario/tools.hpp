@@ -33,6 +33,7 @@ struct CylinderShape {
   bool operator==(const CylinderShape&) const = default;
 };
 
+/// A ball (grains outside) or a hollow of that shape (grains inside).
 struct SphereShape {
   std::array<double, 3> centre{}; ///< mm
   double radius = 0;              ///< mm
@@ -61,6 +62,7 @@ struct StlShape {
 
 using ToolShape = std::variant<PlaneShape, CylinderShape, SphereShape, ConeShape, StlShape>;
 
+/// One entry of [[tools]].
 struct ToolParameters {
   std::string name;
   ToolShape shape;

@@ -40,6 +40,7 @@ private:
   State axial_;
 };
 
+/// The x and y walls are away; the axial stress is watched for a fall.
 class UnconfinedCompressionControl final : public AxialLoading {
 public:
   UnconfinedCompressionControl(const UnconfinedCompression& stage, const StageLabel& label, const StageStart& start)
@@ -50,6 +51,7 @@ private:
   double watched_stress(const ObservedSample& seen) const override { return seen.stress[2]; }
 };
 
+/// The x and y walls are at rest.
 class DieCompressionControl final : public AxialLoading {
 public:
   DieCompressionControl(const DieCompression& stage, const StageLabel& label, const StageStart& start)
@@ -57,6 +59,7 @@ public:
   std::string describe() const override { return "z walls driven, x and y walls at rest"; }
 };
 
+/// The x and y walls are held at a force or stress by servos.
 class TriaxialCompressionControl final : public AxialLoading {
 public:
   TriaxialCompressionControl(const TriaxialCompression& stage, const StageLabel& label, const StageStart& start);

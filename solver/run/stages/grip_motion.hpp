@@ -5,6 +5,7 @@
 
 namespace mpfem {
 
+/// The cell's two faces along the axis, and the grips with them, move to the displacement in a known time.
 class GripMotionControl final : public TimedStage {
 public:
   /// Throws InputError where the grips would meet.

@@ -5,6 +5,7 @@
 
 namespace mpfem {
 
+/// The lengths of the cell shrink in proportion, in a known time.
 class IsotropicCompactionControl final : public TimedStage {
 public:
   /// Throws InputError if the packing is already that dense.

@@ -5,6 +5,7 @@
 
 namespace mpfem {
 
+/// The walls slow down as the mean stress approaches its target.
 class IsotropicUnloadingControl final : public StageControl {
 public:
   IsotropicUnloadingControl(const IsotropicUnloading& stage, const StageLabel& label, const StageStart& start);

@@ -7,6 +7,7 @@
 
 namespace mpfem {
 
+/// Ends after its duration.
 class RestControl final : public TimedStage {
 public:
   RestControl(const Rest& stage, const StageLabel& /*label*/, const StageStart& start) : TimedStage(start) {

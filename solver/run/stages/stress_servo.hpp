@@ -39,6 +39,7 @@ struct HoldQuality {
   double root_mean_square() const; ///< MPa
 };
 
+/// The gains of that law, from the packing when a stage begins.
 class StressServo {
 public:
   /// `largest_speed` in mm/s.

@@ -13,6 +13,7 @@ namespace mpfem {
 /// Why a loading by tools ended.
 enum class ToolEnd { none, relative_density, axial_stress, travel, force, force_drop, duration };
 
+/// Velocities of the tools until one of the stage's ends is reached.
 class ToolLoadingControl final : public StageControl {
 public:
   ToolLoadingControl(const ToolLoading& stage, const StageLabel& label, const StageStart& start);

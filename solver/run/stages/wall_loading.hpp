@@ -47,6 +47,7 @@ struct LoadingState {
   }
 };
 
+/// Derived classes set the walls' speeds in drive() and say in find_end() what has ended the stage.
 class WallLoading : public StageControl {
 public:
   double expected_duration() const override { return expected_duration_; }
