@@ -19,7 +19,7 @@ endif()
 # Nothing that reorders sums or assumes finite values (-ffast-math) is used: results must not depend on luck.
 target_compile_options(mpfem_options INTERFACE -ffp-contract=fast -fno-math-errno -fno-trapping-math)
 if(MPFEM_PORTABLE)
-  # A target's property X86_64_LEVEL (v3, v4) asks for more than the v2 that any machine since about 2009 knows.
+  # A target's property X86_64_LEVEL (v3, v4) requires more than x86-64-v2, which every machine since about 2009 has.
   set(level $<TARGET_PROPERTY:X86_64_LEVEL>)
   target_compile_options(mpfem_options INTERFACE -march=x86-64-$<IF:$<BOOL:${level}>,${level},v2>)
 else()

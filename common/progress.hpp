@@ -28,7 +28,7 @@ public:
   Progress& operator=(const Progress&) = delete;
 
   /// `fraction` of the whole job done, clamped to 0 … 1. A job resumed in the middle may begin at any fraction: the
-  /// time left is estimated from what was done since the first call.
+  /// remaining time is estimated from what was done since the first call.
   void update(double fraction, std::string_view detail);
   /// Last line: "LABEL  done in 1:02  SUMMARY". Further calls write nothing.
   void finish(std::string_view summary);

@@ -1,9 +1,9 @@
 #pragma once
-// toml++, with one of its functions mended. Include this instead of <toml++/toml.h>.
+// toml++, with one of its functions corrected. Include this instead of <toml++/toml.h>.
 //
 // For most letters from U+00A1 to U+0499 outside of strings, toml++ 3.3 asks whether they are blanks, and
-// is_non_ascii_horizontal_whitespace() runs into __builtin_unreachable(), where anything may happen. The answer is no.
-// That function stands alone in the header that is read here with another meaning of TOML_UNREACHABLE.
+// is_non_ascii_horizontal_whitespace() reaches __builtin_unreachable(), which is undefined behaviour. The correct
+// answer is no. That function is the only one in the header that is included here with another TOML_UNREACHABLE.
 
 // NOLINTBEGIN(bugprone-reserved-identifier)
 #include <cstdint>

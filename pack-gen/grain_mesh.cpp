@@ -63,7 +63,8 @@ std::vector<Tet> gmsh_tetrahedralize(const std::vector<Point>& points) {
   std::vector<std::size_t> tags;
   {
     const std::lock_guard lock(Gmsh::session());
-    // Gmsh perturbs the points a little with rand(), so that points on one sphere cause no trouble: always alike.
+    // Gmsh perturbs the points a little with rand(), so that points on one sphere cause no trouble. The seed makes this
+    // reproducible.
     std::srand(1);
     gmsh::model::mesh::tetrahedralize(coordinates, tags);
   }
@@ -170,7 +171,7 @@ public:
   /// The candidate's mesh with nearly the wanted number of tets; an empty one if that was not met.
   BallMesh find(std::size_t candidate) {
     fit_size(candidate);
-    // Laid out anew until the count is within 1.5 %. After six attempts the best count is taken: within 3 %, or within
+    // Laid out again until the count is within 1.5 %. After six attempts the best count is taken: within 3 %, or within
     // 15 % for small balls, where one node more or less is already that much.
     double closest = std::numeric_limits<double>::infinity();
     BallMesh ball;
@@ -239,8 +240,9 @@ UnitBall mesh_unit_ball(double size_ratio, std::uint64_t seed, bool optimise) {
   UnitBallSearch search(size_ratio, seed);
   const bool large = search.is_large();
   const int sweeps = large ? 80 : 60;
-  // The worst tet is a matter of luck: tries go on until one has the smallest step (in units of size/wave speed) that
-  // most sizes reach within three. Measured at radius/size 3.3 to 13; a try of a large ball gains less, and costs more.
+  // The worst tet depends on chance: further tries follow until one has the smallest step (in units of size/wave speed)
+  // that most sizes reach within three. Measured at radius/size 3.3 to 13; a try of a large ball gains less, and costs
+  // more.
   const double enough = !optimise ? 0 : large ? 0.315 : search.wanted() > 2500 ? 0.32 : 0.325;
   const std::size_t tries = large ? 4 : 8;
 

@@ -24,7 +24,7 @@ public:
   }
 
   /// A prism between two triangles, corner by corner; tets with coinciding corners are left out. All prisms take their
-  /// corners in the same order, so that neighbours split their common side alike (Freudenthal 1942).
+  /// corners in the same order, so that neighbours split their common side in the same way (Freudenthal 1942).
   void add_prism(const Triangle& a, const Triangle& b) {
     add_tet({a[0], a[1], a[2], b[2]});
     add_tet({a[0], a[1], b[1], b[2]});

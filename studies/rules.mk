@@ -2,11 +2,11 @@
 # fits, plots, verdicts, page. Included by Makefile.studies; installed under that name, it makes users' own studies
 # anywhere.
 #
-# What is made from what is said by `postproc depends`, whose output is included as compilers' dependencies are. One
-# principal output a rule, written as NAME.partial (or in a work folder) and renamed, so that nothing half written ever
-# stands under its own name. Folders and executables are order-only: a rebuilt program does not make results old
-# (`clean` does). Settings enter through stamps, files which are rewritten only when their content changes.
-# Checkpoints are no targets: make deletes targets when it is interrupted.
+# `postproc depends` writes which file is made from which; its output is included, as the dependencies that a compiler
+# writes are. Every rule has one principal output, which is written as NAME.partial (or in a work folder) and then
+# renamed, so that a file under its final name is always complete. Folders and executables are order-only: a rebuilt
+# program does not make results old (`clean` removes them). Settings enter through stamps: files which are rewritten
+# only when their content changes. Checkpoints are not targets, because make deletes targets when it is interrupted.
 
 ifeq ($(filter oneshell else-if,$(.FEATURES)),)
   $(error GNU Make 3.82 or newer is needed)
@@ -36,13 +36,13 @@ help:
 	@for file in $(wildcard $(studies)/fig*/figure.toml); do \
 	  printf '  %-16s %s\n' "$$(basename "$$(dirname $$file)")" "$$(sed -n '1s/^title = "\(.*\)"$$/\1/p' $$file)"; done
 	@sed -n 's/^#: /  /p' $(MAKEFILE_LIST)
-	@echo && echo 'An interrupted run (Ctrl-C, SIGTERM, kill) goes on from its checkpoint with the same command.' && \
-	  echo 'make -n shows all commands. Results land in out/MESH/, with another SURFACE or' && \
-	  echo 'ELEMENT in out/MESH-SURFACE/, out/MESH-ELEMENT/.'
+	@echo && echo 'The same command continues an interrupted run (Ctrl-C, SIGTERM, kill) from its checkpoint.' && \
+	  echo 'make -n shows all commands. Results are written to out/MESH/, with another SURFACE or' && \
+	  echo 'ELEMENT to out/MESH-SURFACE/, out/MESH-ELEMENT/.'
 
 # -------------------------------------------------------------------------------- settings
-# $(call allowed,NAME,VALUES): ends where NAME has another value.
-allowed = $(if $(filter $($(1)),$(2)),,$(error $(1)=$($(1)): allowed are $(2)))
+# $(call allowed,NAME,VALUES): fails if NAME has another value.
+allowed = $(if $(filter $($(1)),$(2)),,$(error $(1)=$($(1)): allowed: $(2)))
 
 #: MESH=NAME        nominal element size: smoke (0.03 mm, small packing), coarse (0.03 mm, the default),
 #:                  intermediate (0.025 mm), medium (0.015 mm), paper (0.0075 mm): those of the paper's Fig. 7
@@ -54,39 +54,39 @@ size_intermediate := 0.025
 size_medium := 0.015
 size_paper := 0.0075
 
-#: RUN=PREFIX       put before each heavy command, e.g. RUN='srun -n1 -c8'
+#: RUN=PREFIX       written before each command that takes long, e.g. RUN='srun -n1 -c8'
 RUN ?=
-#: THREADS=N        threads of each heavy command (default: all cores that it may use). With -jN up to N of them run at
-#:                  once, each with its own memory; a paper mesh wants about 8 GiB
+#: THREADS=N        threads of each such command (default: all cores that it may use). With -jN up to N of them run at
+#:                  once, each with its own memory; a run with MESH=paper needs about 8 GiB
 THREADS ?=
-#: BIN=FOLDER       of the executables (default: build/bin, or those installed with this file)
+#: BIN=FOLDER       folder of the executables (default: build/bin, or that of the installation)
 BIN ?= $(if $(wildcard $(toolkit)/../../bin/postproc),$(toolkit)/../../bin,$(source)build/bin)
 
-#: ELEMENT=TYPE     of figures: tet4-anp (default: averaged nodal pressure halves the error at the same mesh,
-#:                  docs/speed-against-error), tet4 (the paper's), tet4-patch
+#: ELEMENT=TYPE     element of the figures: tet4-anp (default; averaged nodal pressure halves the error at the same
+#:                  mesh, docs/speed-against-error), tet4 (the paper's), tet4-patch
 ELEMENT ?= tet4-anp
 $(call allowed,ELEMENT,tet4 tet4-anp tet4-patch)
 
-#: SURFACE=TYPE     of their contact: facets (default, the paper's) or smooth (nearer to round grains: stresses at a
-#:                  given density are an eighth lower at 0.03 mm, docs/speed-against-error)
+#: SURFACE=TYPE     contact surface of the figures: facets (default, the paper's) or smooth (closer to spheres:
+#:                  stresses at a given density are an eighth lower at 0.03 mm, docs/speed-against-error)
 SURFACE ?= facets
 $(call allowed,SURFACE,facets smooth)
 
-#: SEEDS='2 3'      further packings of the same description, for figures that show a spread: each is made in its own
-#:                  folder, by a make of its own with SEED
+#: SEEDS='2 3'      further packings of the same description, for figures that show a spread; each has its own folder
+#:                  and is made by a separate make with SEED
 SEED ?=
 SEEDS ?=
 ifneq ($(shell echo '$(SEED) $(SEEDS)' | tr -d '0-9 '),)
-  $(error SEEDS=$(SEEDS): allowed are whole numbers, e.g. SEEDS='2 3 4')
+  $(error SEEDS=$(SEEDS): allowed: whole numbers, e.g. SEEDS='2 3 4')
 endif
 ifneq ($(words $(sort $(SEEDS))),$(words $(SEEDS)))
-  $(error SEEDS=$(SEEDS): a seed stands there twice)
+  $(error SEEDS=$(SEEDS): found a seed twice, allowed: once)
 endif
 ifneq ($(filter-out 0,$(filter 0%,$(SEED) $(SEEDS))),)
-  $(error SEEDS=$(SEED) $(SEEDS): a seed begins with 0)
+  $(error SEEDS=$(SEED) $(SEEDS): found a seed that begins with 0, allowed: no leading 0)
 endif
 ifneq ($(and $(SEED),$(SEEDS)),)
-  $(error SEED=$(SEED) SEEDS=$(SEEDS): allowed is one of both; SEEDS adds packings to the one of $(description))
+  $(error SEED=$(SEED) SEEDS=$(SEEDS): allowed: one of them; SEEDS adds packings to that of $(description))
 endif
 
 # Results of other elements and surfaces than the default lie in folders of their own.
@@ -126,7 +126,7 @@ endif
 
 # -------------------------------------------------------------------------------- stamps
 # $(call stamp,FILE,TEXT): FILE holds TEXT; it is old only if its content differs. Compared while this file is read, so
-# that `make -n` tells the truth and writes nothing.
+# that `make -n` is right and writes nothing.
 define stamp
 $(1): $(if $(and $(wildcard $(1)),$(findstring |$(strip $(2))|,|$(strip $(file <$(1)))|)),,FORCE)
 	mkdir -p $$(@D)
@@ -159,13 +159,13 @@ $(packings)/mesh-%.h5: $(packings)/spheres.h5 | $(BIN)/pack-gen
 	mv $(@D)/new-mesh-$*.h5 $@
 
 # -------------------------------------------------------------------------------- what is declared
-# Of all figures together, since they share runs; of a user's study alone.
+# Of all figures together, because they share runs, or of one study of a user.
 declared_sources := $(or $(STUDY),$(wildcard $(studies)/fig*/figure.toml))
 declared := $(out)/$(if $(STUDY),$(study_name)/study,figures).mk
 of_mesh := --results $(out) --mesh $(MESH) --programmes $(studies)/branches
 goals := $(or $(MAKECMDGOALS),help)
 ifneq ($(filter-out help clean clean-figures,$(goals)),)
-# postproc is no prerequisite: make -B -n, by which times.sh lists runs, would carry out its rule.
+# postproc is not a prerequisite: make -B -n, with which times.sh lists runs, would execute its rule.
 $(declared): FORCE
 	@[ -x $(BIN)/postproc ] || { echo '$(makefile): $(BIN)/postproc is not built; ./bootstrap builds it' >&2; exit 1; }
 	@mkdir -p $(@D)
@@ -174,14 +174,14 @@ $(declared): FORCE
 include $(declared)
 endif
 
-# A run works in work/ and is moved out when it is complete; a rerun goes on from its own checkpoints, unless an input
-# is newer than all that the run has made.
+# A run is written in work/ and moved out when it is complete. A rerun continues from its own checkpoints, unless an
+# input is newer than all files that the run has made.
 own_files = $(@D)/work/run.checkpoint.h5 $(@D)/work/run.checkpoint.previous.h5 $(@D)/work/run.h5 $@
-same_command_again = echo 'The same make command goes on where this run stopped.' >&2
+same_command_again = echo 'The same make command continues this run.' >&2
 $(declared_runs): | $(BIN)/mpfem
 	@mkdir -p $(@D)/work
 	@$(if $(filter --from,$(options)),[ -e $(word 2,$(options)) ] || \
-	  { rm -f $@; echo '$(word 2,$(options)) is missing; the same make command makes it again' >&2; exit 1; })
+	  { rm -f $@; echo '$(word 2,$(options)) is missing; repeat the same make command to make it again' >&2; exit 1; })
 	for input in $(filter-out FORCE,$^); do \
 	  for own in $(own_files); do [ ! $$own -nt $$input ] || continue 2; done; rm -f $(@D)/work/run.*h5*; \
 	done
@@ -198,7 +198,8 @@ $(declared_runs:.h5=.settings) $(declared_packings:.h5=.settings) $(metric_setti
 	printf '%s\n' '$(settings)' > $@.partial
 	mv $@.partial $@
 
-# What cannot be measured leaves "value": null, so that the other runs of a figure still make it; why stands beside.
+# A metric that cannot be measured gets "value": null, so that the figure is still made from the other runs; the reason
+# is in NAME.refused.
 $(metric_files): %.json: | $(BIN)/postproc
 	@mkdir -p $(@D)
 	$(BIN)/$(measure) --quiet -o $*.new.json 2> $*.refused || \
@@ -207,7 +208,7 @@ $(metric_files): %.json: | $(BIN)/postproc
 	@[ -s $*.refused ] || rm -f $*.refused
 	mv $*.new.json $@
 
-# The script or command that a figure names, for what no verb of postproc makes.
+# The script or command that a figure names, for files that no subcommand of postproc makes.
 $(script_files): | $(BIN)/mpfem $(BIN)/postproc
 	@mkdir -p $(@D)
 	$(script)
@@ -244,8 +245,8 @@ $(spread_plots): $(out)/packings.settings
 $(spread_files): $(out)/%.spread.csv: $(out)/%.csv $(out)/packings.settings $(foreach s,$(SEEDS),$(out)-seed$(s)/%.csv)
 	$(BIN)/postproc table $(figure) $(patsubst %.spread,%,$(basename $(@F))) $(of_mesh) --spread $(filter %.csv,$^) -o $@
 
-# Only of what is requested, since the runs of a packing take long; one make for all tables of a seed, since two would
-# make the same runs. Its tables are newer only if it made them anew.
+# Only for the requested figures, because the runs of a packing take long. One make makes all tables of a seed, because
+# two would make the same runs. Its tables are newer only if it has made them again.
 all_wanted := $(filter all report smoke study,$(goals))
 wanted_figures := $(if $(SEEDS),$(if $(all_wanted),$(declared_figures),$(filter $(declared_figures),$(goals))))
 wanted_spreads := $(filter $(wanted_figures:%=$(out)/%/%),$(spread_files))

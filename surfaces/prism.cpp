@@ -24,7 +24,7 @@ std::optional<std::array<std::array<double, 2>, 2>> cut(const TriangleMesh& mesh
   for (std::size_t k = 0; k < 3; ++k) {
     const Vector3<double>&a = mesh.corner(triangle, k), &b = mesh.corner(triangle, (k + 1) % 3);
     if ((a.z < z) == (b.z < z)) continue;
-    // From below to above whichever triangle asks, for the same point of both.
+    // From below to above for both triangles of an edge, so that both get the same point.
     ends.at(found++) = a.z < b.z ? crossing(a, b, z) : crossing(b, a, z);
   }
   if (found != 2) return std::nullopt;

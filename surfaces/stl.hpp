@@ -3,7 +3,7 @@
 //
 // Faults with only one possible meaning are repaired and counted: corners at the same place become one vertex,
 // triangles that thereby lose their area are left out, edges of triangles without area are flipped (flip_slivers.hpp),
-// and a surface that is inside out as a whole is turned round. All other faults are refused: the inside of an open or
+// and a surface that is inside out as a whole is reversed. All other faults are refused: the inside of an open or
 // contradictory surface could only be guessed.
 
 #include <cstddef>

@@ -206,7 +206,7 @@ FigureCommands::FigureCommands(CLI::App& app) : state_(std::make_unique<State>()
   report.add_option("figures", s.files, "Figures' files (TOML)")->required();
   s.add_common(report);
   report.add_option("--title", s.title, "Title of the page")->required();
-  report.add_option("--beside", s.beside, "A page (Markdown) whose first table is shown next to the verdicts");
+  report.add_option("--beside", s.beside, "Markdown page whose first table is shown next to the verdicts");
   report.add_option("--view", s.run, "Run shown in three dimensions on the page (HDF5)");
 }
 

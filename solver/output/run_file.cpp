@@ -101,7 +101,7 @@ void write_contact_pressure(GatheredFile& file, const std::string& name, const S
 /// Writes stresses and plastic strain.
 void write_tet_fields(GatheredFile& file, const std::string& name, const Model& model) {
   const Counts tets = rows_of_grains(model.tet_offset);
-  // Computed anew for each field: keeping them for all tets would add a tenth to what a rank holds.
+  // Computed again for each field: keeping them for all tets would add a tenth to what a rank holds.
   const auto write = [&](const auto& dataset, std::vector<float> TetFields::*field) {
     file.write_grains(
         dataset, tets,

@@ -30,7 +30,7 @@ int count_of(std::size_t bytes) {
   return static_cast<int>(bytes);
 }
 
-/// Where each rank's part begins, in int as MPI wants it.
+/// Where each rank's part begins, as int, which MPI requires.
 std::vector<int> offsets_of(const std::vector<int>& counts) {
   std::vector<int> offset(counts.size(), 0);
   std::size_t sum = 0;

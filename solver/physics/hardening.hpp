@@ -44,13 +44,14 @@ struct PowerLaw {
     const S tiny(Resolution<S>::tiny);
     const S inverse = S(1.0) / max(elastic + slope_strain, tiny);
     const S first = excess * inverse; // relative increment r = d eps_p / eps_p, explicit
-    // The other lanes of a pack keep their state and do not decide how the loaded lanes are returned. While a packing
-    // jams, most packs that yield hold fresh points too; when these decided, such packs took ten times as long.
+    // Lanes that do not yield keep their state and do not affect how the others are returned. While a packing jams,
+    // most packs that yield also contain points that have not yielded yet; if these took part, such packs would take
+    // ten times as long.
     const auto loaded = excess > S(0.0);
     // 1. Small relative increments, the usual case: with (1 + r)^m as its binomial series the equation is
     //    r + b2 r^2 + b3 r^3 + … = first. Its inverted series gives r to the fourth power, and one Newton step the rest
-    //    to rounding. Fresh points take the other way. So do points whose strain was too small for the number type
-    //    (small exponents in floats): exp() ends near 1e-38, and an r based on that would stay wrong for ever.
+    //    to rounding. Points without plastic strain take the second way. So do points whose strain was too small for
+    //    the number type (small exponents in floats): exp() ends near 1e-38, and an r based on that would stay wrong.
     if (!any(loaded & !((first < S(0.02)) & (old.plastic_strain > tiny)))) {
       const S a = slope_strain * inverse;
       const S b2 = c2() * a, b3 = c3() * b2, b4 = c4() * b3, square = b2 * b2;

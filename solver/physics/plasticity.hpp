@@ -40,7 +40,8 @@ ReturnedStress<S> radial_return(const Law& law, double shear, const Deviator<S>&
 /// The constitutive step of a material point: the elastic predictor, then the return. One half of the predictor is
 /// added before the deviator is rotated with the material (Hughes-Winget), one half after. The strain increment is that
 /// of the half-step configuration, half a rotation behind the end of the step. Added as a whole at the end, it would be
-/// askew by that angle: an elasticity without symmetry, which pumps energy into the vibrations of a spinning grain.
+/// rotated by that angle against the stress: an elasticity without symmetry, which feeds energy into the vibrations of
+/// a spinning grain.
 template <class S, class Law>
 ReturnedStress<S> update_deviator(const Law& law, const ElasticModuli& moduli, const Deviator<S>& old,
                                   const HardeningState<S>& hardening, const Increment<S>& increment) {

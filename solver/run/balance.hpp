@@ -1,5 +1,5 @@
 #pragma once
-// Whether the ranks have equal shares of the measured work, and how the grains are divided anew if not.
+// Whether the ranks have equal shares of the measured work, and how the grains are divided again if not.
 
 #include <cstdint>
 #include <vector>

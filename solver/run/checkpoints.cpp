@@ -141,7 +141,7 @@ std::vector<std::string> missing_checkpoints(const std::vector<std::string>& pro
 std::vector<std::string> resumable_checkpoints(const Scenario& scenario, const RunIdentity& run) {
   std::vector<std::string> paths;
   if (const std::string rolling = checkpoint_path(run.run_file); fs::exists(rolling)) paths.push_back(rolling);
-  // If no beginning is named, the rolling checkpoints tell where the run began.
+  // If no beginning is named, the rolling checkpoints show where the run began.
   RunIdentity unnamed = run;
   if (unnamed.from == "packing") unnamed.from.clear();
   if (const std::string previous = previous_checkpoint_path(run.run_file); is_checkpoint_of(previous, unnamed))

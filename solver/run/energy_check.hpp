@@ -11,9 +11,9 @@ namespace mpfem {
 /// (an elastic pair that has parted) must still be accounted for. While they are stable, explicit central differences
 /// close the balance to some thousandths of that term (studies/hard-cases/README.md); when they are not, energy
 /// appears from nothing and grows without limit. Terms below 1e-7 of the solid's volume times Young's modulus, the
-/// energy of a strain of 3e-4, are ignored: while little happens, rounding decides the residual, and then the first
-/// touches do. Their work counts whole steps although walls and nodes meet within one. That error is as large as the
-/// contact's energy, occurs once, and is soon small.
+/// energy of a strain of 3e-4, are ignored: with such small energies the residual consists of rounding and of the first
+/// contacts, whose work is summed over whole steps although walls and nodes meet within one. That error is as large as
+/// the contact's energy, occurs once, and is soon small in comparison.
 class EnergyCheck {
 public:
   static constexpr double allowed = 0.1;     ///< of the largest term: beyond, the run fails

@@ -126,7 +126,7 @@ void Ghosts::choose(std::vector<Index> grains, Model& model) {
   if (known_.empty()) known_.assign(at(model.grains), 0);
   for (Partner& p : partners_) p.sent_grains.clear(), p.ghosts.clear();
 
-  // 1. Each rank names the grains whose surfaces it wants, and says which surfaces it has already.
+  // 1. Each rank names the grains whose surfaces it needs, and those whose surfaces it already has.
   std::vector<Bytes> wanted(static_cast<std::size_t>(ranks_->size()));
   for (const Index g : ghosts_) {
     const int owner = model.ownership.owner[at(g)];

@@ -6,7 +6,7 @@
 // centre,
 //   sum f / A                the difference of opposite walls' stresses,
 //   sum f x / V              the walls' mean stress less that inside the grains,
-// both of which vanish in equilibrium. (The second sees what the first cannot: packings that are shaken symmetrically.)
+// both of which vanish in equilibrium. (The second also shows symmetric vibration, which the first does not.)
 // Kinetic energy grows with the square of the speed, stresses with the speed; the larger of
 //   sqrt(kinetic / (tolerance internal)),   stress / (tolerance largest wall stress)
 // is the load L. The rate factor r, the present speed over the stage's own, follows d ln r/dt = (aim - L) / transit,

@@ -66,7 +66,7 @@ double disk_of(const PackingCounts& packing, const Scenario& scenario) {
                             (scenario.contact.has_friction() ? 24.0 * facets : 0.0);
   // Checkpoints that stay, the rolling one, and the one that is being written.
   const double checkpoints = stages + 2 + static_cast<double>(output.checkpoint_relative_densities.size());
-  // Snapshots stand beside the run file until it holds them all.
+  // Snapshots are files next to the run file until it contains them all.
   const double snapshots =
       (output.snapshot_at_stage_end ? stages : 0.0) + static_cast<double>(output.snapshot_relative_densities.size());
   const double snapshot = 22 * tets, mesh = 11 * tets;

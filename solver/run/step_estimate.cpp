@@ -20,7 +20,7 @@ constexpr double strain_between_estimates = 0.02;
 constexpr int steps_between_estimates = 50;
 /// The frequencies of all whole grains are computed once in so many estimates: some twenty products with the stiffness
 /// each. In between, a grain's squared frequency is assumed to grow as that of its fastest growing tet, plus the growth
-/// of contact at its nodes. If that would shorten the packing's step, it is computed anew, unless it has grown by less
+/// of contact at its nodes. If that would shorten the packing's step, it is computed again, unless it has grown by less
 /// than this.
 constexpr int estimates_between_spectra = 10;
 constexpr double growth_worth_a_spectrum = 1.01;

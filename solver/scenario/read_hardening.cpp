@@ -30,7 +30,7 @@ void check_hardening_table(const TableReader& table, const HardeningParameters& 
       table.fail("plastic_strain",
                  fmt::format("found {} after {}, allowed increasing values", strain[i], strain[i - 1]));
     const double slope = (stress[i] - stress[i - 1]) / (strain[i] - strain[i - 1]);
-    // On a steeper fall, a strain increment has no unique answer.
+    // On a steeper fall, the stress after a strain increment is not unique.
     if (!(slope > -3 * shear_modulus))
       table.fail("flow_stress", fmt::format("found a slope of {} MPa between values {} and {}, allowed > -3 G = {}",
                                             slope, i - 1, i, -3 * shear_modulus));

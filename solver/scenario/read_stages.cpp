@@ -159,7 +159,7 @@ ToolEnds read_tool_ends(TableReader& table, const StageContext& context) {
     table.fail("type", "found 'tools' without an end, expected at least one of relative_density, height, axial_stress, "
                        "travel, force, force_drop and duration");
   if (ends.height && ends.relative_density)
-    table.fail("height", "found beside 'relative_density', expected one of the two: either gives the other");
+    table.fail("height", "found together with 'relative_density', expected one of the two: each determines the other");
   for (const char* key : {"relative_density", "height", "axial_stress"})
     if (table.has(key) && !context.container) table.fail(key, "is used only with a [container]");
   if (table.has("smallest_peak") && !ends.force_drop) table.fail("smallest_peak", "is used only with 'force_drop'");

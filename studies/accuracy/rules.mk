@@ -1,9 +1,9 @@
-#: accuracy         speed against error: docs/speed-against-error (40 min of processor time, no MESH; -j pays)
-# Speed against error: how far each setting is from the answer, and what it costs. Included by Makefile.studies, whose
-# habits hold here. Independent of MESH: cases.csv says what is run, case.awk what a row means.
+#: accuracy         speed against error: docs/speed-against-error (40 minutes of processor time with any MESH)
+# Speed against error: the error of each setting and what it costs. Included by Makefile.studies, whose conventions
+# apply here. Independent of MESH: cases.csv says what is run, case.awk what a row means.
 #
 # out/accuracy/meshes/KIND-FINENESS.h5, out/accuracy/work/CASE.* (run, curve, values), out/accuracy/*.csv; pictures,
-# tables and the page land in docs/speed-against-error.
+# tables and the page are written to docs/speed-against-error.
 
 accuracy := out/accuracy
 accuracy_page := docs/speed-against-error
@@ -12,7 +12,7 @@ accuracy_page := docs/speed-against-error
 ACCURACY_SETS ?= default
 .PHONY: accuracy
 
-# Some hundred cases: their rules are read only where one of them is asked for.
+# There are about a hundred cases: their rules are read only if one of them is requested.
 ifneq ($(filter accuracy $(accuracy)/% $(accuracy_page)/%,$(MAKECMDGOALS)),)
 
 accuracy_rows := $(shell awk -f studies/accuracy/case.awk -v sets='$(ACCURACY_SETS)' studies/accuracy/cases.csv)
@@ -39,7 +39,7 @@ $(accuracy)/meshes/%.h5: studies/accuracy/mesh.sh | $(accuracy)/meshes $(BIN)/pa
 	mv $(@D)/new-$*.h5 $@
 
 # ------------------------------------------------------------------------------------------------ runs
-# Short and of one thread unless THREADS says otherwise, so -j pays. $(call accuracy_run,NAME,SCENARIO,OPTIONS)
+# Runs are short and use one thread unless THREADS says otherwise, so use -j. $(call accuracy_run,NAME,SCENARIO,OPTIONS)
 define accuracy_run
 for input in $^; do [ $(@D)/new-$(1).checkpoint.h5 -nt $$input ] || \
   rm -f $(@D)/new-$(1).checkpoint.h5 $(@D)/$(1).seconds; done

@@ -14,7 +14,7 @@ $(animation)/run.h5: studies/animation/film.toml $(animation)/work/settings $(me
 	  { code=$$?; tail -n 3 $(@D)/work/log.txt >&2; [ $$code != 5 ] || $(same_command_again); exit $$code; }
 	mv $(@D)/work/run.h5 $@
 
-# Colours as far as grains are strained in the end; frames of a film that was shorter go.
+# One colour scale, up to the largest strain. Frames of an earlier film are removed.
 $(animation)/frames.made: $(animation)/run.h5 | $(BIN)/postproc
 	rm -rf $(@D)/frames
 	$(RUN) $(BIN)/postproc picture $< --frames $(@D)/frames --color plastic-strain --size 1200x1000 --quiet

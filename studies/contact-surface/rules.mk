@@ -1,7 +1,7 @@
-#: contact-surface  contact over orientations and unequal meshes (some twenty minutes; builds its program)
+#: contact-surface  contact of grains in many orientations and with unequal meshes (twenty minutes; builds its program)
 # contact-surface: what orientation, unequal meshes and facets do to contact forces and pressures. Included by
-# Makefile.studies, whose habits hold here. Its programs are not built by default; the rules below ask for them where
-# BIN is a build's.
+# Makefile.studies, whose conventions apply here. Its programs are not built by default; the rules below build them if
+# BIN belongs to a build folder.
 
 contact_surface := out/contact-surface
 contact_surface_tables := rotations.csv unequal.csv pressure.csv packing.csv geometry.csv

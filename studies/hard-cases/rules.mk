@@ -1,6 +1,6 @@
-#: hard-cases       what breaks codes of this kind: steps too large, slivers, impact, a million steps (-j2 pays)
-# hard-cases: what breaks codes of this kind. Its packings are its own and the small one, whatever MESH says. Every case
-# is a run of one thread; -j pays.
+#: hard-cases       cases that break codes of this kind: too large steps, slivers, impact, a million steps (use -j2)
+# hard-cases: cases that break codes of this kind. It uses its own packings and the small one, whatever MESH says. Every
+# case is a run of one thread, so use -j.
 hard := $(out)/hard-cases
 # A case in one word, NAME|PACKING|SCENARIO|FROM|LINE, the line without spaces and quotes: for its settings.
 hard_lines := $(shell awk -F, 'NR > 1 { line = $$0; gsub(/ /, "~", line); gsub(/"/, "", line); \
@@ -8,7 +8,7 @@ hard_lines := $(shell awk -F, 'NR > 1 { line = $$0; gsub(/ /, "~", line); gsub(/
 # $(call hard_field,WORD,NUMBER)
 hard_field = $(word $(2),$(subst |, ,$(1)))
 hard_cases := $(foreach c,$(hard_lines),$(call hard_field,$(c),1))
-# Where the run begins, if not anew: the case that leaves the checkpoint.
+# Where the run begins, if not at a packing: the case that leaves the checkpoint.
 hard_from = $(patsubst %,$(hard)/work/%.csv,$(firstword $(subst ., ,$(filter-out -,$(call hard_field,$(1),4)))))
 hard_packing = $(if $(filter smoke,$(1)),$(small_mesh),$(hard)/work/$(1).packing.h5)
 

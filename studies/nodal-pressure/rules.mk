@@ -1,5 +1,5 @@
-#: nodal-pressure   averaged pressure in vibration, cycles and strong flow (some ten minutes; likewise)
-# nodal-pressure: is average nodal pressure free of weak modes? Included by Makefile.studies, whose habits hold here.
+#: nodal-pressure   averaged pressure in vibration, cycles and strong flow (ten minutes; builds its program)
+# nodal-pressure: is average nodal pressure free of weak modes? Included by Makefile.studies.
 
 nodal_pressure := out/nodal-pressure
 .PHONY: nodal-pressure

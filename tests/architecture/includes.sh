@@ -28,7 +28,7 @@ solver/bench: common solver/physics solver/scenario solver/parallel solver/model
 solver/bench: solver/boundary solver/output solver/run
 solver: common surfaces solver/scenario solver/parallel solver/model solver/output solver/run solver/bench
 '
-# FOLDER FOLDER: an include that is still there and shall go.
+# FOLDER FOLDER: an include that exists and is to be removed.
 open=''
 
 folders='common results-schema surfaces pack-gen postproc solver'

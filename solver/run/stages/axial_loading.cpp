@@ -12,7 +12,7 @@ namespace mpfem {
 
 namespace {
 
-/// Strain at which a loading is expected to end if its ends do not tell.
+/// Strain at which a loading is expected to end if its ends do not determine it.
 constexpr double expected_strain = 0.05;
 /// Strain and density count as reached when they are this near: walls arrive up to rounding.
 constexpr double arrived = 1e-9;

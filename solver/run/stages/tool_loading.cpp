@@ -12,7 +12,7 @@ namespace mpfem {
 
 namespace {
 
-/// Part of the cell's length along z over which a stage is expected to last if its ends do not tell.
+/// Part of the cell's length along z over which a stage is expected to last if its ends do not determine it.
 constexpr double expected_strain = 0.05;
 /// Travel and density count as reached when they are this near: tools arrive up to rounding.
 constexpr double arrived = 1e-9;
