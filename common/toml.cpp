@@ -1,3 +1,3 @@
-// The compiled part of toml++. The system's library is not used: it has the fault that toml.hpp mends.
+// The compiled part of toml++. The system's library is not used: it has the fault that toml.hpp corrects.
 #define TOML_IMPLEMENTATION
 #include "common/toml.hpp"

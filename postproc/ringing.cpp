@@ -26,9 +26,9 @@ RowRange ringing_rows(std::size_t row, std::size_t rows) {
 
 double ringing(const std::vector<double>& column, std::size_t row) {
   const RowRange rows = ringing_rows(row, column.size());
-  const std::vector<double> calm = local_parabolas(column, wide_half_rows(column.size()));
+  const std::vector<double> smooth = local_parabolas(column, wide_half_rows(column.size()));
   double squares = 0;
-  for (std::size_t i = rows.first; i <= rows.last; ++i) squares += (column[i] - calm[i]) * (column[i] - calm[i]);
+  for (std::size_t i = rows.first; i <= rows.last; ++i) squares += (column[i] - smooth[i]) * (column[i] - smooth[i]);
   // A parabola takes three of the rows' degrees of freedom.
   return 2 * std::sqrt(squares / std::max(1.0, static_cast<double>(rows.count()) - 3));
 }

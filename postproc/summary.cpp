@@ -69,7 +69,7 @@ void add_kinetic_share(Summary& s, const HistoryTable& history, const std::vecto
   const std::vector<double> internal_of_row = internal_energy(history);
   s.loaded_from_density = s.relative_density;
   double largest_kinetic = 0, largest_internal = 0;
-  bool calm = true; // from this row to the end
+  bool small = true; // from this row to the end
   for (std::size_t row = history.rows(); row-- > 0;) {
     const double internal = internal_of_row[row], kinetic = history["kinetic_energy"][row];
     largest_kinetic = std::max(largest_kinetic, kinetic);
@@ -78,8 +78,8 @@ void add_kinetic_share(Summary& s, const HistoryTable& history, const std::vecto
       s.kinetic_over_internal = std::max(s.kinetic_over_internal, kinetic / internal);
       s.loaded_from_density = std::min(s.loaded_from_density, history["relative_density"][row]);
     }
-    calm = calm && kinetic <= 0.01 * internal;
-    if (calm) s.kinetic_small_from_density = history["relative_density"][row];
+    small = small && kinetic <= 0.01 * internal;
+    if (small) s.kinetic_small_from_density = history["relative_density"][row];
   }
   s.kinetic_over_largest_internal = largest_internal > 0 ? largest_kinetic / largest_internal : 0;
 }

@@ -76,12 +76,11 @@ std::string state_lines(const RunProgress& progress) {
   const auto& rows = progress.rows;
   const ProgressRow& row = rows.back();
   const double internal = internal_energy_at_end(rows);
-  std::string text = fmt::format("step      {:.0f}, time {:.4f} us, time step {:.4f} ns\n", progress.step,
+  std::string text = fmt::format("step      {:.0f}, time {:.4f} µs, time step {:.4f} ns\n", progress.step,
                                  1e6 * row.time, 1e9 * row.time_step);
-  text += fmt::format(
-      "state     relative density {:.4f}, p {:.4g} MPa, q {:.4g} MPa\n          penetration {:.3g} of the element "
-      "size\n",
-      row.relative_density, row.mean_stress, row.deviatoric_stress, row.penetration);
+  text += fmt::format("state     relative density {:.4f}, penetration {:.3g} of the element size\n          mean "
+                      "stress p {:.4g} MPa, deviatoric stress q {:.4g} MPa\n",
+                      row.relative_density, row.penetration, row.mean_stress, row.deviatoric_stress);
   text +=
       fmt::format("energy    kinetic/internal {}, residual/work {}\n          stored {:.4g} mJ, dissipated {:.4g} mJ\n",
                   internal > 0 ? fmt::format("{:.2e}", row.kinetic / internal) : "-",

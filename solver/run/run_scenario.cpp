@@ -578,7 +578,7 @@ private:
       constexpr const char* head = "{:>8} {:>10} {:>10} {:>8} {:>8} {:>9} {:>10} {:>8} {:>9} {:>11} {:>8}\n";
       fmt::print(stderr, head, "step", "time", "time step", "step set", "relative", "mean", "deviatoric", "kinetic/",
                  "residual/", "penetration", "ns per");
-      fmt::print(stderr, head, "", "us", "ns", "by", "density", "p, MPa", "q, MPa", "internal", "work", "/ element",
+      fmt::print(stderr, head, "", "µs", "ns", "by", "density", "p, MPa", "q, MPa", "internal", "work", "/ element",
                  "tet-step");
     }
     const double internal = internal_energy(record_.history).back();

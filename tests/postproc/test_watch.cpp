@@ -103,8 +103,8 @@ TEST_CASE("a frame shows the stage, its state, energies over those of the stage,
   CHECK(contains(frame, "run.checkpoint.h5: mpfem is running, written 1:40 ago\n"));
   CHECK(contains(frame, "done      first: ended by relative density 0.62\n"));
   CHECK(contains(frame, "stage     2 of 3: second (isotropic_unloading), 45 % of its expected time\n"));
-  CHECK(contains(frame, "step      109, time 1.0000 us, time step 0.2000 ns\n"));
-  CHECK(contains(frame, "relative density 0.5600, p 16 MPa"));
+  CHECK(contains(frame, "step      109, time 1.0000 µs, time step 0.2000 ns\n"));
+  CHECK(contains(frame, "mean stress p 16 MPa"));
   CHECK(contains(frame, "kinetic/internal 3.33e-03, residual/work 1.00e-03")); // internal: 2 stored, 1 dissipated
   CHECK(contains(frame, "remaining 2:55 to the expected end of the stage, then 1 more stage\n")); // 0.55 * 500 - 100 s
   for (std::size_t begin = 0; begin < frame.size(); begin = frame.find('\n', begin) + 1)
