@@ -16,7 +16,7 @@ if(MPFEM_WARNINGS_AS_ERRORS)
 endif()
 
 # -ffp-contract=fast lets the compiler fuse multiply and add; -fno-math-errno and -fno-trapping-math cost no accuracy.
-# Nothing that reorders sums or assumes finite values (-ffast-math) is used: results must not depend on luck.
+# Nothing that reorders sums or assumes finite values (-ffast-math) is used: results must not depend on chance.
 target_compile_options(mpfem_options INTERFACE -ffp-contract=fast -fno-math-errno -fno-trapping-math)
 if(MPFEM_PORTABLE)
   # A target's property X86_64_LEVEL (v3, v4) requires more than x86-64-v2, which every machine since about 2009 has.

@@ -12,7 +12,7 @@ endif()
 # Debian's plain hdf5 becomes the one with MPI as soon as something (VTK) brings that in.
 pkg_search_module(HDF5 REQUIRED IMPORTED_TARGET hdf5-serial hdf5)
 pkg_check_modules(TOMLPLUSPLUS REQUIRED IMPORTED_TARGET tomlplusplus)
-# Only its headers: common/toml.cpp compiles it, with a fault mended (common/toml.hpp). An assertion of toml++ that
+# Only its headers: common/toml.cpp compiles it, with a fault corrected (common/toml.hpp). An assertion of toml++ that
 # fails for "[[/" stands before the code that refuses the same; the library as Debian builds it has no assertions.
 set_target_properties(PkgConfig::TOMLPLUSPLUS PROPERTIES INTERFACE_LINK_LIBRARIES ""
   INTERFACE_COMPILE_OPTIONS "-DTOML_HEADER_ONLY=0;-DTOML_ASSERT(expression)=static_cast<void>(expression)")

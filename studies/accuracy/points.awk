@@ -26,7 +26,7 @@ file == 3 {
   seconds_all[name] = $need("processor_time_all")
   next
 }
-# At 0.70 a packing has hardly jammed and its reference is the least sure: it is in the tables of values only.
+# At 0.70 a packing has hardly jammed and its reference is the least certain: it is in the tables of values only.
 file == 4 && $2 == "mean-stress-0.7" { next }
 file == 4 && ($1 in of_scene) && (of_scene[$1], $2) in reference {
   measure = $2

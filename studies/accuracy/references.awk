@@ -1,5 +1,5 @@
 # awk -f ../common/verdict.awk -f references.awk runs.csv values.csv fig05/finite-elements.csv fig04/cohesive.csv: what
-# the values of each scene should be, and how surely: scene,quantity,reference,uncertainty,source,extrapolated.
+# the values of each scene should be, and their uncertainty: scene,quantity,reference,uncertainty,source,extrapolated.
 #
 # Spheres and hemispheres in elastic contact, and the plastic pair, have references of others: Hertz with the
 # finite-sphere factor (tests/reference/README.md), axisymmetric finite elements, boundary elements. All else is

@@ -6,7 +6,7 @@ BEGIN {
   FS = ","
   OFS = ","
   many = split(cases, list, " ")
-  for (i = 1; i <= many; ++i) asked[list[i]] = 1
+  for (i = 1; i <= many; ++i) requested[list[i]] = 1
   print "case,scene,lever,element,fineness,penalty_factor,speed_factor,mass_factor,tets,steps,steps_all," \
         "processor_time [s],processor_time_all [s],kinetic_over_internal,penetration_over_h"
 }
@@ -34,7 +34,7 @@ END {
     name = row[i]
     file = work "/" name ".summary.csv"
     later = work "/" name ".recovery.summary.csv"
-    if (name in asked) {
+    if (name in requested) {
       steps = value_of(file, "steps")
       all = value_of(later, "steps") # goes on counting
       seconds = sum_of(work "/" name ".seconds")

@@ -5,9 +5,9 @@ BEGIN {
   many = split(cases, list, " ")
   for (i = 1; i <= many; ++i) {
     file = work "/" list[i] ".values.csv"
-    asked[list[i]] = 1
+    requested[list[i]] = 1
     while ((getline line < file) > 0) if (line !~ /^quantity/) print list[i] "," line
     close(file)
   }
 }
-!/^#/ && FNR > 1 && !($1 in asked) && $2 !~ /^(tets|steps|steps_all)$/
+!/^#/ && FNR > 1 && !($1 in requested) && $2 !~ /^(tets|steps|steps_all)$/

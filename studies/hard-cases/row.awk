@@ -1,7 +1,6 @@
 # awk -f ../common/verdict.awk -f row.awk -v name=NAME -v code=EXIT_CODE -v log_file=FILE cases.csv history.csv: one
-# line of summary.csv. The residual is set against the largest term of the balance so far; rows before a millionth of
-# the run's energy is in it say only how numbers are rounded, and are left out (so are those before any solid is
-# touched).
+# line of summary.csv. The residual is divided by the largest term of the balance so far. Rows in which that term is
+# below a millionth of the run's energy show only rounding and are left out (also those before the walls touch a grain).
 BEGIN {
   FS = ","
   terms = "external_work kinetic_energy elastic_energy plastic_dissipation damage_dissipation bond_energy" \

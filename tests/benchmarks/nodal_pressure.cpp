@@ -84,7 +84,7 @@ std::string frequency_columns(const std::string& mode, const std::vector<double>
   for (const ModeName& m : modes) {
     if (mode != m.name) continue;
     const double reference = sphere_frequency(m.mode, m.l, radius, youngs_modulus, poissons_ratio, density);
-    // The step changes a little where it is estimated anew; samples are evenly spaced but for that.
+    // The step changes a little when it is estimated again; apart from that, samples are evenly spaced.
     const double spacing = (time.back() - time.front()) / static_cast<double>(time.size() - 1);
     const double found = peak_frequency(amplitude, spacing, reference, 0.2);
     return fmt::format("{:.5e},{:.4f}", found / (2 * M_PI), found / reference - 1);

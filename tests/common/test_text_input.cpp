@@ -89,7 +89,7 @@ TEST_CASE("Letters beyond ASCII are read in strings and comments and refused els
   TableReader reader(read);
   CHECK(reader.string("a") == "ä");
   CHECK(reader.string("b") == "ü\xce\xa2");
-  // toml++ 3.3 asks whether these letters are blanks and has no answer for them: U+00E4, U+03A2, U+048C.
+  // toml++ 3.3 checks whether these letters are blanks and has no result for them: U+00E4, U+03A2, U+048C.
   for (const std::string letter : {"ä", "\xce\xa2", "\xd2\x8c"})
     for (const std::string before : {"a = 1\nM1", "", "a = 0E1\"", "a = 0E1[[\";", "b = 'x' '", "a = 0..'.E1\"",
                                      "a = [1, b.'", "a = 2e1=.='*s", "a.", "[", "[[a].", "a = "})

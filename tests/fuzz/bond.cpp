@@ -1,5 +1,5 @@
 // Bond laws and programmes: the text before a line "---" is the law (TOML), the text after it the programme (CSV).
-// Where both are taken, a point is walked through the first way points and must answer by finite numbers.
+// If both are accepted, a point is driven through the first rows and must give finite numbers.
 
 #include <algorithm>
 #include <cmath>

@@ -33,7 +33,7 @@ constexpr bool sanitized = false;
 
 template <class Resource>
 void limit(Resource resource, rlim_t most) {
-  const rlimit both{most, most + 1}; // a signal that tells first, then an end
+  const rlimit both{most, most + 1}; // a signal as a warning first, then the end
   setrlimit(resource, &both);
 }
 

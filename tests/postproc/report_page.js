@@ -1,4 +1,4 @@
-// What the tests of a report ask of it in the browser (test_report_page.cpp). Every answer is one line of the console.
+// What the tests of a report check in the browser (test_report_page.cpp). Every result is one line of the console.
 'use strict';
 
 const tell = found => console.log('found: ' + JSON.stringify(found));

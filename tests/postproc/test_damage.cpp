@@ -1,4 +1,4 @@
-// Damage of bonds: in sections, in maps of one contact, in tables; against a plane square contact whose answers are
+// Damage of bonds: in sections, in maps of one contact, in tables; against a plane square contact whose values are
 // known.
 
 #include <algorithm>

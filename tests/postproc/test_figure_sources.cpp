@@ -440,7 +440,7 @@ TEST_CASE("a report has settings and quality of each run, and links that are rel
   const auto runs = runs_of_figure(figure, studies.results());
   REQUIRE(runs.size() == 3);
   CHECK(runs[0].name == "first");
-  // A run that nothing asks for may need values that the cases do not have.
+  // A run that nothing uses may need values that the cases do not have.
   const std::string unused = "[[runs]]\nname = \"unused\"\nfolder = \"p{pressure}\"\nprogramme = \"press\"\n";
   CHECK(runs_of_figure(studies.figure(chain + unused), studies.results()).size() == 3);
   const std::string page = report_page({{"study", "s", "q", studies.path("study.toml"), runs}},

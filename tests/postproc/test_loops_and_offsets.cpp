@@ -1,4 +1,4 @@
-// Unload-reload moduli, offset yield and true stress, on curves whose answers are known.
+// Unload-reload moduli, offset yield and true stress, on curves with known results.
 
 #include <cmath>
 

@@ -1,4 +1,4 @@
-// Metrics on histories whose answers are known, with noise and ringing, and what they refuse.
+// Metrics on histories with known results, with noise and ringing, and what they refuse.
 
 #include <algorithm>
 #include <numbers>
@@ -529,7 +529,7 @@ TEST_CASE("an unloading releases elastic energy, also over E R^3") {
   CHECK(loading.value == 0);
   CHECK(within(loading.details["elastic_energy_locked_in_mJ"].get<double>(), 0.9, rounding));
   CHECK_THAT(loading.notes.front(), Catch::Contains("no unloading"));
-  // A stage asked for that is none.
+  // A requested stage that does not exist.
   const Measurement grown = measure_energy(file, 0, {});
   CHECK(grown.value < 0);
   REQUIRE(grown.notes.size() == 1);

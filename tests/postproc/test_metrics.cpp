@@ -1,4 +1,4 @@
-// Numbers from run files whose answers are known, and what the command refuses.
+// Numbers from run files with known results, and what the command refuses.
 
 #include <algorithm>
 

@@ -88,7 +88,7 @@ struct StudyReport {
     write_run(run_file(), pressed_run());
   }
 
-  /// The page in a window of so many pixels, and what a function of report_page.js tells about it.
+  /// The page in a window of this number of pixels, and what a function of report_page.js reports about it.
   Shown ask(const std::string& function, int width, int height) const {
     const std::string with_script = folder / "out/report/asked.html";
     write_text(with_script,

@@ -166,7 +166,7 @@ Cylinder cylinder_of_grains() {
   return c;
 }
 
-/// Stretched about its middle, then turned about an axis askew and moved.
+/// Stretched about its middle, then turned about an oblique axis and moved.
 std::vector<double> sprung_back(const std::vector<double>& node, double radial, double axial) {
   const Eigen::Vector3d middle(1, 1, 0.5);
   const Eigen::Matrix3d turn = Eigen::AngleAxisd(0.3, Eigen::Vector3d(1, 2, 0.5).normalized()).toRotationMatrix();
@@ -460,7 +460,7 @@ TEST_CASE("the stress of a disc under two loads is that of the closed form, and 
 }
 
 TEST_CASE("the peak of a disc is the largest force before its first fall by a tenth") {
-  // One plate pushes the disc against the other: no test before both bear a tenth of the largest mean.
+  // One plate pushes the disc against the other: the test begins when both carry a tenth of the largest mean.
   const std::vector<double> left{-3, 0, -0.5, -2, -8}, right{0, 2, 1, 2, 12};
   CHECK(disc_force(left, right) == std::vector<double>{0, 0, 0, 2, 10});
   const FirstPeak first = first_peak({0, 3, 6, 10, 9.5, 8.9, 12, 14}, 0.1);

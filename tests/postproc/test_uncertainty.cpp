@@ -216,7 +216,8 @@ TEST_CASE("dissipation, densities and drift of load cycles hold their true value
       for (const auto& [name, truth] :
            std::map<std::string, double>{{"plastic_dissipation", 2}, {"damage_dissipation", 0.02}})
         coverage[name].add(column(name)[k] - truth, column(name + "_uncertainty")[k]);
-      // The time of the crossing is told by the stress, but for the hundredths of a megapascal by which cycles differ.
+      // The time of the crossing follows from the stress, except for the hundredths of a megapascal by which cycles
+      // differ.
       const double high_stress = number(result.measurement, "high_stress_MPa"),
                    low_stress = number(result.measurement, "low_stress_MPa");
       const auto kth = static_cast<double>(k);

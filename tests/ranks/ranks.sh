@@ -21,7 +21,7 @@ mpfem() {
 }
 # run RANKS THREADS SCENARIO NAME OPTIONS...
 run() { mpfem "$1" run "$3.toml" -o "$4.h5" --threads "$2" --quiet --set output.checkpoint_interval=0.5 "${@:5}"; }
-# alike NAME NAME: all files of two runs.
+# alike NAME NAME: compares all files of two runs.
 alike() {
   local file
   for file in "$1".h5 "$1".*.checkpoint.h5; do
@@ -124,7 +124,7 @@ goes_wrong 'energy balance' --set numerics.time_step_factor=2
 for ranks in 2 3; do "$compare" wrong-1.h5 "wrong-$ranks.h5" || fail "$ranks ranks save another state"; done
 echo "what goes wrong on one rank ends all alike"
 
-# Mistakes are told once.
+# A mistake is reported once.
 ends 2 run 2 1 loadings bad --set stages.0.wall_speed=-1
 ends 2 mpfem 2 run missing.toml -o bad.h5
 ends 2 run 2 1 loadings bad --set packing=missing.h5

@@ -1,8 +1,9 @@
 #!/usr/bin/env bash
 # tests/reliability/kills.sh BIN COMPARE [KILLS]: kills runs of every kind of stage, branches of them, and a small study
 # with two jobs, KILLS times in all (default 10) with kill -9 at random moments, lets them go on, and compares every
-# file with those of undisturbed runs: all are there, and alike to the bit but for wall-clock times. BIN: folder of the
-# executables, COMPARE: compare-runs. Exit code 0: all alike. SEED in the environment repeats a sequence of moments.
+# file with those of undisturbed runs: all exist and are bitwise the same except for wall-clock times. BIN: folder of
+# the executables, COMPARE: compare-runs. Exit code 0: all are the same. SEED in the environment repeats a sequence of
+# moments.
 set -euo pipefail
 bin=$(realpath "$1")
 compare=$(realpath "$2")
@@ -30,12 +31,12 @@ in_parts() {
     sleep "$(awk -v r="$RANDOM" -v t="$time" 'BEGIN { print t * 1e-9 * r / 32768 }')"
     if kill -KILL "$victim" 2>/dev/null; then killed=$((killed + 1)); fi
     wait "$victim" 2>/dev/null || true
-    if [ -e "$name.h5" ] && [ ! -e "$name.checkpoint.h5" ]; then rm -rf "$name".*; fi # complete: it begins anew
+    if [ -e "$name.h5" ] && [ ! -e "$name.checkpoint.h5" ]; then rm -rf "$name".*; fi # complete: start again
   done
   ("$@")
 }
 
-# all_alike A B: every file of the run A is there for the run B, alike, and nothing else.
+# all_alike A B: run B has the same files as run A, with the same content, and no others.
 all_alike() {
   local file other count=0
   for file in "$1".*h5; do
@@ -97,7 +98,7 @@ while ((killed < kills)); do
   if kill -KILL -- "-$group" 2>/dev/null; then
     killed=$((killed + 1))
     wait "$group" 2>/dev/null || true
-  else # it has ended: compared, and begun anew
+  else # it has ended: compare it and start again
     wait "$group"
     study_alike
     rm -r study-killed/out

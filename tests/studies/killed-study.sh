@@ -2,7 +2,7 @@
 # tests/studies/killed-study.sh BIN [FIGURE [RUN]]: makes a study on the small packing twice, once undisturbed and once
 # with make and its runs killed again and again, and compares every CSV table and fit. BIN: folder of the executables,
 # FIGURE: fig10, RUN: as for make, e.g. 'srun -n1 -c1 --mem=1000'. Works in clones of this repository in a temporary
-# folder; some minutes. Exit code 0: all alike.
+# folder; some minutes. Exit code 0: all are the same.
 set -euo pipefail
 bin=$(realpath "$1")
 figure=${2:-fig10}

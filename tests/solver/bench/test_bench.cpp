@@ -1,4 +1,4 @@
-// The built-in packing of the measurements, and the counted number that tells the operations of a law.
+// The built-in packing of the measurements, and the number type that counts the operations of a law.
 
 #include <algorithm>
 

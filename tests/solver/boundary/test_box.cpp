@@ -1,4 +1,4 @@
-// The box: what its walls bear, and when they go and come.
+// The box: the forces on its walls, and walls that leave and return.
 
 #include <array>
 #include <vector>

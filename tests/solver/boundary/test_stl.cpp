@@ -1,4 +1,4 @@
-// STL files: what is read, mended, counted and refused.
+// STL files: what is read, repaired, counted and refused.
 
 #include <cmath>
 #include <limits>

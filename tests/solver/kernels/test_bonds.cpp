@@ -64,7 +64,7 @@ TEST_CASE("a bond with a stiffness of its own keeps the ledger and takes its fra
       const double area = 0.5 * record.last[0].bonded_area;
       CHECK(record.last[0].bonds == cube_bonds);
       CHECK(record.worst_residual < 0.01);
-      // By the law `energy` the stiff bond bears 0.6 sqrt(K G^c) = 420 MPa: the cubes stretch, and it holds.
+      // By the law `energy` the stiff bond carries 0.6 sqrt(K G^c) = 420 MPa: the cubes stretch, and it holds.
       const bool breaks = softening == SofteningLaw::exponential || factor < 10;
       CHECK((record.last[2].bonds == 0) == breaks);
       if (breaks) CHECK(record.last[2].damage_dissipation == Approx(0.05 * area).epsilon(1e-9));

@@ -176,7 +176,7 @@ TEST_CASE("the pressure of nodes or of patches is the gradient of its energy, wi
       GENERATE(std::pair(ElementType::tet4_anp, 0.0), std::pair(ElementType::tet4_anp, 0.3),
                std::pair(ElementType::tet4_patch, 0.0), std::pair(ElementType::tet4_patch, 0.03));
   CAPTURE(element_name(element), own);
-  // Without a deviator (a fresh grain, moved in no step) forces come from the pressure alone: compare with differences
+  // Without a deviator (a grain that has not moved yet) forces come from the pressure alone: compare with differences
   // of the energy over small moves of single coordinates.
   GrainMesh mesh = ball_mesh(3, 1.0);
   for (auto& x : mesh.node) x[0] *= 1 + 0.02 * x[1], x[2] *= 1 - 0.03 * x[0];

@@ -140,7 +140,7 @@ TEST_CASE("unequal meshes: action equals reaction, and the grains' order in the 
     const SurfacePressure surface = surface_pressure(column.model(), column.simulation().contact());
     CAPTURE(state.pair_force, state.low_force, state.high_force, state.kinetic_over_elastic);
     REQUIRE(state.pair_force > 0.1);
-    // Frictionless bodies at rest: what the walls bear, the pair bears.
+    // Frictionless bodies at rest: the pair carries the same force as the walls.
     CHECK(std::abs(state.low_force - state.pair_force) < 0.03 * state.pair_force);
     CHECK(std::abs(state.high_force - state.pair_force) < 0.03 * state.pair_force);
     for (std::size_t a = 0; a < 3; ++a) {

@@ -97,7 +97,7 @@ std::vector<Index> in_turn(int grains, int ranks) {
   return owner;
 }
 
-/// What a rank has of a state of all grains; the rest is spoilt, so that nothing can come of it.
+/// What a rank has of a state of all grains; the rest is made invalid, so that a use of it would be noticed.
 struct RankState {
   Model model;
   Contact contact;

@@ -27,7 +27,8 @@ TEST_CASE("a compaction leaves checkpoints at densities, from which branches beg
   CHECK_FALSE(fs::exists(folder / "run.D0.700.checkpoint.h5"));
   const std::string from = folder / "run.D0.610.checkpoint.h5";
   CHECK(schema::validate(from).empty());
-  // The rest of the way is the same, apart from the walls' start and end, and what that shakes up in eight grains.
+  // The rest of the way is the same, apart from the walls' start and end, and the vibration that follows in eight
+  // grains.
   write_text(folder / "rest.toml", slow);
   REQUIRE(mpfem_command(fmt::format("run {} -o {} --from {} --quiet", folder / "rest.toml", folder / "rest.h5", from))
               .exit_code == 0);

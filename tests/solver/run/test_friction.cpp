@@ -174,7 +174,7 @@ TEST_CASE("a pair of materials rubs with its own coefficient, all other pairs wi
 TEST_CASE("shear far below mu N leaves every anchor of pressed cubes where it was") {
   Scenario scenario = rubbing_scenario({grip("press", -6e-4, 500), grip("shear", 0, 500, {2e-5, 0, 0})});
   scenario.walls = false;
-  scenario.contact.friction = 2; // beyond what Poisson's ratio and edges ask for
+  scenario.contact.friction = 2; // more than Poisson's ratio and edges require
   const Record record = run_stages(two_cubes(4), scenario);
   CHECK(record.last[1].friction_energy > 0);
   CHECK(std::abs(record.last[1].friction_dissipation - record.last[0].friction_dissipation) <

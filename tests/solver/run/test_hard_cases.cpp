@@ -1,5 +1,5 @@
 // What breaks codes of this kind, as far as it takes seconds: neighbours of very different size, slivers, long
-// rotation, impact beyond what elements bear. The rest is in studies/hard-cases.
+// rotation, impact beyond what elements withstand. The rest is in studies/hard-cases.
 
 #include <algorithm>
 #include <limits>
@@ -193,7 +193,7 @@ TEST_CASE("a bonded pair of grains spins for a hundred turns and keeps its angul
   CAPTURE(simulation.state().step, change, drift, row.bonds, row.mean_damage, row.viscous_dissipation / kinetic,
           row.kinetic_energy / kinetic);
   CHECK(change < 1e-9);
-  CHECK(drift < 5e-4); // 0.024 if increments of strain were added askew by half a step's rotation
+  CHECK(drift < 5e-4); // 0.024 if increments of strain were added with half a step's rotation too little
   CHECK(row.mean_damage == 0);
   CHECK(row.kinetic_energy == Approx(kinetic).epsilon(0.02));
 }

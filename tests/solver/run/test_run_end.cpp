@@ -32,7 +32,7 @@ TEST_CASE("spheres that a packing file holds with meshes of their volume touch b
     const schema::FileReader file(run, schema::FileKind::run);
     CHECK(file.read_scalar(schema::run::provenance_smooth_grains) == (factor == 1 ? 8 : 0));
   }
-  // The same scenario text, another contact: not to be gone on with.
+  // The same scenario text, another contact: cannot be continued.
   const Outcome other =
       mpfem_command(fmt::format("run {} -o {} --from {} --quiet --set contact.surface=smooth", folder / "scenario.toml",
                                 folder / "other.h5", folder / "run-0.99.compaction.checkpoint.h5"));

@@ -125,7 +125,7 @@ TEST_CASE("masses scaled to a step allow that step and report what they added") 
   const auto [lighter_step, lighter] = stable_step();
   CHECK(lighter_step >= 0.5 * own * (1 - 1e-9));
   CHECK(lighter < -0.5);
-  // The answer of a slow process is the same.
+  // The result of a slow process is the same.
   ThreadTeam team(1);
   Simulation simulation(build_model(packing, scenario, "test"), scenario, team);
   const HistoryRow row = run_stage(simulation);

@@ -26,7 +26,7 @@ ToolParameters sticky(ToolParameters tool, const BondParameters& bond) {
   return tool;
 }
 
-/// The slab touches both plates. Poisson's ratio is 0: held plates bear the same everywhere.
+/// The slab touches both plates. Poisson's ratio is 0: held plates carry the same stress everywhere.
 Scenario slab_between_plates(const BondParameters& below, std::vector<Stage> stages, double friction = 0) {
   Scenario scenario = holding_scenario(1);
   scenario.material.poissons_ratio = 0;

@@ -420,7 +420,7 @@ TEST_CASE("a press keeps the ledger, and its forces balance") {
   const auto force = [&](const char* tool, std::size_t row) {
     return file.read(schema::run::history_tools_force, tool)[3 * row + 2];
   };
-  // At the end of the hold: what the upper punch presses down, the lower and the die bear; the weight is nothing.
+  // At the end of the hold: the lower punch and the die carry the force of the upper punch; the weight is negligible.
   const auto row = static_cast<std::size_t>(std::upper_bound(stage.begin(), stage.end(), 1) - stage.begin()) - 1;
   REQUIRE(force("upper", row) > 0.5);
   const double sum = force("upper", row) + force("lower", row) + force("die", row);

@@ -151,7 +151,7 @@ TEST_CASE("every bad input is refused with one clear line and exit code 2") {
 
   struct Case {
     std::string from, to;              ///< change of the good scenario
-    std::vector<std::string> expected; ///< all of these stand in the message
+    std::vector<std::string> expected; ///< all of these are in the message
   };
   const std::vector<Case> cases = {
       {"density = 1.55e-9", "density = = 1", {"scenario.toml:3"}},
