@@ -131,7 +131,7 @@ void StressProbeControl::check_limits(const ObservedSample& seen) const {
   HeldWalls::check_limits(seen);
   for (std::size_t axis = 0; axis < 3; ++axis)
     if (path_stress_[axis] < 0 && state_.start_stress[axis] + path_.change * path_stress_[axis] < 0)
-      fail(seen, fmt::format("where the path requires the walls along {} to pull", "xyz"[axis]));
+      fail(seen, fmt::format("but the path requires the walls along {} to pull", "xyz"[axis]));
 }
 
 } // namespace mpfem

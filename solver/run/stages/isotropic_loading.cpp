@@ -60,7 +60,8 @@ LoadingEnd IsotropicLoadingControl::find_end(const ObservedSample& seen) const {
 
 void IsotropicLoadingControl::check_limits(const ObservedSample& seen) const {
   constexpr double largest_density = 1.2;
-  if (seen.relative_density > largest_density) fail(seen, fmt::format("is denser than {:g}", largest_density));
+  if (seen.relative_density > largest_density)
+    fail(seen, fmt::format("which is above the largest allowed, {:g}", largest_density));
   check_time(seen);
 }
 

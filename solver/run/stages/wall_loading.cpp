@@ -124,7 +124,7 @@ void WallLoading::fail(const ObservedSample& seen, const std::string& what) cons
 void WallLoading::check_limits(const ObservedSample& seen) const {
   for (std::size_t axis = 0; axis < 3; ++axis)
     if (std::abs(seen.strain[axis]) > largest_strain)
-      fail(seen, fmt::format("after the box strained by {:g} along {}", largest_strain, "xyz"[axis]));
+      fail(seen, fmt::format("after a strain of the box of more than {:g} along {}", largest_strain, "xyz"[axis]));
   check_time(seen);
 }
 
