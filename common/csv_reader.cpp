@@ -63,7 +63,8 @@ std::optional<CsvRow> CsvReader::next() {
     CsvRow row{line_, {}};
     for (std::size_t begin = 0; begin <= line.size();) {
       const std::size_t comma = std::min(line.find(',', begin), line.size());
-      if (row.cells.size() == most_columns) fail(row, fmt::format("found more than {} columns", most_columns));
+      if (row.cells.size() == most_columns)
+        fail(row, fmt::format("found more than {} columns, the most allowed", most_columns));
       row.cells.push_back(trimmed(line.substr(begin, comma - begin), " \t\r\""));
       begin = comma + 1;
     }

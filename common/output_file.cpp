@@ -76,7 +76,8 @@ void check_output_path(std::string_view option, const std::string& path, OutputK
   refuse_special_file(option, path, kind);
   std::error_code ignored;
   if (!std::filesystem::is_directory(folder_of(output_target(path)), ignored))
-    throw InputError(fmt::format("{} {}: the folder does not exist", option, one_line(path)));
+    throw InputError(
+        fmt::format("{} {}: the folder does not exist, allowed: a file in an existing folder", option, one_line(path)));
 }
 
 std::string output_target(const std::string& path) {

@@ -14,7 +14,7 @@ namespace mpfem {
 
 void refuse_irregular_file(const std::string& path) {
   const auto fail = [&](const std::string& what) { throw InputError(fmt::format("{}: {}", shown_path(path), what)); };
-  if (path.find('\0') != std::string::npos) fail("is not a path: it contains a zero byte");
+  if (path.find('\0') != std::string::npos) fail("is not a path: found a zero byte in it, allowed: none");
   std::error_code error;
   const std::filesystem::file_status status = std::filesystem::status(path, error);
   if (!std::filesystem::status_known(status)) fail(fmt::format("cannot be read: {}", error.message()));

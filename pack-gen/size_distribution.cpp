@@ -72,8 +72,9 @@ public:
     below_ = standard_normal_cumulative(normal(smallest));
     inside_ = standard_normal_cumulative(normal(largest)) - below_;
     if (!(inside_ > 1e-9))
-      throw InputError(
-          fmt::format("log-normal size distribution: it has no sizes between {:g} and {:g} mm", smallest, largest));
+      throw InputError(fmt::format(
+          "log-normal size distribution: it has no sizes between {:g} and {:g} mm; allowed: limits around its median",
+          smallest, largest));
   }
 
   double quantile(double cumulative) const override {

@@ -132,7 +132,8 @@ void write_packing_file(const std::string& path, const SpherePacking& packing, c
 MeshFromFile read_mesh(const std::string& path) {
   const schema::FileReader reader(path, schema::FileKind::packing);
   if (!reader.has(file::mesh_tet))
-    throw InputError(fmt::format("{}: a packing without meshes; pack-gen mesh makes them", path));
+    throw InputError(
+        fmt::format("{}: found a packing without meshes, allowed: a meshed one; pack-gen mesh makes it", path));
   MeshFromFile result;
   schema::PackingTets mesh = schema::read_packing_tets(reader, reader.rows(file::spheres_radius));
   result.mesh.node = std::move(mesh.node);

@@ -60,7 +60,8 @@ Measurement measure_stress_at_densities(const schema::FileReader& file, const st
   m.uncertainty_meaning = "none: between two rows of the history";
   m.method = "mean stress where the relative density is passed first, linear between the neighbouring rows";
   if (!found.back())
-    throw InputError(fmt::format("{}: a relative density of {} is not reached", one_line(file.path()), wanted.back()));
+    throw InputError(fmt::format("{}: a relative density of {} is not reached, allowed: densities that the run reaches",
+                                 one_line(file.path()), wanted.back()));
   m.value = *found.back();
   for (std::size_t i = 0; i < wanted.size(); ++i) {
     auto& entry = m.details[fmt::format("at_{:.2f}", wanted[i])];
@@ -113,7 +114,8 @@ Measurement measure_compaction_quality(const schema::FileReader& file, double fr
     current_density = std::max(current_density, history["relative_density_current"][row]);
   }
   if (first == history.rows())
-    throw InputError(fmt::format("{}: no row from a relative density of {} on", one_line(file.path()), from_density));
+    throw InputError(fmt::format("{}: no row has a relative density of {} or more, allowed: a smaller --from-density",
+                                 one_line(file.path()), from_density));
   Measurement m = of_rows("compaction-quality", history, first);
   const Inertia inertia = inertia_of_rows(history, rows, grain_inertia(file, history));
   m.value = inertia.kinetic_over_internal;

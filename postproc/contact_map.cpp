@@ -50,7 +50,7 @@ GrainNodes read_nodes(const schema::FileReader& file, const std::string& snapsho
   const auto& offset = nodes.offset;
   const auto count = static_cast<std::int32_t>(nodes.node.size() / 3);
   if (offset.empty() || offset.front() != 0 || offset.back() != count || !std::is_sorted(offset.begin(), offset.end()))
-    throw InputError(fmt::format("{}: /mesh/grain_node_offset does not rise from 0 to the number of nodes, {}",
+    throw InputError(fmt::format("{}: dataset /mesh/grain_node_offset does not rise from 0 to the number of nodes, {}",
                                  one_line(file.path()), count));
   return nodes;
 }

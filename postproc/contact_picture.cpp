@@ -71,8 +71,9 @@ void write_contact_picture(const std::string& path, const Snapshot& snapshot, co
                            const ContactPictureRequest& request) {
   const std::vector<SectionPolygon> patches = contact_patches(snapshot, map);
   if (patches.empty())
-    throw InputError(fmt::format("grains {} and {} touch in snapshot {} but never had a bond: nothing to draw",
-                                 map.grains.first, map.grains.second, map.snapshot));
+    throw InputError(
+        fmt::format("grains {} and {} touch in snapshot {} but never had a bond, allowed: a pair with bonds",
+                    map.grains.first, map.grains.second, map.snapshot));
   const View view = square_around(patches);
   std::vector<Colour> colour;
   for (const ContactBond& bond : map.bonds) colour.push_back(scale_colour(bond.damage));

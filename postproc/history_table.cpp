@@ -36,7 +36,7 @@ std::vector<double> read_numbers(const schema::FileReader& file, const schema::D
   case schema::ElementType::string:
     break;
   }
-  throw InputError(fmt::format("{}: dataset {} holds no numbers", one_line(file.path()), line.path));
+  throw InputError(fmt::format("{}: dataset {} has no numbers", one_line(file.path()), line.path));
 }
 
 } // namespace

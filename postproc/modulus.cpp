@@ -62,8 +62,8 @@ Choice window_by_hand(const StageCurve& c, std::array<double, 2> range) {
   end = begin;
   while (end + 1 < rows && c.axial_strain[end + 1] <= range[1]) ++end;
   if (begin >= rows || end + 1 < begin + 3 || !strain_rises(c, {begin, end}))
-    throw InputError(fmt::format("{}: --strain-range: found {:g},{:g} with fewer than 3 rows of stage {}, whose axial "
-                                 "strain ends at {:g}",
+    throw InputError(fmt::format("{}: --strain-range: found {:g},{:g} with fewer than 3 rows of stage {}, allowed: 3 "
+                                 "or more; its axial strain ends at {:g}",
                                  c.path, range[0], range[1], c.stage, c.axial_strain.back()));
   return {{begin, end}, "the strain range given", ""};
 }
@@ -141,7 +141,7 @@ Choice shortest_window_at(const StageCurve& c, const ModulusRule& rule, std::siz
   const Rows shortest{begin, begin + shortest_window - 1};
   if (!strain_rises(c, shortest))
     throw InputError(fmt::format("{}: stage {}: the axial strain does not rise over the {} rows after its lowest axial "
-                                 "stress",
+                                 "stress, allowed: an axial compression",
                                  c.path, c.stage, shortest_window));
   return {shortest, "nothing: no window meets the rule",
           fmt::format("no window meets the rule for slope ({:g} %) and damage ({:g} %): the first {} rows",
@@ -172,7 +172,7 @@ Measurement modulus(const StageCurve& c, const ModulusRule& rule) {
   const Line line = theil_sen_line(thinned(rows.of(c.axial_strain)), thinned(rows.of(c.axial_stress)));
   if (!(line.slope > 0))
     throw InputError(fmt::format("{}: stage {}: the axial stress does not rise with the axial strain (slope {:.3g} MPa "
-                                 "over {} rows)",
+                                 "over {} rows), allowed: an axial compression",
                                  c.path, c.stage, line.slope, rows.count()));
   const Halves slopes = halves_of(c, rows);
   Measurement m;

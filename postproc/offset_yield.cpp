@@ -24,7 +24,9 @@ std::vector<double> since_start(std::vector<double> values) {
 LoadingPath path_of_probe(const StageCurve& c) {
   const std::vector<double> p = since_start(c.mean_stress), q = since_start(c.deviatoric_stress);
   const double length = std::hypot(p.back(), q.back());
-  if (!(length > 0)) throw InputError(fmt::format("{}: stage {} ends where it begins in p and q", c.path, c.stage));
+  if (!(length > 0))
+    throw InputError(fmt::format(
+        "{}: stage {} ends at the p and q at which it begins, allowed: a stage that changes p or q", c.path, c.stage));
   const double along_p = p.back() / length, along_q = q.back() / length;
   LoadingPath path{{}, {}, "strain along the path", "stress along the path"};
   for (std::size_t row = 0; row < c.rows(); ++row) {

@@ -50,8 +50,9 @@ VisibleSection visible_section(const Snapshot& snapshot, const PictureRequest& r
   const auto axis = static_cast<std::size_t>(request.plane.axis), u = (axis + 1) % 3, v = (axis + 2) % 3;
   const auto &low = snapshot.box_low, &high = snapshot.box_high;
   if (polygons.empty())
-    throw InputError(fmt::format("the plane at {:g} mm cuts no grain; the box spans {:g} … {:g} mm along this axis",
-                                 request.plane.position, low[axis], high[axis]));
+    throw InputError(
+        fmt::format("--position: the plane at {:g} mm cuts no grain; the box spans {:g} … {:g} mm along this axis",
+                    request.plane.position, low[axis], high[axis]));
   View view{{low[u], low[v]}, {high[u], high[v]}};
   if (draws_tools(snapshot, request)) {
     const DrawnExtent extent = drawn_extent(snapshot);
@@ -60,9 +61,9 @@ VisibleSection visible_section(const Snapshot& snapshot, const PictureRequest& r
   view = request.view.value_or(view);
   std::erase_if(polygons, [&](const SectionPolygon& polygon) { return !overlaps(polygon, view); });
   if (polygons.empty())
-    throw InputError(fmt::format(
-        "no grain is cut in the view {:g} … {:g}, {:g} … {:g} mm; the box spans {:g} … {:g}, {:g} … {:g} mm",
-        view.low[0], view.high[0], view.low[1], view.high[1], low[u], high[u], low[v], high[v]));
+    throw InputError(
+        fmt::format("--view: no grain is cut in {:g} … {:g}, {:g} … {:g} mm; the box spans {:g} … {:g}, {:g} … {:g} mm",
+                    view.low[0], view.high[0], view.low[1], view.high[1], low[u], high[u], low[v], high[v]));
   return {view, std::move(polygons)};
 }
 

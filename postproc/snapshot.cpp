@@ -18,8 +18,8 @@ std::vector<std::int32_t> grain_of_tets(const std::vector<std::int32_t>& offset,
                                         const std::string& path) {
   if (offset.empty() || offset.front() != 0 || static_cast<std::size_t>(offset.back()) != tets ||
       !std::is_sorted(offset.begin(), offset.end()))
-    throw InputError(
-        fmt::format("{}: /mesh/grain_tet_offset does not rise from 0 to the number of tets, {}", path, tets));
+    throw InputError(fmt::format(
+        "{}: dataset /mesh/grain_tet_offset does not rise from 0 to the number of tetrahedra, {}", path, tets));
   std::vector<std::int32_t> grain(tets);
   for (std::size_t g = 0; g + 1 < offset.size(); ++g)
     std::fill(grain.begin() + offset[g], grain.begin() + offset[g + 1], static_cast<std::int32_t>(g));
@@ -42,7 +42,8 @@ void check_size(const std::vector<float>& values, std::size_t expected, std::str
 void check_places(const Snapshot& s, const std::string& path) {
   for (std::size_t i = 0; i < s.node.size(); ++i)
     if (!std::isfinite(s.node[i]))
-      throw InputError(fmt::format("{}: node {} has a position that is not finite", path, i / 3));
+      throw InputError(
+          fmt::format("{}: node {} has a position that is not finite, allowed: finite numbers", path, i / 3));
   for (std::size_t axis = 0; axis < 3; ++axis)
     if (!(s.box_low[axis] < s.box_high[axis]) || !std::isfinite(s.box_high[axis] - s.box_low[axis]))
       throw InputError(fmt::format("{}: the box goes from {:g} to {:g} mm, allowed: low < high", path, s.box_low[axis],
@@ -117,7 +118,8 @@ Snapshot read_packing_snapshot(const std::string& path) {
   namespace packing = schema::packing;
   const schema::FileReader file(path, schema::FileKind::packing);
   if (!file.has(packing::mesh_tet))
-    throw InputError(fmt::format("{}: a packing without meshes; pack-gen mesh makes them", one_line(path)));
+    throw InputError(fmt::format("{}: found a packing without meshes, allowed: a meshed one; pack-gen mesh makes it",
+                                 one_line(path)));
   Snapshot s;
   s.name = "packing";
   const schema::PackingSpheres spheres = schema::read_packing_spheres(file);

@@ -50,8 +50,9 @@ std::size_t peak_row(const Test& test) {
   const StageCurve& c = test.curve;
   const std::size_t peak = largest_row(test.smooth);
   if (!(test.smooth[peak] > 0) || peak == 0)
-    throw InputError(fmt::format("{}: stage {}: {} never rises above its value at the stage's beginning", c.path,
-                                 c.stage, test.stress_name));
+    throw InputError(fmt::format(
+        "{}: stage {}: {} never rises above its value at the beginning of the stage, allowed: a stage that loads",
+        c.path, c.stage, test.stress_name));
   if (!(c.axial_strain[peak] > 0))
     throw InputError(fmt::format("{}: stage {}: its largest {} is at an axial strain of {:.3g}; allowed: a stage of "
                                  "axial compression",

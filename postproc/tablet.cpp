@@ -243,7 +243,7 @@ std::vector<std::int32_t> grain_of_nodes(const schema::FileReader& file, std::si
   std::vector<std::int32_t> grain(nodes);
   if (offset.empty() || offset.front() != 0 || static_cast<std::size_t>(offset.back()) != nodes ||
       !std::is_sorted(offset.begin(), offset.end()))
-    throw InputError(fmt::format("{}: /mesh/grain_node_offset does not rise from 0 to the number of nodes, {}",
+    throw InputError(fmt::format("{}: dataset /mesh/grain_node_offset does not rise from 0 to the number of nodes, {}",
                                  one_line(file.path()), nodes));
   for (std::size_t g = 0; g + 1 < offset.size(); ++g)
     std::fill(grain.begin() + offset[g], grain.begin() + offset[g + 1], static_cast<std::int32_t>(g));

@@ -78,7 +78,8 @@ Measurement unload_reload_modulus(const StageCurve& c, int number) {
   m.metric = "unload-reload-modulus";
   m.value = 0.5 * (unloading.slope + reloading.slope);
   if (!(m.value > 0))
-    throw InputError(fmt::format("{}: stage {}: the stress does not fall in the loop", c.path, c.stage));
+    throw InputError(fmt::format(
+        "{}: stage {}: the stress does not fall in the loop, allowed: a loop with an unloading", c.path, c.stage));
   m.unit = "MPa";
   m.uncertainty =
       0.5 * std::hypot(unloading.slope_half_width, reloading.slope_half_width, unloading.slope - reloading.slope);

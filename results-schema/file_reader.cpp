@@ -69,7 +69,8 @@ std::unique_ptr<FileReader::State> open_unchecked(const std::string& path) {
   state->path = path;
   std::error_code ignored;
   if (!std::filesystem::exists(path, ignored)) throw InputError(fmt::format("{}: no such file", one_line(path)));
-  if (!std::filesystem::is_regular_file(path, ignored)) throw InputError(fmt::format("{}: not a file", one_line(path)));
+  if (!std::filesystem::is_regular_file(path, ignored))
+    throw InputError(fmt::format("{}: not a file, allowed: an HDF5 file", one_line(path)));
   state->file_size = std::filesystem::file_size(path, ignored);
   state->file = Handle(H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), H5Fclose);
   if (!state->file)
@@ -82,8 +83,8 @@ std::unique_ptr<FileReader::State> open_unchecked(const std::string& path) {
     throw InputError(fmt::format("{}: not a file of mpfem, pack-gen or postproc (attribute file_kind is '{}')",
                                  one_line(path), one_line(kind)));
   if (version != schema_version)
-    throw InputError(fmt::format("{}: schema version '{}', this program reads {}", one_line(path), one_line(version),
-                                 schema_version));
+    throw InputError(
+        fmt::format("{}: found schema version '{}', allowed: {}", one_line(path), one_line(version), schema_version));
   state->kind = static_cast<FileKind>(known - std::begin(kinds));
   state->checksums = read_text_attribute(state->file, attribute::checksums);
   return state;
@@ -94,9 +95,9 @@ FileReader::FileReader(const std::string& path) {
   const bool regular = std::filesystem::is_regular_file(path, ignored);
   const Seal seal = regular ? check_seal(path) : Seal::absent; // before HDF5 sees the file
   if (seal == Seal::broken)
-    throw InputError(fmt::format("{}: the file is damaged: its structure does not match its checksum (postproc "
-                                 "validate looks at each dataset)",
-                                 one_line(path)));
+    throw InputError(fmt::format(
+        "{}: the file is damaged: its structure does not match its checksum (postproc validate checks each dataset)",
+        one_line(path)));
   state_ = open_unchecked(path);
   state_->seal = seal;
   if (seal == Seal::absent && !state_->checksums.empty())

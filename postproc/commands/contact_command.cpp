@@ -58,7 +58,7 @@ private:
   }
 
   void execute_through_run() const {
-    if (!pair_.empty()) throw InputError("give either --pair or --history, not both");
+    if (!pair_.empty()) throw InputError("found --pair and --history, allowed: one of them");
     const schema::FileReader file = open_run();
     Measurement end = measure_contact(file, stage_); // also refuses a missing stage
     note_unfinished(end, file);

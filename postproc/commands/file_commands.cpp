@@ -29,7 +29,8 @@ private:
       if (!verdict.valid || !quiet_) fmt::print("{}", verdict.text);
       bad += !verdict.valid;
     }
-    if (bad > 0) throw InputError(fmt::format("{} of {} files violate the schema", bad, files_.size()));
+    if (bad > 0)
+      throw InputError(fmt::format("{} of {} files violate the schema; the lines above say how", bad, files_.size()));
   }
 
   std::vector<std::string> files_;

@@ -105,7 +105,9 @@ struct FigureCommands::State {
   void plot() const {
     const Figure f = read();
     const auto found = std::find_if(f.plots.begin(), f.plots.end(), [&](const PlotSpec& p) { return p.name == name; });
-    if (found == f.plots.end()) throw InputError(fmt::format("{}: there is no plot '{}'", f.path, one_line(name)));
+    if (found == f.plots.end())
+      throw InputError(
+          fmt::format("{}: found no plot '{}', allowed: the name of one of [[plots]]", f.path, one_line(name)));
     const std::string format = std::filesystem::path(output).extension() == ".svg" ? "svg" : "png";
     const std::string partial = output + ".partial";
     FigureData data(f, folder(f));

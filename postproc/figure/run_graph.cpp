@@ -52,7 +52,8 @@ void fill_values(Case& row, const Place& place) {
 std::string last_stage(const std::string& programme) {
   const TomlDocument document = TomlDocument::from_file(programme);
   const toml::array* stages = document.root()["stages"].as_array();
-  if (stages == nullptr || stages->empty()) throw InputError(fmt::format("{}: no [[stages]]", programme));
+  if (stages == nullptr || stages->empty())
+    throw InputError(fmt::format("{}: found no [[stages]], expected at least one", programme));
   const auto name = (*stages->as_array())[stages->size() - 1].as_table()->get("name");
   if (name == nullptr || !name->is_string())
     throw InputError(

@@ -201,7 +201,8 @@ const Json& FigureData::fit(const std::string& name) {
     std::ifstream file(path);
     if (!file) throw InputError(fmt::format("{}: no such file", one_line(path)));
     fits_ = Json::parse(file, nullptr, false);
-    if (!fits_->is_array()) throw InputError(fmt::format("{}: is not a list of fits", one_line(path)));
+    if (!fits_->is_array())
+      throw InputError(fmt::format("{}: found no list of fits; run postproc fits again", one_line(path)));
   }
   return fit_by_name(*fits_, name);
 }

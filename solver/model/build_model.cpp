@@ -226,7 +226,9 @@ void lump_masses(const PackedMesh& mesh, double density, const std::vector<Index
   model.mass[grain] = volume * density;
   for (Index n = mesh.first_node; n < mesh.end_node(); ++n) {
     double& m = model.inverse_mass[at(n)];
-    if (!(m > 0)) throw InputError(fmt::format("{}: node {} belongs to no tetrahedron", name, model.file_node[at(n)]));
+    if (!(m > 0))
+      throw InputError(fmt::format("{}: /mesh/node row {} belongs to no tetrahedron, allowed: nodes of tetrahedra only",
+                                   name, model.file_node[at(n)]));
     m = 1.0 / m;
   }
 }

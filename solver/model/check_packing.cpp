@@ -30,7 +30,7 @@ void check_array_sizes(const MeshedPacking& packing, const std::string& name) {
   if (no.size() < 2 || no.size() != to.size() || no.front() != 0 || to.front() != 0 || no.back() != nodes ||
       to.back() != tets || !std::is_sorted(no.begin(), no.end()) || !std::is_sorted(to.begin(), to.end()))
     throw InputError(fmt::format("{}: /mesh/grain_node_offset and /mesh/grain_tet_offset do not divide {} nodes and {} "
-                                 "tets into grains",
+                                 "tetrahedra among the grains",
                                  name, nodes, tets));
   if (!packing.sphere_radius.empty() && (packing.sphere_radius.size() + 1 != no.size() ||
                                          packing.sphere_center.size() != 3 * packing.sphere_radius.size()))
@@ -60,11 +60,13 @@ void check_packing(const MeshedPacking& packing, const std::string& name) {
     if (packing.ownership && !packing.ownership->owns(grain)) continue;
     const auto g = static_cast<std::size_t>(grain);
     const PackedMesh mesh = packing.mesh_of(grain);
-    if (mesh.tet.empty()) throw InputError(fmt::format("{}: grain {} has no tetrahedra", name, g));
+    if (mesh.tet.empty())
+      throw InputError(fmt::format("{}: grain {} has no tetrahedra, allowed: at least one", name, g));
     for (Index t = mesh.first_tet; t < mesh.end_tet(); ++t) check_tet(mesh, t, g, name);
     for (std::size_t i = 0; i < mesh.node.size(); ++i)
       if (!std::isfinite(mesh.node[i]))
-        throw InputError(fmt::format("{}: /mesh/node row {} is not finite", name, at(mesh.first_node) + i / 3));
+        throw InputError(fmt::format("{}: /mesh/node row {} is not finite, allowed: finite numbers", name,
+                                     at(mesh.first_node) + i / 3));
   }
 }
 
@@ -78,10 +80,9 @@ void refuse_sizes_beyond_floats(const MeshedPacking& packing, std::span<const In
       for (std::size_t c = 1; c < 4; ++c)
         longest = std::max(longest, norm(mesh.point(corner[c]) - mesh.point(corner[0])));
       if (!(longest > least && longest < most))
-        throw InputError(
-            fmt::format("{}: tet {} has an edge of {:.3g} mm; element.precision = 'mixed' takes {:g} … {:g} mm, "
-                        "'double' any",
-                        name, t, longest, least, most));
+        throw InputError(fmt::format("{}: tetrahedron {} has an edge of {:.3g} mm, allowed with element.precision = "
+                                     "'mixed': {:g} … {:g} mm; 'double' has no limit",
+                                     name, t, longest, least, most));
     }
   }
 }

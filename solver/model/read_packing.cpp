@@ -20,8 +20,8 @@ namespace file = schema::packing;
 schema::FileReader open_meshed(const std::string& path) {
   schema::FileReader reader(path, schema::FileKind::packing);
   if (!reader.has(file::mesh_tet))
-    throw InputError(fmt::format("{}: holds spheres without a mesh; make one with: pack-gen mesh {} --size MM -o "
-                                 "packing.h5",
+    throw InputError(fmt::format("{}: found spheres without a mesh, allowed: a meshed packing; make it with: pack-gen "
+                                 "mesh {} --size MM -o packing.h5",
                                  path, path));
   return reader;
 }

@@ -87,8 +87,8 @@ RunRecord CheckpointReader::record() const {
     record.history = unflatten(file_.read(check::run_history));
     if (file_.has(check::run_tool_history)) record.tool_history = tool_rows_of(file_.read(check::run_tool_history));
   } catch (const std::length_error&) {
-    throw InputError(
-        fmt::format("{}: the checkpoint was written by a build with other history columns", one_line(path())));
+    throw InputError(fmt::format("{}: the checkpoint was written by a version of mpfem with other history columns",
+                                 one_line(path())));
   }
   record.snapshot_files = file_.read(check::run_snapshots);
   const auto name = file_.read(check::run_stage_name), end = file_.read(check::run_stage_end);

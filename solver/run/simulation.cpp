@@ -422,7 +422,8 @@ void Simulation::grip_faces() {
   for (const GrippedNode& node : grips_.node) holds[static_cast<std::size_t>(node.side)] = 1;
   for (double& side : holds) side = ranks_->largest(side);
   if (holds[0] == 0 || holds[1] == 0)
-    throw InputError(fmt::format("stage '{}': no node lies within grip_depth = {:g} mm of the {} face of the box",
+    throw InputError(fmt::format("stage '{}': key 'grip_depth': found {:g} mm, but no node lies so close to the {} "
+                                 "face of the box; allowed: a larger value",
                                  stage().name, grip->depth, holds[0] > 0 ? "high" : "low"));
 }
 

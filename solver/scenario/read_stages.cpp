@@ -183,7 +183,8 @@ StageType read_tool_loading(TableReader& table, const StageContext& context) {
     loading.away.push_back(tool_named(table, "away", name, context.tools));
   for (const ToolDrive& drive : loading.drives) {
     if (std::find(loading.away.begin(), loading.away.end(), drive.tool) != loading.away.end())
-      table.fail("away", fmt::format("found '{}', which the stage also drives", context.tools[drive.tool].name));
+      table.fail("away", fmt::format("found '{}', which the stage also drives; allowed: a tool that it does not drive",
+                                     context.tools[drive.tool].name));
     const auto& v = drive.velocity;
     loading.speed = std::max(loading.speed, std::hypot(v[0], v[1], v[2]));
     loading.servo_speed = std::max(loading.servo_speed, drive.servo_speed);

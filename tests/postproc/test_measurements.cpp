@@ -671,7 +671,7 @@ TEST_CASE("metric commands refuse what they cannot use with one line and exit co
            {"energy " + run + " --packing " + run + " -o " + (folder / "x.json"), "run"},
            {"contact --history " + run + " --stage 7", "found 7"},
            {"contact " + run + " --stage 0", "--history"},
-           {"contact --history " + run + " --pair 0,1", "not both"},
+           {"contact --history " + run + " --pair 0,1", "allowed: one of them"},
            {"elastic-recovery " + (folder / "absent.h5"), "no such file"},
            {"strength " + run + " -o " + run, "is the input"}}) {
     const Outcome outcome = postproc(arguments);

@@ -173,7 +173,7 @@ TEST_CASE("postproc refuses what it cannot use with one line and exit code 2") {
            {"section " + run + " --range 5,5 -o " + (folder / "x.png"), "low < high"},
            {"section " + run + " --packing " + run + " -o " + (folder / "x.png"), "exactly one"},
            {"section --packing " + run + " -o " + (folder / "x.png"), "expected a packing file"},
-           {"section " + run + " --view 5,6,5,6 -o " + (folder / "x.png"), "no grain is cut in the view"},
+           {"section " + run + " --view 5,6,5,6 -o " + (folder / "x.png"), "--view: no grain is cut"},
            {"section " + run, "-o, --data or both"},
            {"summary " + run + " -o " + run, "is the input"},
            {"vtk -o " + (folder / "x"), "either RUN.h5 or --packing"}}) {

@@ -157,5 +157,5 @@ TEST_CASE("a compaction's quality is that of its worst row from a density on") {
   CHECK(m.details["residual_over_work"].get<double>() == Approx(0.1).epsilon(1e-12));
   CHECK(m.details["largest_penetration"].get<double>() == Approx(0.03).epsilon(1e-12));
   CHECK(m.details["largest_current_density"].get<double>() == 0.9);
-  CHECK_THROWS_WITH(measure_compaction_quality(file, 0.9), Catch::Contains("no row from a relative density of 0.9"));
+  CHECK_THROWS_WITH(measure_compaction_quality(file, 0.9), Catch::Contains("no row has a relative density of 0.9"));
 }

@@ -37,7 +37,7 @@ TEST_CASE("A file that is missing, a folder or no HDF5 file is refused") {
   CHECK(refusal(folder.file("no.h5")) == folder.file("no.h5") + ": no such file");
   CHECK(refusal(folder.file("no\n.h5")) == folder.file("no\\n.h5") + ": no such file");
   std::filesystem::create_directory(folder.file("folder"));
-  CHECK(refusal(folder.file("folder")) == folder.file("folder") + ": not a file");
+  CHECK(refusal(folder.file("folder")) == folder.file("folder") + ": not a file, allowed: an HDF5 file");
   std::ofstream(folder.file("text.h5")) << "x = 1\n";
   CHECK_THAT(refusal(folder.file("text.h5")), Catch::StartsWith(folder.file("text.h5") + ": not an HDF5 file"));
 }
@@ -66,7 +66,7 @@ TEST_CASE("A file of another kind is refused, with both kinds named") {
 TEST_CASE("A file with another schema version is refused") {
   const RunFile run;
   test::set_root_attribute(run.path, "schema_version", "0.9\n");
-  CHECK(refusal(run.path) == run.path + ": schema version '0.9\\n', this program reads " + std::string(schema_version));
+  CHECK(refusal(run.path) == run.path + ": found schema version '0.9\\n', allowed: " + std::string(schema_version));
 }
 
 TEST_CASE("An HDF5 file of another program is refused") {
@@ -74,11 +74,12 @@ TEST_CASE("An HDF5 file of another program is refused") {
   SECTION("without attributes") {
     const std::string other = run.folder.file("other.h5");
     Handle(H5Fcreate(other.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT), H5Fclose).reset();
-    CHECK(refusal(other) == other + ": not a file of this toolkit (attribute file_kind is '')");
+    CHECK(refusal(other) == other + ": not a file of mpfem, pack-gen or postproc (attribute file_kind is '')");
   }
   SECTION("with an unknown kind") {
     test::set_root_attribute(run.path, "file_kind", "plot");
-    CHECK(refusal(run.path) == run.path + ": not a file of this toolkit (attribute file_kind is 'plot')");
+    CHECK(refusal(run.path) ==
+          run.path + ": not a file of mpfem, pack-gen or postproc (attribute file_kind is 'plot')");
   }
   SECTION("with a number for the kind") {
     const Handle file = test::open_to_write(run.path);
