@@ -82,7 +82,8 @@ Ratio ratio_of_sums(std::span<const double> y, std::span<const double> x);
 /// central moment; no normal distribution is assumed. Both 0 for fewer than two values.
 Ratio standard_deviation(std::span<const double> values);
 
-double median(std::vector<double> values); ///< needs at least one value
+/// The middle value, or the mean of the two middle ones; needs at least one value.
+double median(std::vector<double> values);
 
 /// Where a value is first reached, rising or falling: a row, and a fraction of the step to the next row.
 struct Crossing {

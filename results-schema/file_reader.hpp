@@ -7,6 +7,7 @@
 
 namespace mpfem::schema {
 
+/// What FileReader keeps of an open file.
 struct FileReader::State {
   std::string path;
   Handle file;

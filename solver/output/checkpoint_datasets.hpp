@@ -74,15 +74,22 @@ void for_each_point_array(ContactType& contact, Visitor&& visit) {
 
 // ---- structs as rows of numbers
 
+/// Numbers in a row of this type: the length of the second dimension of its dataset.
 template <class Row>
 inline constexpr std::size_t width = std::tuple_size_v<Row>;
 
+/// A bond or an anchor as numbers, in the order of row_of().
 using Row = std::array<double, 6>;
+/// A contact point with friction as numbers, in the order of row_of().
 using FrictionRow = std::array<double, 8>;
 
+/// Shape functions of the facet's second and third node; effective separation at which damage began and the largest one
+/// (mm); share of the stiffness that remains; N/mm dissipated by earlier bonds of the point. The facet and the law have
+/// datasets of their own.
 inline Row row_of(const PointBond& bond) {
   return {bond.weight1, bond.weight2, bond.state.initiation, bond.state.largest, bond.remaining, bond.spent};
 }
+/// The bond of such a row; `v` holds 6 numbers.
 inline PointBond bond_of(std::int32_t facet, std::int32_t law, std::span<const double> v) {
   PointBond bond;
   bond.facet = facet;
@@ -94,24 +101,32 @@ inline PointBond bond_of(std::int32_t facet, std::int32_t law, std::span<const d
   return bond;
 }
 
+/// Shape functions of the facet's second and third node, stiffness (N/mm), force (N; x, y, z), stored and dissipated
+/// energy (mJ). The facet has a dataset of its own.
 inline FrictionRow row_of(const PointFriction& point) {
   return {point.weight1, point.weight2, point.stiffness, point.force.x,
           point.force.y, point.force.z, point.stored,    point.dissipated};
 }
+/// The contact point of such a row; `v` holds 8 numbers.
 inline PointFriction friction_of(std::int32_t facet, std::span<const double> v) {
   return {facet, v[0], v[1], v[2], {v[3], v[4], v[5]}, v[6], v[7]};
 }
 
+/// Place of the anchor on the surface (mm) and friction force (N), each x, y, z.
 inline Row row_of(const SurfaceAnchor& anchor) {
   return {anchor.place.x, anchor.place.y, anchor.place.z, anchor.force.x, anchor.force.y, anchor.force.z};
 }
+/// The anchor of such a row; `v` holds 6 numbers.
 inline SurfaceAnchor anchor_of(std::int32_t node, std::span<const double> v) {
   return {node, {v[0], v[1], v[2]}, {v[3], v[4], v[5]}};
 }
 
+/// Place of the bond on the tool (mm; x, y, z), effective separation at which damage began and the largest one (mm),
+/// share of the stiffness that remains.
 inline Row row_of(const SurfaceBond& bond) {
   return {bond.place.x, bond.place.y, bond.place.z, bond.state.initiation, bond.state.largest, bond.remaining};
 }
+/// The bond of such a row; `v` holds 6 numbers.
 inline SurfaceBond tool_bond_of(std::int32_t node, std::span<const double> v) {
   SurfaceBond bond;
   bond.node = node;
@@ -129,11 +144,15 @@ struct SurfaceDatasets {
   const decltype(check::wall_friction_side)& surface;
   const decltype(check::wall_friction_values)& values;
 };
+/// Faces of the box.
 inline constexpr std::size_t walls = 6;
+/// Friction at the walls.
 inline constexpr SurfaceDatasets wall_anchors{check::wall_friction_node, check::wall_friction_side,
                                               check::wall_friction_values};
+/// Friction at the tools.
 inline constexpr SurfaceDatasets tool_anchors{check::tool_friction_node, check::tool_friction_tool,
                                               check::tool_friction_values};
+/// Bonds of grains to tools (adhesion).
 inline constexpr SurfaceDatasets tool_bonds{check::tool_adhesion_node, check::tool_adhesion_tool,
                                             check::tool_adhesion_values};
 

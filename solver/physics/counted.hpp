@@ -31,6 +31,7 @@ struct Counted {
 inline Counted select(bool mask, Counted yes, Counted no) {
   return mask ? yes : no;
 }
+/// The larger, the smaller; counted as no operation.
 inline Counted max(Counted a, Counted b) {
   return a > b ? a : b;
 }

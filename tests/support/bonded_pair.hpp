@@ -13,6 +13,7 @@ namespace mpfem::test {
 
 inline constexpr double pair_radius = 0.1; // mm
 
+/// Strengths of 25 MPa in tension and 18 MPa in shear; fracture energy in N/mm.
 inline BondParameters table_1(double fracture_energy) {
   return {25, 18, fracture_energy, SofteningLaw::exponential, false, false};
 }
@@ -31,8 +32,10 @@ inline MeshedPacking two_cubes(int n) {
   for (auto& x : upper.node) x = {1.5 * pair_radius * x[0], 1.5 * pair_radius * x[1], pair_radius * x[2]};
   return stack(lower, upper, 4 * pair_radius + 1e-4);
 }
+/// Bonds of two_cubes(4).
 constexpr int cube_bonds = 34;
 
+/// Two balls of radius R with n^3 cells each, rotated differently, so that their nodes do not face each other.
 inline MeshedPacking two_balls(int n) {
   GrainMesh lower = ball_mesh(n, pair_radius), upper = lower;
   rotate(lower, {0.6, 0, 0.8}, 0.7);
@@ -40,6 +43,7 @@ inline MeshedPacking two_balls(int n) {
   return stack(lower, upper, 4 * pair_radius + 1e-4);
 }
 
+/// Grips along z: change of their distance (mm), their speed (mm/s), sliding of the high grip across z (mm).
 inline Stage grip(const std::string& name, double displacement, double speed, std::array<double, 3> sliding = {}) {
   Stage stage;
   stage.name = name;
@@ -65,6 +69,7 @@ struct Record {
   double largest_tension = 0;   ///< N, mean of both grips
 };
 
+/// Runs all stages; a row is recorded every `observe_every` steps and at the end of each stage.
 inline Record run_stages(Simulation& simulation, const Scenario& scenario, int observe_every = 20) {
   Record record;
   double largest_work = 0, largest_residual = 0;
@@ -91,12 +96,14 @@ inline Record run_stages(Simulation& simulation, const Scenario& scenario, int o
   return record;
 }
 
+/// The same for a new simulation of the packing, on one thread.
 inline Record run_stages(const MeshedPacking& packing, const Scenario& scenario) {
   ThreadTeam team(1);
   Simulation simulation(build_model(packing, scenario, "test"), scenario, team);
   return run_stages(simulation, scenario);
 }
 
+/// Sum of m r x v over the nodes, about the origin.
 inline std::array<double, 3> angular_momentum(const Model& m) {
   std::array<double, 3> sum{};
   for (std::size_t n = 0; n < static_cast<std::size_t>(m.nodes()); ++n)

@@ -35,6 +35,7 @@ private:
   std::filesystem::path path_;
 };
 
+/// What a command returned and printed.
 struct Outcome {
   int exit_code = -1;
   std::string messages; ///< standard error
@@ -47,6 +48,7 @@ struct Outcome {
   }
 };
 
+/// The whole file; empty if it cannot be opened.
 inline std::string read_text(const std::string& path) {
   std::ifstream file(path, std::ios::binary);
   std::ostringstream text;
@@ -54,7 +56,7 @@ inline std::string read_text(const std::string& path) {
   return text.str();
 }
 
-/// Makes the folder of the file where there is none.
+/// Writes a file, and creates its folder if it does not exist.
 inline void write_text(const std::string& path, const std::string& text) {
   if (const auto folder = std::filesystem::path(path).parent_path(); !folder.empty())
     std::filesystem::create_directories(folder);

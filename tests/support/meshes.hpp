@@ -10,6 +10,7 @@
 
 namespace mpfem::test {
 
+/// The mesh of one grain: nodes (mm), tetrahedra of positive volume as indices of its nodes.
 struct GrainMesh {
   std::vector<std::array<double, 3>> node;
   std::vector<std::array<std::int32_t, 4>> tet;
@@ -65,11 +66,13 @@ inline GrainMesh ball_mesh(int n, double radius) {
   return mesh;
 }
 
+/// Adds `shift` (mm) to every node.
 inline void move(GrainMesh& mesh, const std::array<double, 3>& shift) {
   for (auto& x : mesh.node)
     for (std::size_t a = 0; a < 3; ++a) x[a] += shift[a];
 }
 
+/// Multiplies every coordinate by `factor`, about the origin.
 inline void scale(GrainMesh& mesh, double factor) {
   for (auto& x : mesh.node)
     for (double& c : x) c *= factor;
@@ -86,6 +89,7 @@ inline void rotate(GrainMesh& mesh, const std::array<double, 3>& axis, double an
   }
 }
 
+/// One packing of these grains, in this order, in a box from the origin to `box` (mm).
 inline MeshedPacking pack(const std::vector<GrainMesh>& grains, const std::array<double, 3>& box) {
   MeshedPacking packing;
   packing.box_lengths = box;

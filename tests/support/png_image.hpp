@@ -13,6 +13,7 @@
 
 namespace mpfem::test {
 
+/// A picture of 8-bit RGB pixels.
 struct Image {
   unsigned int width = 0, height = 0;
   std::vector<std::uint8_t> bytes; ///< RGB, row by row from the top
@@ -31,6 +32,7 @@ struct Image {
   }
 };
 
+/// The test fails if the file cannot be read.
 inline Image read_png(const std::string& path) {
   png_image header{};
   header.version = PNG_IMAGE_VERSION;
@@ -41,6 +43,7 @@ inline Image read_png(const std::string& path) {
   return image;
 }
 
+/// The test fails if the file cannot be written.
 inline void write_png(const std::string& path, const Image& image) {
   png_image header{};
   header.version = PNG_IMAGE_VERSION;
@@ -50,6 +53,7 @@ inline void write_png(const std::string& path, const Image& image) {
   REQUIRE(png_image_write_to_file(&header, path.c_str(), 0, image.bytes.data(), 0, nullptr) != 0);
 }
 
+/// Whether a pixel is nearly white, or has a colour (is not grey).
 inline bool is_white(const std::array<int, 3>& c) {
   return c[0] > 250 && c[1] > 250 && c[2] > 250;
 }

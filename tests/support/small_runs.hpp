@@ -16,10 +16,12 @@
 
 namespace mpfem::test {
 
+/// Runs `mpfem` with these arguments.
 inline Outcome mpfem_command(const std::string& arguments) {
   return run_command(fmt::format("'{}' {}", MPFEM_EXECUTABLE, arguments));
 }
 
+/// Isotropic compaction of eight grains to a relative density of 0.62.
 inline const std::string scenario_text = material_text + R"([output]
 history_rows = 20
 snapshot_relative_densities = [0.52]
@@ -113,6 +115,7 @@ inline void prepare(const Folder& folder, int cells = 4, const std::string& text
   write_text(folder / "scenario.toml", text);
 }
 
+/// `text` with the first `from` replaced; the test fails if there is none.
 inline std::string replaced(std::string text, const std::string& from, const std::string& to) {
   const std::size_t at = text.find(from);
   REQUIRE(at != std::string::npos);
@@ -156,6 +159,7 @@ inline std::vector<double> results(const std::string& path) {
   return all;
 }
 
+/// A run has bitwise the same results on 1, 2 and 4 threads.
 inline void check_threads(const std::string& text, int cells) {
   const Folder folder;
   prepare(folder, cells, text);
@@ -173,8 +177,8 @@ inline void check_threads(const std::string& text, int cells) {
   CHECK(all[0] == all[2]);
 }
 
-/// Runs a command that writes `output`, stopping it and resuming, twice at least. Where the machine has become faster
-/// since the whole run took its `seconds`, it begins anew with shorter parts.
+/// Runs a command that writes `output`, stopping and resuming it at least twice. If the machine has become faster
+/// since the whole run took `seconds`, it starts again with shorter parts.
 inline void run_in_parts(const std::string& command, const std::string& output, double seconds) {
   int stops = 0;
   for (double limit = seconds / 5; stops < 2; limit /= 2) {
@@ -192,6 +196,7 @@ inline void run_in_parts(const std::string& command, const std::string& output, 
   }
 }
 
+/// A run that is stopped and resumed has bitwise the same results as one without stops.
 inline void check_resuming(const std::string& text, int cells) {
   const Folder folder;
   prepare(folder, cells, text);
@@ -218,6 +223,7 @@ inline void check_variant(const std::string& text, const std::string& what) {
   CHECK_THAT(mpfem_command(fmt::format("check {}", folder / "scenario.toml")).output, Catch::Contains(what));
 }
 
+/// The scenario with smooth contact surfaces.
 inline std::string with_smooth_surface(const std::string& text) {
   return replaced(text, "[output]", "[contact]\nsurface = \"smooth\"\n[output]");
 }

@@ -16,6 +16,7 @@
 namespace mpfem::test {
 
 using Point = Vector3<double>;
+/// Triangles with their own corners, as in an STL file; counter-clockwise from outside.
 using LooseTriangles = std::vector<std::array<Point, 3>>;
 
 /// A prism from z = low to high over a polygon, counter-clockwise, that its first corner sees as a whole.
@@ -33,9 +34,11 @@ inline LooseTriangles prism(const std::vector<std::array<double, 2>>& polygon, d
   return triangles;
 }
 
+/// Polygons for prism(), counter-clockwise.
 inline const std::vector<std::array<double, 2>> unit_square{{0, 0}, {1, 0}, {1, 1}, {0, 1}};
 inline const std::vector<std::array<double, 2>> l_shape{{0, 0}, {2, 0}, {2, 1}, {1, 1}, {1, 2}, {0, 2}};
 
+/// Corners on a circle about the origin, the first on the x-axis.
 inline std::vector<std::array<double, 2>> regular_polygon(int corners, double radius) {
   std::vector<std::array<double, 2>> polygon;
   for (int i = 0; i < corners; ++i)
@@ -43,21 +46,25 @@ inline std::vector<std::array<double, 2>> regular_polygon(int corners, double ra
   return polygon;
 }
 
+/// The cube [0, 1]^3.
 inline LooseTriangles unit_cube() {
   return prism(unit_square, 0, 1);
 }
 
+/// All triangles shifted by `way`.
 inline LooseTriangles moved(LooseTriangles triangles, const Point& way) {
   for (auto& triangle : triangles)
     for (Point& x : triangle) x = x + way;
   return triangles;
 }
 
+/// The same surface with its normals reversed.
 inline LooseTriangles inside_out(LooseTriangles triangles) {
   for (auto& triangle : triangles) std::swap(triangle[1], triangle[2]);
   return triangles;
 }
 
+/// Both surfaces in one list.
 inline LooseTriangles together(LooseTriangles a, const LooseTriangles& b) {
   a.insert(a.end(), b.begin(), b.end());
   return a;
