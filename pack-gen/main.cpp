@@ -327,7 +327,7 @@ CLI::App* add_settle(CLI::App& app, Arguments& arguments) {
                                   "Spheres (HDF5)");
   add_output(*command, arguments);
   add_number(*command, "--gap", arguments.gap, Range::between(0, 1e9), "mm",
-             "Smallest gap that stays between spheres and to the walls (default: that of the file)");
+             "Smallest gap to keep between spheres and to the walls (default: the gap of the file)");
   command->add_flag("--fit-height", arguments.fit_height,
                     "Lower the box or cylinder to the bed (default: it stays, with free space above)");
   return command;

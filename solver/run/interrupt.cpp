@@ -50,7 +50,7 @@ bool interrupt_requested() {
 void stop_before_first_step(const Communicator& ranks, const std::string& checkpoint) {
   if (ranks.largest(interrupt_requested() ? 1 : 0) == 0) return;
   if (leader_finds(ranks, [&] { return std::filesystem::exists(checkpoint); }))
-    throw Interrupted(fmt::format("interrupted before the first step; {} is as it was, continue with --resume",
+    throw Interrupted(fmt::format("interrupted before the first step; {} is unchanged; continue with --resume",
                                   one_line(checkpoint)));
   throw Interrupted("interrupted before the first step; nothing to resume");
 }

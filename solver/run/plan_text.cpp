@@ -9,9 +9,9 @@ namespace mpfem {
 std::string mass_scaling_text(const Scenario& scenario, const Model& model) {
   std::string text;
   if (const double factor = scenario.numerics.mass_scaling; factor != 1)
-    text = fmt::format(
-        "all masses multiplied by {:g}: steps are {:.3g} times as long, inertia is that of {:.3g} times the speed",
-        factor, std::sqrt(factor), std::sqrt(factor));
+    text = fmt::format("all masses multiplied by {:g}: steps are {:.3g} times as long, inertia is as large as at "
+                       "{:.3g} times the speed",
+                       factor, std::sqrt(factor), std::sqrt(factor));
   if (model.added_mass != 0)
     text += fmt::format(
         "{}mass scaling to the step changes the packing's mass by {:+.3g} %, a grain's by at most {:+.3g} %",

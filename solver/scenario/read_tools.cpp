@@ -156,7 +156,7 @@ ToolDrive read_drive(TableReader table, std::size_t tool, const ToolShape& shape
     table.fail("speed",
                fmt::format("found {} of the keys speed, velocity, force and stress, expected one of them", given));
   if (!direction && !table.has("velocity"))
-    table.fail("velocity", "missing, expected a vector: this tool has no direction of its own");
+    table.fail("velocity", "missing, expected a vector: this tool has no axis or normal");
   if (table.has("velocity")) drive.velocity = table.vector3("velocity", any_speed);
   if (table.has("speed")) {
     const double speed = table.number("speed", any_speed);

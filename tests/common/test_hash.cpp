@@ -79,7 +79,7 @@ TEST_CASE("The hash of numbers sees a change of any bit, the sign of zero and th
   }
 }
 
-TEST_CASE("A hash of bytes that come in pieces is that of all of them, wherever the pieces end") {
+TEST_CASE("The hash of bytes added in pieces equals the hash of all of them, however they are divided") {
   const std::uint64_t seed = GENERATE(std::uint64_t{0}, std::uint64_t{prime_32});
   std::mt19937 random(3);
   for (const std::size_t size : {0U, 1U, 31U, 32U, 33U, 64U, 100U, 1000U}) {

@@ -92,7 +92,7 @@ TEST_CASE("Text reaches the reader of a FIFO, which stays a FIFO") {
   CHECK_FALSE(fs::exists(fifo + ".partial"));
 }
 
-TEST_CASE("Text that goes to a device leaves the device what it is") {
+TEST_CASE("Writing text to a device leaves the device a device") {
   const Folder folder;
   const std::string device = folder / "null";
   if (!test::make_null_device(device)) {
@@ -132,7 +132,7 @@ TEST_CASE("A link is kept, what it leads to is replaced, and a link to nothing m
   CHECK(read_text(folder / "store/new") == "too");
 }
 
-TEST_CASE("Whatever stands under the name of the partial file is replaced, but no folder") {
+TEST_CASE("Anything with the name of the partial file is replaced, except a folder") {
   const Folder folder;
   const std::string path = folder / "out", partial = path + ".partial";
   SECTION("a file") {

@@ -231,7 +231,7 @@ TEST_CASE("A check across keys fails at the place of its key") {
   CHECK(mistake("\na = 5", [](auto& t) { t.fail("a", "more than b"); }) == "case.toml:2:5: key 'a': more than b");
 }
 
-TEST_CASE("A message shortens long texts and stays one line whatever the file holds") {
+TEST_CASE("A message shortens long texts and stays one line for any content of the file") {
   const std::string message = mistake("a = \"" + std::string(5000, 'x') + "\"", [](auto& t) { t.number("a"); });
   CHECK(message.size() < 200);
   CHECK(mistake(R"(a = "x\n\u001b[31m")", [](auto& t) { t.number("a"); }) ==

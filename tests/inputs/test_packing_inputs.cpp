@@ -209,7 +209,7 @@ TEST_CASE("Very many small spheres beside a large one are imported in a few seco
   CHECK(outcome.exit_code == 0);
 }
 
-TEST_CASE("Spheres that touch are imported, whatever their numbers are rounded to") {
+TEST_CASE("Spheres that touch are imported with numbers rounded to any digit") {
   const Folder folder;
   for (const char* text :
        {"0.1,0,0,0.1\n0.3,0,0,0.1\n", "0.7,0.1,0.3,0.1\n0.7,0.1,0.6,0.2\n", "0,0,0,0.3\n0.9,0,0,0.6\n"}) {

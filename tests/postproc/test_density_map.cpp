@@ -46,7 +46,7 @@ TEST_CASE("the solid of every cell of a density map adds up to that of the grain
   CHECK(within(map.density, 8 / (3 * disc), 1e-9));
 }
 
-TEST_CASE("layers and rings of a density map hold what stands in them") {
+TEST_CASE("layers and rings of a density map contain the volume that lies in them") {
   const DensityMap layers = map_of(run_in_die(), {.rings = 1, .layers = 3});
   // Edges of tets are 1 mm, parts of them some 0.25 mm: a layer's end cuts through parts.
   CHECK(within(layers.cells[0].density, 2 / disc, 0.05));

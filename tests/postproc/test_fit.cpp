@@ -218,7 +218,7 @@ TEST_CASE("coefficients of compaction laws are found again in noise of what is f
   }
 }
 
-TEST_CASE("Kawakita's 1/b stands beside b, in the unit of the pressure") {
+TEST_CASE("Kawakita's 1/b is given beside b, in the unit of the pressure") {
   const Fit result = fit("kawakita", points_of(8, 10, 200, [](double p) { return 0.45 * 0.02 * p / (1 + 0.02 * p); }));
   REQUIRE(result.derived.size() == 1);
   CHECK(result.derived[0].name == "inverse_b");

@@ -78,7 +78,7 @@ TEST_CASE("loops are counted, and a stage without one is refused") {
   CHECK_THROWS_WITH(unload_reload_modulus(unloaded, -1), Catch::Contains("found no loop"));
 }
 
-TEST_CASE("the curve of a loop goes over the stages of one type that follow each other") {
+TEST_CASE("the curve of a loop covers consecutive stages of one type") {
   const Folder folder;
   auto rows = along(one_loop, 40);
   for (std::size_t row = 0; row < rows.size(); ++row) rows[row].stage = row <= 40 ? 1 : row <= 80 ? 2 : 3;
@@ -118,7 +118,7 @@ TEST_CASE("a toe does not count as plastic strain, and a slope may be given") {
   CHECK(steeper.value > 3.5);
 }
 
-TEST_CASE("offset yield of a probe uses the strain that is work-conjugate to its path, whatever its direction") {
+TEST_CASE("offset yield of a probe in any direction uses the strain that is work-conjugate to its path") {
   const Folder folder;
   constexpr double bulk = 3000, shear = 1000, p_0 = 60, yields_at = 12, compliance = 4e-4;
   for (const auto& direction :

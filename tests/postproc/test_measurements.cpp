@@ -154,7 +154,7 @@ TEST_CASE("the unloading is found by its type, or where density and stress fall"
   CHECK(measure_elastic_recovery(schema::FileReader(folder / "run.h5"), -2).window.stage == 1);
 }
 
-TEST_CASE("the modulus of a straight reloading is its slope, whatever the noise, within its interval") {
+TEST_CASE("the modulus of a straight reloading with noise is its slope, within the interval given") {
   const Folder folder;
   for (unsigned seed = 1; seed <= 20; ++seed) {
     const auto rows = reloading(

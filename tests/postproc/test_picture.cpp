@@ -39,7 +39,7 @@ TEST_CASE("a picture has the requested size, the cube in the middle on white, an
   CHECK((high[0] > 200 && high[1] > 200 && high[2] < 100));
 }
 
-TEST_CASE("a cut takes away what stands before it, and its face shows the inside") {
+TEST_CASE("a cut removes what lies in front of it, and its face shows the inside") {
   const Folder folder;
   RunContents run = small_run();
   run.numbers["/snapshots/*/von_mises"].assign(48, 1.0);
@@ -56,7 +56,7 @@ TEST_CASE("a cut takes away what stands before it, and its face shows the inside
   CHECK(std::abs(octant - whole) < 0.05 * whole); // an open corner is seen against the faces behind it
 }
 
-TEST_CASE("grains are outlined whatever their numbers") {
+TEST_CASE("grains with any numbers are outlined") {
   const Folder folder;
   RunContents run = small_run();
   const auto share_of_black = [&](const std::string& name) {

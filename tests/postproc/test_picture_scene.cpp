@@ -117,7 +117,7 @@ TEST_CASE("colours and ticks: grey where there is no value, round numbers inside
   CHECK_THROWS_WITH(make_scene(snapshot, request), Catch::Contains("--color: found 'height', allowed: von-mises"));
 }
 
-TEST_CASE("all of the bounds lie in the picture, from wherever the camera looks") {
+TEST_CASE("all of the bounds lie in the picture for any direction of the camera") {
   const ShownBox bounds{{0, 0, 0}, {1, 2, 0.5}};
   const PictureSize size{800, 600};
   for (const double azimuth : {-180.0, -55.0, 0.0, 30.0, 90.0})

@@ -50,7 +50,7 @@ TEST_CASE("the section of a tetrahedron has the area of its similar triangle, or
   CHECK(area(quad[0]) == Approx(2 * 0.75 * 2 * 0.25).epsilon(1e-6));
 }
 
-TEST_CASE("the sections of a cube's tets fill its square once, wherever the plane lies") {
+TEST_CASE("the sections of a cube's tets fill its square once for any position of the plane") {
   const Snapshot s = snapshot_of(cube_mesh(4));
   for (int axis = 0; axis < 3; ++axis)
     for (const double position : {-0.99, -0.5, -0.1234, 0.0, 0.3, 0.5, 0.77}) // some of them through layers of nodes

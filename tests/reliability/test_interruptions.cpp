@@ -50,7 +50,7 @@ TEST_CASE("a complete run whose stage checkpoint was lost is not complete, and -
   CHECK(run_stages(folder, "run.h5", "--resume").messages.find("missing") == std::string::npos);
 }
 
-TEST_CASE("an unfinished run whose stage checkpoint was lost goes on from before it") {
+TEST_CASE("an unfinished run whose stage checkpoint was lost continues from an earlier one") {
   const Folder folder;
   prepare_stages(folder, two_stages);
   REQUIRE(run_stages(folder, "whole.h5").exit_code == 0);
@@ -135,5 +135,5 @@ TEST_CASE("a run that is told to stop while its packing loads ends with exit cod
   const Outcome resumed = stop("--resume");
   INFO(resumed.messages);
   CHECK(resumed.exit_code == 5);
-  CHECK_THAT(resumed.messages, Catch::Contains("run.checkpoint.h5 is as it was, continue with --resume"));
+  CHECK_THAT(resumed.messages, Catch::Contains("run.checkpoint.h5 is unchanged; continue with --resume"));
 }

@@ -42,7 +42,7 @@ TEST_CASE("A file that is missing, a folder or no HDF5 file is refused") {
   CHECK_THAT(refusal(folder.file("text.h5")), Catch::StartsWith(folder.file("text.h5") + ": not an HDF5 file"));
 }
 
-TEST_CASE("A file that was cut off is refused, wherever it was cut") {
+TEST_CASE("A file cut off at any length is refused") {
   const RunFile run;
   const auto size = std::filesystem::file_size(run.path);
   const std::string cut = run.folder.file("cut.h5");

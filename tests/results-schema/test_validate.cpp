@@ -68,7 +68,7 @@ TEST_CASE("A wrong or missing unit or description of any dataset is found") {
   CHECK_THAT(findings.front(), Catch::Contains("attribute unit is 'furlong\\n', expected '"));
 }
 
-TEST_CASE("A dataset that the schema does not know is found, wherever it hides") {
+TEST_CASE("A dataset that the schema does not know is found in any group") {
   const GoodFile file(FileKind::run);
   test::replace_dataset(file.path, "/extra", H5T_IEEE_F64LE, {2});
   test::replace_dataset(file.path, "/history/colour", H5T_IEEE_F64LE, {});

@@ -191,7 +191,7 @@ TEST_CASE("triangles a hundred thousand times longer than wide give the distance
   }
 }
 
-TEST_CASE("the side of a point is that of the winding number, and the distance that of all triangles one by one") {
+TEST_CASE("the side of a point agrees with the winding number, and its distance with a search of all triangles") {
   for (const std::uint32_t seed : {1U, 2U, 3U, 4U})
     check_against_brute_force(welded(spiky_ball(7, 11, seed)), 4000, seed);
   check_against_brute_force(welded(spiky_ball(20, 30, 5)), 2000, 5);

@@ -93,7 +93,7 @@ TEST_CASE("internal forces of a grain add up to zero") {
   for (const double component : total_force(model)) CHECK(std::abs(component) < rounding * magnitude);
 }
 
-TEST_CASE("a full turn of a stressed grain in steps leaves its stress as it was") {
+TEST_CASE("a full turn of a stressed grain in steps leaves its stress unchanged") {
   Model model =
       single_grain(ball_mesh(4, 0.1), HardeningLaw::elastic, GENERATE(ElementType::tet4, ElementType::tet4_anp));
   const double step = 1e-9;

@@ -102,7 +102,7 @@ TEST_CASE("a grain is stable just below the step of its largest frequency and no
   }
 }
 
-TEST_CASE("single tets are stable at their own step whatever share of their motion viscosity damps") {
+TEST_CASE("single tets are stable at their own step for any share of viscous damping") {
   // The stiffest motion of a regular tet is a change of volume, which bulk viscosity damps by more than b1.
   GrainMesh mesh{{{0.05, 0.05, 0.05}, {0.05, -0.05, -0.05}, {-0.05, 0.05, -0.05}, {-0.05, -0.05, 0.05}},
                  {{0, 2, 1, 3}}};

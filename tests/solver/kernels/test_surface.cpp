@@ -14,7 +14,7 @@
 using namespace mpfem;
 using namespace mpfem::test;
 
-TEST_CASE("normals computed in packs are those computed one by one, and the bounds are those of the surface nodes") {
+TEST_CASE("normals computed in packs equal those computed singly, and the bounds equal those of the surface nodes") {
   GrainMesh first = ball_mesh(4, 0.2), second = cube_mesh(3);
   rotate(first, {0.6, 0.8, 0}, 0.3);
   scale(second, 0.15);

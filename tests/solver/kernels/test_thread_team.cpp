@@ -136,7 +136,7 @@ TEST_CASE("All threads of a team work, the calling one included") {
   CHECK(std::set<int>(thread_of.begin(), thread_of.end()) == std::set<int>{0, 1, 2});
 }
 
-TEST_CASE("The exception of the lowest failing item is rethrown, whatever the number of threads") {
+TEST_CASE("The exception of the lowest failing item is rethrown on any number of threads") {
   for (const int threads : {1, 2, 4}) {
     ThreadTeam team(threads);
     for (int repetition = 0; repetition < 200; ++repetition) CHECK(message_of_failure(team, 50, 17) == "item 17");

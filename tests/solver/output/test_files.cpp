@@ -71,7 +71,7 @@ TEST_CASE("a checkpoint without checksums, as earlier versions wrote them, is re
   CHECK_FALSE(fs::exists(folder / "x.h5"));
 }
 
-TEST_CASE("a packing with a flipped bit is refused, wherever the bit is") {
+TEST_CASE("a packing with one flipped bit, at any place, is refused") {
   const Folder folder;
   prepare(folder);
   const std::string good = read_text(folder / "packing.h5");
@@ -87,7 +87,7 @@ TEST_CASE("a packing with a flipped bit is refused, wherever the bit is") {
   }
 }
 
-TEST_CASE("a run goes into no device, FIFO or folder, and through a link to its file") {
+TEST_CASE("a run is not written to a device, FIFO or folder, and follows a link to a file") {
   const Folder folder;
   prepare(folder);
   REQUIRE(mkfifo((folder / "fifo").c_str(), 0600) == 0);

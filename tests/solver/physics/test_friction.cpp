@@ -91,7 +91,7 @@ TEST_CASE("a closed point sticks with the stiffness of the penalty, and slides a
   CHECK(within(tangential(point.evaluate()), 0.5 * mu * k * depth, of_places));
 }
 
-TEST_CASE("a point that sticks keeps its anchor bitwise, whatever its normal force does above its bound") {
+TEST_CASE("a point that sticks keeps its anchor bitwise while its normal force changes above its bound") {
   ContactPoint point = pressed_point(1e-3);
   point.node.x = 0.5 * mu * 1e-3;
   point.evaluate();

@@ -111,7 +111,7 @@ TEST_CASE("plastic work is the area under the flow curve") {
   CHECK(within(point.plastic_work, exact, 2e-5)); // trapezoids under a concave curve with infinite initial slope
 }
 
-TEST_CASE("a full turn in steps leaves the stress exactly as it was") {
+TEST_CASE("a full turn in steps leaves the stress exactly unchanged") {
   const Deviator<double> start{12, -7, 3, 5, -9};
   for (const int steps : {4, 36, 1000}) {
     // The Cayley rotation by a vector w turns by 2 atan(|w|/2): choose w for an exact fraction of a turn.

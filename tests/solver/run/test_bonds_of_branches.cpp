@@ -117,7 +117,7 @@ TEST_CASE("bonds keep the law by which they formed, and those that form in a bra
   CHECK_THAT(unbonded.messages, Catch::Contains("the scenario has none"));
 }
 
-TEST_CASE("a compaction that goes on with another fracture energy has bonds of both, of a branch's branch of three") {
+TEST_CASE("a compaction continued with another fracture energy has bonds of both, and a branch of one has three") {
   const Folder folder;
   prepare(folder, 3, replaced(loading_text, "[0.5, 0.61]", "[0.405, 0.55, 0.59]"));
   REQUIRE(mpfem_command(fmt::format("run {} -o {} --quiet", folder / "scenario.toml", folder / "run.h5")).exit_code ==

@@ -41,7 +41,7 @@ TEST_CASE("a compaction leaves checkpoints at densities, from which branches beg
         Approx(whole.read(schema::run::history_plastic_dissipation).back()).epsilon(0.05));
 }
 
-TEST_CASE("a branch goes on from the checkpoint that it began at, and not from another") {
+TEST_CASE("a branch continues from the checkpoint at which it began, and not from another") {
   const Folder folder;
   prepare(folder, 3, replaced(scenario_text, "[output]", "[output]\ncheckpoint_relative_densities = [0.5, 0.61]"));
   REQUIRE(mpfem_command(fmt::format("run {} -o {} --quiet", folder / "scenario.toml", folder / "run.h5")).exit_code ==
@@ -79,7 +79,7 @@ TEST_CASE("a branch goes on from the checkpoint that it began at, and not from a
   CHECK(first_density() == Approx(0.61).epsilon(1e-2));
 }
 
-TEST_CASE("a branch may begin with grips that would hold nothing of the packing as it was") {
+TEST_CASE("a branch may begin with grips that would hold no node of the initial packing") {
   const Folder folder;
   prepare(folder, 4, bonded_text);
   const std::string grips = bonded_text.substr(bonded_text.find("[[stages]]\nname = \"tearing\""));

@@ -59,7 +59,7 @@ TEST_CASE("a run with bonds, unloading and grips that is stopped and resumed end
   check_resuming(replaced(bonded_text, "rebond = \"on_contact\"", "rebond = \"never\""), 4);
 }
 
-TEST_CASE("a killed run goes on from its checkpoint, and ends bitwise as if it had not been killed") {
+TEST_CASE("a killed run continues from its checkpoint and ends bitwise like a run that was not killed") {
   const Folder folder;
   prepare(folder, 6);
   const std::string common = fmt::format("run {} --threads 2 --quiet -o ", folder / "scenario.toml");

@@ -83,7 +83,7 @@ TEST_CASE("a packing unloads to zero stress, expands, and keeps its ledger") {
   CHECK(std::abs(unloaded.energy_residual) < 0.01 * unloaded.external_work);
 }
 
-TEST_CASE("an unloading that begins at its target or below ends there, whatever the stress does next") {
+TEST_CASE("an unloading that begins at its target or below ends there for any later stress") {
   const IsotropicUnloading unloading{1.0, 1000, 0.1};
   const Cell unit_cell{.high = {1, 1, 1}};
   const auto observe = [&](double stress) { return StageObservation{.cell = unit_cell, .mean_stress = stress}; };

@@ -156,7 +156,7 @@ TEST_CASE("a slab that is dragged along a tool first shears its bonds off and th
   }
 }
 
-TEST_CASE("what sticks to a tool hangs from it and goes where it goes") {
+TEST_CASE("a grain that sticks to a tool hangs from it and moves with it") {
   constexpr double gravity = 2e9; // mm/s^2: 0.16 MPa of weight
   std::vector<Stage> stages = pressed();
   stages.push_back(moving("hang", {0, 0, 0}, 6e-6, 4e6));
@@ -196,7 +196,7 @@ TEST_CASE("a tool that is taken away leaves what stuck to it, with its energy in
   CHECK(seen.residual < 0.03 * seen.work);
 }
 
-TEST_CASE("a broken bond to a tool forms anew on contact only where its law says so") {
+TEST_CASE("a broken bond to a tool forms again on contact only if its law says so") {
   for (const bool again : {false, true}) {
     BondParameters bond = weak;
     bond.rebond_on_contact = again;

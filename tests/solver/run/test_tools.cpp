@@ -591,7 +591,7 @@ TEST_CASE("spheres, cones, endless cylinders and triangles are written with all 
   CHECK(*std::max_element(vertex.begin(), vertex.end()) == Approx(1).epsilon(1e-12)); // mm, of a file in metres
 }
 
-TEST_CASE("a branch goes on with the tools where they stand, and refuses others") {
+TEST_CASE("a branch continues with the tools in place, and refuses other tools") {
   const Folder folder;
   prepare(folder, 3, tablet_text);
   REQUIRE(mpfem_command(fmt::format("run {} -o {} --quiet", folder / "scenario.toml", folder / "run.h5")).exit_code ==
