@@ -10,7 +10,7 @@ namespace mpfem {
 /// cannot be read, or if it has more than `most_bytes`.
 std::string read_text_file(const std::string& path, std::size_t most_bytes);
 
-/// Throws InputError if the path names no regular file: opening a pipe may wait for ever.
+/// Throws InputError if the path is not a regular file: opening a pipe may wait without end.
 void refuse_irregular_file(const std::string& path);
 
 } // namespace mpfem

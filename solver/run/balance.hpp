@@ -22,7 +22,7 @@ Balance measure_balance(const Communicator& ranks, const Model& model, double bu
 /// weight of a grain is what its tets have cost its present owner.
 std::vector<std::int32_t> divide_anew(const Communicator& ranks, const Model& model, const Balance& balance);
 
-/// Whether dividing anew pays: it saves more than twice what it costs (`reload`, s). `remaining`: s that the rest of
+/// Whether dividing again pays: it saves more than twice what it costs (`reload`, s). `remaining`: s that the rest of
 /// the run takes if nothing changes.
 bool pays(const Balance& balance, double remaining, double reload);
 

@@ -156,7 +156,7 @@ public:
     take(Arrays{model_, contact_, wall_friction_, tools_, grain_steps, prepare_grips()});
     take_up(std::move(grain_steps));
   }
-  /// After restore(): its state is the beginning of this scenario's first stage. Candidates and step are found anew
+  /// After restore(): its state is the beginning of this scenario's first stage. Candidates and step are found again
   /// with this scenario's settings.
   void begin_branch();
   /// For tests and benchmarks that change positions, velocities or strains by hand.

@@ -1,5 +1,5 @@
 #pragma once
-// When the stable step is estimated anew, and which grain sets it.
+// When the stable step is estimated again, and which grain sets it.
 
 #include <span>
 #include <utility>
@@ -54,8 +54,8 @@ public:
 
   /// Takes in the largest strain of a step (s). True when the estimate is to be renewed.
   bool is_due_after(double strain, double step);
-  /// Collective. Estimates the stable step of the present state; sets the tets' lengths in the model. `anew`: with the
-  /// frequencies of whole grains, whenever they were last found.
+  /// Collective. Estimates the stable step of the present state; sets the tets' lengths in the model. `anew`: finds the
+  /// frequencies of whole grains even if they were found recently.
   void renew(Model& model, const Contact& contact, const Boundaries& boundaries, std::span<const Bounds> bounds,
              ThreadTeam& team, bool anew);
   /// The next step is followed by an estimate: nothing has touched yet.

@@ -32,7 +32,7 @@ TEST_CASE("a test has three kinds of bonds: found by it, formed in it, and broke
   REQUIRE(since.found_before.size() == 2);
   CHECK(since.found_before[0].damage == 0.2);
   CHECK(since.found_before[1].damage == 0.5);
-  REQUIRE(since.formed.size() == 2); // node 3 anew, node 9 for the first time
+  REQUIRE(since.formed.size() == 2); // node 3 again, node 9 for the first time
   CHECK(since.formed[0].node == 3);
   CHECK(since.formed[1].node == 9);
   REQUIRE(since.broken_already.size() == 1);
