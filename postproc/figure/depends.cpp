@@ -200,17 +200,27 @@ private:
     if (content_of(file) != settings + "\n") text_ += fmt::format("{}: FORCE\n", file);
   }
 
+  /// One rule for each file. Cases may share a picture only where they would draw the same.
   void add_picture(const PictureSpec& picture) {
+    std::map<std::string, std::string> commands;
     const auto cases =
         available_cases(*current_, picture.series, picture.where, {picture.run}, request_.results, picture.place);
     for (const Case& row : cases) {
       const std::string run = file_of_run(run_of(picture.run, row, picture.place));
       Words words = row.values;
       words["run"] = {run, {}};
+      words["here"] = {folder_of_file(current_->path), {}};
+      words["folder"] = {folder_, {}};
       const std::string file = fmt::format("{}/{}", folder_, filled_at(picture.place, picture.name, words));
-      if (std::find(files_.begin(), files_.end(), file) != files_.end()) continue;
+      const std::string command = filled_at(picture.place, picture.command, words);
+      const auto [known, added] = commands.try_emplace(file, command);
+      if (!added && known->second != command)
+        picture.place.fail(fmt::format("name: found '{}' for different pictures of two cases, allowed: a name with a "
+                                       "setting that differs, e.g. 'density-{{pressure}}.png'",
+                                       one_line(picture.name)));
+      if (!added || std::find(files_.begin(), files_.end(), file) != files_.end()) continue;
       text_ += fmt::format("{}: {} {}\n", file, sources_, run);
-      variable(file, "picture", filled_at(picture.place, picture.command, words));
+      variable(file, "picture", command);
       lists_["picture_files"].insert(file);
       files_.push_back(file);
       if (!file.ends_with(".png")) continue;

@@ -40,7 +40,7 @@ void print_partial_slip(int largest) {
 
 void print_die_column(int largest) {
   // nu, mu, transmission by finite elements (tests/reference/die_transmission.csv).
-  constexpr std::array<std::array<double, 3>, 2> cases = {{{0.3, 0.1, 0.8453}, {0.4, 0.3, 0.4497}}};
+  constexpr std::array<std::array<double, 3>, 2> cases = {{{0.3, 0.1, 0.8422}, {0.4, 0.3, 0.4657}}};
   fmt::print("\n| element | R/h | tets | transmission, nu = 0.3, mu = 0.1 | nu = 0.4, mu = 0.3 | s |\n"
              "|---|---|---|---|---|---|\n");
   for (const ElementType element : {ElementType::tet4, ElementType::tet4_anp})

@@ -189,6 +189,29 @@ TEST_CASE("a metric whose command does not exist is refused with its line before
   CHECK_FALSE(std::filesystem::exists(studies.path("rules.mk")));
 }
 
+TEST_CASE("cases share a picture only if they draw the same one") {
+  const Studies studies;
+  const auto rules = [&](const std::string& name) {
+    return studies.rules(studies.figure(fmt::format(R"([[cases]]
+x = [1, 2]
+y = [3, 4]
+[[runs]]
+name = "r"
+programme = "press"
+settings = {{ "a.b" = "{{x}}" }}
+[[pictures]]
+name = "{}"
+run = "r"
+command = "section {{run}} --data {{folder}}/s{{x}}.csv"
+)",
+                                                    name)));
+  };
+  CHECK_THROWS_WITH(rules("s.png"), Contains("study.toml:10") && Contains("found 's.png' for different pictures"));
+  const std::string shared = rules("s{x}.png"), out = studies.path("out/study");
+  CHECK_THAT(shared,
+             Contains(out + "/s2.png: private picture := section ") && Contains(fmt::format("--data {}/s2.csv", out)));
+}
+
 TEST_CASE("a packing is a size or a command, and a run begins at one") {
   const Studies studies;
   CHECK_THROWS_WITH(studies.figure("[[packings]]\nname = \"p\"\nsize = \"1\"\ncommand = \"spheres\"\n"),

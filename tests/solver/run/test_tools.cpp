@@ -264,10 +264,14 @@ TEST_CASE("the flat face of a body in an STL file pushes and rubs as a plane doe
 }
 
 TEST_CASE("friction of a die reduces the force from punch to punch as Janssen's law says") {
-  for (const auto& [nu, mu, reference] : {std::array{0.3, 0.1, 0.8453}, std::array{0.4, 0.3, 0.4497}}) {
+  // tests/reference/die_transmission.csv. With 0.1 the whole wall slides, and the wall's own compliance is what is left
+  // of the error. With 0.3 the wall sticks near the lower punch; the nodes at the column's edge there rub nevertheless,
+  // which costs a half of a cell's share of the wall, 1/(2 n) = 4 % at n = 12, times the low pressure there.
+  for (const auto& [nu, mu, reference, tolerance] :
+       {std::array{0.3, 0.1, 0.8422, 0.005}, std::array{0.4, 0.3, 0.4657, 0.03}}) {
     const die_column::Pressed pressed = die_column::press({.n = 12}, nu, mu);
     INFO("nu " << nu << ", mu " << mu << ": " << pressed.transmission);
-    CHECK(within(pressed.transmission, reference, 0.02));
+    CHECK(within(pressed.transmission, reference, tolerance));
     CHECK(within(pressed.lost_at_tools, pressed.row.friction_dissipation, 1e-9));
     CHECK(std::abs(pressed.row.energy_residual) < 0.01 * pressed.row.external_work);
   }
