@@ -53,6 +53,16 @@ std::string one_line(std::string_view text) {
   return line;
 }
 
+std::string_view first_characters(std::string_view text, std::size_t most) {
+  std::size_t size = 0, characters = 0;
+  for (; size < text.size(); ++size) {
+    if (continues(static_cast<unsigned char>(text[size]))) continue;
+    if (characters == most) break;
+    ++characters;
+  }
+  return text.substr(0, size);
+}
+
 std::string shortened(std::string_view text, std::size_t longest) {
   // Enough of both ends: an escape has four characters for a byte, a character has at most four bytes.
   const std::size_t enough = 4 * longest + 4;

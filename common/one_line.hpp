@@ -11,6 +11,9 @@ namespace mpfem {
 /// \x1b …).
 std::string one_line(std::string_view text);
 
+/// The first characters of a text in UTF-8, at most so many. No character is cut in two.
+std::string_view first_characters(std::string_view text, std::size_t most);
+
 /// One line of at most `longest` characters: one_line(text), with "…" for the middle of a longer text.
 std::string shortened(std::string_view text, std::size_t longest = 80);
 

@@ -93,7 +93,7 @@ void Progress::finish(std::string_view summary) {
 
 void Progress::rewrite_line(std::string_view text) {
   // A line longer than the terminal would wrap, and only its last part would be overwritten.
-  fmt::print(stream_, "\r{}\x1b[K", text.substr(0, terminal_width(stream_) - 1));
+  fmt::print(stream_, "\r{}\x1b[K", first_characters(text, terminal_width(stream_) - 1));
   std::fflush(stream_);
   line_open_ = true;
 }

@@ -38,6 +38,13 @@ TEST_CASE("A long text keeps its ends in a message, and a short one is whole") {
   CHECK(shortened(std::string(200'000, 'x')).size() < 90);
 }
 
+TEST_CASE("A line for a narrow terminal is cut between characters") {
+  CHECK(first_characters("1 µs … 2", 3) == "1 µ");
+  CHECK(first_characters("1 µs … 2", 6) == "1 µs …");
+  CHECK(first_characters("µ", 0).empty());
+  CHECK(first_characters("short", 10) == "short");
+}
+
 TEST_CASE("Bytes that are not valid text are shown as numbers") {
   CHECK(one_line("\xff") == "\\xff");
   CHECK(one_line("\xc3") == "\\xc3");
