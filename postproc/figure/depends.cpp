@@ -215,9 +215,10 @@ private:
       const std::string command = filled_at(picture.place, picture.command, words);
       const auto [known, added] = commands.try_emplace(file, command);
       if (!added && known->second != command)
-        picture.place.fail(fmt::format("name: found '{}' for different pictures of two cases, allowed: a name with a "
-                                       "setting that differs, e.g. 'density-{{pressure}}.png'",
-                                       one_line(picture.name)));
+        picture.place.fail(
+            fmt::format("found the name '{}' for different pictures of two cases, allowed: a name with a "
+                        "setting that differs, e.g. 'density-{{pressure}}.png'",
+                        one_line(picture.name)));
       if (!added || std::find(files_.begin(), files_.end(), file) != files_.end()) continue;
       text_ += fmt::format("{}: {} {}\n", file, sources_, run);
       variable(file, "picture", command);

@@ -63,7 +63,7 @@ TEST_CASE("A folder, a socket, no name and a missing folder are refused as outpu
     CHECK(refusal(folder / "new/", kind) == expected(folder / "new/", "a folder"));
     CHECK(refusal(".", kind) == expected(".", "a folder"));
     CHECK(refusal(at, kind) == expected(at, "a socket"));
-    CHECK(refusal("", kind) == "--output: found no name, allowed: a file");
+    CHECK(refusal("", kind) == "--output: found an empty name, allowed: a file");
     CHECK(refusal(folder / "none/x", kind) ==
           "--output " + (folder / "none/x") + ": the folder does not exist, allowed: a file in an existing folder");
   }

@@ -175,7 +175,7 @@ TEST_CASE("grains that extend beyond their spheres are rotated until none touch,
   const SpherePacking packing = cluster(0.06, 0.0006);
   const PackingMesh one = mesh_packing(packing, {.nominal_size = 0.02, .seed = 1, .threads = 1});
   REQUIRE(one.notes.size() == 1);
-  CHECK_THAT(one.notes[0], Catch::Contains("turned"));
+  CHECK_THAT(one.notes[0], Catch::Contains("rotated"));
   CHECK(smallest_facet_gap(packing, one).gap > 0);
   for (std::size_t g = 0; g < packing.radius.size(); ++g) {
     const TetMesh grain{nodes_of(one, g), tets_of(one, g)};

@@ -206,7 +206,8 @@ command = "section {{run}} --data {{folder}}/s{{x}}.csv"
 )",
                                                     name)));
   };
-  CHECK_THROWS_WITH(rules("s.png"), Contains("study.toml:10") && Contains("found 's.png' for different pictures"));
+  CHECK_THROWS_WITH(rules("s.png"),
+                    Contains("study.toml:12") && Contains("found the name 's.png' for different pictures"));
   const std::string shared = rules("s{x}.png"), out = studies.path("out/study");
   CHECK_THAT(shared,
              Contains(out + "/s2.png: private picture := section ") && Contains(fmt::format("--data {}/s2.csv", out)));
