@@ -45,10 +45,12 @@ help:
 allowed = $(if $(filter $($(1)),$(2)),,$(error $(1)=$($(1)): allowed: $(2)))
 
 #: MESH=NAME        nominal element size: smoke (0.03 mm, small packing), coarse (0.03 mm, the default),
-#:                  intermediate (0.025 mm), medium (0.015 mm), paper (0.0075 mm): those of the paper's Fig. 7
+#:                  intermediate (0.025 mm), medium (0.015 mm), paper (0.0075 mm): those of the paper's Fig. 7;
+#:                  coarser (0.04 mm) for SURFACE=smooth, which needs no more; fig10 to fig26
 MESH ?= coarse
-$(call allowed,MESH,smoke coarse intermediate medium paper)
+$(call allowed,MESH,smoke coarser coarse intermediate medium paper)
 size_smoke := 0.03
+size_coarser := 0.04
 size_coarse := 0.03
 size_intermediate := 0.025
 size_medium := 0.015
