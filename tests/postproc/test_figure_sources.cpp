@@ -73,7 +73,7 @@ TEST_CASE("a run whose checkpoint is lost is made again, with those before it, o
   const Figure figure = studies.figure(chain);
   const std::string first = studies.path("out/first"), second = studies.path("out/second"),
                     third = studies.path("out/third");
-  const std::string rules = studies.rules(figure);
+  const std::string rules = studies.rules(figure), checkpoint = "/work/run.pressing.checkpoint.h5";
   CHECK_THAT(rules, !Contains("run.h5: FORCE")); // nothing is there: all is made anyway
   for (const std::string& run : {first, second, third}) {
     write_text(run + "/run.h5", "");
@@ -83,14 +83,14 @@ TEST_CASE("a run whose checkpoint is lost is made again, with those before it, o
   CHECK_THAT(studies.rules(figure), !Contains("run.h5: FORCE"));
   std::filesystem::remove(third + "/run.h5");
   CHECK_THAT(studies.rules(figure), Contains(second + "/run.h5: FORCE") && Contains(first + "/run.h5: FORCE"));
-  write_text(first + "/work/run.pressing.checkpoint.h5", "");
+  write_text(first + checkpoint, "");
   CHECK_THAT(studies.rules(figure), Contains(second + "/run.h5: FORCE") && !Contains(first + "/run.h5: FORCE"));
-  write_text(second + "/work/run.pressing.checkpoint.h5", "");
+  write_text(second + checkpoint, "");
   CHECK_THAT(studies.rules(figure), !Contains("run.h5: FORCE"));
   // A branch whose settings changed is to be made, too.
   write_text(third + "/run.h5", "");
   write_text(third + "/run.settings", "others\n");
-  std::filesystem::remove(second + "/work/run.pressing.checkpoint.h5");
+  std::filesystem::remove(second + checkpoint);
   CHECK_THAT(studies.rules(figure), Contains(second + "/run.h5: FORCE"));
 }
 
