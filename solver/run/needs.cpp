@@ -1,5 +1,6 @@
 #include "solver/run/needs.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <limits>
@@ -67,8 +68,9 @@ double disk_of(const PackingCounts& packing, const Scenario& scenario) {
   // Checkpoints that stay, the rolling one, and the one that is being written.
   const double checkpoints = stages + 2 + static_cast<double>(output.checkpoint_relative_densities.size());
   // Snapshots are files next to the run file until it contains them all.
-  const double snapshots =
+  double snapshots =
       (output.snapshot_at_stage_end ? stages : 0.0) + static_cast<double>(output.snapshot_relative_densities.size());
+  for (const Stage& stage : scenario.stages) snapshots += std::min(stage.snapshots, output.history_rows);
   const double snapshot = 22 * tets, mesh = 11 * tets;
   return checkpoints * checkpoint + 2 * snapshots * snapshot + mesh + sizeof(HistoryRow) * output.history_rows * stages;
 }

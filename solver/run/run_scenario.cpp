@@ -303,8 +303,9 @@ private:
       simulation_.evaluate_forces();
       warn_of_slowest_speed();
       const bool stage_end = simulation_.stage_complete();
+      const std::int64_t rows = record_.rows_in_stage;
       if (stage_end || row_due()) record_row();
-      take_snapshots(stage_end);
+      take_snapshots(stage_end, rows);
       if (stage_end) {
         report_stage_end();
         if (simulation_.state().stage + 1 == static_cast<std::int64_t>(scenario_.stages.size())) return true;
@@ -395,10 +396,14 @@ private:
                100 * error, row.step);
   }
 
-  void take_snapshots(bool stage_end) {
-    const auto& densities = scenario_.output.snapshot_relative_densities;
+  /// `rows_before`: in the stage, at the step before.
+  void take_snapshots(bool stage_end, std::int64_t rows_before) {
+    const OutputParameters& output = scenario_.output;
+    const auto& densities = output.snapshot_relative_densities;
     auto& passed = record_.snapshots_passed;
-    bool due = stage_end && scenario_.output.snapshot_at_stage_end;
+    bool due = stage_end ? output.snapshot_at_stage_end
+                         : snapshot_due(rows_before, record_.rows_in_stage, output.history_rows,
+                                        simulation_.stage().snapshots);
     while (passed < static_cast<std::int64_t>(densities.size()) &&
            simulation_.relative_density() >= densities[static_cast<std::size_t>(passed)] * (1 - 1e-9)) {
       ++passed;

@@ -307,6 +307,7 @@ Stage read_stage(TableReader table, std::size_t number, const StageContext& cont
     table.fail("quasi_static", "cannot be used with type = 'tools'");
   stage.quasi_static = read_quasi_static(table, driven_speed(stage.type), context.youngs_modulus);
   stage.damping = read_damping(table);
+  stage.snapshots = static_cast<int>(table.integer_or("snapshots", 0, Range::between(0, 1000)));
   stage.places = table.places();
   table.finish();
   return stage;

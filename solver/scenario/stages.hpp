@@ -162,7 +162,8 @@ struct Stage {
   StageType type;
   std::optional<QuasiStatic> quasi_static{}; ///< none: the stage keeps its speed
   DampingParameters damping;
-  KeyPlaces places; ///< of its keys in the scenario
+  int snapshots = 0; ///< evenly over the stage's expected time, besides that at its end
+  KeyPlaces places;  ///< of its keys in the scenario
 };
 
 /// mm/s of each driven wall or grip, if the stage keeps its speed; 0 if none is driven.

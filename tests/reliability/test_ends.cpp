@@ -123,6 +123,21 @@ TEST_CASE("rows of a stage are even up to ten times its expected time, and bound
   CHECK(static_cast<double>(rows) <= most_rows(100));
 }
 
+TEST_CASE("snapshots of a stage are taken with evenly spaced rows, none with the first, and at most one for each row") {
+  const auto rows_with_snapshot = [](int rows, int snapshots) {
+    std::vector<std::int64_t> taken;
+    for (std::int64_t row = 0; row <= rows; ++row)
+      if (snapshot_due(row, row + 1, rows, snapshots)) taken.push_back(row);
+    return taken;
+  };
+  CHECK(rows_with_snapshot(20, 0).empty());
+  CHECK(rows_with_snapshot(20, 4) == std::vector<std::int64_t>{5, 10, 15, 20});
+  CHECK(rows_with_snapshot(10, 3) == std::vector<std::int64_t>{4, 7, 10}); // not before a third of the time
+  CHECK(rows_with_snapshot(3, 100) == std::vector<std::int64_t>{1, 2, 3});
+  CHECK_FALSE(snapshot_due(5, 5, 20, 4)); // no row in this step
+  CHECK(snapshot_due(4, 8, 20, 4));       // a row that stands for several
+}
+
 TEST_CASE("motion that is not finite stops every kind of stage, and the message names grain, place, cause and last "
           "checkpoint") {
   const Folder folder;

@@ -40,6 +40,23 @@ TEST_CASE("spheres that a packing file holds with meshes of their volume touch b
   CHECK_THAT(other.messages, Catch::Contains("0 of 8 grains") && Catch::Contains("contact.surface"));
 }
 
+TEST_CASE("a stage takes as many snapshots as wanted, each with a row of the history, also when it is resumed") {
+  const Folder folder;
+  prepare(folder, 3, scenario_text);
+  const std::string run = folder / "run.h5";
+  const std::string command = fmt::format("run {} -o {} --quiet --threads 1 --set stages.0.snapshots=4 "
+                                          "--set output.snapshot_relative_densities=[]",
+                                          folder / "scenario.toml", run);
+  REQUIRE(mpfem_command(command + " --time-limit 0.001").exit_code == 5);
+  REQUIRE(mpfem_command(command + " --resume").exit_code == 0);
+  const schema::FileReader file(run, schema::FileKind::run);
+  const auto times = file.read(schema::run::history_time);
+  std::vector<double> taken;
+  for (const std::string& name : file.snapshots()) taken.push_back(file.read_scalar(schema::run::snapshots_time, name));
+  REQUIRE(times.size() == 21); // the first and twenty more
+  CHECK(taken == std::vector<double>{times[5], times[10], times[15], times[20]});
+}
+
 TEST_CASE("a run says what ended its stages, and how well stresses were held") {
   const Folder folder;
   prepare(folder, 3, loading_text);
