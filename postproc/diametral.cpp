@@ -203,33 +203,56 @@ std::optional<double> half_angle_at(const schema::FileReader& file, const Histor
                           rule.face_distance.value_or(0.01 * diameter)});
 }
 
-/// Adds where bonds have broken between the last snapshot before the test and the one nearest to a row's time; null
-/// where these snapshots do not exist or have no broken bonds.
+/// The bonds that have broken since the last snapshot before a test.
+class CrackSince {
+public:
+  CrackSince(const schema::FileReader& file, const HistoryTable& history, const Test& test, int disc_axis,
+             double diameter)
+      : file_(file), first_(snapshot_at(file, history["time"][test.stage.first], false)) {
+    if (!first_ || !has_bonds(*first_)) return;
+    before_ = read_snapshot(file, *first_);
+    bonds_ = read_bond_table(file, *first_);
+    disc_ = {before_.node, test.axis, third_axis(test.axis, disc_axis), {}, diameter};
+    for (int k = 0; k < 3; ++k) {
+      const Extent extent = extent_along(before_.node, k);
+      disc_.middle[static_cast<std::size_t>(k)] = 0.5 * (extent.low + extent.high);
+    }
+  }
+
+  CrackSince(const CrackSince&) = delete;
+  CrackSince& operator=(const CrackSince&) = delete;
+
+  /// Up to a snapshot; empty where one of both snapshots does not exist or has no bonds, or none broke.
+  std::optional<DiscCrack> until(std::optional<int> last) const {
+    if (bonds_.empty() || !last || *last <= *first_ || !has_bonds(*last)) return {};
+    return disc_crack(bonds_, read_bond_table(file_, *last), disc_);
+  }
+
+private:
+  bool has_bonds(int number) const {
+    const std::string name = file_.snapshots()[static_cast<std::size_t>(number)];
+    return file_.has(schema::run::snapshots_bond_node, name) && file_.rows(schema::run::snapshots_bond_node, name) > 0;
+  }
+
+  const schema::FileReader& file_;
+  std::optional<int> first_;
+  Snapshot before_;
+  std::vector<BondRow> bonds_;
+  DiscGeometry disc_;
+};
+
+/// Adds where bonds have broken up to the snapshot nearest to a row's time, or null.
 void add_crack(Measurement& m, const schema::FileReader& file, const HistoryTable& history, const Test& test,
                const DiametralRule& rule, double diameter, std::size_t row) {
-  const auto& times = history["time"];
-  const auto first = snapshot_at(file, times[test.stage.first], false), last = snapshot_at(file, times[row], true);
-  std::optional<DiscCrack> crack;
-  const auto names = file.snapshots();
-  const auto has_bonds = [&](int number) {
-    const std::string& name = names[static_cast<std::size_t>(number)];
-    return file.has(schema::run::snapshots_bond_node, name) && file.rows(schema::run::snapshots_bond_node, name) > 0;
-  };
-  if (first && last && *last > *first && has_bonds(*first) && has_bonds(*last)) {
-    const Snapshot before = read_snapshot(file, *first);
-    DiscGeometry disc{before.node, test.axis, third_axis(test.axis, rule.disc_axis), {}, diameter};
-    for (int k = 0; k < 3; ++k) {
-      const Extent extent = extent_along(before.node, k);
-      disc.middle[static_cast<std::size_t>(k)] = 0.5 * (extent.low + extent.high);
-    }
-    crack = disc_crack(read_bond_table(file, *first), read_bond_table(file, *last), disc);
-  }
+  const std::optional<DiscCrack> crack =
+      CrackSince(file, history, test, rule.disc_axis, diameter).until(snapshot_at(file, history["time"][row], true));
   const auto number = [&](double DiscCrack::*member) {
     return crack ? nlohmann::ordered_json((*crack).*member) : nlohmann::ordered_json();
   };
   m.details["broken_bond_area_mm2"] = number(&DiscCrack::area);
   m.details["broken_share_near_loaded_diameter"] = number(&DiscCrack::near_diameter);
   m.details["broken_share_in_centre"] = number(&DiscCrack::in_centre);
+  m.details["broken_share_in_centre_if_even"] = number(&DiscCrack::in_centre_if_even);
 }
 
 void add_flats(Measurement& m, std::optional<double> half_angle, const std::string& path) {
@@ -253,6 +276,30 @@ void add_flats(Measurement& m, std::optional<double> half_angle, const std::stri
 }
 
 } // namespace
+
+std::string disc_crack_csv(const schema::FileReader& file, const DiametralRule& rule) {
+  const HistoryTable history(file);
+  const Test test = read_test(file, history, rule);
+  const CrackSince crack_since(file, history, test, rule.disc_axis, disc_of(file, history, test, rule).diameter);
+  const std::span<const double> times = test.stage.rows().of(history["time"]);
+  std::string text = "snapshot,time [s],force [N],broken_bond_area [mm^2],broken_share_near_loaded_diameter [1],"
+                     "broken_share_in_centre [1],broken_share_in_centre_if_even [1]\n";
+  int number = -1;
+  for (const std::string& name : file.snapshots()) {
+    ++number;
+    const double time = file.read_scalar(schema::run::snapshots_time, name);
+    if (time <= times.front() || time > times.back() * (1 + 1e-9)) continue;
+    const auto after = std::lower_bound(times.begin(), times.end(), time * (1 - 1e-9));
+    const auto row = static_cast<std::size_t>(after - times.begin());
+    text += fmt::format("{},{:.6g},{:.6g}", number, time, test.force[std::min(row, times.size() - 1)]);
+    if (const auto crack = crack_since.until(number))
+      text += fmt::format(",{:.6g},{:.4g},{:.4g},{:.4g}\n", crack->area, crack->near_diameter, crack->in_centre,
+                          crack->in_centre_if_even);
+    else
+      text += ",0,,,\n";
+  }
+  return text;
+}
 
 Measurement measure_diametral(const schema::FileReader& file, const DiametralRule& rule) {
   const HistoryTable history(file);

@@ -64,4 +64,8 @@ struct DiametralRule {
 /// no snapshot before the test for a missing diameter or thickness, flats wider than 30 degrees.
 Measurement measure_diametral(const schema::FileReader& file, const DiametralRule& rule);
 
+/// CSV: where bonds have broken up to each snapshot of the stage (disc_crack.hpp), with the force on the disc. Throws
+/// InputError as measure_diametral() where there is no test or no diameter.
+std::string disc_crack_csv(const schema::FileReader& file, const DiametralRule& rule);
+
 } // namespace mpfem

@@ -23,6 +23,9 @@ struct DiscCrack {
   double area = 0;          ///< mm^2, both sides of every contact
   double near_diameter = 0; ///< share of the area within D/8 of the loaded diameter
   double in_centre = 0;     ///< share of the area that also lies within 0.6 R of the centre
+  /// What `in_centre` would be if the bonds within D/8 of the loaded diameter had broken evenly along it. A crack that
+  /// begins in the centre has more there, one that begins under the plates has less.
+  double in_centre_if_even = 0;
 };
 
 /// A bond's place is that of its node before the test. Empty where none broke.

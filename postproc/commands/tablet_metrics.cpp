@@ -81,7 +81,7 @@ public:
       : StageMetricCommand(app, "diametral",
                            "Tensile strength of a disc between two plates (Brazilian test): 2 F / (pi D t), and the "
                            "same corrected for flats.\n"
-                           "Example: postproc diametral run.h5 --plates left,right -o strength.json\n"
+                           "Example: postproc diametral run.h5 --plates left,right -o strength.json --data crack.csv\n"
                            "Example: postproc diametral run.h5 --diameter 2 --thickness 1 --flat-angle 10",
                            "the last") {
     options()
@@ -104,6 +104,7 @@ public:
     add_number(options(), "--face-distance", rule_.face_distance, lengths, "mm",
                "Pressed nodes within this distance of the outermost one count as a flat (default: a hundredth of the "
                "diameter)");
+    add_output("--data", data_, "CSV file to write: where bonds have broken up to each snapshot of the stage");
   }
 
 private:
@@ -111,11 +112,12 @@ private:
     DiametralRule rule = rule_;
     rule.stage = stage();
     rule.disc_axis = axis_number(disc_axis_);
+    if (!data_.empty()) write_file(data_, disc_crack_csv(run, rule));
     return measure_diametral(run, rule);
   }
 
   DiametralRule rule_;
-  std::string disc_axis_ = "z";
+  std::string disc_axis_ = "z", data_;
 };
 
 } // namespace

@@ -9,6 +9,7 @@
 
 #include "common/errors.hpp"
 #include "coverage.hpp"
+#include "postproc/csv_file.hpp"
 #include "postproc/diametral.hpp"
 #include "postproc/disc_crack.hpp"
 #include "postproc/heckel.hpp"
@@ -499,6 +500,8 @@ TEST_CASE("bonds that break in a disc are counted by their position before, and 
   CHECK(crack->area == 4);
   CHECK(crack->near_diameter == 0.75);
   CHECK(crack->in_centre == 0.5);
+  // Of the whole bonds within D/8 of the loaded diameter, 2 of 3 mm^2 lie in the centre.
+  CHECK(crack->in_centre_if_even == Approx(0.75 * 2 / 3));
   CHECK_FALSE(disc_crack(before, before, disc));
 }
 
@@ -580,6 +583,12 @@ TEST_CASE("postproc diametral refuses wrong plates, axes and wide flats, and tel
   const auto broken = nlohmann::json::parse(read_text(folder / "b.json"));
   CHECK(broken["broken_bond_area_mm2"] == 1);
   CHECK(broken["broken_share_in_centre"] == 1);
+  CHECK(broken["broken_share_in_centre_if_even"] == 1);
+  REQUIRE(postproc(fmt::format("diametral {} --data {}", folder / "broken.h5", folder / "crack.csv")).exit_code == 0);
+  const auto columns = read_csv(folder / "crack.csv");
+  CHECK(csv_column(columns, "snapshot", "").values == std::vector<double>{1});
+  CHECK(csv_column(columns, "force", "").values == std::vector<double>{50}); // the snapshot is at the peak
+  CHECK(csv_column(columns, "broken_share_in_centre", "").values == std::vector<double>{1});
   // The snapshot at the peak shows flats as wide as the cube.
   run.numbers["/snapshots/*/contact_pressure"] = std::vector<double>(run.extents["nodes"], 1.0);
   write_run(folder / "wide.h5", run);
