@@ -92,10 +92,14 @@ Measurement offset_yield(const StageCurve& c, const OffsetYieldRule& rule) {
   const std::vector<double>& column = c.unconfined ? c.axial_stress : c.deviatoric_stress;
   const auto uncertainty = [&](const std::vector<double>& values) {
     const RowRange rows = rows_about(at->row, {0, c.rows() - 1});
+    // With the smallest possible slope the loading may end before it yields, with the largest it may begin after.
     double by_slope = 0;
-    for (const double sign : {-1.0, 1.0})
-      if (const auto other = reach_offset(path, line, line.slope + sign * line.uncertainty, rule.offset))
-        by_slope = std::max(by_slope, std::abs(other->of(values) - at->of(values)));
+    for (const double sign : {-1.0, 1.0}) {
+      const double slope = line.slope + sign * line.uncertainty;
+      const auto other = slope > 0 ? reach_offset(path, line, slope, rule.offset) : std::nullopt;
+      const double end = sign < 0 ? values.back() : values[line.first_row];
+      by_slope = std::max(by_slope, std::abs((other ? other->of(values) : end) - at->of(values)));
+    }
     return std::hypot(at->half_spacing(values), by_slope, row_uncertainty(rows.of(path.strain), rows.of(values)));
   };
   Measurement m;

@@ -35,7 +35,8 @@ std::optional<double> time_written(const std::string& path) {
   return static_cast<double>(found.st_mtim.tv_sec) + 1e-9 * static_cast<double>(found.st_mtim.tv_nsec);
 }
 
-/// Reads the system's list of locks; requesting the lock itself could stop a run that is starting.
+/// Reads the system's list of locks; requesting the lock itself could stop a run that is starting. The number of the
+/// device is not compared: overlay and other layered file systems list another one than stat() returns.
 AtWork at_work(const std::string& lock) {
   struct stat found {};
   if (stat(lock.c_str(), &found) != 0) return AtWork::no;

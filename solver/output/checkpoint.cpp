@@ -9,12 +9,14 @@
 #include "common/hash.hpp"
 #include "common/one_line.hpp"
 #include "results-schema/descriptors.hpp"
+#include "solver/output/checkpoint_datasets.hpp"
 #include "solver/output/history.hpp"
 #include "solver/output/numbering_hash.hpp"
 
 namespace mpfem {
 
 namespace check = schema::checkpoint;
+namespace rows = checkpoint_datasets;
 
 CheckpointReader::CheckpointReader(const std::string& path) : file_(path, schema::FileKind::checkpoint) {}
 
@@ -56,7 +58,8 @@ bool CheckpointReader::has_bonds() const {
   if (found) return true;
   // Bonds that broke and have not formed again leave only what they dissipated.
   file_.read_in_pieces(check::bond_values, [&](std::size_t, std::span<const double> piece) {
-    for (std::size_t i = 5; i < piece.size(); i += 6) found = found || piece[i] > 0;
+    for (; !piece.empty(); piece = piece.subspan(rows::width<rows::Row>))
+      found = found || rows::bond_of(-1, 0, piece.first(rows::width<rows::Row>)).spent > 0;
   });
   return found;
 }

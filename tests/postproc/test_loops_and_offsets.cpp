@@ -106,6 +106,20 @@ TEST_CASE("offset yield of a bilinear curve is where the plastic strain is the o
   CHECK_THROWS_WITH(offset_yield(curve, {.offset = 0.04}), Catch::Contains("does not reach a plastic strain of 0.04"));
 }
 
+TEST_CASE(
+    "where a loading ends before it yields with the smallest possible slope, the uncertainty reaches to its end") {
+  const Folder folder;
+  // 1000 MPa up to 10 MPa, then 900 MPa: yields near 28 MPa, ends at 37. Rows scatter by half a MPa.
+  auto rows = along({{0, 0}, {0.01, 10}, {0.04, 37}}, 200);
+  for (std::size_t row = 0; row < rows.size(); ++row) rows[row].axial_stress += row % 2 == 0 ? 0.5 : -0.5;
+  const Measurement m = offset_yield(curve_of(folder, rows), {});
+  const double slope = m.details["elastic_slope_MPa"].get<double>();
+  const double smallest = slope - m.details["elastic_slope_uncertainty_MPa"].get<double>();
+  CAPTURE(m.value, slope, smallest);
+  REQUIRE(0.04 - 36.5 / smallest < 0.002); // no yield with the smallest slope
+  CHECK(m.uncertainty >= 37 - 0.5 - m.value);
+}
+
 TEST_CASE("a toe does not count as plastic strain, and a slope may be given") {
   const Folder folder;
   const StageCurve curve = curve_of(folder, along({{0, 0}, {0.003, 0.1}, {0.013, 10.1}, {0.053, 14.1}}, 200));
