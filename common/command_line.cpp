@@ -20,7 +20,7 @@ CLI::Validator validator(const Range& range, const std::string& unit, const char
   return {[range, limits, kind, parse](std::string& text) {
             const auto value = parse(text);
             if (value && range.contains(static_cast<double>(*value))) return std::string();
-            return fmt::format("found '{}', allowed {}", shortened(text, 40), joined(kind, limits));
+            return fmt::format("found '{}', allowed: {}", shortened(text, 40), joined(kind, limits));
           },
           limits};
 }

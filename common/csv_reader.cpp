@@ -82,13 +82,13 @@ void CsvReader::fail(std::string_view message) const {
 }
 
 void CsvReader::expect_columns(const CsvRow& row, std::size_t columns) const {
-  if (row.cells.size() != columns) fail(row, fmt::format("found {} columns, expected {}", row.cells.size(), columns));
+  if (row.cells.size() != columns) fail(row, fmt::format("found {} columns, allowed: {}", row.cells.size(), columns));
 }
 
 double CsvReader::number(const CsvRow& row, std::size_t cell, std::string_view column, const Range& range) const {
   const auto value = finite_number(row.cells[cell]);
   if (!value || !range.contains(*value))
-    fail(row, fmt::format("column {}: found '{}', expected {}", shortened(column), shortened(row.cells[cell]),
+    fail(row, fmt::format("column {}: found '{}', allowed: {}", shortened(column), shortened(row.cells[cell]),
                           expected_number(range, "a number")));
   return *value;
 }
@@ -96,7 +96,7 @@ double CsvReader::number(const CsvRow& row, std::size_t cell, std::string_view c
 long long CsvReader::integer(const CsvRow& row, std::size_t cell, std::string_view column, const Range& range) const {
   const auto value = whole_number(row.cells[cell]);
   if (!value || !range.contains(static_cast<double>(*value)))
-    fail(row, fmt::format("column {}: found '{}', expected {}", shortened(column), shortened(row.cells[cell]),
+    fail(row, fmt::format("column {}: found '{}', allowed: {}", shortened(column), shortened(row.cells[cell]),
                           expected_number(range, "a whole number")));
   return *value;
 }

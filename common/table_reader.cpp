@@ -69,7 +69,7 @@ std::string found_text(const toml::node& node) {
 }
 
 std::string wrong_type(const toml::node& node, std::string_view expected) {
-  return fmt::format("found {}, expected {}", found_text(node), expected);
+  return fmt::format("found {}, allowed: {}", found_text(node), expected);
 }
 
 std::string or_any(const Range& range, std::string_view kind) {
@@ -97,7 +97,7 @@ toml::table parse_toml(std::string_view text, const std::string& name) {
 /// The value on the right of an assignment. The node remembers the assignment as its source.
 toml::table parse_assigned_value(std::string_view value, const std::string& source) {
   const auto first = value.find_first_not_of(" \t");
-  if (first == std::string_view::npos) throw_input_error(source, "the value is empty, expected KEY=VALUE");
+  if (first == std::string_view::npos) throw_input_error(source, "the value is empty, allowed: KEY=VALUE");
   value = value.substr(first, value.find_last_not_of(" \t") - first + 1);
   if (value.find_first_of("\r\n") != std::string_view::npos) throw_input_error(source, "the value has several lines");
   if (line_nested_too_deep(value))
@@ -124,7 +124,7 @@ std::vector<std::string> split_key(std::string_view key, const std::string& sour
     parts.emplace_back(key.substr(begin, end - begin));
     if (parts.back().empty() || parts.back().find_first_of(" \t\r\n\"'[]") != std::string::npos)
       throw_input_error(source,
-                        fmt::format("'{}' is not a key, expected words joined by dots, as 'contact.search_margin' "
+                        fmt::format("'{}' is not a key, allowed: words joined by dots, as 'contact.search_margin' "
                                     "or 'stages.0.name'",
                                     shortened(key, longest_word)));
     if (parts.size() > deepest_toml)
@@ -140,7 +140,7 @@ std::size_t element_index(const toml::array& array, const std::string& index, co
   if (error == std::errc{} && end == index.data() + index.size() && i < array.size()) return i;
   throw_input_error(source, array.empty()
                                 ? fmt::format("found element '{}' of an empty array", shortened(index, longest_word))
-                                : fmt::format("found element '{}' of an array, allowed 0 … {}",
+                                : fmt::format("found element '{}' of an array, allowed: 0 … {}",
                                               shortened(index, longest_word), array.size() - 1));
 }
 
@@ -173,7 +173,7 @@ void TomlDocument::set(std::string_view assignment) {
   const std::string source =
       fmt::format("{}{}", assignment_mark, shortened(assignment, longest_place - assignment_mark.size()));
   const std::size_t equals = assignment.find('=');
-  if (equals == std::string_view::npos) throw_input_error(source, "expected KEY=VALUE");
+  if (equals == std::string_view::npos) throw_input_error(source, "found no '=', allowed: KEY=VALUE");
   const std::vector<std::string> parts = split_key(assignment.substr(0, equals), source);
   toml::table parsed = parse_assigned_value(assignment.substr(equals + 1), source);
   toml::node& value = *parsed.get("value");
@@ -228,7 +228,7 @@ const toml::node* TableReader::find(std::string_view key) {
 
 const toml::node& TableReader::require(std::string_view key, std::string_view allowed) {
   if (const toml::node* node = find(key)) return *node;
-  std::string message = fmt::format("missing, expected {}", allowed);
+  std::string message = fmt::format("missing, allowed: {}", allowed);
   std::vector<std::string> present;
   for (const auto& entry : *table_)
     if (!asked_.contains(entry.first.str())) present.emplace_back(entry.first.str());
@@ -259,7 +259,7 @@ double TableReader::read_number(const toml::node& node, std::string_view key, co
   const std::optional<double> value = node.is_number() ? node.value<double>() : std::nullopt;
   if (!value) fail_at(node.source(), key, wrong_type(node, or_any(range, "a number")));
   if (!std::isfinite(*value)) fail_at(node.source(), key, wrong_type(node, or_any(range, "a finite number")));
-  if (!range.contains(*value)) fail_at(node.source(), key, fmt::format("found {}, allowed {}", *value, range.text()));
+  if (!range.contains(*value)) fail_at(node.source(), key, fmt::format("found {}, allowed: {}", *value, range.text()));
   return *value;
 }
 
@@ -267,7 +267,7 @@ std::int64_t TableReader::read_integer(const toml::node& node, std::string_view 
   if (!node.is_integer()) fail_at(node.source(), key, wrong_type(node, or_any(range, "an integer")));
   const std::int64_t value = node.as_integer()->get();
   if (!range.contains(static_cast<double>(value)))
-    fail_at(node.source(), key, fmt::format("found {}, allowed {}", value, range.text()));
+    fail_at(node.source(), key, fmt::format("found {}, allowed: {}", value, range.text()));
   return value;
 }
 
@@ -281,7 +281,7 @@ std::string TableReader::read_choice(const toml::node& node, std::string_view ke
   if (!node.is_string()) fail_at(node.source(), key, wrong_type(node, fmt::format("one of {}", quoted_list(allowed))));
   const std::string& value = node.as_string()->get();
   if (std::find(allowed.begin(), allowed.end(), value) != allowed.end()) return value;
-  std::string message = fmt::format("found '{}', allowed {}", shortened(value, longest_word), quoted_list(allowed));
+  std::string message = fmt::format("found '{}', allowed: {}", shortened(value, longest_word), quoted_list(allowed));
   if (const auto near = nearest_word(value, allowed)) message += fmt::format(" (did you mean '{}'?)", *near);
   fail_at(node.source(), key, message);
 }
@@ -305,7 +305,7 @@ std::array<double, 3> TableReader::read_vector3(const toml::node& node, std::str
                                                 const Range& range) const {
   const toml::array& array = read_array(node, key, "an array of three numbers");
   if (array.size() != 3)
-    fail_at(node.source(), key, fmt::format("found {} elements, expected an array of three numbers", array.size()));
+    fail_at(node.source(), key, fmt::format("found {} elements, allowed: an array of three numbers", array.size()));
   const std::vector<double> values = read_numbers(node, key, range);
   return {values[0], values[1], values[2]};
 }
@@ -373,7 +373,7 @@ std::vector<std::int64_t> TableReader::integers(std::string_view key, Range rang
   for (const double number : read_numbers(node, key, range)) {
     values.push_back(static_cast<std::int64_t>(number));
     if (static_cast<double>(values.back()) != number)
-      fail_at(node.source(), key, fmt::format("found {:g}, allowed whole numbers", number));
+      fail_at(node.source(), key, fmt::format("found {:g}, allowed: whole numbers", number));
   }
   return values;
 }

@@ -1,6 +1,6 @@
 #pragma once
 // A strict, typed view of one TOML table: every key must be read, every value has a range, and each mistake becomes one
-// line "FILE:LINE:COLUMN: key 'a.b': found …, allowed …" (InputError, exit code 2).
+// line "FILE:LINE:COLUMN: key 'a.b': found …, allowed: …" (InputError, exit code 2).
 
 #include <array>
 #include <cstdint>

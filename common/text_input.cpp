@@ -19,8 +19,8 @@ void refuse_irregular_file(const std::string& path) {
   const std::filesystem::file_status status = std::filesystem::status(path, error);
   if (!std::filesystem::status_known(status)) fail(fmt::format("cannot be read: {}", error.message()));
   if (!std::filesystem::exists(status)) fail("cannot be read: No such file or directory");
-  if (std::filesystem::is_directory(status)) fail("is a folder, expected a file");
-  if (!std::filesystem::is_regular_file(status)) fail("is a pipe, socket or device, expected a file");
+  if (std::filesystem::is_directory(status)) fail("is a folder, allowed: a file");
+  if (!std::filesystem::is_regular_file(status)) fail("is a pipe, socket or device, allowed: a file");
 }
 
 std::string read_text_file(const std::string& path, std::size_t most_bytes) {

@@ -221,7 +221,7 @@ MeshReport report_of_file(const Arguments& arguments, const SpherePacking& packi
   try {
     return report_mesh(packing, mesh.mesh, mesh.nominal_size, arguments.material, arguments.threads);
   } catch (const SimulationError& error) {
-    throw InputError(fmt::format("{}: {}, allowed closed grains of tetrahedra with positive volume",
+    throw InputError(fmt::format("{}: {}, allowed: closed grains of tetrahedra with positive volume",
                                  one_line(arguments.input), error.what()));
   }
 }

@@ -34,7 +34,7 @@ std::shared_ptr<const SurfaceContainer> surface_of_file(const schema::FileReader
     throw InputError(fmt::format("{}: dataset {}: {}", one_line(path), dataset.path, what));
   };
   if (!reader.has(file::box_vertex) || !reader.has(file::box_triangle))
-    fail(file::box_shape, "found surface, expected /box/vertex and /box/triangle with it");
+    fail(file::box_shape, "found surface, allowed: only together with /box/vertex and /box/triangle");
   const auto vertex = reader.read(file::box_vertex);
   const auto triangle = reader.read(file::box_triangle);
   TriangleMesh mesh;

@@ -18,7 +18,7 @@ constexpr double reached = 1e-6; ///< tolerance of a relative density
 
 std::vector<std::optional<double>> stresses(const HistoryTable& history, const std::vector<double>& wanted) {
   if (wanted.empty() || std::adjacent_find(wanted.begin(), wanted.end(), std::greater_equal<>()) != wanted.end())
-    throw InputError("--densities: expected one or more, each larger than the one before");
+    throw InputError("--densities: allowed: one or more, each larger than the one before");
   return stress_at_densities(history["relative_density"], history["mean_stress"], wanted);
 }
 
@@ -76,7 +76,7 @@ CompactionCurve read_compaction_curve(const std::string& path) {
                         csv_column(columns, "mean_stress_MPa", path).values};
   const auto& density = curve.relative_density;
   if (density.empty() || std::adjacent_find(density.begin(), density.end(), std::greater_equal<>()) != density.end())
-    throw InputError(fmt::format("{}: relative_density: expected one or more rows, each denser than the one before",
+    throw InputError(fmt::format("{}: relative_density: allowed: one or more rows, each denser than the one before",
                                  one_line(path)));
   return curve;
 }

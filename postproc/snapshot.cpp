@@ -29,13 +29,13 @@ std::vector<std::int32_t> grain_of_tets(const std::vector<std::int32_t>& offset,
 void check_tets(const Snapshot& s, const std::string& path) {
   for (const std::int32_t node : s.tet)
     if (node < 0 || static_cast<std::size_t>(node) >= s.nodes())
-      throw InputError(fmt::format("{}: /mesh/tet names node {}, allowed 0 … {}", path, node, s.nodes() - 1));
+      throw InputError(fmt::format("{}: /mesh/tet names node {}, allowed: 0 … {}", path, node, s.nodes() - 1));
 }
 
 void check_size(const std::vector<float>& values, std::size_t expected, std::string_view name,
                 const std::string& path) {
   if (values.size() != expected)
-    throw InputError(fmt::format("{}: {} has {} values, expected {}", path, name, values.size(), expected));
+    throw InputError(fmt::format("{}: {} has {} values, allowed: {}", path, name, values.size(), expected));
 }
 
 /// Throws InputError where a node or the box is not finite: drawing and cutting would never end.
@@ -75,7 +75,7 @@ std::string snapshot_name(const schema::FileReader& file, int number) {
   const int index = number < 0 ? count + number : number;
   if (count == 0) throw InputError(fmt::format("{}: the run has no snapshots", one_line(file.path())));
   if (index < 0 || index >= count)
-    throw InputError(fmt::format("{}: no snapshot {}, allowed 0 … {}, or -1 for the last", one_line(file.path()),
+    throw InputError(fmt::format("{}: no snapshot {}, allowed: 0 … {}, or -1 for the last", one_line(file.path()),
                                  number, count - 1));
   return names[static_cast<std::size_t>(index)];
 }

@@ -157,7 +157,7 @@ std::optional<TabletShape> tablet_shape(const TabletStates& states, const Tablet
   const auto grains = static_cast<std::size_t>(
       states.node_grain.empty() ? 0 : *std::max_element(states.node_grain.begin(), states.node_grain.end()) + 1);
   if (grains < 3) {
-    why = fmt::format("found {} grains, needed: 3 or more", grains);
+    why = fmt::format("found {} grains, allowed: 3 or more", grains);
     return {};
   }
   const Tablet tablet = whole_tablet(grain_centres(pressed, states.node_grain, grains),
@@ -168,7 +168,7 @@ std::optional<TabletShape> tablet_shape(const TabletStates& states, const Tablet
                                     {"the lower punch", faces.lower.grains()},
                                     {"the die", growth.grains()}})
     if (found < 3) {
-      why = fmt::format("within {:g} mm of {} found nodes of {} grains, needed: 3 or more", rule.face_distance, name,
+      why = fmt::format("within {:g} mm of {} found nodes of {} grains, allowed: 3 or more", rule.face_distance, name,
                         found);
       return {};
     }

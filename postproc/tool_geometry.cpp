@@ -43,7 +43,7 @@ void read_triangles(const schema::FileReader& file, ToolGeometry& tool) {
     for (const std::int32_t corner : corners)
       if (corner < 0 || static_cast<std::size_t>(corner) >= tool.vertex.size())
         refuse(file, tool.name,
-               fmt::format("a triangle has vertex {}, allowed is one below {}", corner, tool.vertex.size()));
+               fmt::format("a triangle has vertex {}, allowed: one below {}", corner, tool.vertex.size()));
 }
 
 /// Throws InputError unless the direction has length 1 and, for shapes with an axis, is along a coordinate axis.

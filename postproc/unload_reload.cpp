@@ -47,7 +47,7 @@ const UnloadReloadLoop& choose_loop(const std::vector<UnloadReloadLoop>& loops, 
   const int index = number < 0 ? count + number : number;
   if (index < 0 || index >= count)
     throw InputError(
-        fmt::format("{}: --loop: found {}, allowed 0 … {}, or -1 for the last", c.path, number, count - 1));
+        fmt::format("{}: --loop: found {}, allowed: 0 … {}, or -1 for the last", c.path, number, count - 1));
   return loops[static_cast<std::size_t>(index)];
 }
 

@@ -107,7 +107,7 @@ FileReader::FileReader(const std::string& path) {
 
 FileReader::FileReader(const std::string& path, FileKind kind) : FileReader(path) {
   if (state_->kind != kind)
-    throw InputError(fmt::format("{}: a {} file, expected a {} file", one_line(path),
+    throw InputError(fmt::format("{}: a {} file, allowed: a {} file", one_line(path),
                                  kinds[static_cast<std::size_t>(state_->kind)].name,
                                  kinds[static_cast<std::size_t>(kind)].name));
 }
@@ -148,7 +148,7 @@ std::size_t FileReader::count(const DatasetDescription& dataset, std::string_vie
     good = !dataset.extent[i].name.empty() || dataset.extent[i].fixed == extents[i];
     values *= extents[i];
   }
-  if (!good) fail(fmt::format("has the shape {}, expected {}", extents_text(extents), dataset.shape));
+  if (!good) fail(fmt::format("has the shape {}, allowed: {}", extents_text(extents), dataset.shape));
   if (const std::string vast = state_->vast(set); !vast.empty()) fail(vast);
   return values;
 }

@@ -37,11 +37,11 @@ public:
     for (const auto& [name, wanted] :
          {std::pair{attribute::unit, dataset.unit}, std::pair{attribute::description, dataset.description}})
       if (const std::string found = read_text_attribute(set, name); found != wanted)
-        finding(path, fmt::format("attribute {} is '{}', expected '{}'", name, found, wanted));
+        finding(path, fmt::format("attribute {} is '{}', allowed: '{}'", name, found, wanted));
     if (!has_type(set, dataset.type)) return finding(path, fmt::format("is not of type {}", type_name(dataset.type)));
     const auto extents = extents_of(set);
     if (extents.size() != static_cast<std::size_t>(dataset.rank))
-      return finding(path, fmt::format("has the shape {}, expected {}", extents_text(extents), dataset.shape));
+      return finding(path, fmt::format("has the shape {}, allowed: {}", extents_text(extents), dataset.shape));
     for (std::size_t i = 0; i < extents.size(); ++i)
       if (!check_extent(dataset, path, snapshot, i, extents[i])) return;
     if (const std::string vast = state_.vast(set); !vast.empty()) return finding(path, vast);
@@ -57,7 +57,7 @@ public:
       const auto limit = static_cast<std::int64_t>(extent->second.first);
       if (!dataset->indexes.empty()) {
         if (least < 0 || most >= limit)
-          finding(path, fmt::format("holds the index {}, allowed 0 … {}", least < 0 ? least : most, limit - 1));
+          finding(path, fmt::format("holds the index {}, allowed: 0 … {}", least < 0 ? least : most, limit - 1));
       } else if (least != 0 || most != limit || !rises) {
         finding(path, fmt::format("does not rise from 0 to {} ({})", limit, name));
       }
@@ -92,7 +92,7 @@ private:
                     std::size_t i, hsize_t found) {
     const Extent& wanted = dataset.extent[i];
     if (wanted.name.empty()) {
-      if (wanted.fixed != found) finding(path, fmt::format("has extent {}, expected {}", found, dataset.shape));
+      if (wanted.fixed != found) finding(path, fmt::format("has extent {}, allowed: {}", found, dataset.shape));
       return wanted.fixed == found;
     }
     std::string name(wanted.name);

@@ -16,7 +16,7 @@ void hand_over_to_best_build(char** arguments) {
   if (const char* wanted = std::getenv("MPFEM_INSTRUCTION_SET")) {
     const std::string level = wanted;
     if (level != "v2" && level != "v3" && level != "v4")
-      throw InputError(fmt::format("MPFEM_INSTRUCTION_SET: found '{}', allowed v2, v3 or v4", level));
+      throw InputError(fmt::format("MPFEM_INSTRUCTION_SET: found '{}', allowed: v2, v3 or v4", level));
     newest = level[1] - '0';
   }
   if (newest >= 4 && !__builtin_cpu_supports("x86-64-v4")) newest = 3;

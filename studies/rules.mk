@@ -103,7 +103,7 @@ study_name := $(patsubst %.toml,%,$(notdir $(patsubst %/figure.toml,%.toml,$(STU
 powder = $(BIN)/postproc powder '$(STUDY)' --programmes $(studies)/branches
 of_powder := $(if $(STUDY),$(shell $(powder) | sed -n '1s/^# element_size = //p'))
 ifneq ($(and $(filter study,$(MAKECMDGOALS)),$(if $(wildcard $(STUDY)),,missing)),)
-  $(error STUDY=$(STUDY): expected the file of a study, e.g. make -f $(makefile) study STUDY=my.toml)
+  $(error STUDY=$(STUDY): allowed: the file of a study, e.g. make -f $(makefile) study STUDY=my.toml)
 endif
 packing_smoke := smoke
 packing := $(or $(packing_$(MESH)),full)

@@ -53,7 +53,7 @@ std::vector<Corners> scaled_corners(const std::vector<StlFacet>& facets, const s
       scaled[k] = scale * facet.corner[k];
       const Vector3<double>& x = scaled[k];
       if (!(std::fmax(std::abs(x.x), std::fmax(std::abs(x.y), std::abs(x.z))) <= farthest))
-        throw InputError(fmt::format("{}: triangle {}: found a corner at {} with the scale {}, allowed up to {} mm",
+        throw InputError(fmt::format("{}: triangle {}: found a corner at {} with the scale {}, allowed: up to {} mm",
                                      shown_path(name), corners.size() + 1, place(x), scale, farthest));
     }
     corners.push_back(scaled);
@@ -67,7 +67,7 @@ double diagonal_of(const std::vector<Corners>& corners, const std::string& name)
   for (const Corners& three : corners) all.vertex.insert(all.vertex.end(), three.begin(), three.end());
   const double length = diagonal(bounds_of(all));
   if (!(length >= 1 / farthest))
-    throw InputError(fmt::format("{}: found a largest extent of {} mm, allowed at least {} mm", shown_path(name),
+    throw InputError(fmt::format("{}: found a largest extent of {} mm, allowed: at least {} mm", shown_path(name),
                                  length, 1 / farthest));
   return length;
 }
@@ -97,7 +97,7 @@ void check_closed(const Checked& surface, const EdgePairs& pairs) {
         std::pair(pairs.crowded, "belong to more than two triangles"),
         std::pair(pairs.misoriented, "have two triangles that run along them the same way")})
     if (fault.count > 0)
-      surface.fail(fmt::format("the surface is not closed and oriented: found {} edges that {}, one {}; allowed two "
+      surface.fail(fmt::format("the surface is not closed and oriented: found {} edges that {}, one {}; allowed: two "
                                "triangles at every edge, in opposite directions",
                                fault.count, what, surface.place_of_edge(fault.example)));
 }
@@ -105,7 +105,7 @@ void check_closed(const Checked& surface, const EdgePairs& pairs) {
 std::size_t flip_all_slivers(const Checked& surface, double length) {
   const SliverFlips slivers = flip_slivers(surface.mesh, surface.partner, sliver_share * length * length);
   if (slivers.left > 0)
-    surface.fail(fmt::format("found {} triangles without area, one at {}, allowed from {:.3g} mm^2", slivers.left,
+    surface.fail(fmt::format("found {} triangles without area, one at {}, allowed: from {:.3g} mm^2", slivers.left,
                              place(surface.mesh.corner(static_cast<std::size_t>(slivers.example), 0)),
                              sliver_share * length * length));
   // Two edges may now coincide.
@@ -142,7 +142,7 @@ void check_nesting(const Checked& surface, std::span<const std::vector<std::size
     constexpr double slack = 0.75; // where shells touch, the winding number is not whole
     if (std::abs(winding - (is_cavity ? 1 : 0)) > slack)
       surface.fail(fmt::format(
-          "found {} shells of which the one at {} {}; allowed bodies side by side, and cavities in "
+          "found {} shells of which the one at {} {}; allowed: bodies side by side, and cavities in "
           "them",
           shell.size(), place(x), is_cavity ? "is turned inside out" : "lies in another one or runs through it"));
   }
@@ -174,7 +174,7 @@ void check_volume(const Checked& surface, double length, StlFindings& findings) 
   double volume = 0;
   for (const auto& triangles : shell) volume += volume_of(surface.mesh, triangles);
   if (!(std::abs(volume) > sliver_share * length * length * length))
-    surface.fail(fmt::format("the surface encloses {:.3g} mm^3, allowed a body with a volume", volume));
+    surface.fail(fmt::format("the surface encloses {:.3g} mm^3, allowed: a body with a volume", volume));
   findings.turned = volume < 0;
   if (findings.turned) turn_round(surface.mesh);
   check_nesting(surface, shell);

@@ -49,7 +49,7 @@ std::vector<StlFacet> read_binary(std::string_view bytes, const std::string& nam
     for (std::size_t k = 0; k < 3; ++k) {
       facet.corner[k] = binary_vector(bytes, at + 12 * (k + 1));
       if (!is_finite(facet.corner[k]))
-        throw InputError(fmt::format("{}: triangle {}: found a corner at ({}, {}, {}), allowed finite numbers",
+        throw InputError(fmt::format("{}: triangle {}: found a corner at ({}, {}, {}), allowed: finite numbers",
                                      shown_path(name), facets.size() + 1, facet.corner[k].x, facet.corner[k].y,
                                      facet.corner[k].z));
     }
@@ -75,7 +75,7 @@ public:
   }
   void skip_line() { place_ = std::min(text_.find('\n', place_), text_.size()); }
   [[noreturn]] void fail(const std::string& found, std::string_view allowed) const {
-    throw InputError(fmt::format("{}:{}: found {}, allowed {}", shown_path(name_), line_,
+    throw InputError(fmt::format("{}:{}: found {}, allowed: {}", shown_path(name_), line_,
                                  found.empty() ? "the end of the file" : fmt::format("'{}'", shortened(found)),
                                  allowed));
   }
@@ -155,7 +155,7 @@ StlFacets read_stl_facets(std::string_view bytes, const std::string& name) {
   if (!binary && !begins_with_solid(bytes)) fail_of_no_form(bytes, name);
   StlFacets result{binary ? read_binary(bytes, name) : read_text(bytes, name), binary};
   if (result.facet.empty())
-    throw InputError(fmt::format("{}: found no triangle, allowed a closed surface of triangles", shown_path(name)));
+    throw InputError(fmt::format("{}: found no triangle, allowed: a closed surface of triangles", shown_path(name)));
   return result;
 }
 

@@ -23,7 +23,7 @@ std::vector<FlatTriangle> flat_triangles(const TriangleMesh& mesh) {
 EdgePairs closed_edges(const TriangleMesh& mesh) {
   EdgePairs pairs = pair_edges(mesh);
   if (mesh.triangle.empty() || !pairs.closed())
-    throw InputError("a surface of triangles is not closed and oriented, allowed two triangles at every edge, in "
+    throw InputError("a surface of triangles is not closed and oriented, allowed: two triangles at every edge, in "
                      "opposite directions");
   return pairs;
 }

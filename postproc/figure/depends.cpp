@@ -164,7 +164,7 @@ private:
     if (!known.empty() && std::find(known.begin(), known.end(), name) == known.end()) {
       const auto nearest = nearest_word(name, known);
       place.fail(fmt::format("metric '{}': found '{}', {}", one_line(metric), one_line(name),
-                             nearest ? fmt::format("did you mean '{}'?", *nearest) : "expected a command of postproc"));
+                             nearest ? fmt::format("did you mean '{}'?", *nearest) : "allowed: a command of postproc"));
     }
     return fmt::format("postproc {}", command);
   }

@@ -31,7 +31,7 @@ public:
     if (!file) throw InputError(fmt::format("{}: no such file; the figure's rules make it first", one_line(path)));
     Json json = Json::parse(file, nullptr, false);
     if (!json.is_object())
-      throw InputError(fmt::format("{}: found no JSON object, expected the JSON file of a metric", one_line(path)));
+      throw InputError(fmt::format("{}: found no JSON object, allowed: the JSON file of a metric", one_line(path)));
     return files_.emplace(path, std::move(json)).first->second;
   }
 

@@ -7,7 +7,7 @@ namespace mpfem {
 Value value_of(const toml::node& node, const Place& place) {
   if (const auto* text = node.as_string()) return {text->get(), {}};
   if (const auto number = node.is_number() ? node.value<double>() : std::nullopt) return Value::of(*number);
-  place.fail("expected a number or a text");
+  place.fail("allowed: a number or a text");
 }
 
 std::vector<Value> values_of(TableReader& reader, const std::string& key) {
@@ -18,7 +18,7 @@ std::vector<Value> values_of(TableReader& reader, const std::string& key) {
     for (const toml::node& element : *list) values.push_back(value_of(element, place));
   else
     values.push_back(value_of(*node, place));
-  if (values.empty()) place.fail("found an empty list, expected a value or more");
+  if (values.empty()) place.fail("found an empty list, allowed: a value or more");
   return values;
 }
 
@@ -62,7 +62,7 @@ Filter Texts::filter(const std::string& key, TableReader& table, const std::stri
 std::optional<double> Texts::number(const std::string& key) {
   if (!reader_.has(key) || !reader_.value(key)->is_string()) return reader_.optional_number(key);
   const auto number = Value::of_text(required(key)).number;
-  if (!number) reader_.fail(key, "expected a number");
+  if (!number) reader_.fail(key, "allowed: a number");
   return number;
 }
 
@@ -71,7 +71,7 @@ int Texts::integer(const std::string& key, int fallback, Range range) {
     return static_cast<int>(reader_.integer_or(key, fallback, range));
   const auto number = Value::of_text(required(key)).number;
   if (!number || *number != static_cast<int>(*number) || !range.contains(*number))
-    reader_.fail(key, fmt::format("expected a whole number {}", range.text()));
+    reader_.fail(key, fmt::format("allowed: a whole number {}", range.text()));
   return static_cast<int>(*number);
 }
 

@@ -75,7 +75,7 @@ bool read_metric_key(const std::string& source, ColumnSpec& column) {
 ColumnSpec read_column(const std::string& text, bool curves, const Place& place) {
   const std::size_t equals = text.find(" = ");
   if (equals == std::string::npos)
-    place.fail(fmt::format("found '{}', expected 'NAME [UNIT] = SOURCE' or the name of a list in [columns]", text));
+    place.fail(fmt::format("found '{}', allowed: 'NAME [UNIT] = SOURCE' or the name of a list in [columns]", text));
   ColumnSpec column;
   column.title = text.substr(0, equals);
   const Heading heading = heading_of(column.title);
@@ -84,7 +84,7 @@ ColumnSpec read_column(const std::string& text, bool curves, const Place& place)
   std::string source = text.substr(equals + 3);
   if (const std::size_t over = source.find(" over "); curves && over != std::string::npos) {
     if (!read_metric_key(source.substr(over + 6), column))
-      place.fail(fmt::format("found '{}', expected 'COLUMN over RUN/METRIC.KEY'", source));
+      place.fail(fmt::format("found '{}', allowed: 'COLUMN over RUN/METRIC.KEY'", source));
     source.resize(over);
   }
   if (source.starts_with('\'')) {
@@ -98,7 +98,7 @@ ColumnSpec read_column(const std::string& text, bool curves, const Place& place)
     column.history = source.substr(0, colon);
     if (colon != std::string::npos) column.format = source.substr(colon + 1);
   } else {
-    place.fail(fmt::format("found '{}', expected {}", source,
+    place.fail(fmt::format("found '{}', allowed: {}", source,
                            curves ? "a column of the history, or a value in braces"
                                   : "'RUN/METRIC.KEY' or a value in braces"));
   }
@@ -155,7 +155,7 @@ SeriesSpec read_series(Texts& t) {
   s.size = r.number_or("size", 1.5, Range::positive());
   s.dash = t.optional("dash", "solid");
   if (s.dash != "solid" && s.dash != "dashed" && s.dash != "dotted" && s.dash != "long")
-    r.fail("dash", fmt::format("found '{}', allowed 'solid', 'dashed', 'dotted', 'long'", s.dash));
+    r.fail("dash", fmt::format("found '{}', allowed: 'solid', 'dashed', 'dotted', 'long'", s.dash));
   s.title = t.optional("title");
   return s;
 }
@@ -246,7 +246,7 @@ ConditionSpec read_condition(TableReader reader, const Words& words) {
     c.operands = operands_of(reader, c.predicate, words);
     const std::size_t least = c.predicate == "between" || c.predicate == "ordered" ? 2 : 1;
     if (c.operands.size() < least || (c.predicate != "ordered" && c.operands.size() > least))
-      reader.fail(c.predicate, fmt::format("found {} values, expected {}", c.operands.size(), least));
+      reader.fail(c.predicate, fmt::format("found {} values, allowed: {}", c.operands.size(), least));
   }
   if (c.predicate == "near") {
     c.absolute = reader.has("within_absolute");
@@ -288,7 +288,7 @@ TableSpec read_table(Texts& t, const ColumnLists& lists) {
   const bool rows_of_files = !spec.curves.empty() || !spec.list.empty();
   for (const std::string& text : with_lists(t.list("columns"), lists))
     spec.columns.push_back(read_column(text, rows_of_files, spec.place));
-  if (spec.columns.empty()) spec.place.fail("expected a column or more");
+  if (spec.columns.empty()) spec.place.fail("allowed: a column or more");
   return spec;
 }
 
@@ -333,7 +333,7 @@ InsetSpec read_inset(TableReader inset, const Words& words) {
   spec.x = read_axis(inset.table("x"), words);
   spec.y = read_axis(inset.table("y"), words);
   const auto place = inset.numbers("place", Range::between(0, 1));
-  if (place.size() != 4) inset.fail("place", "expected four numbers: left, bottom, width, height");
+  if (place.size() != 4) inset.fail("place", "allowed: four numbers, left, bottom, width, height");
   std::copy(place.begin(), place.end(), spec.place.begin());
   Texts inside(inset, words);
   spec.where = inside.filters("where");

@@ -53,7 +53,7 @@ std::string last_stage(const std::string& programme) {
   const TomlDocument document = TomlDocument::from_file(programme);
   const toml::array* stages = document.root()["stages"].as_array();
   if (stages == nullptr || stages->empty())
-    throw InputError(fmt::format("{}: found no [[stages]], expected at least one", programme));
+    throw InputError(fmt::format("{}: found no [[stages]], allowed: at least one", programme));
   const auto name = (*stages->as_array())[stages->size() - 1].as_table()->get("name");
   if (name == nullptr || !name->is_string())
     throw InputError(

@@ -37,7 +37,7 @@ std::string replaced(std::string_view field, const Words& words, Unknown unknown
     const auto near = nearest_word(name, names);
     throw InputError(fmt::format("found '{{{}}}', {}", one_line(field),
                                  near ? fmt::format("did you mean '{}'?", *near)
-                                      : fmt::format("allowed in braces: {}", fmt::join(names, ", "))));
+                                      : fmt::format("allowed: {} in braces", fmt::join(names, ", "))));
   }
   const Value& value = word->second;
   if (colon == std::string_view::npos) return value.text;

@@ -188,7 +188,7 @@ RunProgress read_progress(const std::string& run_file) {
     try {
       if (auto progress = newest_state(run_file)) return *std::move(progress);
       if (left == 0)
-        throw InputError(fmt::format("{}: found neither this file nor a checkpoint nor a lock next to it, allowed the "
+        throw InputError(fmt::format("{}: found neither this file nor a checkpoint nor a lock next to it, allowed: the "
                                      "--output of a run that has started",
                                      shown_path(run_file)));
     } catch (const InputError&) {

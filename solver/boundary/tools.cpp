@@ -248,9 +248,10 @@ void Tools::come_back(Tool& tool, const Model& model, const Communicator& ranks)
   if (deepest == 0) return;
   const auto* plane = std::get_if<OrientedPlane>(&tool.surface);
   if (plane == nullptr)
-    throw SimulationError(fmt::format("tool '{}' returns {:.4g} mm inside grains, allowed only where it touches none: "
-                                      "let the grains move out of its way first, or do not withdraw it",
-                                      tool.name, deepest));
+    throw SimulationError(
+        fmt::format("tool '{}' returns {:.4g} mm inside grains, allowed: a place where it touches none; "
+                    "let the grains move out of its way first, or do not withdraw it",
+                    tool.name, deepest));
   const std::array<double, 3> normal = array_of(plane->normal);
   for (std::size_t axis = 0; axis < 3; ++axis) tool.moved[axis] -= deepest * normal[axis];
 }

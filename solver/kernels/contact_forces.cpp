@@ -238,8 +238,8 @@ private:
     const double allowed = 0.9 * contact_.margin;
     if (distance > allowed)
       throw SimulationError(
-          fmt::format("contact: a node of grain {} is {:.3g} mm inside grain {}, allowed up to {:.3g} "
-                      "mm: raise contact.stiffness_factor or lower the speed",
+          fmt::format("contact: a node of grain {} is {:.3g} mm inside grain {}, allowed: up to {:.3g} "
+                      "mm; raise contact.stiffness_factor or lower the speed",
                       pair.grain, distance, pair.other, allowed));
   }
 

@@ -76,15 +76,15 @@ void check(const Model& model, const ContactParameters& contact, const BondsOfSc
       bonds.refuse(
           "stiffness",
           fmt::format(
-              "found {:g} MPa/mm, allowed with friction: up to {:.3g} MPa/mm, the smallest penalty of a contact point",
+              "found {:g} MPa/mm, allowed: with friction up to {:.3g} MPa/mm, the smallest penalty of a contact point",
               *stiffness, allowed));
   const BondResolution r = bond_resolution(model, bonds.bond, contact, bonds.partner, ranks);
   const double energy = bonds.bond.fracture_energy;
   if (!(energy > 1.01 * r.smallest_fracture_energy))
     bonds.refuse(
         "fracture_energy",
-        fmt::format("found {:g} N/mm, allowed > {:.3g} N/mm, which is 1.01 strength^2/(2 K) with the stiffness K of "
-                    "these bonds: raise the fracture energy or the stiffness, or lower the strength",
+        fmt::format("found {:g} N/mm, allowed: > {:.3g} N/mm, which is 1.01 strength^2/(2 K) with the stiffness K of "
+                    "these bonds; raise the fracture energy or the stiffness, or lower the strength",
                     energy, 1.01 * r.smallest_fracture_energy));
   if (energy < r.steep_fracture_energy)
     warnings.push_back(

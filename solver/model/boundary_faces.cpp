@@ -63,13 +63,13 @@ std::vector<Triangle> boundary_faces(std::span<const Index> tet, const std::stri
     while (j < faces.size() && faces[j].sorted == faces[i].sorted) ++j;
     if (j == i + 1) boundary.push_back(faces[i].outward);
     if (j > i + 2)
-      throw InputError(fmt::format("{}: {} tetrahedra share the face of nodes {}, {}, {}, allowed at most two",
+      throw InputError(fmt::format("{}: {} tetrahedra share the face of nodes {}, {}, {}, allowed: at most two",
                                    grain_name, j - i, faces[i].sorted[0], faces[i].sorted[1], faces[i].sorted[2]));
     i = j;
   }
   if (!is_closed(boundary))
     throw InputError(
-        fmt::format("{}: its surface is not closed, expected tetrahedra that meet face to face", grain_name));
+        fmt::format("{}: its surface is not closed, allowed: tetrahedra that meet face to face", grain_name));
   return boundary;
 }
 

@@ -34,7 +34,7 @@ void choose_materials(const Scenario& scenario, const std::string& name, Model& 
   for (const GrainMaterial& other : scenario.grain_materials) {
     for (const std::int64_t grain : other.grains) {
       if (grain >= model.grains)
-        throw InputError(fmt::format("{}: key 'grain_material.grains': found grain {}, allowed 0 … {}", name, grain,
+        throw InputError(fmt::format("{}: key 'grain_material.grains': found grain {}, allowed: 0 … {}", name, grain,
                                      model.grains - 1));
       model.grain_material[static_cast<std::size_t>(grain)] = static_cast<Index>(model.material.size());
     }

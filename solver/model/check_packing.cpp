@@ -24,7 +24,7 @@ void check_array_sizes(const MeshedPacking& packing, const std::string& name) {
   const auto tets = static_cast<Index>(packing.tet.size() / 4);
   for (const double length : packing.box_lengths)
     if (!(length > 0) || !std::isfinite(length))
-      throw InputError(fmt::format("{}: /box/lengths holds {}, allowed > 0", name, length));
+      throw InputError(fmt::format("{}: /box/lengths holds {}, allowed: > 0", name, length));
   const auto& no = packing.grain_node_offset;
   const auto& to = packing.grain_tet_offset;
   if (no.size() < 2 || no.size() != to.size() || no.front() != 0 || to.front() != 0 || no.back() != nodes ||
@@ -35,7 +35,7 @@ void check_array_sizes(const MeshedPacking& packing, const std::string& name) {
   if (!packing.sphere_radius.empty() && (packing.sphere_radius.size() + 1 != no.size() ||
                                          packing.sphere_center.size() != 3 * packing.sphere_radius.size()))
     throw InputError(
-        fmt::format("{}: /spheres/center and /spheres/radius hold {} and {} numbers, allowed three and one for "
+        fmt::format("{}: /spheres/center and /spheres/radius hold {} and {} numbers, allowed: three and one for "
                     "each of {} grains",
                     name, packing.sphere_center.size(), packing.sphere_radius.size(), no.size() - 1));
 }
@@ -43,12 +43,12 @@ void check_array_sizes(const MeshedPacking& packing, const std::string& name) {
 void check_tet(const PackedMesh& mesh, Index tet, std::size_t grain, const std::string& name) {
   for (const Index n : mesh.corners(tet))
     if (n < mesh.first_node || n >= mesh.end_node())
-      throw InputError(fmt::format("{}: /mesh/tet row {}: node {} is not one of grain {} (allowed {} … {})", name, tet,
+      throw InputError(fmt::format("{}: /mesh/tet row {}: node {} is not one of grain {}, allowed: {} … {}", name, tet,
                                    n, grain, mesh.first_node, mesh.end_node() - 1));
   const double volume = mesh.volume(tet);
   if (!(volume > 0))
     throw InputError(fmt::format("{}: /mesh/tet row {} (grain {}) is inverted or degenerate: volume {:.3g} mm^3, "
-                                 "allowed > 0",
+                                 "allowed: > 0",
                                  name, tet, grain, volume));
 }
 
@@ -80,8 +80,8 @@ void refuse_sizes_beyond_floats(const MeshedPacking& packing, std::span<const In
       for (std::size_t c = 1; c < 4; ++c)
         longest = std::max(longest, norm(mesh.point(corner[c]) - mesh.point(corner[0])));
       if (!(longest > least && longest < most))
-        throw InputError(fmt::format("{}: tetrahedron {} has an edge of {:.3g} mm, allowed with element.precision = "
-                                     "'mixed': {:g} … {:g} mm; 'double' has no limit",
+        throw InputError(fmt::format("{}: tetrahedron {} has an edge of {:.3g} mm, allowed: {:g} … {:g} mm with "
+                                     "element.precision = 'mixed'; 'double' has no limit",
                                      name, t, longest, least, most));
     }
   }
@@ -124,9 +124,9 @@ void refuse_shared_places(const Model& model, const std::string& name, const Com
   agree(ranks, [&] {
     for (std::size_t i = 1; i < places.size(); ++i)
       if (places[i].x == places[i - 1].x && places[i].grain != places[i - 1].grain)
-        throw InputError(
-            fmt::format("{}: grains {} and {} have a node in the same place ({:g}, {:g}, {:g}), expected them apart",
-                        name, places[i - 1].grain, places[i].grain, places[i].x[0], places[i].x[1], places[i].x[2]));
+        throw InputError(fmt::format(
+            "{}: grains {} and {} have a node in the same place ({:g}, {:g}, {:g}), allowed: different places", name,
+            places[i - 1].grain, places[i].grain, places[i].x[0], places[i].x[1], places[i].x[2]));
   });
 }
 

@@ -22,7 +22,7 @@ FlowLaw make_flow_law(const MaterialParameters& p) {
     return TotalStrainLaw{h.coefficient, h.exponent, p.youngs_modulus};
   case HardeningLaw::table: {
     if (h.table_plastic_strain.size() > static_cast<std::size_t>(TableLaw::max_points))
-      throw InputError(fmt::format("material.hardening: the table has {} points, allowed at most {}",
+      throw InputError(fmt::format("material.hardening: the table has {} points, allowed: at most {}",
                                    h.table_plastic_strain.size(), TableLaw::max_points));
     TableLaw law;
     law.points = static_cast<int>(h.table_plastic_strain.size());

@@ -127,7 +127,7 @@ Counts running_sums(const Counts& counts) {
   Counts sums{0};
   for (const std::int64_t count : counts) sums.push_back(sums.back() + count);
   if (sums.back() > std::numeric_limits<Index>::max())
-    throw StorageError(fmt::format("a checkpoint cannot hold the {} contacts of so many grains, allowed {}",
+    throw StorageError(fmt::format("a checkpoint cannot hold the {} contacts of so many grains, allowed: up to {}",
                                    sums.back(), std::numeric_limits<Index>::max()));
   return sums;
 }

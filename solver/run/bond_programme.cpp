@@ -28,10 +28,10 @@ constexpr Range increment_numbers = Range::between(1, most_increments);
 
 void check_heading(const CsvReader& reader, const CsvRow& row) {
   if (row.cells.size() < 3 || row.cells.size() > 4)
-    reader.fail(row, fmt::format("found a heading of {} columns, expected {}", row.cells.size(), heading));
+    reader.fail(row, fmt::format("found a heading of {} columns, allowed: {}", row.cells.size(), heading));
   for (std::size_t i = 0; i < row.cells.size(); ++i)
     if (row.cells[i] != column_names[i])
-      reader.fail(row, fmt::format("column {}: found the heading '{}', expected {}", column_names[i],
+      reader.fail(row, fmt::format("column {}: found the heading '{}', allowed: {}", column_names[i],
                                    shortened(row.cells[i]), heading));
 }
 
@@ -100,7 +100,7 @@ BondedPointLaw read_bonded_point_law(const TomlDocument& document) {
   // As in a run: a little more than the energy up to damage, or nothing is left for the softening.
   const double smallest = 1.01 * 0.5 * strength * strength / stiffness;
   if (!(bond.fracture_energy > smallest))
-    table.fail("fracture_energy", fmt::format("found {:g} N/mm, allowed > {:.3g} N/mm (1.01 strength^2/(2 stiffness))",
+    table.fail("fracture_energy", fmt::format("found {:g} N/mm, allowed: > {:.3g} N/mm (1.01 strength^2/(2 stiffness))",
                                               bond.fracture_energy, smallest));
   return {
       {stiffness, bond.tensile_strength, bond.shear_strength, bond.fracture_energy, bond.softening, bond.normal_only},
@@ -110,14 +110,14 @@ BondedPointLaw read_bonded_point_law(const TomlDocument& document) {
 
 std::vector<WayPoint> read_bond_programme(CsvReader reader, int increments) {
   const auto names = reader.next();
-  if (!names) reader.fail(CsvRow{1, {}}, fmt::format("found no heading, expected {}", heading));
+  if (!names) reader.fail(CsvRow{1, {}}, fmt::format("found no heading, allowed: {}", heading));
   check_heading(reader, *names);
   const std::size_t columns = names->cells.size();
   std::vector<WayPoint> way_points;
   long long total = 0;
   while (const auto row = reader.next()) {
     if (row->cells.size() != columns)
-      reader.fail(*row, fmt::format("found {} columns, expected {} as in the heading", row->cells.size(), columns));
+      reader.fail(*row, fmt::format("found {} columns, allowed: {} as in the heading", row->cells.size(), columns));
     const auto separation = [&](std::size_t i) { return reader.number(*row, i, column_names[i], separations); };
     WayPoint way_point{{separation(0), separation(1), separation(2)}, increments};
     if (columns == 4 && !row->cells[3].empty())
@@ -125,10 +125,10 @@ std::vector<WayPoint> read_bond_programme(CsvReader reader, int increments) {
     total += way_point.increments;
     if (total > most_increments)
       reader.fail(*row,
-                  fmt::format("column increments: found {} up to here, allowed {} in all", total, most_increments));
+                  fmt::format("column increments: found {} up to here, allowed: {} in all", total, most_increments));
     way_points.push_back(way_point);
   }
-  if (way_points.empty()) reader.fail("found no row below the heading, expected separations to reach");
+  if (way_points.empty()) reader.fail("found no row below the heading, allowed: rows of separations to reach");
   return way_points;
 }
 

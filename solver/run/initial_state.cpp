@@ -74,7 +74,7 @@ void check_within_walls(const Box& box, const Bounds& b, std::int32_t grain, con
   for (std::size_t axis = 0; axis < 3; ++axis)
     if (box.has_walls(axis) && (b.low[axis] < cell.low[axis] - rounding || b.high[axis] > cell.high[axis] + rounding))
       throw InputError(
-          fmt::format("{}: grain {} spans {:.6g} … {:.6g} mm along axis {}, allowed within the box {:.6g} … {:.6g}",
+          fmt::format("{}: grain {} spans {:.6g} … {:.6g} mm along axis {}, allowed: within the box {:.6g} … {:.6g}",
                       packing_file, grain, b.low[axis], b.high[axis], axis, cell.low[axis], cell.high[axis]));
 }
 
@@ -99,7 +99,7 @@ double set_initial_velocities(Model& model, const Scenario& scenario, const Comm
   const auto grains = static_cast<std::size_t>(model.grains);
   for (const auto* list : {&scenario.grain_velocity, &scenario.grain_angular_velocity})
     if (!list->empty() && list->size() != grains)
-      throw InputError(fmt::format("{}: key 'initial': found {} rows for {} grains, allowed one row per grain",
+      throw InputError(fmt::format("{}: key 'initial': found {} rows for {} grains, allowed: one row per grain",
                                    scenario.packing_file, list->size(), grains));
   return sum_over_grains(ranks, model.own(), [&](std::int32_t grain) {
     const auto g = static_cast<std::size_t>(grain);
@@ -124,8 +124,8 @@ void check_clear_of_tools(const Model& model, const Tools& tools, const std::str
     const auto g = static_cast<std::size_t>(grain);
     for (std::int32_t n = model.node_offset[g]; n < model.node_offset[g] + model.surface_node_count[g]; ++n)
       if (const auto found = tools.behind(model, static_cast<std::size_t>(n)); found && found->second > rounding)
-        throw InputError(fmt::format("{}: grain {} reaches {:.4g} mm into the tool '{}' at the start, allowed no "
-                                     "overlap: move the tool, or pack with a larger smallest_gap",
+        throw InputError(fmt::format("{}: grain {} reaches {:.4g} mm into the tool '{}' at the start, allowed: no "
+                                     "overlap; move the tool, or pack with a larger smallest_gap",
                                      packing_file, g, found->second, found->first));
   });
 }

@@ -42,7 +42,7 @@ void check_stable_step(double step) {
   constexpr double smallest = 1e-30; // s
   if (!(step >= smallest && std::isfinite(step)))
     throw InputError(
-        fmt::format("the stable step is {:.3g} s, allowed a finite number >= {:g} s: material.youngs_modulus "
+        fmt::format("the stable step is {:.3g} s, allowed: a finite number >= {:g} s; material.youngs_modulus "
                     "(MPa), material.density (tonne/mm^3), contact.stiffness or the packing (mm) cannot be "
                     "in these units",
                     step, smallest));
@@ -58,8 +58,8 @@ void check_steps(const Scenario& scenario, std::int64_t first_stage, const std::
     steps += own;
     if (!(steps <= most))
       throw InputError(fmt::format(
-          "stage '{}': takes {:.3g} steps of {:.3g} s ({:.3g} s), allowed at most {:g} steps in "
-          "all stages: raise its speed or shorten it",
+          "stage '{}': takes {:.3g} steps of {:.3g} s ({:.3g} s), allowed: at most {:g} steps in "
+          "all stages; raise its speed or shorten it",
           scenario.stages[static_cast<std::size_t>(first_stage) + i].name, own, stable_step, stages[i].duration, most));
   }
 }
@@ -74,7 +74,7 @@ void check_history(const Scenario& scenario, std::int64_t first_stage) {
   if (const double needed = copies * rows * static_cast<double>(sizeof(HistoryRow)); needed > largest_part * memory)
     throw InputError(
         fmt::format("key 'output.history_rows': found {}, up to {:.3g} rows in {:.0f} stages may need {:.3g} "
-                    "GB, allowed half of the machine's {:.3g} GB",
+                    "GB, allowed: up to half of the machine's {:.3g} GB",
                     scenario.output.history_rows, rows, stages, 1e-9 * needed, 1e-9 * memory));
 }
 
@@ -83,7 +83,7 @@ void check_speed(const Stage& stage, const char* key, double speed, double size,
   constexpr double largest_travel = 0.05; // of h a step; a penetration of that size in one step is an impact
   if (const double fastest = largest_travel * size / stable_step; speed > fastest)
     throw InputError(
-        fmt::format("{}stage '{}': key '{}': found {:g} mm/s, allowed at most {:.4g} mm/s here ({} of an element in a "
+        fmt::format("{}stage '{}': key '{}': found {:g} mm/s, allowed: at most {:.4g} mm/s here ({} of an element in a "
                     "stable step of {:.3g} s)",
                     stage.places.prefix(std::string(key).substr(0, std::string(key).find('.'))), stage.name, key, speed,
                     fastest, largest_travel, stable_step));

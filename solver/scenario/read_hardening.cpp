@@ -17,22 +17,22 @@ void check_hardening_table(const TableReader& table, const HardeningParameters& 
   const double shear_modulus = material.youngs_modulus / (2 * (1 + material.poissons_ratio));
   const auto& strain = hardening.table_plastic_strain;
   const auto& stress = hardening.table_flow_stress;
-  if (strain.empty()) table.fail("plastic_strain", "found an empty array, expected at least one value");
+  if (strain.empty()) table.fail("plastic_strain", "found an empty array, allowed: at least one value");
   if (strain.size() > largest_hardening_table)
     table.fail("plastic_strain",
-               fmt::format("found {} values, allowed 1 … {}", strain.size(), largest_hardening_table));
+               fmt::format("found {} values, allowed: 1 … {}", strain.size(), largest_hardening_table));
   if (stress.size() != strain.size())
     table.fail("flow_stress",
-               fmt::format("found {} values, expected {}, as many as plastic_strain", stress.size(), strain.size()));
-  if (strain[0] != 0) table.fail("plastic_strain", fmt::format("found first value {}, allowed 0", strain[0]));
+               fmt::format("found {} values, allowed: {}, as many as plastic_strain", stress.size(), strain.size()));
+  if (strain[0] != 0) table.fail("plastic_strain", fmt::format("found first value {}, allowed: 0", strain[0]));
   for (std::size_t i = 1; i < strain.size(); ++i) {
     if (!(strain[i] > strain[i - 1]))
       table.fail("plastic_strain",
-                 fmt::format("found {} after {}, allowed increasing values", strain[i], strain[i - 1]));
+                 fmt::format("found {} after {}, allowed: increasing values", strain[i], strain[i - 1]));
     const double slope = (stress[i] - stress[i - 1]) / (strain[i] - strain[i - 1]);
     // On a steeper fall, the stress after a strain increment is not unique.
     if (!(slope > -3 * shear_modulus))
-      table.fail("flow_stress", fmt::format("found a slope of {} MPa between values {} and {}, allowed > -3 G = {}",
+      table.fail("flow_stress", fmt::format("found a slope of {} MPa between values {} and {}, allowed: > -3 G = {}",
                                             slope, i - 1, i, -3 * shear_modulus));
   }
 }

@@ -36,7 +36,7 @@ LoadingEnds read_ends(TableReader& table, std::string_view type) {
   constexpr Range strain{.low = -0.5, .high = 0.5}; // a larger one is a typing error
   LoadingEnds ends;
   ends.axial_strain = table.optional_number("axial_strain", strain);
-  if (ends.axial_strain == 0.0) table.fail("axial_strain", "found 0, allowed > 0 (compression) or < 0 (extension)");
+  if (ends.axial_strain == 0.0) table.fail("axial_strain", "found 0, allowed: > 0 (compression) or < 0 (extension)");
   ends.relative_density = table.optional_number("relative_density", target_density);
   ends.axial_stress = table.optional_number("axial_stress", stress_or_zero);
   ends.mean_stress = table.optional_number("mean_stress", stress_or_zero);
@@ -46,7 +46,7 @@ LoadingEnds read_ends(TableReader& table, std::string_view type) {
   ends.duration = table.optional_number("duration", positive_time);
   if (!ends.axial_strain && !ends.relative_density && !ends.axial_stress && !ends.mean_stress &&
       !ends.deviatoric_stress && !ends.stress_drop && !ends.dissipation_ratio && !ends.duration)
-    table.fail("type", fmt::format("found '{}' without an end, expected at least one of axial_strain, "
+    table.fail("type", fmt::format("found '{}' without an end, allowed: at least one of axial_strain, "
                                    "dissipation_ratio, duration and the other ends of that type",
                                    type));
   return ends;
@@ -108,7 +108,7 @@ StageType read_probe(TableReader& table) {
   probe.servo_speed = read_servo_speed(table, probe.wall_speed);
   const std::vector<double> direction = table.numbers("direction", Range::between(-1e12, 1e12));
   if (direction.size() != 2 || (direction[0] == 0 && direction[1] == 0))
-    table.fail("direction", "expected two numbers, [dp, dq], not both 0");
+    table.fail("direction", "allowed: two numbers, [dp, dq], not both 0");
   probe.direction = {direction[0], direction[1]};
   probe.ends = read_ends(table, "probe");
   return probe;
@@ -139,7 +139,7 @@ StageType read_grip(TableReader& table) {
   if (grip.sliding[static_cast<std::size_t>(grip.axis)] != 0)
     table.fail("sliding", fmt::format("found a component along the axis {}, allowed: across it only", axis));
   if (grip.displacement == 0 && !slides)
-    table.fail("displacement", "missing or 0, expected a number < 0 (together) or > 0 (apart), or 'sliding'");
+    table.fail("displacement", "missing or 0, allowed: a number < 0 (together) or > 0 (apart), or 'sliding'");
   grip.speed = table.number("speed", positive_speed);
   grip.ramp_fraction = read_ramp_fraction(table);
   return grip;
@@ -156,10 +156,10 @@ ToolEnds read_tool_ends(TableReader& table, const StageContext& context) {
   ends.duration = table.optional_number("duration", positive_time);
   if (!ends.relative_density && !ends.height && !ends.axial_stress && !ends.travel && !ends.force && !ends.force_drop &&
       !ends.duration)
-    table.fail("type", "found 'tools' without an end, expected at least one of relative_density, height, axial_stress, "
+    table.fail("type", "found 'tools' without an end, allowed: at least one of relative_density, height, axial_stress, "
                        "travel, force, force_drop and duration");
   if (ends.height && ends.relative_density)
-    table.fail("height", "found together with 'relative_density', expected one of the two: each determines the other");
+    table.fail("height", "found together with 'relative_density', allowed: one of the two; each determines the other");
   for (const char* key : {"relative_density", "height", "axial_stress"})
     if (table.has(key) && !context.container) table.fail(key, "is used only with a [container]");
   if (table.has("smallest_peak") && !ends.force_drop) table.fail("smallest_peak", "is used only with 'force_drop'");
@@ -170,7 +170,7 @@ ToolEnds read_tool_ends(TableReader& table, const StageContext& context) {
   ends.watched = tool_named(table, "watch", table.string("watch"), context.tools);
   const auto direction = direction_of(context.tools[ends.watched].shape);
   if (!direction)
-    table.fail("watch", "found a sphere or an STL surface, whose push has no direction, expected another tool");
+    table.fail("watch", "found a sphere or an STL surface, whose push has no direction, allowed: another tool");
   ends.watched_direction = *direction;
   return ends;
 }
@@ -194,7 +194,7 @@ StageType read_tool_loading(TableReader& table, const StageContext& context) {
   if (loading.speed == 0 && loading.ends.travel)
     table.fail("travel", "is used only if a tool is driven at a speed or velocity");
   if (loading.speed == 0 && loading.servo_speed == 0 && !loading.ends.duration)
-    table.fail("duration", "missing, expected the time of a stage in which no tool moves");
+    table.fail("duration", "missing, allowed: the time of a stage in which no tool moves");
   return loading;
 }
 
@@ -253,7 +253,7 @@ DampingParameters read_damping(TableReader& table) {
     table.fail("damping_fade_stress", "is used only with 'damping_rate'");
   const auto fade_stress = table.optional_number("damping_fade_stress", positive_stress);
   if (damping.rate > 0 && !fade_stress)
-    table.fail("damping_fade_stress", "missing, expected a number > 0, since damping_rate > 0");
+    table.fail("damping_fade_stress", "missing, allowed: a number > 0, since damping_rate > 0");
   damping.fade_stress = fade_stress.value_or(0);
   return damping;
 }
@@ -285,7 +285,7 @@ void check_stage_name(const TableReader& table, const std::string& name) {
   });
   constexpr std::size_t longest = 64;
   if (name.empty() || name.size() > longest || !plain)
-    table.fail("name", fmt::format("found '{}', allowed 1 … {} letters (a … z), digits, '-' and '_'",
+    table.fail("name", fmt::format("found '{}', allowed: 1 … {} letters (a … z), digits, '-' and '_'",
                                    name.size() > longest ? "a longer text" : name, longest));
 }
 
@@ -318,15 +318,15 @@ Stage read_stage(TableReader table, std::size_t number, const StageContext& cont
 std::vector<Stage> read_stages(TableReader& root, const StageContext& context) {
   std::vector<TableReader> tables = root.tables("stages");
   if (tables.empty())
-    root.fail("stages", root.has("stages") ? "found no stage, expected at least one [[stages]]"
-                                           : "missing, expected at least one [[stages]]");
+    root.fail("stages", root.has("stages") ? "found no stage, allowed: at least one [[stages]]"
+                                           : "missing, allowed: at least one [[stages]]");
   std::vector<Stage> stages;
   std::set<std::string> names;
   for (TableReader& table : tables) {
     stages.push_back(read_stage(table, stages.size() + 1, context));
     const std::string& name = stages.back().name;
     if (!names.insert(name).second)
-      table.fail("name", fmt::format("found '{}', the name of an earlier stage; expected different names", name));
+      table.fail("name", fmt::format("found '{}', the name of an earlier stage; allowed: different names", name));
   }
   return stages;
 }

@@ -39,7 +39,7 @@ ToolShape read_plane(TableReader& table) {
   plane.point = table.vector3("point", any_length);
   plane.normal = table.vector3("normal", Range::between(-1e9, 1e9));
   if (const auto& n = plane.normal; !(std::hypot(n[0], n[1], n[2]) > 1e-9))
-    table.fail("normal", "found a vector of length 0, expected the direction towards the grains");
+    table.fail("normal", "found a vector of length 0, allowed: the direction towards the grains");
   return plane;
 }
 
@@ -52,7 +52,7 @@ ToolShape read_cylinder(TableReader& table) {
   if (table.has("extent")) {
     const std::vector<double> extent = table.numbers("extent", any_length);
     if (extent.size() != 2 || !(extent[0] < extent[1]))
-      table.fail("extent", "expected two numbers, [low, high] with low < high (mm along the axis)");
+      table.fail("extent", "allowed: two numbers, [low, high] with low < high (mm along the axis)");
     cylinder.extent = {extent[0], extent[1]};
   }
   cylinder.rounding = table.number_or("rounding", 0, Range::between(0, 1e9));
@@ -60,7 +60,7 @@ ToolShape read_cylinder(TableReader& table) {
   const double most = cylinder.extent ? 0.5 * ((*cylinder.extent)[1] - (*cylinder.extent)[0]) : 0;
   if (cylinder.rounding > most && cylinder.extent)
     table.fail("rounding",
-               fmt::format("found {:g} mm, allowed up to half of the extent, {:g} mm", cylinder.rounding, most));
+               fmt::format("found {:g} mm, allowed: up to half of the extent, {:g} mm", cylinder.rounding, most));
   return cylinder;
 }
 
@@ -85,7 +85,7 @@ ToolShape read_stl_shape(TableReader& table) {
   StlShape stl;
   stl.file = table.string("file");
   if (stl.file.empty() || stl.file.find('\0') != std::string::npos)
-    table.fail("file", "found an empty or unusable path, expected an STL file");
+    table.fail("file", "found an empty or unusable path, allowed: an STL file");
   stl.scale = table.number("scale", Range::between(1e-9, 1e9)); // no default: STL files do not state their unit
   stl.inside = read_inside(table, "outside");
   if (table.has("low_corner")) stl.low_corner = table.vector3("low_corner", any_length);
@@ -117,7 +117,7 @@ void check_tool_name(const TableReader& table, const std::string& name) {
     return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '-' || c == '_';
   });
   if (name.empty() || name.size() > longest || !plain)
-    table.fail("name", fmt::format("found '{}', allowed 1 … {} letters (a … z), digits, '-' and '_'",
+    table.fail("name", fmt::format("found '{}', allowed: 1 … {} letters (a … z), digits, '-' and '_'",
                                    name.size() > longest ? "a longer text" : name, longest));
 }
 
@@ -139,7 +139,7 @@ ToolParameters read_tool(TableReader& table) {
   if (auto adhesion = table.optional_table("adhesion")) {
     tool.adhesion_places = adhesion->places();
     tool.adhesion = read_bond(*adhesion);
-    if (tool.adhesion->normal_only) adhesion->fail("normal_only", "found true, allowed for a tool: false");
+    if (tool.adhesion->normal_only) adhesion->fail("normal_only", "found true, allowed: false for a tool");
   }
   table.finish();
   return tool;
@@ -154,9 +154,9 @@ ToolDrive read_drive(TableReader table, std::size_t tool, const ToolShape& shape
                      static_cast<int>(table.has("force")) + static_cast<int>(table.has("stress"));
   if (given != 1)
     table.fail("speed",
-               fmt::format("found {} of the keys speed, velocity, force and stress, expected one of them", given));
+               fmt::format("found {} of the keys speed, velocity, force and stress, allowed: one of them", given));
   if (!direction && !table.has("velocity"))
-    table.fail("velocity", "missing, expected a vector: this tool has no axis or normal");
+    table.fail("velocity", "missing, allowed: a vector; this tool has no axis or normal");
   if (table.has("velocity")) drive.velocity = table.vector3("velocity", any_speed);
   if (table.has("speed")) {
     const double speed = table.number("speed", any_speed);
@@ -208,7 +208,7 @@ std::vector<ToolParameters> read_tools(TableReader& root, const std::string& sce
       stl->file = (std::filesystem::path(scenario_file).parent_path() / stl->file).lexically_normal().string();
     const std::string& name = tools.back().name;
     if (!names.insert(name).second)
-      table.fail("name", fmt::format("found '{}', the name of an earlier tool; expected different names", name));
+      table.fail("name", fmt::format("found '{}', the name of an earlier tool; allowed: different names", name));
   }
   return tools;
 }
@@ -221,14 +221,14 @@ std::size_t tool_named(const TableReader& table, std::string_view key, const std
   std::string known;
   for (const ToolParameters& tool : tools) known += (known.empty() ? "" : ", ") + tool.name;
   table.fail(key, tools.empty() ? fmt::format("found the tool '{}', but the scenario has no [[tools]]", name)
-                                : fmt::format("found the tool '{}', expected one of {}", name, known));
+                                : fmt::format("found the tool '{}', allowed: one of {}", name, known));
 }
 
 namespace {
 
 void check_plane(const TableReader& table, const char* key, const ToolParameters& tool, const Vector& normal) {
   if (!std::holds_alternative<PlaneShape>(tool.shape) || *direction_of(tool.shape) != normal)
-    table.fail(key, fmt::format("found '{}', expected a plane whose normal is [{:g}, {:g}, {:g}]", tool.name, normal[0],
+    table.fail(key, fmt::format("found '{}', allowed: a plane whose normal is [{:g}, {:g}, {:g}]", tool.name, normal[0],
                                 normal[1], normal[2]));
 }
 
@@ -239,7 +239,7 @@ std::array<std::size_t, 4> read_container_wall(TableReader& table, std::span<con
     const std::vector<std::string> names = table.strings_or("wall", {});
     if (names.size() != wall.size())
       table.fail("wall",
-                 fmt::format("found {} names, expected one die or the four planes at -x, +x, -y and +y", names.size()));
+                 fmt::format("found {} names, allowed: one die or the four planes at -x, +x, -y and +y", names.size()));
     for (std::size_t side = 0; side < wall.size(); ++side) {
       wall[side] = tool_named(table, "wall", names[side], tools);
       Vector normal{};
@@ -254,7 +254,7 @@ std::array<std::size_t, 4> read_container_wall(TableReader& table, std::span<con
   const auto* stl = std::get_if<StlShape>(&die.shape);
   const bool bore = cylinder != nullptr && cylinder->axis == 2 && cylinder->inside;
   if (!bore && !(stl != nullptr && stl->inside))
-    table.fail("wall", fmt::format("found '{}', expected a cylinder along z or an STL surface with the grains inside, "
+    table.fail("wall", fmt::format("found '{}', allowed: a cylinder along z or an STL surface with the grains inside, "
                                    "or a list of four planes",
                                    die.name));
   return wall;

@@ -37,10 +37,10 @@ std::vector<GrainMaterial> read_grain_materials(TableReader& root) {
     GrainMaterial other;
     for (const std::int64_t grain : table.integers("grains", Range::between(0, most_grains))) {
       if (!seen.insert(grain).second)
-        table.fail("grains", fmt::format("found {} twice, allowed one material per grain", grain));
+        table.fail("grains", fmt::format("found {} twice, allowed: one material per grain", grain));
       other.grains.push_back(grain);
     }
-    if (other.grains.empty()) table.fail("grains", "found no grain, expected at least one");
+    if (other.grains.empty()) table.fail("grains", "found no grain, allowed: at least one");
     other.material = read_material(table);
     table.finish();
     materials.push_back(std::move(other));
@@ -55,12 +55,12 @@ std::vector<MaterialPair> read_material_pairs(TableReader& contact, std::size_t 
   const auto last = static_cast<double>(materials) - 1;
   for (TableReader& table : contact.tables("pair")) {
     const std::vector<std::int64_t> both = table.integers("materials", Range::between(0, last));
-    if (both.size() != 2) table.fail("materials", fmt::format("found {} numbers, expected two", both.size()));
+    if (both.size() != 2) table.fail("materials", fmt::format("found {} numbers, allowed: two", both.size()));
     MaterialPair pair;
     pair.materials = {static_cast<std::size_t>(std::min(both[0], both[1])),
                       static_cast<std::size_t>(std::max(both[0], both[1]))};
     if (!seen.insert(pair.materials).second)
-      table.fail("materials", fmt::format("found {} and {} twice, allowed once", both[0], both[1]));
+      table.fail("materials", fmt::format("found {} and {} twice, allowed: once", both[0], both[1]));
     pair.friction = table.number("friction", friction_or_zero);
     table.finish();
     pairs.push_back(pair);
@@ -134,7 +134,7 @@ OutputParameters read_output(TableReader table) {
   // The density is part of the file's name.
   for (std::size_t i = 1; i < kept.size(); ++i)
     if (kept[i] - kept[i - 1] < smallest_density_step)
-      table.fail("checkpoint_relative_densities", fmt::format("found {} and {}, expected steps of at least {}",
+      table.fail("checkpoint_relative_densities", fmt::format("found {} and {}, allowed: steps of at least {}",
                                                               kept[i - 1], kept[i], smallest_density_step));
   output.snapshot_at_stage_end = table.boolean_or("snapshot_at_stage_end", output.snapshot_at_stage_end);
   output.checkpoint_interval =
@@ -155,7 +155,7 @@ void read_walls(TableReader& root, Scenario& scenario) {
   const toml::node* value = root.value("walls");
   if (value == nullptr || !value->is_table()) {
     scenario.walls = root.boolean_or("walls", !scenario.container);
-    if (scenario.walls && scenario.container) root.fail("walls", "found true, expected false with a [container]");
+    if (scenario.walls && scenario.container) root.fail("walls", "found true, allowed: false with a [container]");
     return;
   }
   if (scenario.container) root.fail("walls", "cannot be used with a [container], whose tools have their own friction");
@@ -177,9 +177,10 @@ void check_friction(const TableReader& contact, const Scenario& scenario) {
   if (!scenario.contact.has_friction() || !scenario.bond) return;
   if (scenario.bond->normal_only) contact.fail("friction", "cannot be used with 'bond.normal_only'");
   if (scenario.bond->stiffness_factor && *scenario.bond->stiffness_factor > scenario.contact.stiffness_factor)
-    contact.fail("friction", fmt::format("found bonds stiffer than the penalty (bond.stiffness_factor = {:g}), allowed "
-                                         "up to contact.stiffness_factor = {:g}",
-                                         *scenario.bond->stiffness_factor, scenario.contact.stiffness_factor));
+    contact.fail("friction",
+                 fmt::format("found bonds stiffer than the penalty (bond.stiffness_factor = {:g}), allowed: "
+                             "up to contact.stiffness_factor = {:g}",
+                             *scenario.bond->stiffness_factor, scenario.contact.stiffness_factor));
 }
 
 /// The same for tools: their adhesion is read before the contact.
@@ -193,7 +194,7 @@ void check_adhesion(const Scenario& scenario) {
     };
     if (scenario.contact.stiffness) fail("cannot be used with 'contact.stiffness'; allowed: 'stiffness' (MPa/mm)");
     if (tool.friction > 0 && factor > scenario.contact.stiffness_factor)
-      fail(fmt::format("found {:g}, allowed with friction: up to contact.stiffness_factor = {:g}", factor,
+      fail(fmt::format("found {:g}, allowed: with friction up to contact.stiffness_factor = {:g}", factor,
                        scenario.contact.stiffness_factor));
   }
 }
@@ -202,14 +203,14 @@ void check_walls(const TableReader& root, const Scenario& scenario) {
   if (scenario.walls) return;
   for (const Stage& stage : scenario.stages)
     if (moves_walls(stage.type))
-      root.fail("walls", fmt::format("found false, expected true, since stage '{}' moves the walls", stage.name));
+      root.fail("walls", fmt::format("found false, allowed: true, since stage '{}' moves the walls", stage.name));
 }
 
 /// Relative to the scenario's folder, unless absolute.
 std::string packing_path(TableReader& root, const std::string& scenario_file) {
   const std::string file = root.string("packing");
   if (file.empty() || file.find('\0') != std::string::npos)
-    root.fail("packing", "found an empty or unusable path, expected a meshed packing file");
+    root.fail("packing", "found an empty or unusable path, allowed: a meshed packing file");
   return (std::filesystem::path(scenario_file).parent_path() / file).lexically_normal().string();
 }
 

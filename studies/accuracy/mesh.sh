@@ -43,5 +43,5 @@ case $kind in
   pull-off) hemispheres 0.00685143 0.714 6 ;;
   small) "$pack_gen" mesh out/packings/smoke/spheres.h5 --size "$fineness" --threads 1 --quiet -o "$output" ;;
   full) "$pack_gen" mesh out/packings/full/spheres.h5 --size "$fineness" --threads 1 --quiet -o "$output" ;;
-  *) echo "mesh.sh: $kind: allowed are free, confined, pair, pull-off, small, full" >&2 && exit 2 ;;
+  *) echo "mesh.sh: found $kind, allowed: free, confined, pair, pull-off, small, full" >&2 && exit 2 ;;
 esac

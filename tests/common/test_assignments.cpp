@@ -79,7 +79,7 @@ TEST_CASE("Values that are TOML keep their type") {
   TableReader table(document);
   CHECK(table.string("a") == "5");
   CHECK(table.integer("b") == 5);
-  CHECK_THAT(input_error([&] { table.integer("c"); }), Catch::EndsWith("found 5, expected an integer"));
+  CHECK_THAT(input_error([&] { table.integer("c"); }), Catch::EndsWith("found 5, allowed: an integer"));
   CHECK(table.table("d").integer("x") == 1);
 }
 
@@ -89,7 +89,7 @@ TEST_CASE("A message about an assigned value names the assignment") {
   document.set("stages.1.spede=1");
   TableReader table(document);
   CHECK(input_error([&] { table.table("box").number("length", Range::positive()); }) ==
-        "--set box.length=-1: key 'box.length': found -1, allowed > 0");
+        "--set box.length=-1: key 'box.length': found -1, allowed: > 0");
   TableReader stage = table.tables("stages")[1];
   stage.string("name");
   stage.number_or("speed", 1);
@@ -102,18 +102,18 @@ TEST_CASE("A value that is not finite is refused when it is read") {
   document.set("size=nan");
   TableReader table(document);
   CHECK(input_error([&] { table.number("size"); }) ==
-        "--set size=nan: key 'size': found nan, expected a finite number");
+        "--set size=nan: key 'size': found nan, allowed: a finite number");
 }
 
 TEST_CASE("Assignments that cannot be understood are refused in one line and change nothing") {
-  CHECK(refusal("size") == "--set size: expected KEY=VALUE");
-  CHECK(refusal("") == "--set : expected KEY=VALUE");
-  CHECK(refusal("size=") == "--set size=: the value is empty, expected KEY=VALUE");
-  CHECK(refusal("size=  ") == "--set size=  : the value is empty, expected KEY=VALUE");
+  CHECK(refusal("size") == "--set size: found no '=', allowed: KEY=VALUE");
+  CHECK(refusal("") == "--set : found no '=', allowed: KEY=VALUE");
+  CHECK(refusal("size=") == "--set size=: the value is empty, allowed: KEY=VALUE");
+  CHECK(refusal("size=  ") == "--set size=  : the value is empty, allowed: KEY=VALUE");
   for (const char* assignment :
        {"=5", ".a=5", "a.=5", "a..b=5", "a b=5", "box.length =5", "'a'=5", "stages[0].speed=5", "a\nb=5"}) {
     CAPTURE(assignment);
-    CHECK_THAT(refusal(assignment), Catch::Contains("is not a key, expected words joined by dots"));
+    CHECK_THAT(refusal(assignment), Catch::Contains("is not a key, allowed: words joined by dots"));
   }
   CHECK(refusal("size=1\nbox.length=3") == "--set size=1\\nbox.length=3: the value has several lines");
   for (const char* assignment : {"size=[1, 2", "size={a = }", "size='a", "size=\"a", "size=[1] 2"}) {
@@ -124,11 +124,11 @@ TEST_CASE("Assignments that cannot be understood are refused in one line and cha
 }
 
 TEST_CASE("An assignment creates neither array elements nor keys below a value that is not a table") {
-  CHECK(refusal("stages.2.speed=1") == "--set stages.2.speed=1: found element '2' of an array, allowed 0 … 1");
+  CHECK(refusal("stages.2.speed=1") == "--set stages.2.speed=1: found element '2' of an array, allowed: 0 … 1");
   CHECK(refusal("stages.first.speed=1") ==
-        "--set stages.first.speed=1: found element 'first' of an array, allowed 0 … 1");
-  CHECK(refusal("stages.-1.speed=1") == "--set stages.-1.speed=1: found element '-1' of an array, allowed 0 … 1");
-  CHECK(refusal("words.2=c") == "--set words.2=c: found element '2' of an array, allowed 0 … 1");
+        "--set stages.first.speed=1: found element 'first' of an array, allowed: 0 … 1");
+  CHECK(refusal("stages.-1.speed=1") == "--set stages.-1.speed=1: found element '-1' of an array, allowed: 0 … 1");
+  CHECK(refusal("words.2=c") == "--set words.2=c: found element '2' of an array, allowed: 0 … 1");
   CHECK(refusal("none.0=1") == "--set none.0=1: found element '0' of an empty array");
   CHECK_THAT(refusal("size.x=1"), Catch::StartsWith("--set size.x=1: 'x' is below an integer"));
   CHECK_THAT(refusal("size.x.y=1"), Catch::StartsWith("--set size.x.y=1: 'x' is below an integer"));

@@ -46,14 +46,14 @@ TEST_CASE("Options take numbers within their range") {
 }
 
 TEST_CASE("Options refuse anything but a finite number within their range, in one line") {
-  CHECK(refusal({"--size", "0"}) == "--size: found '0', allowed a number 1e-12 … 1e+09 mm (see example --help)");
+  CHECK(refusal({"--size", "0"}) == "--size: found '0', allowed: a number 1e-12 … 1e+09 mm (see example --help)");
   for (const char* text : {"nan", "-nan", "inf", "1e400", "-1", "0", "abc", "1mm", "", " ", "0x1p3"}) {
     INFO(text);
     CHECK_THAT(refusal({"--size", text}), Catch::StartsWith("--size"));
     CHECK_THAT(refusal({"--threads", text}), Catch::StartsWith("--threads"));
     CHECK_THAT(refusal({"--box", std::string("1,1,") + text}), Catch::StartsWith("--box"));
   }
-  CHECK_THAT(refusal({"--threads", "1.5"}), Catch::Contains("found '1.5', allowed a whole number 1 … 1024"));
+  CHECK_THAT(refusal({"--threads", "1.5"}), Catch::Contains("found '1.5', allowed: a whole number 1 … 1024"));
   CHECK_THAT(refusal({"--seed", "9223372036854775808"}), Catch::StartsWith("--seed"));
 }
 

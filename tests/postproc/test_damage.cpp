@@ -344,7 +344,7 @@ TEST_CASE("missing bonds, contacts and snapshots are refused with one line and e
            {"contact " + run + " --pair 0,-1 --view " + picture, "allowed: two different ones of 0 … 2"},
            {"contact " + run + " --pair 1,1 --view " + picture, "allowed: two different ones of 0 … 2"},
            {"contact " + run + " --pair 0,2 --view " + picture, "never had a bond"},
-           {"contact " + run + " --pair 0,1 --snapshot 5 --view " + picture, "allowed 0 … 0"},
+           {"contact " + run + " --pair 0,1 --snapshot 5 --view " + picture, "allowed: 0 … 0"},
            {"contact " + run + " --view " + picture, "allowed: --pair FIRST,SECOND"},
            {"contact " + run + " --data " + picture, "allowed: --pair FIRST,SECOND"},
            {"contact " + run + " --pair 0,1 -o " + (folder / "x.csv"), "allowed: .json"},

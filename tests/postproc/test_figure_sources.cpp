@@ -176,7 +176,7 @@ TEST_CASE("a metric whose command does not exist is refused with its line before
                     Contains("study.toml:9") && Contains("found 'strenth', did you mean 'strength'?"));
   CHECK_THROWS_WITH(
       studies.rules(studies.figure(begin + "[metrics]\nm = \"unknown --a 1\"\n" + table + "m.value\"]\n"), known),
-      Contains("metric 'm': found 'unknown', expected a command of postproc"));
+      Contains("metric 'm': found 'unknown', allowed: a command of postproc"));
   CHECK_NOTHROW(
       studies.rules(studies.figure(begin + "[metrics]\nm = \"modulus --a 1\"\n" + table + "m.value\"]\n"), known));
   studies.figure(begin + table + "strenth.value\"]\n");
@@ -382,7 +382,7 @@ series = [{ table = "t", x = "x", y = "y", where = { x = { at_least = "{low}" } 
   CHECK(figure.plots[0].series[0].where[0].at_least == -1.5);
   std::string wrong = text;
   wrong.replace(wrong.find("-1.5"), 4, "\"b\"");
-  CHECK_THROWS_WITH(studies.figure(wrong), Contains("low") && Contains("expected a number"));
+  CHECK_THROWS_WITH(studies.figure(wrong), Contains("low") && Contains("allowed: a number"));
 }
 
 TEST_CASE("an inset reaches over the rows that it shows, and a surface's points can be projected") {

@@ -73,7 +73,7 @@ TEST_CASE("loops are counted, and a stage without one is refused") {
   REQUIRE(unload_reload_loops(two).size() == 2);
   CHECK(within(unload_reload_modulus(two, 0).value, 2000, straight));
   CHECK(within(unload_reload_modulus(two, 1).value, 2000, straight));
-  CHECK_THROWS_WITH(unload_reload_modulus(two, 2), Catch::Contains("--loop: found 2, allowed 0 … 1"));
+  CHECK_THROWS_WITH(unload_reload_modulus(two, 2), Catch::Contains("--loop: found 2, allowed: 0 … 1"));
   const StageCurve unloaded = curve_of(folder, along({{0, 0}, {0.01, 5}, {0.0095, 4}}, 20)); // and not reloaded
   CHECK_THROWS_WITH(unload_reload_modulus(unloaded, -1), Catch::Contains("found no loop"));
 }

@@ -114,7 +114,7 @@ Comparison compare(const Tolerance& tolerance, const Table& kept, const Table& f
 }
 
 int body(int argc, char** argv) {
-  if (argc != 4) throw InputError("compare-numbers: expected TOLERANCES KEPT FOUND");
+  if (argc != 4) throw InputError("compare-numbers: allowed: TOLERANCES KEPT FOUND");
   const std::string kept = argv[2], found = argv[3];
   Comparison total;
   for (const Tolerance& tolerance : read_tolerances(argv[1])) {

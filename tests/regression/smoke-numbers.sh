@@ -38,7 +38,7 @@ case ${1:-} in
   ;;
 *)
   [[ $# -ge 1 ]] || {
-    echo "smoke-numbers.sh: expected BUILD [OUT], --hash or --check-changes" >&2
+    echo "smoke-numbers.sh: allowed: BUILD [OUT], --hash or --check-changes" >&2
     exit 2
   }
   code=0

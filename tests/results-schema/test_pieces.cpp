@@ -146,7 +146,7 @@ TEST_CASE("What is missing or of another shape is refused before a piece is read
         }) == path + ": dataset /spheres/radius is missing");
   test::replace_dataset(path, "/mesh/node", H5T_NATIVE_DOUBLE, {4, 2});
   CHECK(input_error([&] { read_nodes(FileReader(path)); }) ==
-        path + ": dataset /mesh/node has the shape [4, 2], expected [nodes, 3]");
+        path + ": dataset /mesh/node has the shape [4, 2], allowed: [nodes, 3]");
 }
 
 TEST_CASE("Pieces that are not the rows still to come are refused") {

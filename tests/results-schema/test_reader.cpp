@@ -59,7 +59,7 @@ TEST_CASE("A file cut off at any length is refused") {
 TEST_CASE("A file of another kind is refused, with both kinds named") {
   const RunFile run;
   CHECK(input_error([&] { FileReader reader(run.path, FileKind::packing); }) ==
-        run.path + ": a run file, expected a packing file");
+        run.path + ": a run file, allowed: a packing file");
   CHECK(FileReader(run.path).kind() == FileKind::run);
 }
 
@@ -157,13 +157,13 @@ TEST_CASE("A dataset of another shape is refused") {
   test::replace_dataset(run.path, "/snapshots/0000/box_low", H5T_IEEE_F64LE, {2});
   test::replace_dataset(run.path, "/provenance/wall_time", H5T_IEEE_F64LE, {1});
   CHECK(run.mistake([](const FileReader& r) { r.read(run::history_time); }) ==
-        run.path + ": dataset /history/time has the shape [3, 1], expected [rows]");
+        run.path + ": dataset /history/time has the shape [3, 1], allowed: [rows]");
   CHECK(run.mistake([](const FileReader& r) { r.read(run::history_wall_stress); }) ==
-        run.path + ": dataset /history/wall_stress has the shape [3, 5], expected [rows, 6]");
+        run.path + ": dataset /history/wall_stress has the shape [3, 5], allowed: [rows, 6]");
   CHECK(run.mistake([](const FileReader& r) { r.read(run::snapshots_box_low, "0000"); }) ==
-        run.path + ": dataset /snapshots/0000/box_low has the shape [2], expected [3]");
+        run.path + ": dataset /snapshots/0000/box_low has the shape [2], allowed: [3]");
   CHECK(run.mistake([](const FileReader& r) { r.read_scalar(run::provenance_wall_time); }) ==
-        run.path + ": dataset /provenance/wall_time has the shape [1], expected scalar");
+        run.path + ": dataset /provenance/wall_time has the shape [1], allowed: scalar");
 }
 
 TEST_CASE("A text that was never written is empty") {

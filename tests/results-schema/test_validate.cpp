@@ -65,7 +65,7 @@ TEST_CASE("A wrong or missing unit or description of any dataset is found") {
   }
   const Findings findings = file.findings();
   CHECK(findings.size() == spoilt);
-  CHECK_THAT(findings.front(), Catch::Contains("attribute unit is 'furlong\\n', expected '"));
+  CHECK_THAT(findings.front(), Catch::Contains("attribute unit is 'furlong\\n', allowed: '"));
 }
 
 TEST_CASE("A dataset that the schema does not know is found in any group") {
@@ -95,7 +95,7 @@ TEST_CASE("Indices out of range are found in every dataset of indices") {
     const Findings findings = file.findings();
     REQUIRE(findings.size() == 1);
     CHECK_THAT(findings.front(), Catch::StartsWith(place + " holds the index " +
-                                                   std::to_string(static_cast<int>(wrong)) + ", allowed 0 … "));
+                                                   std::to_string(static_cast<int>(wrong)) + ", allowed: 0 … "));
   }
 }
 
@@ -181,8 +181,8 @@ TEST_CASE("A wrong type, rank or fixed extent is found") {
   test::replace_dataset(file.path, "/provenance/threads", H5T_STD_I32LE, {1});
   test::replace_dataset(file.path, "/snapshots/0000/box_low", H5T_IEEE_F64LE, {4});
   CHECK_THAT(file.findings(), Catch::UnorderedEquals(Findings{"/provenance/wall_time is not of type float64",
-                                                              "/provenance/threads has the shape [1], expected scalar",
-                                                              "/snapshots/0000/box_low has extent 4, expected [3]"}));
+                                                              "/provenance/threads has the shape [1], allowed: scalar",
+                                                              "/snapshots/0000/box_low has extent 4, allowed: [3]"}));
 }
 
 TEST_CASE("A missing creator is found") {

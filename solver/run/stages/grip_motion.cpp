@@ -14,11 +14,11 @@ GripMotionControl::GripMotionControl(const GripMotion& stage, const StageLabel& 
   const double length = start.cell.length(axis);
   motion_.end_scale[axis] = 1.0 + stage.displacement / length;
   if (!(motion_.end_scale[axis] > 0))
-    throw InputError(fmt::format("{}stage '{}': key 'displacement': found {:g} mm, allowed > {:g} mm, the distance "
+    throw InputError(fmt::format("{}stage '{}': key 'displacement': found {:g} mm, allowed: > {:g} mm, the distance "
                                  "of the grips",
                                  label.places.prefix("displacement"), label.name, stage.displacement, -length));
   if (!(2 * stage.depth < length))
-    throw InputError(fmt::format("{}stage '{}': key 'grip_depth': found {:g} mm, allowed < {:g} mm, half the "
+    throw InputError(fmt::format("{}stage '{}': key 'grip_depth': found {:g} mm, allowed: < {:g} mm, half the "
                                  "distance of the grips",
                                  label.places.prefix("grip_depth"), label.name, stage.depth, 0.5 * length));
   motion_.ramp = stage.ramp_fraction;

@@ -63,8 +63,8 @@ void HeldStressControl::check_end(const ObservedSample& seen) const {
   missed /= weight;
   if (std::abs(missed) <= tolerance * mean_stress_) return;
   throw SimulationError(
-      fmt::format("stage '{}': a stress is {:.3g} MPa {} the {:g} MPa to be held at its end ({:.0f} %), allowed {:g} "
-                  "%: give it a longer duration or a larger servo_speed",
+      fmt::format("stage '{}': a stress is {:.3g} MPa {} the {:g} MPa to be held at its end ({:.0f} %), allowed: {:g} "
+                  "%; give it a longer duration or a larger servo_speed",
                   name_, std::abs(missed), missed > 0 ? "below" : "above", mean_stress_,
                   100 * std::abs(missed) / mean_stress_, 100 * tolerance));
 }

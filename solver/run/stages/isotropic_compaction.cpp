@@ -14,9 +14,10 @@ IsotropicCompactionControl::IsotropicCompactionControl(const IsotropicCompaction
   const double density = start.sample.solid_volume / start.cell.volume();
   // Nearer than this, the walls would move by rounding errors.
   if (!(stage.relative_density > density * (1 + 1e-9)))
-    throw InputError(fmt::format("{}stage '{}': key 'relative_density': found {}, allowed more than the density at its "
-                                 "start, {:.4f}",
-                                 label.places.prefix("relative_density"), label.name, stage.relative_density, density));
+    throw InputError(
+        fmt::format("{}stage '{}': key 'relative_density': found {}, allowed: more than the density at its "
+                    "start, {:.4f}",
+                    label.places.prefix("relative_density"), label.name, stage.relative_density, density));
   motion_.end_scale.fill(std::cbrt(density / stage.relative_density));
   motion_.ramp = stage.ramp_fraction;
   motion_.duration =

@@ -169,11 +169,11 @@ TEST_CASE("what is not an STL file is refused with what was found and what is al
   contains(refusal("solid nothing\nendsolid\n"), "found no triangle");
   contains(refusal(binary_stl({})), "found no triangle");
   contains(refusal(text.substr(0, text.rfind("endsolid"))),
-           "test.stl:86: found the end of the file, allowed 'facet' or");
-  contains(refusal(text + "more"), "test.stl:87: found 'more', allowed 'solid'");
-  contains(refusal(replaced(text, "vertex", "corner")), "test.stl:4: found 'corner', allowed 'vertex'");
-  contains(refusal(replaced(text, "1 1 1.0", "1 nan 1.0")), "found 'nan', allowed a finite number");
-  contains(refusal(replaced(text, "1 1 1.0", "1 1.0")), "found 'endloop', allowed a finite number");
+           "test.stl:86: found the end of the file, allowed: 'facet' or");
+  contains(refusal(text + "more"), "test.stl:87: found 'more', allowed: 'solid'");
+  contains(refusal(replaced(text, "vertex", "corner")), "test.stl:4: found 'corner', allowed: 'vertex'");
+  contains(refusal(replaced(text, "1 1 1.0", "1 nan 1.0")), "found 'nan', allowed: a finite number");
+  contains(refusal(replaced(text, "1 1 1.0", "1 1.0")), "found 'endloop', allowed: a finite number");
   LooseTriangles cube = unit_cube();
   cube[3][1].y = std::numeric_limits<double>::infinity();
   contains(refusal(binary_stl(cube)), "test.stl: triangle 4: found a corner at (");
@@ -182,8 +182,8 @@ TEST_CASE("what is not an STL file is refused with what was found and what is al
 
 TEST_CASE("lengths that are too large or too small are refused") {
   const std::string text = text_stl(unit_cube());
-  contains(input_error([&] { stl_body(text, "test.stl", 1e10); }), "allowed up to 1000000000 mm");
-  contains(input_error([&] { stl_body(text, "test.stl", 1e-10); }), "allowed at least 1e-09 mm");
+  contains(input_error([&] { stl_body(text, "test.stl", 1e10); }), "allowed: up to 1000000000 mm");
+  contains(input_error([&] { stl_body(text, "test.stl", 1e-10); }), "allowed: at least 1e-09 mm");
   contains(input_error([&] { stl_body(text, "test.stl", 1e-10); }), "found a largest extent of");
 }
 
@@ -202,7 +202,7 @@ TEST_CASE("a surface that is not closed and oriented is refused with the number 
 
 TEST_CASE("bodies without volume, shells inside out and bodies in bodies are refused") {
   const std::array<Point, 3> sheet{Point{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
-  contains(refusal(text_stl({sheet, {sheet[0], sheet[2], sheet[1]}})), "allowed a body with a volume");
+  contains(refusal(text_stl({sheet, {sheet[0], sheet[2], sheet[1]}})), "allowed: a body with a volume");
   const LooseTriangles large = prism({{-3, -3}, {3, -3}, {3, 3}, {-3, 3}}, -3, 3);
   contains(refusal(text_stl(together(large, unit_cube()))), "lies in another one or runs through it");
   contains(refusal(text_stl(together(large, inside_out(moved(unit_cube(), {9, 0, 0}))))), "is turned inside out");

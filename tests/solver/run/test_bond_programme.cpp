@@ -199,7 +199,7 @@ TEST_CASE("what cannot be driven is refused in one line with its place, exit cod
                 "programme.csv:3: column shear2: found 'x'"},
            Case{"opening,shear1,shear2\n1e-5,nan,0\n", "", law_text, "programme.csv:2: column shear1: found 'nan'"},
            Case{"opening,shear1,shear2\n1e9,0,0\n", "", law_text, "programme.csv:2: column opening: found '1e9'"},
-           Case{"opening,shear1,shear2\n1e-5,0\n", "", law_text, "programme.csv:2: found 2 columns, expected 3"},
+           Case{"opening,shear1,shear2\n1e-5,0\n", "", law_text, "programme.csv:2: found 2 columns, allowed: 3"},
            Case{"opening,shear1,shear2,increments\n1e-5,0,0,0\n", "", law_text,
                 "programme.csv:2: column increments: found '0'"},
            Case{"opening,shear1,shear2,increments\n1e-5,0,0,2.5\n", "", law_text, "column increments: found '2.5'"},

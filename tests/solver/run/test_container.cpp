@@ -162,7 +162,7 @@ TEST_CASE("walls of a container that are no die are refused with what was expect
   };
   CHECK_THAT(refused(replaced(four_planes, "\"north\"]", "]")), Catch::Contains("found 3 names"));
   CHECK_THAT(refused(replaced(four_planes, "[\"west\", \"east\"", "[\"east\", \"west\"")),
-             Catch::Contains("found 'east', expected a plane whose normal is [1, 0, 0]"));
+             Catch::Contains("found 'east', allowed: a plane whose normal is [1, 0, 0]"));
   CHECK_THAT(refused(replaced(four_planes, "[\"west\", \"east\", \"south\", \"north\"]", "\"west\"")),
              Catch::Contains("a list of four planes"));
   CHECK_THAT(refused(replaced(die_of_triangles, "\"inside\"", "\"outside\""), prism(square, -0.2, 0.7)),
