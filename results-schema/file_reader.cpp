@@ -149,11 +149,11 @@ std::size_t FileReader::count(const DatasetDescription& dataset, std::string_vie
     values *= extents[i];
   }
   if (!good) fail(fmt::format("has the shape {}, allowed: {}", extents_text(extents), dataset.shape));
-  if (const std::string vast = state_->vast(set); !vast.empty()) fail(vast);
+  if (const std::string problem = state_->implausible_size(set); !problem.empty()) fail(problem);
   return values;
 }
 
-std::string FileReader::State::vast(hid_t set) const {
+std::string FileReader::State::implausible_size(hid_t set) const {
   const Handle type(H5Dget_type(set), H5Tclose), creation(H5Dget_create_plist(set), H5Pclose);
   const std::uintmax_t compression = H5Pget_nfilters(creation) > 0 ? greatest_compression : 1;
   const auto extents = extents_of(set);

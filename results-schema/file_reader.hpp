@@ -20,7 +20,7 @@ struct FileReader::State {
   /// Reads all values of a dataset whose type and shape are correct. Returns what is wrong with it, or "".
   std::string read(const DatasetDescription& dataset, const std::string& path_in_file, void* values) const;
   /// Returns what is wrong with a dataset's extents given the file's size, or "".
-  std::string vast(hid_t set) const;
+  std::string implausible_size(hid_t set) const;
 };
 
 /// Opens a file without comparing it with its checksums. Throws InputError as FileReader's constructor does.

@@ -44,7 +44,7 @@ public:
       return finding(path, fmt::format("has the shape {}, allowed: {}", extents_text(extents), dataset.shape));
     for (std::size_t i = 0; i < extents.size(); ++i)
       if (!check_extent(dataset, path, snapshot, i, extents[i])) return;
-    if (const std::string vast = state_.vast(set); !vast.empty()) return finding(path, vast);
+    if (const std::string problem = state_.implausible_size(set); !problem.empty()) return finding(path, problem);
     check_values(dataset, path, extents);
   }
 
