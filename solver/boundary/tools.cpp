@@ -186,7 +186,8 @@ double Tools::push_on_node(const Model& model, std::size_t node, int grain) cons
   return push;
 }
 
-double Tools::take_off(Model& model, std::size_t index, const Bounds& bounds, double last_step, int grain) {
+double Tools::remove_forces_on_grain(Model& model, std::size_t index, const Bounds& bounds, double last_step,
+                                     int grain) {
   const auto g = static_cast<std::size_t>(grain);
   const auto first = 4 * static_cast<std::ptrdiff_t>(model.node_offset[g]),
              end = 4 * static_cast<std::ptrdiff_t>(model.node_offset[g + 1]);
@@ -202,12 +203,12 @@ double Tools::take_off(Model& model, std::size_t index, const Bounds& bounds, do
   return 0.5 * last_step * power;
 }
 
-/// Takes a tool off all grains; the energies are added up in the order of grains.
-double Tools::take_off_all(Model& model, std::size_t index, std::span<const Bounds> bounds, double last_step,
-                           const Communicator& ranks) {
+/// Takes a tool's forces off all grains; the energies are added up in the order of grains.
+double Tools::remove_forces_on_all_grains(Model& model, std::size_t index, std::span<const Bounds> bounds,
+                                          double last_step, const Communicator& ranks) {
   return sum_over_grains(ranks, model.own(), [&](std::int32_t grain) {
     return of_grain_[slot(grain, index)].acts()
-               ? take_off(model, index, bounds[static_cast<std::size_t>(grain)], last_step, grain)
+               ? remove_forces_on_grain(model, index, bounds[static_cast<std::size_t>(grain)], last_step, grain)
                : 0.0;
   });
 }
@@ -220,7 +221,7 @@ double Tools::set_away(std::span<const std::size_t> away, Model& model, std::spa
     const bool leaves = std::find(away.begin(), away.end(), index) != away.end();
     if (leaves && !tool.away) {
       const double own = load_[index].energy + load_[index].friction_energy + load_[index].adhesion_energy +
-                         take_off_all(model, index, bounds, last_step, ranks);
+                         remove_forces_on_all_grains(model, index, bounds, last_step, ranks);
       taken += own;
       tool.work -= own;
       load_[index] = {};
@@ -231,13 +232,13 @@ double Tools::set_away(std::span<const std::size_t> away, Model& model, std::spa
         bonds_[slot(grain, index)].clear();
       }
     }
-    if (!leaves && tool.away) come_back(tool, model, ranks);
+    if (!leaves && tool.away) return_tool(tool, model, ranks);
     tool.away = leaves;
   }
   return taken;
 }
 
-void Tools::come_back(Tool& tool, const Model& model, const Communicator& ranks) const {
+void Tools::return_tool(Tool& tool, const Model& model, const Communicator& ranks) const {
   double deepest = 0;
   with_surface(tool, [&](const auto& surface) {
     for (const std::int32_t grain : model.own())

@@ -123,10 +123,10 @@ public:
 private:
   std::size_t slot(int grain, std::size_t tool) const { return static_cast<std::size_t>(grain) * size() + tool; }
   ToolLoad add_tool(Model& model, std::size_t tool, const Bounds& bounds, double last_step, int grain);
-  double take_off(Model& model, std::size_t tool, const Bounds& bounds, double last_step, int grain);
-  double take_off_all(Model& model, std::size_t tool, std::span<const Bounds> bounds, double last_step,
-                      const Communicator& ranks);
-  void come_back(Tool& tool, const Model& model, const Communicator& ranks) const;
+  double remove_forces_on_grain(Model& model, std::size_t tool, const Bounds& bounds, double last_step, int grain);
+  double remove_forces_on_all_grains(Model& model, std::size_t tool, std::span<const Bounds> bounds, double last_step,
+                                     const Communicator& ranks);
+  void return_tool(Tool& tool, const Model& model, const Communicator& ranks) const;
 
   int grains_ = 0;
   std::vector<Tool> tools_;
