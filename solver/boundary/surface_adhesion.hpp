@@ -41,16 +41,16 @@ inline double surface_penalty(const Model& model, std::size_t node, int grain) {
   return model.penalty_stiffness[static_cast<std::size_t>(grain)] * model.local_stiffness(node);
 }
 
-/// The bonds of one grain to one surface at one time level. `Bear` is called with every node that a bond pulls, the
+/// The bonds of one grain to one surface at one time level. `OnPull` is called with every node that a bond pulls, the
 /// force on it (N) and the surface's normal there.
-template <RigidSurface Surface, class Bear>
+template <RigidSurface Surface, class OnPull>
 class SurfaceAdhesion {
 public:
   /// `origin`: mm, where the surface's frame lies now; `before`: the bonds of the time level before, by ascending node.
   SurfaceAdhesion(Model& model, const Adhesion& adhesion, const Surface& surface, const Vector3<double>& origin,
-                  int grain, const std::vector<SurfaceBond>& before, Bear bear)
+                  int grain, const std::vector<SurfaceBond>& before, OnPull on_pull)
       : model_(model), adhesion_(adhesion), surface_(surface), origin_(origin), grain_(grain), next_(before.begin()),
-        end_(before.end()), bear_(std::move(bear)) {
+        end_(before.end()), on_pull_(std::move(on_pull)) {
     bonds_.reserve(before.size());
   }
 
@@ -117,7 +117,7 @@ private:
     energy += 0.5 * bond.remaining * stiffness * bond.separation * bond.separation;
     dissipation += area * (damage_dissipation(law, bond.state) - lost);
     if (bond.intact()) bonded_area += area;
-    bear_(node, force, gap.normal.vector());
+    on_pull_(node, force, gap.normal.vector());
   }
 
   Model& model_;
@@ -127,11 +127,11 @@ private:
   int grain_;
   std::vector<SurfaceBond>::const_iterator next_, end_;
   std::vector<SurfaceBond> bonds_;
-  Bear bear_;
+  OnPull on_pull_;
 };
 
 /// Whether any of a grain's bonds has to be updated even if the surface cannot touch the grain.
-inline bool any_to_follow(const Adhesion& adhesion, const std::vector<SurfaceBond>& bonds) {
+inline bool any_bond_to_update(const Adhesion& adhesion, const std::vector<SurfaceBond>& bonds) {
   return adhesion.rebond_on_contact
              ? !bonds.empty()
              : std::any_of(bonds.begin(), bonds.end(), [](const SurfaceBond& bond) { return bond.intact(); });

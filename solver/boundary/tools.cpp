@@ -76,7 +76,7 @@ ToolLoad Tools::add_tool(Model& model, std::size_t index, const Bounds& bounds, 
   std::vector<SurfaceBond>& bonds = bonds_[slot(grain, index)];
   return with_surface(tool, [&](const auto& surface) {
     ToolLoad load;
-    if (!surface.may_touch(bounds) && anchors.empty() && !any_to_follow(adhesion, bonds)) return load;
+    if (!surface.may_touch(bounds) && anchors.empty() && !any_bond_to_update(adhesion, bonds)) return load;
     const Vector3<double> moved = vector_of(tool.moved), about = reference_of(tool.surface) + moved;
     const auto bear = [&](std::size_t node, const Vector3<double>& on_node) {
       load.force = load.force - on_node;

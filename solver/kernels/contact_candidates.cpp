@@ -55,7 +55,7 @@ struct BondedCandidates {
 void merge_points(const ContactCandidates& found, PointRange new_points, const ContactCandidates& old,
                   const std::vector<PointBond>& old_bond, PointRange old_points, BondedCandidates& merged) {
   const auto is_kept = [&](std::int32_t point) {
-    return old_bond[at(point)].exists() || old_bond[at(point)].spent > 0;
+    return old_bond[at(point)].exists() || old_bond[at(point)].dissipated_before > 0;
   };
   ContactCandidates& candidates = merged.candidates;
   while (new_points.left() || old_points.left()) {
@@ -128,7 +128,7 @@ void carry_friction(const ContactCandidates& now, Contact& contact) {
     double lost = 0;
     for (std::int32_t i = old.pair_point_offset[p]; i < old.pair_point_offset[p + 1]; ++i)
       lost += contact.rubbing[at(i)].dissipated;
-    if (lost != 0) contact.friction_left_behind[{old.pair_first[p], old.pair_second[p]}] += lost;
+    if (lost != 0) contact.friction_of_former_points[{old.pair_first[p], old.pair_second[p]}] += lost;
   }
   contact.rubbing = std::move(carried);
 }

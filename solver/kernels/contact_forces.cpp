@@ -151,7 +151,7 @@ private:
       } else if (bond.exists() && contact_.rebond_on_contact) {
         PointBond none;
         none.law = bond.law;
-        none.spent = bond.spent + contact_.bond_laws[at(bond.law)].fracture_energy;
+        none.dissipated_before = bond.dissipated_before + contact_.bond_laws[at(bond.law)].fracture_energy;
         bond = none;
       }
     }

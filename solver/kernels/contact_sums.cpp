@@ -45,13 +45,13 @@ BondSums bond_sums(const Model& model, const Contact& contact, std::int32_t pair
   const double penalty = penalty_of_pair(model, candidates, pair);
   for (std::int32_t p = candidates.pair_point_offset[at(pair)]; p < candidates.pair_point_offset[at(pair) + 1]; ++p) {
     const PointBond& bond = contact.bond[at(p)];
-    if (!bond.exists() && bond.spent == 0) continue;
+    if (!bond.exists() && bond.dissipated_before == 0) continue;
     const double area = model.reference_area[at(candidates.point_node[at(p)])];
     const BondLaw law = law_at_point(model, contact, penalty, p);
     const double share = share_of_point(model, contact, p);
     sums.formed_area += area;
     sums.damaged_area += bond.exists() ? (1.0 - bond.remaining) * area : area;
-    sums.dissipated += share * bond.spent;
+    sums.dissipated += share * bond.dissipated_before;
     if (!bond.exists()) continue;
     sums.dissipated += share * damage_dissipation(law, bond.state);
     sums.stored += 0.5 * share * bond.remaining * law.stiffness * bond.separation * bond.separation;
@@ -65,9 +65,10 @@ BondSums bond_sums(const Model& model, const Contact& contact, std::int32_t pair
 double bond_dissipation(const Model& model, const Contact& contact, std::int32_t pair, std::int32_t point) {
   const PointBond& bond = contact.bond[at(point)];
   const double share = share_of_point(model, contact, point);
-  if (!bond.exists()) return share * bond.spent;
+  if (!bond.exists()) return share * bond.dissipated_before;
   const double penalty = penalty_of_pair(model, contact.candidates, pair);
-  return share * (bond.spent + damage_dissipation(law_at_point(model, contact, penalty, point), bond.state));
+  return share *
+         (bond.dissipated_before + damage_dissipation(law_at_point(model, contact, penalty, point), bond.state));
 }
 
 namespace {
@@ -111,7 +112,7 @@ std::vector<HalfContact> halves_at_own_nodes(const Model& model, const Contact& 
          ++pair)
       if (const HalfContact half = half_contact(model, contact, pair); half.shown || contact.has_friction())
         halves.push_back(half);
-  for (const auto& [grains, lost] : contact.friction_left_behind)
+  for (const auto& [grains, lost] : contact.friction_of_former_points)
     halves.push_back({{grains.first, grains.second, {}, 0, {}, {0, lost}}});
   return halves;
 }

@@ -87,7 +87,8 @@ using FrictionRow = std::array<double, 8>;
 /// (mm); share of the stiffness that remains; N/mm dissipated by earlier bonds of the point. The facet and the law have
 /// datasets of their own.
 inline Row row_of(const PointBond& bond) {
-  return {bond.weight1, bond.weight2, bond.state.initiation, bond.state.largest, bond.remaining, bond.spent};
+  return {bond.weight1,       bond.weight2,   bond.state.initiation,
+          bond.state.largest, bond.remaining, bond.dissipated_before};
 }
 /// The bond of such a row; `v` holds 6 numbers.
 inline PointBond bond_of(std::int32_t facet, std::int32_t law, std::span<const double> v) {
@@ -97,7 +98,7 @@ inline PointBond bond_of(std::int32_t facet, std::int32_t law, std::span<const d
   bond.weight1 = v[0], bond.weight2 = v[1];
   bond.state = {v[2], v[3]};
   bond.remaining = v[4];
-  bond.spent = v[5];
+  bond.dissipated_before = v[5];
   return bond;
 }
 

@@ -243,7 +243,7 @@ void ArrayReader::take_friction(Contact& contact) const {
   require(std::ranges::all_of(grains, [&](Index grain) { return grain >= 0 && grain < model_.grains; }));
   for (std::size_t i = 0; i < lost.size(); ++i)
     if (model_.ownership.owns(grains[2 * i]))
-      contact.friction_left_behind[{grains[2 * i], grains[2 * i + 1]}] = lost[i];
+      contact.friction_of_former_points[{grains[2 * i], grains[2 * i + 1]}] = lost[i];
 }
 
 /// Which rows have nodes of each grain; rows are sorted by grain.

@@ -192,7 +192,8 @@ std::vector<PointOfBond> bonds_of(const Contact& contact, Index grain) {
   const ContactCandidates& candidates = contact.candidates;
   for (Index pair = candidates.outgoing_offset[at(grain)]; pair < candidates.outgoing_offset[at(grain) + 1]; ++pair)
     for (Index i = candidates.pair_point_offset[at(pair)]; i < candidates.pair_point_offset[at(pair) + 1]; ++i)
-      if (const PointBond& bond = contact.bond[at(i)]; bond.exists() || bond.spent != 0) bonds.push_back({pair, i});
+      if (const PointBond& bond = contact.bond[at(i)]; bond.exists() || bond.dissipated_before != 0)
+        bonds.push_back({pair, i});
   return bonds;
 }
 

@@ -198,7 +198,7 @@ private:
   }
   /// Writes what pairs dissipated at points that they no longer have, by the grain of the nodes.
   void write_friction_left_behind() {
-    const auto& lost = contact_.friction_left_behind;
+    const auto& lost = contact_.friction_of_former_points;
     const auto first_of_grain = [&](Index grain) { return lost.lower_bound({grain, 0}); };
     const Counts counts = count_of_grains(file_.ranks(), model_, [&](Index grain) {
       return std::distance(first_of_grain(grain), first_of_grain(grain + 1));

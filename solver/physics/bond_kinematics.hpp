@@ -35,7 +35,7 @@ struct PointBond : BondDamage {
   std::int32_t facet = -1;         ///< where it is attached, -1: none
   std::int32_t law = 0;            ///< number of the law by which this bond, or the one before it, formed
   double weight1 = 0, weight2 = 0; ///< shape functions of the facet's second and third node
-  double spent = 0;                ///< N/mm, dissipated by the bonds that this point had before
+  double dissipated_before = 0;    ///< N/mm, dissipated by the bonds that this point had before
   bool exists() const { return facet >= 0; }
   bool intact() const { return facet >= 0 && remaining > 0; }
 };

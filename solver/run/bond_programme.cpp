@@ -63,7 +63,7 @@ BondedPoint::Response BondedPoint::move_to(const Separation& separation) {
   const BondLaw& law = law_.bond;
   const bool closed = separation.opening < 0;
   if (closed && gone_) {
-    spent_ += law.fracture_energy;
+    dissipated_before_ += law.fracture_energy;
     state_ = {};
     attached_ = separation;
     gone_ = false;
@@ -82,7 +82,7 @@ BondedPoint::Response BondedPoint::move_to(const Separation& separation) {
   response.effective = law.normal_only ? open : std::sqrt(open * open + shear1 * shear1 + shear2 * shear2);
   response.damage = 1 - remaining_stiffness(law, state_);
   response.stored = traction.stored + 0.5 * law_.penalty * penetration * penetration;
-  response.dissipated = spent_ + damage_dissipation(law, state_);
+  response.dissipated = dissipated_before_ + damage_dissipation(law, state_);
   response.state = broken ? "broken" : state_.initiation > 0 ? "damaged" : "intact";
   return response;
 }

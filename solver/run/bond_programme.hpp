@@ -53,9 +53,9 @@ public:
 private:
   BondedPointLaw law_;
   BondState state_;
-  bool gone_ = false;   ///< the broken bond has opened, so the point may bond again
-  Separation attached_; ///< where the bond was made: its shear counts from there
-  double spent_ = 0;    ///< N/mm, dissipated by earlier bonds of the point
+  bool gone_ = false;            ///< the broken bond has opened, so the point may bond again
+  Separation attached_;          ///< where the bond was made: its shear counts from there
+  double dissipated_before_ = 0; ///< N/mm, dissipated by earlier bonds of the point
 };
 
 /// Options of `mpfem bond`.

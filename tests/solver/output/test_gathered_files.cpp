@@ -246,7 +246,7 @@ bool equal_rows(const Array& a, const Array& b, Index first, Index end, std::siz
 bool equal(const PointBond& a, const PointBond& b) {
   return a.facet == b.facet && a.law == b.law && a.weight1 == b.weight1 && a.weight2 == b.weight2 &&
          a.state.initiation == b.state.initiation && a.state.largest == b.state.largest && a.remaining == b.remaining &&
-         a.spent == b.spent;
+         a.dissipated_before == b.dissipated_before;
 }
 bool equal(const PointFriction& a, const PointFriction& b) {
   return a.facet == b.facet && a.weight1 == b.weight1 && a.weight2 == b.weight2 && a.stiffness == b.stiffness &&
