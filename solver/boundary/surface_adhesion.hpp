@@ -33,7 +33,7 @@ struct SurfaceBond : BondDamage {
 struct HeldNode {
   double penalty_left = 1;        ///< part of the penalty that the bond leaves, at this time level
   double penalty_left_before = 1; ///< the same at the level before
-  double rubbing_share = 1;       ///< D, the share of the point that has no bond
+  double friction_share = 1;      ///< D, the share of the point that has no bond
 };
 
 /// MPa/mm, the penalty of a rigid surface at a node.
@@ -73,7 +73,7 @@ public:
       held.penalty_left_before = penalty_left_by_bond(law, bond, penalty);
       pull(bond, gap);
       held.penalty_left = penalty_left_by_bond(law, bond, penalty);
-      held.rubbing_share = 1.0 - bond.remaining;
+      held.friction_share = 1.0 - bond.remaining;
     }
     bonds_.push_back(bond);
     return held;

@@ -30,7 +30,7 @@ struct SurfaceMotion {
 };
 
 /// What a bond leaves of a point to friction (solver/physics/friction_kinematics.hpp).
-struct RubbingShare {
+struct FrictionShare {
   double share = 1;          ///< D, of the point
   double penalty = 1;        ///< part of the penalty's stiffness
   double penalty_before = 1; ///< the same at the time level before
@@ -38,11 +38,11 @@ struct RubbingShare {
 
 /// The friction of one surface on one grain at one time level.
 template <RigidSurface Surface>
-class SurfaceRubbing {
+class SurfaceFriction {
 public:
   /// `before`: the anchors of the time level before, by ascending node.
-  SurfaceRubbing(Model& model, double friction, const Surface& surface, const SurfaceMotion& motion,
-                 const std::vector<SurfaceAnchor>& before)
+  SurfaceFriction(Model& model, double friction, const Surface& surface, const SurfaceMotion& motion,
+                  const std::vector<SurfaceAnchor>& before)
       : model_(model), friction_(friction), surface_(surface), motion_(motion), next_(before.begin()),
         end_(before.end()) {
     anchors_.reserve(before.size());
@@ -51,7 +51,7 @@ public:
   /// Handles a node behind the surface, which penalty and bond together push with `push` (N). To be called by ascending
   /// node. Returns the friction force (N) on the node.
   template <class Gap>
-  Vector3<double> rub(std::size_t node, const Gap& gap, double push, const RubbingShare& of_point = {}) {
+  Vector3<double> add_force(std::size_t node, const Gap& gap, double push, const FrictionShare& of_point = {}) {
     const auto number = static_cast<std::int32_t>(node);
     release_before(number);
     const double depth = -gap.distance;

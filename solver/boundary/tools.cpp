@@ -86,7 +86,7 @@ ToolLoad Tools::add_tool(Model& model, std::size_t index, const Bounds& bounds, 
       bear(node, on_node);
       load.normal_force += dot(on_node, normal);
     };
-    SurfaceRubbing rubbing(model, tool.friction, surface, {moved, vector_of(tool.movement), last_step}, anchors);
+    SurfaceFriction friction(model, tool.friction, surface, {moved, vector_of(tool.movement), last_step}, anchors);
     SurfaceAdhesion sticking(model, adhesion, surface, moved, grain, bonds, bear_bond);
     const double size = model.element_size[static_cast<std::size_t>(grain)];
     for_each_node_behind(model, surface, bounds, grain, [&](std::size_t node, const auto& gap) {
@@ -95,17 +95,17 @@ ToolLoad Tools::add_tool(Model& model, std::size_t index, const Bounds& bounds, 
       gap.normal.push(model, node, push);
       Vector3<double> on_node = push * gap.normal.vector();
       if (tool.friction > 0)
-        on_node =
-            on_node + rubbing.rub(node, gap, full, {held.rubbing_share, held.penalty_left, held.penalty_left_before});
+        on_node = on_node + friction.add_force(node, gap, full,
+                                               {held.friction_share, held.penalty_left, held.penalty_left_before});
       bear(node, on_node);
       load.normal_force += push;
       load.energy += wall_energy(full, gap.distance);
       load.penetration = std::max(load.penetration, -gap.distance / size);
     });
-    if (tool.friction > 0) anchors = rubbing.finish();
+    if (tool.friction > 0) anchors = friction.finish();
     if (sticky) bonds = sticking.finish();
-    load.friction_energy = rubbing.energy;
-    load.friction_dissipation = rubbing.dissipation;
+    load.friction_energy = friction.energy;
+    load.friction_dissipation = friction.dissipation;
     load.adhesion_energy = sticking.energy;
     load.adhesion_dissipation = sticking.dissipation;
     load.bonded_area = sticking.bonded_area;

@@ -29,9 +29,9 @@ WallFrictionSums WallFriction::add_forces(Model& model, const Box& box, const Bo
     if (!box.has_walls(side / 2)) continue;
     std::vector<SurfaceAnchor>& anchors = this->anchors(grain, side);
     const Plane plane = box.wall(side);
-    SurfaceRubbing<Plane> wall(model, friction_, plane, motion_of(plane, box.movement(side), last_step), anchors);
+    SurfaceFriction<Plane> wall(model, friction_, plane, motion_of(plane, box.movement(side), last_step), anchors);
     for_each_node_behind(model, plane, bounds, grain, [&](std::size_t node, const auto& gap) {
-      wall.rub(node, gap, surface_force(model, node, grain, gap.distance));
+      wall.add_force(node, gap, surface_force(model, node, grain, gap.distance));
     });
     anchors = wall.finish();
     sums.energy[side] = wall.energy;

@@ -123,14 +123,14 @@ std::vector<PointFriction> carried_friction(const ContactCandidates& now, const 
 /// Carries friction over to new candidates, and records what points that are gone have dissipated.
 void carry_friction(const ContactCandidates& now, Contact& contact) {
   const ContactCandidates& old = contact.candidates;
-  std::vector<PointFriction> carried = carried_friction(now, old, contact.rubbing);
+  std::vector<PointFriction> carried = carried_friction(now, old, contact.point_friction);
   for (std::size_t p = 0; p < old.pair_first.size(); ++p) {
     double lost = 0;
     for (std::int32_t i = old.pair_point_offset[p]; i < old.pair_point_offset[p + 1]; ++i)
-      lost += contact.rubbing[at(i)].dissipated;
+      lost += contact.point_friction[at(i)].dissipated;
     if (lost != 0) contact.friction_of_former_points[{old.pair_first[p], old.pair_second[p]}] += lost;
   }
-  contact.rubbing = std::move(carried);
+  contact.point_friction = std::move(carried);
 }
 
 /// Memory for the records of forces of all points.
@@ -183,7 +183,7 @@ void take_over(CandidatesFromOld&& now, int grains, Contact& contact) {
   carry_over(now.old_point, -1.0, contact.point_open_until);
   carry_over(now.old_point, -1.0, contact.point_facet_until);
   if (contact.bonding()) carry_over(now.old_point, PointBond{}, contact.bond);
-  if (contact.has_friction()) carry_over(now.old_point, PointFriction{}, contact.rubbing);
+  if (contact.has_friction()) carry_over(now.old_point, PointFriction{}, contact.point_friction);
   contact.candidates = std::move(now.candidates);
   index_pairs(contact.candidates, grains);
   make_room_for_forces(contact);

@@ -32,7 +32,7 @@ struct PairOfGrains {
 };
 
 /// Evaluates the points of one grain's own nodes, with bonds or without, with friction or without.
-template <bool bonding, bool rubbing>
+template <bool bonding, bool has_friction>
 class PointEvaluation {
 public:
   PointEvaluation(Model& model, Contact& contact) : model_(model), contact_(contact) {}
@@ -65,7 +65,7 @@ private:
             .travel = contact_.travel[g] + contact_.travel[other],
             .limit = contact_.travel_at_search[g] + contact_.travel_at_search[other] + contact_.margin,
             .stiffness = pass_stiffness(model_.penalty_stiffness[g], model_.penalty_stiffness[other]),
-            .friction = rubbing ? friction_of(g, other) : 0.0,
+            .friction = has_friction ? friction_of(g, other) : 0.0,
             .first_point = candidates.pair_point_offset[at(pair)]};
   }
 
@@ -94,7 +94,7 @@ private:
     const double distance = norm(offset);
     // 2. Outside.
     if (distance == 0 || is_outside(model_, offset, closest, geometry)) {
-      if constexpr (rubbing) release_friction(point, closest.point, sums);
+      if constexpr (has_friction) release_friction(point, closest.point, sums);
       return evaluate_open_point(pair, point, node, x, distance);
     }
     refuse_depth(pair, distance);
@@ -104,11 +104,11 @@ private:
     if constexpr (bonding)
       pushed *= evaluate_closed_bond(pair, contact_.bond[at(point)], node, x, facet, closest, distance);
     ContactForce& record = contact_.force[at(pair.first_point + pair.active++)];
-    if (rubbing && pair.friction > 0) {
+    if (has_friction && pair.friction > 0) {
       record = evaluate_friction({x, facet, geometry.x, closest, distance, motion(point, closest, geometry)}, geometry,
                                  point, pair.friction, k, pushed, sums);
     } else {
-      if constexpr (rubbing) take_anchor(point); // a branch may have taken the pair's friction away
+      if constexpr (has_friction) take_anchor(point); // a branch may have taken the pair's friction away
       record = make_record(penalty_force(pushed, offset), closest.weight1, closest.weight2, std::abs(pushed), node,
                            geometry);
     }
@@ -194,12 +194,13 @@ private:
   /// the penalty: until they are damaged, nothing rubs.
   ContactForce evaluate_friction(const ClosedPoint& closed, const Facet& closest_facet, std::int32_t point,
                                  double coefficient, double penalty, double pushed, ContactSums& sums) {
-    PointFriction& friction = contact_.rubbing[at(point)];
+    PointFriction& friction = contact_.point_friction[at(point)];
     double share = 1.0; // of the point that rubs
     if constexpr (bonding) share -= contact_.bond[at(point)].remaining;
     const bool elsewhere = friction.exists() && friction.facet != closed.facet;
     const Facet anchor = elsewhere ? facet_geometry(model_, friction.facet) : closest_facet;
-    const FrictionStep step = rub(friction, {share * coefficient, penalty, std::max(pushed, 0.0)}, closed, anchor.x);
+    const FrictionStep step =
+        advance_friction(friction, {share * coefficient, penalty, std::max(pushed, 0.0)}, closed, anchor.x);
     sums.friction_energy += step.stored;
     sums.friction_dissipation += step.dissipated;
     return make_record(-(pushed * step.reach), friction.weight1, friction.weight2, std::abs(pushed),
@@ -208,7 +209,7 @@ private:
 
   /// mm, motion of a point's node relative to its closest point in the last step; 0 if friction already has an anchor.
   Vector3<double> motion(std::int32_t point, const ClosestPoint<double>& closest, const Facet& facet) const {
-    if (contact_.rubbing[at(point)].exists()) return {0, 0, 0};
+    if (contact_.point_friction[at(point)].exists()) return {0, 0, 0};
     const std::size_t node = at(contact_.candidates.point_node[at(point)]);
     const Vector3<double> v[3] = {vector_of(model_.velocity, facet.node[0]), vector_of(model_.velocity, facet.node[1]),
                                   vector_of(model_.velocity, facet.node[2])};
@@ -216,13 +217,13 @@ private:
   }
 
   void take_anchor(std::int32_t point) {
-    PointFriction& friction = contact_.rubbing[at(point)];
+    PointFriction& friction = contact_.point_friction[at(point)];
     if (friction.exists()) friction = without_anchor(friction);
   }
 
   /// Forgets the anchor of a point that has opened.
   void release_friction(std::int32_t point, const Vector3<double>& closest, ContactSums& sums) {
-    PointFriction& friction = contact_.rubbing[at(point)];
+    PointFriction& friction = contact_.point_friction[at(point)];
     if (friction.exists())
       sums.friction_dissipation += release(friction, closest, facet_geometry(model_, friction.facet).x);
   }

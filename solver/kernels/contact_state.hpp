@@ -46,12 +46,12 @@ struct Contact {
   /// branch it may differ from the law of the bonds in the checkpoint. A law's stiffness is 0 if it follows the point's
   /// penalty (bond_law).
   std::vector<BondLaw> bond_laws;
-  bool rebond_on_contact = false;       ///< a point with a broken bond bonds again once it has opened and closes
-  std::vector<PointBond> bond;          ///< [points]
-  std::vector<ContactForce> bond_force; ///< [points]: pulling bonds first within every pair's range
-  std::vector<std::int32_t> pulling;    ///< [pairs]: number of pulling bonds
-  PairFriction friction;                ///< without any, the array below stays empty
-  std::vector<PointFriction> rubbing;   ///< [points]
+  bool rebond_on_contact = false;            ///< a point with a broken bond bonds again once it has opened and closes
+  std::vector<PointBond> bond;               ///< [points]
+  std::vector<ContactForce> bond_force;      ///< [points]: pulling bonds first within every pair's range
+  std::vector<std::int32_t> pulling;         ///< [pairs]: number of pulling bonds
+  PairFriction friction;                     ///< without any, the array below stays empty
+  std::vector<PointFriction> point_friction; ///< [points]
   /// mJ that friction has dissipated so far at points that are no longer candidates, by ordered pair of grains.
   std::map<std::pair<std::int32_t, std::int32_t>, double> friction_of_former_points;
   double last_step = 0;                 ///< s, of the step to the present positions; shows where points came in

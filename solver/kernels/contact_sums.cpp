@@ -99,7 +99,7 @@ HalfContact half_contact(const Model& model, const Contact& contact, std::int32_
   for (const ContactForce& point : touching) half.pair.area += 0.5 * model.normal[4 * at(point.node) + 3];
   if (!contact.has_friction()) return half;
   for (std::int32_t i = candidates.pair_point_offset[p]; i < candidates.pair_point_offset[p + 1]; ++i)
-    half.pair.friction.add({contact.rubbing[at(i)].stored, contact.rubbing[at(i)].dissipated});
+    half.pair.friction.add({contact.point_friction[at(i)].stored, contact.point_friction[at(i)].dissipated});
   return half;
 }
 

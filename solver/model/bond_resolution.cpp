@@ -62,7 +62,7 @@ struct BondsOfScenario {
   BondPartner partner;
   std::string table;   ///< for refusals
   std::string subject; ///< for warnings
-  bool rub;            ///< points with damaged bonds have friction
+  bool has_friction;   ///< points with damaged bonds have friction
 
   [[noreturn]] void refuse(const char* key, const std::string& what) const {
     throw InputError(fmt::format("{}{} key '{}': {}", places.prefix(key), table, key, what));
@@ -71,7 +71,7 @@ struct BondsOfScenario {
 
 void check(const Model& model, const ContactParameters& contact, const BondsOfScenario& bonds,
            const Communicator& ranks, std::vector<std::string>& warnings) {
-  if (const auto stiffness = bonds.bond.stiffness; stiffness && bonds.rub)
+  if (const auto stiffness = bonds.bond.stiffness; stiffness && bonds.has_friction)
     if (const double allowed = smallest_penalty(model, ranks); *stiffness > allowed)
       bonds.refuse(
           "stiffness",

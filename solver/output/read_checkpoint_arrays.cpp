@@ -228,14 +228,14 @@ void ArrayReader::take_bonds(Contact& contact, const BondParameters& parameters)
 }
 
 void ArrayReader::take_friction(Contact& contact) const {
-  contact.rubbing.assign(contact.point_facet.size(), {});
+  contact.point_friction.assign(contact.point_facet.size(), {});
   if (!file_.has(check::friction_facet)) return;
   const auto facet = read_own(check::friction_facet, points_);
   require(std::ranges::all_of(facet, [&](Index f) { return f >= -1 && f < model_.facets(); }));
   std::size_t point = 0;
   read_own(check::friction_values, points_, [&](Index, std::size_t, std::span<const double> values) {
     for (; !values.empty(); values = values.subspan(width<FrictionRow>), ++point)
-      contact.rubbing[point] = friction_of(facet[point], values.first(width<FrictionRow>));
+      contact.point_friction[point] = friction_of(facet[point], values.first(width<FrictionRow>));
   });
   const auto grains = file_.read(check::friction_left_grains);
   const auto lost = file_.read(check::friction_left_behind);

@@ -161,8 +161,8 @@ public:
   }
 
   void write_friction() {
-    write_member(check::friction_facet, contact_.rubbing, &PointFriction::facet);
-    write_rows(check::friction_values, contact_.rubbing);
+    write_member(check::friction_facet, contact_.point_friction, &PointFriction::facet);
+    write_rows(check::friction_values, contact_.point_friction);
     write_friction_left_behind();
   }
 

@@ -32,7 +32,7 @@ struct ContactPoint {
   std::optional<BondLaw> law;                               ///< its stiffness follows the penalty where it is 0
   PointBond bond;
   double friction = 0; ///< mu
-  PointFriction rubbing;
+  PointFriction point_friction;
   double rubbed = 0; ///< mJ, dissipated by friction so far
 
   /// Signed distance of the node, mm. The sign is that of the facet's own normal.
@@ -57,17 +57,17 @@ struct ContactPoint {
       if (distance < 0) pushed *= penalty_left_by_bond(here, bond, stiffness);
     }
     if (distance >= 0) {
-      if (rubbing.exists()) rubbed += release(rubbing, closest.point, x);
+      if (point_friction.exists()) rubbed += release(point_friction, closest.point, x);
       return forces;
     }
     forces.energy += penalty_energy(k, -distance);
     if (friction > 0) {
       const double share = law ? 1 - bond.remaining : 1.0;
-      const FrictionStep step =
-          rub(rubbing, {share * friction, k, pushed}, {node, 0, x, closest, -distance, {0, 0, 0}}, x);
+      const FrictionStep step = advance_friction(point_friction, {share * friction, k, pushed},
+                                                 {node, 0, x, closest, -distance, {0, 0, 0}}, x);
       rubbed += step.dissipated;
       forces.energy += step.stored;
-      forces.add(-(pushed * step.reach), rubbing.weight1, rubbing.weight2);
+      forces.add(-(pushed * step.reach), point_friction.weight1, point_friction.weight2);
     } else {
       forces.add(penalty_force(pushed, offset), closest.weight1, closest.weight2);
     }

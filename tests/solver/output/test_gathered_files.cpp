@@ -136,7 +136,7 @@ Contact part_of_contact(const Model& model, const Contact& all) {
   to.pair_point_offset = to.point_facet_offset = {0};
   for (auto* array : {&part.point_facet, &part.active, &part.pulling}) array->clear();
   part.point_open_until.clear(), part.point_facet_until.clear(), part.force.clear(), part.bond_force.clear();
-  part.bond.clear(), part.rubbing.clear();
+  part.bond.clear(), part.point_friction.clear();
   for (std::size_t pair = 0; pair < from.pair_first.size(); ++pair) {
     const Index first = from.pair_first[pair], second = from.pair_second[pair];
     const bool own = model.ownership.owns(first);
@@ -157,7 +157,7 @@ Contact part_of_contact(const Model& model, const Contact& all) {
       part.point_open_until.push_back(own ? all.point_open_until[i] : spoilt);
       part.point_facet_until.push_back(own ? all.point_facet_until[i] : spoilt);
       part.bond.push_back(own ? all.bond[i] : PointBond{});
-      part.rubbing.push_back(own ? all.rubbing[i] : PointFriction{});
+      part.point_friction.push_back(own ? all.point_friction[i] : PointFriction{});
     }
     to.pair_point_offset.push_back(static_cast<Index>(to.point_node.size()));
   }
@@ -326,7 +326,7 @@ void check_contact(const RankState& part, const Contact& written) {
       CHECK(part.contact.point_open_until[point + i] == written.point_open_until[there + i]);
       CHECK(part.contact.point_facet_until[point + i] == written.point_facet_until[there + i]);
       CHECK(equal(part.contact.bond[point + i], written.bond[there + i]));
-      CHECK(equal(part.contact.rubbing[point + i], written.rubbing[there + i]));
+      CHECK(equal(part.contact.point_friction[point + i], written.point_friction[there + i]));
     }
     ++next;
   }
@@ -348,7 +348,7 @@ TEST_CASE("a checkpoint of all ranks is that of one") {
   const Simulation& simulation = scene.simulation;
   // Otherwise some of the file would be empty.
   REQUIRE(std::ranges::any_of(simulation.contact().bond, &PointBond::exists));
-  REQUIRE(std::ranges::any_of(simulation.contact().rubbing, &PointFriction::exists));
+  REQUIRE(std::ranges::any_of(simulation.contact().point_friction, &PointFriction::exists));
   const SharedFolder folder;
   write_together(folder / "together.h5", simulation);
   if (!test_ranks().leads()) return;

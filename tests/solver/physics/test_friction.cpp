@@ -95,13 +95,13 @@ TEST_CASE("a point that sticks keeps its anchor bitwise while its normal force c
   ContactPoint point = pressed_point(1e-3);
   point.node.x = 0.5 * mu * 1e-3;
   point.evaluate();
-  const PointFriction before = point.rubbing;
+  const PointFriction before = point.point_friction;
   for (int i = 0; i < 100000; ++i) {
     point.node.z = -1e-3 * (1 + 0.45 * std::sin(0.1 * i));
     point.evaluate();
   }
-  CHECK(point.rubbing.weight1 == before.weight1);
-  CHECK(point.rubbing.weight2 == before.weight2);
+  CHECK(point.point_friction.weight1 == before.weight1);
+  CHECK(point.point_friction.weight2 == before.weight2);
 }
 
 TEST_CASE(
@@ -158,7 +158,7 @@ TEST_CASE("an open point forgets its anchor, and a closing one is anchored where
   point.evaluate();
   point.node.z = 1e-4;
   point.evaluate();
-  CHECK_FALSE(point.rubbing.exists());
+  CHECK_FALSE(point.point_friction.exists());
   CHECK(point.rubbed > 0);
   point.node = {0.3, 0.2, -1e-4};
   CHECK(tangential(point.evaluate()) < rounding);
@@ -220,7 +220,7 @@ TEST_CASE("the damaged share of a bond rubs: shear under pressure follows the re
 TEST_CASE("friction changes nothing at a bonded point that is open or undamaged") {
   for (const double z : {1e-4, -1e-3}) {
     ContactPoint with = pressed_point(1e-3);
-    with.rubbing = {};
+    with.point_friction = {};
     with.law = BondLaw{.tensile_strength = 1e6, .shear_strength = 1e6, .fracture_energy = 1e6};
     ContactPoint without = with;
     without.friction = 0;
@@ -269,7 +269,7 @@ TEST_CASE("no state of a rubbing point is stiffer than the bounds of its springs
   for (const double ratio : {0.3, 1.0, 2.0})
     for (int trial = 0; trial < 200; ++trial) {
       ContactPoint point = pressed_point(depth(random));
-      point.rubbing = {};
+      point.point_friction = {};
       const double b = ratio * point.stiffness, strength = 1e-4 * b; // damage begins at 1e-4 mm
       point.law = BondLaw{.stiffness = b,
                           .tensile_strength = strength,
@@ -291,7 +291,7 @@ TEST_CASE("no state of a rubbing point is stiffer than the bounds of its springs
         for (std::size_t c = 0; c < 3; ++c) bound[c + 1] += std::abs(weight[c]) * kappa;
       };
       const double left = point.bond.intact() ? penalty_left_by_bond(law, point.bond, point.stiffness) : 1.0;
-      add(std::abs(left) * point.stiffness * point.area, point.rubbing.weight1, point.rubbing.weight2);
+      add(std::abs(left) * point.stiffness * point.area, point.point_friction.weight1, point.point_friction.weight2);
       if (point.bond.intact()) add(remaining * b * point.area, point.bond.weight1, point.bond.weight2);
       largest = std::max(largest, squared_frequency_over_bound(point, bound));
     }
