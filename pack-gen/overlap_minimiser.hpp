@@ -51,7 +51,7 @@ public:
   }
 
   /// Gives the spheres a weight, downwards along z: this much for a radius of 1, in proportion to volume for others.
-  void weigh(double weight) {
+  void set_weight(double weight) {
     weight_ = weight;
     evaluate();
   }

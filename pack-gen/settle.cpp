@@ -52,7 +52,7 @@ SettledPacking settle(const SpherePacking& packing, const SettleRequest& request
   bool rests = false;
   // A heavy bed settles fast but is soft; as the weight decreases it becomes a bed of hard spheres.
   for (double weight = 1e-3; weight > 1e-8 && !(rests && bed.largest_overlap() <= allowed_overlap); weight *= 0.1) {
-    bed.weigh(weight);
+    bed.set_weight(weight);
     rests = bed.sink(at_rest, most_steps, [&](double share) {
       if (request.progress) request.progress(fmt::format("settling, {:.2g} of a weight unbalanced", share));
     });

@@ -69,7 +69,7 @@ Fit bilinear_fit(const FitProblem& problem) {
   const int best = static_cast<int>(std::min_element(squares.begin(), squares.end()) - squares.begin());
   const double kink = range.at(best);
   const auto solution = lines_through(x, y, kink);
-  if (!solution) undetermined(problem, "x hardly varies");
+  if (!solution) refuse_undetermined(problem, "x hardly varies");
   const auto freedom = static_cast<std::size_t>(x.size()) - 4;
   // Profile interval of the kink: all kinks whose sum of squares is no larger than chance allows (Student's t). The
   // least sum of squares is kept above 0 for points that lie on two lines to within rounding.

@@ -156,7 +156,7 @@ void need_density(const FitProblem& problem, double largest) {
 
 /// 1/slope of a line, with its interval. Throws InputError where the slope is not positive.
 Coefficient inverse_slope(const FitProblem& problem, const std::string& name, const Coefficient& slope) {
-  if (!(slope.value > 0)) undetermined(problem, "y does not grow with x as the model has it");
+  if (!(slope.value > 0)) refuse_undetermined(problem, "y does not grow with x as the model has it");
   const double half = 0.5 * (slope.high - slope.low) / (slope.value * slope.value);
   return symmetric(name, 1 / slope.value, half);
 }
@@ -184,7 +184,7 @@ Fit fit_kawakita(const FitProblem& problem) {
   const double slope = result.coefficients[1].value;
   const Coefficient a = inverse_slope(problem, "a", result.coefficients[1]);
   const double inverse_b = result.coefficients[0].value / slope;
-  if (!(inverse_b > 0)) undetermined(problem, "x/y does not begin above 0, so b is not positive");
+  if (!(inverse_b > 0)) refuse_undetermined(problem, "x/y does not begin above 0, so b is not positive");
   // The line is 0 at x = -1/b: its uncertainty there, over its slope, is the uncertainty of 1/b.
   const Fit at_root = linear_fit(problem, line_basis(x.array() + inverse_b), y, {"root", "slope"});
   const double half = 0.5 * (at_root.coefficients[0].high - at_root.coefficients[0].low) / slope;

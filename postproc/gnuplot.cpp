@@ -32,7 +32,7 @@ std::string in_single_quotes(const std::string& text, std::string_view inner_quo
 
 } // namespace
 
-ScratchFile::ScratchFile(const std::string& content) {
+TemporaryFile::TemporaryFile(const std::string& content) {
   path_ = (std::filesystem::temp_directory_path() / "mpfem-section-XXXXXX").string();
   const int descriptor = mkstemp(path_.data());
   if (descriptor < 0) throw StorageError(fmt::format("{}: cannot be made", path_));
@@ -45,11 +45,11 @@ ScratchFile::ScratchFile(const std::string& content) {
   }
 }
 
-ScratchFile::~ScratchFile() {
+TemporaryFile::~TemporaryFile() {
   std::remove(path_.c_str());
 }
 
-std::string ScratchFile::content() const {
+std::string TemporaryFile::content() const {
   std::ifstream file(path_, std::ios::binary);
   return {std::istreambuf_iterator<char>(file), {}};
 }
@@ -59,7 +59,7 @@ std::string gnuplot_string(const std::string& text) {
 }
 
 void run_gnuplot(const std::string& script) {
-  const ScratchFile file(script);
+  const TemporaryFile file(script);
   std::FILE* pipe = popen(fmt::format("gnuplot -d {} 2>&1", in_single_quotes(file.path(), "'\\''")).c_str(), "r");
   if (!pipe) throw SimulationError("cannot start gnuplot");
   std::string message;

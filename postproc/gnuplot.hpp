@@ -6,13 +6,13 @@
 namespace mpfem {
 
 /// A file in the temporary folder that is deleted with the object.
-class ScratchFile {
+class TemporaryFile {
 public:
   /// Throws StorageError where the file cannot be made or written.
-  explicit ScratchFile(const std::string& content);
-  ~ScratchFile();
-  ScratchFile(const ScratchFile&) = delete;
-  ScratchFile& operator=(const ScratchFile&) = delete;
+  explicit TemporaryFile(const std::string& content);
+  ~TemporaryFile();
+  TemporaryFile(const TemporaryFile&) = delete;
+  TemporaryFile& operator=(const TemporaryFile&) = delete;
   const std::string& path() const { return path_; }
   /// Its present content.
   std::string content() const;

@@ -15,7 +15,7 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-void undetermined(const FitProblem& problem, const std::string& why) {
+void refuse_undetermined(const FitProblem& problem, const std::string& why) {
   throw InputError(fmt::format("{}: model '{}': the points do not determine its coefficients: {}",
                                one_line(problem.points.path), problem.model, why));
 }
@@ -38,7 +38,7 @@ void set_quality(Fit& fit, const VectorXd& y, double squares) {
 Fit linear_fit(const FitProblem& problem, const MatrixXd& basis, const VectorXd& y,
                const std::vector<std::string>& names) {
   const auto solution = linear_least_squares(basis, y);
-  if (!solution) undetermined(problem, "x hardly varies");
+  if (!solution) refuse_undetermined(problem, "x hardly varies");
   Fit result;
   for (Index i = 0; i < basis.cols(); ++i)
     result.coefficients.push_back(

@@ -17,7 +17,7 @@ struct FitProblem {
 };
 
 /// Throws InputError: the points do not determine the model's coefficients.
-[[noreturn]] void undetermined(const FitProblem& problem, const std::string& why);
+[[noreturn]] void refuse_undetermined(const FitProblem& problem, const std::string& why);
 
 /// The values as a vector of Eigen.
 Eigen::VectorXd as_vector(const std::vector<double>& values);

@@ -14,7 +14,7 @@ namespace mpfem {
 void write_raster_picture(const std::string& path, const Raster& raster, const Frame2d& frame) {
   std::string bytes;
   for (const Colour& pixel : raster.pixel) bytes.append(reinterpret_cast<const char*>(pixel.data()), 3);
-  const ScratchFile data(bytes), picture("");
+  const TemporaryFile data(bytes), picture("");
 
   const View& view = frame.view;
   const double pixel_width = (view.high[0] - view.low[0]) / raster.width,

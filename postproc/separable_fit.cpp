@@ -94,8 +94,9 @@ std::optional<LeastSquares> best_refined(const std::vector<Start>& starts, const
 void need_saturation(const FitProblem& problem, const std::string& name, double value,
                      const std::vector<double>& grid) {
   if (value < grid.front() || value > grid.back())
-    undetermined(problem, fmt::format("{} = {:.3g} lies beyond {:.3g} … {:.3g}, so the points show no saturation", name,
-                                      value, grid.front(), grid.back()));
+    refuse_undetermined(problem,
+                        fmt::format("{} = {:.3g} lies beyond {:.3g} … {:.3g}, so the points show no saturation", name,
+                                    value, grid.front(), grid.back()));
 }
 
 } // namespace
@@ -103,7 +104,7 @@ void need_saturation(const FitProblem& problem, const std::string& name, double 
 Fit separable_fit(const FitProblem& problem, const Separable& model) {
   const VectorXd y = as_vector(problem.points.y);
   const auto best = best_refined(starts_on_grid(model, y), model, y);
-  if (!best) undetermined(problem, "different sets fit equally well");
+  if (!best) refuse_undetermined(problem, "different sets fit equally well");
   std::vector<std::string> names = model.linear;
   names.insert(names.end(), model.nonlinear.begin(), model.nonlinear.end());
   Fit result;

@@ -94,7 +94,7 @@ std::size_t drop_collapsed(TriangleMesh& mesh) {
 void check_closed(const Checked& surface, const EdgePairs& pairs) {
   for (const auto& [fault, what] :
        {std::pair(pairs.open, "belong to one triangle only"),
-        std::pair(pairs.crowded, "belong to more than two triangles"),
+        std::pair(pairs.non_manifold, "belong to more than two triangles"),
         std::pair(pairs.misoriented, "have two triangles that run along them the same way")})
     if (fault.count > 0)
       surface.fail(fmt::format("the surface is not closed and oriented: found {} edges that {}, one {}; allowed: two "

@@ -38,7 +38,7 @@ void note(EdgeFault& fault, std::int32_t edge) {
 /// Pairs the triangles' edges that lie on one segment.
 void pair_on_segment(std::span<const Segment> on, EdgePairs& pairs) {
   if (on.size() == 1) return note(pairs.open, on[0].edge);
-  if (on.size() > 2) return note(pairs.crowded, on[0].edge);
+  if (on.size() > 2) return note(pairs.non_manifold, on[0].edge);
   if (on[0].forward == on[1].forward) return note(pairs.misoriented, on[0].edge);
   pairs.partner[static_cast<std::size_t>(on[0].edge)] = on[1].edge;
   pairs.partner[static_cast<std::size_t>(on[1].edge)] = on[0].edge;

@@ -42,8 +42,8 @@ struct EdgePairs {
   std::vector<std::int32_t> partner; ///< [triangles * 3]: the other triangle's edge; -1 unless there is exactly one
   EdgeFault open;                    ///< edges of one triangle only
   EdgeFault misoriented;             ///< edges along which two triangles run in the same direction
-  EdgeFault crowded;                 ///< edges of more than two triangles
-  bool closed() const { return open.count + misoriented.count + crowded.count == 0; }
+  EdgeFault non_manifold;            ///< edges of more than two triangles
+  bool closed() const { return open.count + misoriented.count + non_manifold.count == 0; }
 };
 /// Pairs the edges of any mesh, closed or not.
 EdgePairs pair_edges(const TriangleMesh& mesh);

@@ -162,7 +162,8 @@ void print_stages(const Scenario& scenario, Simulation& simulation, int threads)
     all.steps += works[s].steps;
     all.cost += works[s].cost;
     fmt::print("stage          {}: {}{:.4g} s, {:.0f} steps; {}\n", scenario.stages[s].name,
-               forecasts[s].sure ? "" : "about ", forecasts[s].duration, works[s].steps, forecasts[s].description);
+               forecasts[s].end_is_known ? "" : "about ", forecasts[s].duration, works[s].steps,
+               forecasts[s].description);
   }
   const MeasuredTimes measured = measure(simulation);
   const double rows = scenario.output.history_rows * static_cast<double>(works.size()) * measured.row;

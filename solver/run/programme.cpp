@@ -33,7 +33,7 @@ double time_factor(const StageType& type) {
 /// A compaction whose start is not known beforehand and which may have nothing left to do.
 bool may_be_done(const Stage& stage, const StageForecast& before, const Model& model) {
   const auto* compaction = std::get_if<IsotropicCompaction>(&stage.type);
-  return compaction && !before.sure &&
+  return compaction && !before.end_is_known &&
          compaction->relative_density * (1 - 1e-9) <= model.total_reference_volume() / before.cell.volume();
 }
 
@@ -120,7 +120,7 @@ std::vector<StageForecast> forecast(const Scenario& scenario, std::int64_t first
       const auto control = make_stage_control(stage, {f.cell, 0.0, sample});
       f.duration = time_factor(stage.type) * control->expected_duration();
       f.description = control->describe();
-      if (!std::isfinite(control->duration())) f.sure = false;
+      if (!std::isfinite(control->duration())) f.end_is_known = false;
       control->expect_end(f.cell);
     }
     forecasts.push_back(f);

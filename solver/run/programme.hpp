@@ -19,7 +19,7 @@ std::string unreachable_stress(const Stage& stage, double mean_stress);
 struct StageForecast {
   double duration = 0;       ///< s
   std::string description{}; ///< what the stage does
-  bool sure = true;          ///< false: the end of the stage or of one before it is not known beforehand
+  bool end_is_known = true;  ///< false: the end of the stage or of one before it is not known beforehand
   Cell cell{};               ///< at the end
 };
 /// Forecasts of the stages from `first_stage` on, which begins with the given cell. A target is refused if it cannot be
