@@ -85,7 +85,7 @@ private:
   void append_grains(const schema::Dataset<T, Rank>& dataset, std::span<const std::int64_t> rows, Fill&& fill) {
     std::vector<std::int64_t> values(rows.begin(), rows.end());
     for (std::int64_t& count : values) count *= static_cast<std::int64_t>(columns(dataset));
-    bring_to_leader<T>(ranks_, ownership_, values, fill, [this](std::span<const T> piece) { append(piece); });
+    gather_at_leader<T>(ranks_, ownership_, values, fill, [this](std::span<const T> piece) { append(piece); });
   }
 
   const Communicator& ranks_;

@@ -15,7 +15,7 @@ namespace {
 std::uint64_t hash_at_leader(const Communicator& ranks, const Model& model, const LazyArray<std::int32_t>& file_place,
                              std::span<const std::int32_t> first, std::uint64_t seed) {
   StreamingHash hash(seed);
-  bring_to_leader<std::int32_t>(
+  gather_at_leader<std::int32_t>(
       ranks, model.ownership, rows_of_grains(first),
       [&](std::int32_t grain, std::span<std::int32_t> values) {
         std::copy_n(file_place.begin() + first[at(grain)], values.size(), values.begin());
@@ -31,7 +31,7 @@ std::uint64_t numbering_hash(const Communicator& ranks, const Model& model) {
   std::uint64_t hash = hash_at_leader(ranks, model, model.file_tet, model.tet_offset, of_nodes);
   Bytes message(sizeof hash);
   std::memcpy(message.data(), &hash, sizeof hash);
-  ranks.from_leader(message);
+  ranks.broadcast_from_leader(message);
   std::memcpy(&hash, message.data(), sizeof hash);
   return hash;
 }

@@ -52,7 +52,7 @@ public:
   /// them; none of these may be NaN.
   void combine(std::span<std::int64_t> sums, std::span<double> largest) const;
   /// Collective. Copies what the first rank has to all others.
-  void from_leader(Bytes& bytes) const;
+  void broadcast_from_leader(Bytes& bytes) const;
 
   /// Sends to one rank, which must receive the same number of bytes.
   void send(int rank, std::span<const std::byte> bytes) const;
@@ -86,7 +86,7 @@ public:
   Transfer start(const std::vector<Outgoing>& out, const std::vector<Incoming>& in) const;
 
   /// Whether all ranks call this within a time (s). A rank that fails finds out from it whether all have failed.
-  bool all_come(double seconds) const;
+  bool all_arrive_within(double seconds) const;
   /// Ends all ranks at once, with this exit code, when one has failed and the others wait for it.
   [[noreturn]] void abort(int exit_code) const;
 

@@ -43,13 +43,13 @@ double Communicator::largest(double own) const {
   return own;
 }
 void Communicator::combine(std::span<std::int64_t>, std::span<double>) const {}
-void Communicator::from_leader(Bytes&) const {}
+void Communicator::broadcast_from_leader(Bytes&) const {}
 void Communicator::send(int, std::span<const std::byte>) const {}
 void Communicator::receive(int, std::span<std::byte>) const {}
 Communicator::Transfer Communicator::start(const std::vector<Outgoing>&, const std::vector<Incoming>&) const {
   return {};
 }
-bool Communicator::all_come(double) const {
+bool Communicator::all_arrive_within(double) const {
   return true;
 }
 void Communicator::abort(int exit_code) const {

@@ -191,7 +191,7 @@ void Communicator::combine(std::span<std::int64_t> sums, std::span<double> large
                  [](std::int64_t bits) { return std::bit_cast<double>(bits); });
 }
 
-void Communicator::from_leader(Bytes& bytes) const {
+void Communicator::broadcast_from_leader(Bytes& bytes) const {
   if (alone()) return;
   std::uint64_t size = bytes.size();
   MPI_Bcast(&size, 1, MPI_UINT64_T, 0, MPI_COMM_WORLD);
@@ -224,7 +224,7 @@ Communicator::Transfer Communicator::start(const std::vector<Outgoing>& out, con
   return transfer;
 }
 
-bool Communicator::all_come(double seconds) const {
+bool Communicator::all_arrive_within(double seconds) const {
   if (alone()) return true;
   MPI_Request request = MPI_REQUEST_NULL;
   MPI_Ibarrier(failing, &request);

@@ -43,8 +43,8 @@ void share_of_grains(const Communicator& ranks, const Ownership& ownership, std:
 /// is called for the rank's own grains and sets counts[grain] values; `take(values)` is called on the first rank alone,
 /// for one piece after another.
 template <class T, class Fill, class Take>
-void bring_to_leader(const Communicator& ranks, const Ownership& ownership, std::span<const std::int64_t> counts,
-                     Fill&& fill, Take&& take) {
+void gather_at_leader(const Communicator& ranks, const Ownership& ownership, std::span<const std::int64_t> counts,
+                      Fill&& fill, Take&& take) {
   static_assert(std::is_trivially_copyable_v<T>);
   constexpr std::size_t piece_bytes = std::size_t{4} << 20;
   std::vector<T> piece, part;

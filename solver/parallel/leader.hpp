@@ -36,7 +36,7 @@ std::vector<std::string> leader_lists(const Communicator& ranks, Find&& find) {
     append(message, text.size());
     append(message, std::span<const char>(text));
   }
-  ranks.from_leader(message);
+  ranks.broadcast_from_leader(message);
   texts.clear();
   for (MessageReader reader(message); !reader.done();) {
     std::string text(reader.take<std::size_t>(), ' ');

@@ -24,7 +24,7 @@ int on_all_ranks(const char* program, const Communicator& ranks, const std::func
   } catch (...) {
     Failure failure = present_failure();
     if (ranks.leads()) report(program, failure);
-    const bool together = ranks.all_come(patience);
+    const bool together = ranks.all_arrive_within(patience);
     if (together) return static_cast<int>(failure.code);
     if (!ranks.leads()) {
       failure.message = fmt::format("rank {}: {}", ranks.rank(), failure.message);

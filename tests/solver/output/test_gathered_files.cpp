@@ -38,7 +38,7 @@ public:
     const std::string path = own_ / "";
     Bytes message;
     append(message, std::span<const char>(path));
-    test_ranks().from_leader(message);
+    test_ranks().broadcast_from_leader(message);
     path_.resize(message.size());
     MessageReader(message).take(std::span<char>(path_));
   }
