@@ -78,16 +78,17 @@ ToolLoad Tools::add_tool(Model& model, std::size_t index, const Bounds& bounds, 
     ToolLoad load;
     if (!surface.may_touch(bounds) && anchors.empty() && !any_bond_to_update(adhesion, bonds)) return load;
     const Vector3<double> moved = vector_of(tool.moved), about = reference_of(tool.surface) + moved;
-    const auto bear = [&](std::size_t node, const Vector3<double>& on_node) {
+    const auto add_reaction = [&](std::size_t node, const Vector3<double>& on_node) {
       load.force = load.force - on_node;
       load.moment = load.moment - cross(model.contact_point(node) - about, on_node);
     };
-    const auto bear_bond = [&](std::size_t node, const Vector3<double>& on_node, const Vector3<double>& normal) {
-      bear(node, on_node);
+    const auto add_bond_reaction = [&](std::size_t node, const Vector3<double>& on_node,
+                                       const Vector3<double>& normal) {
+      add_reaction(node, on_node);
       load.normal_force += dot(on_node, normal);
     };
     SurfaceFriction friction(model, tool.friction, surface, {moved, vector_of(tool.movement), last_step}, anchors);
-    SurfaceAdhesion sticking(model, adhesion, surface, moved, grain, bonds, bear_bond);
+    SurfaceAdhesion sticking(model, adhesion, surface, moved, grain, bonds, add_bond_reaction);
     const double size = model.element_size[static_cast<std::size_t>(grain)];
     for_each_node_behind(model, surface, bounds, grain, [&](std::size_t node, const auto& gap) {
       const HeldNode held = sticky ? sticking.hold(node, gap) : HeldNode{};
@@ -97,7 +98,7 @@ ToolLoad Tools::add_tool(Model& model, std::size_t index, const Bounds& bounds, 
       if (tool.friction > 0)
         on_node = on_node + friction.add_force(node, gap, full,
                                                {held.friction_share, held.penalty_left, held.penalty_left_before});
-      bear(node, on_node);
+      add_reaction(node, on_node);
       load.normal_force += push;
       load.energy += wall_energy(full, gap.distance);
       load.penetration = std::max(load.penetration, -gap.distance / size);
