@@ -33,7 +33,7 @@ Balance measure_balance(const Communicator& ranks, const Model& model, double bu
   return balance;
 }
 
-std::vector<std::int32_t> divide_anew(const Communicator& ranks, const Model& model, const Balance& balance) {
+std::vector<std::int32_t> redistribute(const Communicator& ranks, const Model& model, const Balance& balance) {
   std::vector<std::array<double, 3>> centre(at(model.grains));
   std::vector<double> weight(at(model.grains));
   for (const std::int32_t grain : model.own()) {

@@ -1,5 +1,5 @@
 #pragma once
-// Whether the ranks have equal shares of the measured work, and how the grains are divided again if not.
+// Whether the ranks have equal shares of the measured work, and how the grains are redistributed if not.
 
 #include <cstdint>
 #include <vector>
@@ -20,9 +20,9 @@ Balance measure_balance(const Communicator& ranks, const Model& model, double bu
 
 /// Collective. The owner of each grain ([grains]) by recursive bisection at the present places of the grains. The
 /// weight of a grain is what its tets have cost its present owner.
-std::vector<std::int32_t> divide_anew(const Communicator& ranks, const Model& model, const Balance& balance);
+std::vector<std::int32_t> redistribute(const Communicator& ranks, const Model& model, const Balance& balance);
 
-/// Whether dividing again pays: it saves more than twice what it costs (`reload`, s). `remaining`: s that the rest of
+/// Whether redistributing pays: it saves more than twice what it costs (`reload`, s). `remaining`: s that the rest of
 /// the run takes if nothing changes.
 bool pays(const Balance& balance, double remaining, double reload);
 

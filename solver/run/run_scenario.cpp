@@ -80,8 +80,8 @@ Model load_model(const Scenario& scenario, const RunOptions& options, const Comm
 
 enum class RunEnd {
   complete,
-  must_begin_anew, ///< nothing that could be resumed is usable: without --resume
-  divided_anew     ///< the checkpoint just written goes on with other owners of grains
+  must_start_again, ///< nothing that could be resumed is usable: without --resume
+  redistributed     ///< the checkpoint just written goes on with other owners of grains
 };
 
 /// The time loop and its records.
@@ -93,7 +93,7 @@ public:
         energy_check_(stiffness_of(simulation_.model())), progress_("mpfem", options.quiet) {
     const auto warnings = check_bonds(simulation_.model(), scenario_, ranks_);
     begin();
-    if (must_begin_anew_) return;
+    if (must_start_again_) return;
     stop_before_first_step(ranks_, checkpoint_path(options.output));
     if (!options_.quiet && !already_complete_) {
       for (const std::string& warning : warnings) fmt::print(stderr, "mpfem: warning: {}\n", warning);
@@ -109,19 +109,19 @@ public:
     for (const HistoryRow& row : record_.history) energy_check_.take(row);
     expected_ = forecast(scenario_, state.stage, stage.start, simulation_.model());
     first_expected_ = state.stage;
-    if (begins_anew_) pass_densities();
+    if (starts_again_) pass_densities();
   }
 
   RunEnd run() {
-    if (must_begin_anew_) return RunEnd::must_begin_anew;
+    if (must_start_again_) return RunEnd::must_start_again;
     if (already_complete_) return RunEnd::complete;
-    if (begins_anew_) leader_does(ranks_, [this] { drop_unfinished_run(); });
+    if (starts_again_) leader_does(ranks_, [this] { drop_unfinished_run(); });
     start_ = last_checkpoint_ = Profile::Clock::now();
     reload_seconds_ = age();
     done_at_start_ = fraction_done();
     steps_at_start_ = measured_from_step_ = simulation_.state().step;
     try {
-      if (!loop()) return RunEnd::divided_anew;
+      if (!loop()) return RunEnd::redistributed;
     } catch (const SimulationError& error) {
       const std::string good = last_checkpoint_text();
       // The failed state is worth a look: save a snapshot of it, and everything recorded so far.
@@ -144,7 +144,7 @@ public:
     return RunEnd::complete;
   }
 
-  /// After divided_anew.
+  /// After redistributed.
   const Owners& new_owners() const { return new_owners_; }
   /// s of wall-clock time since this was made.
   double age() const { return Profile::since(made_); }
@@ -162,13 +162,13 @@ private:
         ranks_, [this] { return options_.from ? checkpoint_checksum(*options_.from) : std::string("packing"); });
     identity_ = {options_.output, scenario_.text, hash_text(simulation_.model().mesh_hash), from};
     if (options_.resume && resume()) return;
-    if (must_begin_anew_) return;
+    if (must_start_again_) return;
     if (options_.from) {
       begin_branch(*options_.from, simulation_, ranks_);
       first_step_ = simulation_.state().step;
     }
     record_.from = from;
-    begins_anew_ = true;
+    starts_again_ = true;
   }
 
   /// This run, from wherever it began.
@@ -198,7 +198,7 @@ private:
         if (damage.empty()) damage = error.what();
         continue;
       }
-      if (!take_up(path, lost)) continue;
+      if (!restore(path, lost)) continue;
       if (path == previous_checkpoint_path(options_.output)) // whatever is in the rolling one's place is worse
         leader_does(ranks_, [&] { std::filesystem::rename(path, checkpoint_path(options_.output)); });
       if (!lost.empty()) warn(fmt::format("{} is missing; the run continues from {} to write it", lost.front(), path));
@@ -210,15 +210,15 @@ private:
     else if (!damage.empty())
       throw InputError(
           fmt::format("{}; no earlier checkpoint can be used: run without --resume to start again", damage));
-    must_begin_anew_ = taken_up_;
+    must_start_again_ = restored_;
     return false;
   }
 
   /// Restores a checkpoint. False if the run cannot continue from it. Missing checkpoints that it counts as written are
   /// added to `lost`.
-  bool take_up(const std::string& path, std::vector<std::string>& lost) {
+  bool restore(const std::string& path, std::vector<std::string>& lost) {
     const bool rolling = path == checkpoint_path(options_.output);
-    taken_up_ = true;
+    restored_ = true;
     record_ = {};
     mpfem::resume(path, simulation_, record_, ranks_);
     if (options_.from && !record_.from.empty() && record_.from != identity_.from)
@@ -476,7 +476,7 @@ private:
     const double done = fraction_done();
     const double remaining = done > done_at_start_ ? Profile::since(start_) * (1 - done) / (done - done_at_start_) : 0;
     if (!leader_finds(ranks_, [&] { return pays(balance, remaining, reload_seconds_); })) return;
-    new_owners_ = divide_anew(ranks_, simulation_.model(), balance);
+    new_owners_ = redistribute(ranks_, simulation_.model(), balance);
     if (!options_.quiet)
       fmt::print(stderr, "mpfem: the busiest rank has {:.0f} % more work than the mean: redistributing grains\n",
                  100 * (balance.imbalance - 1));
@@ -650,9 +650,9 @@ private:
   std::int64_t measured_from_step_ = 0; ///< the step of that look
   Owners new_owners_;
   RunIdentity identity_;
-  bool already_complete_ = false, begins_anew_ = false, warned_of_energy_ = false;
-  bool taken_up_ = false;        ///< a checkpoint has replaced the state of the simulation
-  bool must_begin_anew_ = false; ///< nothing that could be resumed is usable
+  bool already_complete_ = false, starts_again_ = false, warned_of_energy_ = false;
+  bool restored_ = false;         ///< a checkpoint has replaced the state of the simulation
+  bool must_start_again_ = false; ///< nothing that could be resumed is usable
 };
 
 bool same_file(const std::string& a, const std::string& b) {
@@ -710,7 +710,7 @@ void run_scenario(const Scenario& scenario, const RunOptions& given, const Commu
     Runner runner(scenario, options, ranks, owners);
     const RunEnd end = runner.run();
     if (end == RunEnd::complete) return;
-    options.resume = end == RunEnd::divided_anew;
+    options.resume = end == RunEnd::redistributed;
     owners = runner.new_owners();
     if (options.time_limit > 0) options.time_limit = std::max(options.time_limit - runner.age(), 1e-9);
   }

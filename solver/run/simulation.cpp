@@ -488,7 +488,7 @@ Grips* Simulation::prepare_grips() {
   return &grips_;
 }
 
-void Simulation::take_up(GrainSteps grain_steps) {
+void Simulation::set_grain_steps(GrainSteps grain_steps) {
   step_estimate_.restore(std::move(grain_steps));
   travel_since_search_ = 0; // of all grains, which a checkpoint has
   for (std::size_t grain = 0; grain < contact_.travel.size(); ++grain)

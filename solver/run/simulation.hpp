@@ -154,7 +154,7 @@ public:
     read(fields, stage);
     GrainSteps grain_steps;
     take(Arrays{model_, contact_, wall_friction_, tools_, grain_steps, prepare_grips()});
-    take_up(std::move(grain_steps));
+    set_grain_steps(std::move(grain_steps));
   }
   /// After restore(): its state is the beginning of this scenario's first stage. Candidates and step are found again
   /// with this scenario's settings.
@@ -165,7 +165,7 @@ public:
 private:
   void read(FieldReader& fields, std::optional<std::int64_t> stage);
   Grips* prepare_grips();
-  void take_up(GrainSteps grain_steps);
+  void set_grain_steps(GrainSteps grain_steps);
   static const Communicator& alone();
   void order_grains();
   void find_candidates();

@@ -50,7 +50,7 @@ TEST_CASE("A rank that is three times as slow hands over work") {
   const Model model = model_of_eight_grains();
   const int ranks = test_ranks().size();
   const Balance balance = measure_balance(test_ranks(), model, test_ranks().leads() ? 3.0 : 1.0);
-  const auto owner = divide_anew(test_ranks(), model, balance);
+  const auto owner = redistribute(test_ranks(), model, balance);
   REQUIRE(owner.size() == 8);
   // s of the busiest rank, where each grain costs what it has cost its first owner.
   const auto busiest = [&](const std::vector<std::int32_t>& owners) {
