@@ -4,7 +4,6 @@
 #include <chrono>
 #include <cstdio>
 #include <filesystem>
-#include <fstream>
 
 #include <fmt/format.h>
 
@@ -12,7 +11,6 @@
 #include "common/errors.hpp"
 #include "common/hash.hpp"
 #include "common/one_line.hpp"
-#include "common/output_file.hpp"
 #include "common/progress.hpp"
 #include "common/run_quality.hpp"
 #include "common/stage_energy.hpp"
@@ -22,6 +20,7 @@
 #include "solver/output/run_lock.hpp"
 #include "solver/parallel/leader.hpp"
 #include "solver/run/balance.hpp"
+#include "solver/run/check_output.hpp"
 #include "solver/run/checkpoints.hpp"
 #include "solver/run/energy_check.hpp"
 #include "solver/run/history_schedule.hpp"
@@ -654,42 +653,6 @@ private:
   bool restored_ = false;         ///< a checkpoint has replaced the state of the simulation
   bool must_start_again_ = false; ///< nothing that could be resumed is usable
 };
-
-bool same_file(const std::string& a, const std::string& b) {
-  std::error_code ignored;
-  return std::filesystem::equivalent(a, b, ignored) ||
-         std::filesystem::weakly_canonical(a, ignored) == std::filesystem::weakly_canonical(b, ignored);
-}
-
-/// Refuses to write over what the run reads, and finds out now whether it can write at all.
-void check_output(const Scenario& scenario, const RunOptions& options) {
-  const std::string& output = options.output;
-  check_output_path("--output", output, OutputKind::binary);
-  const auto refuse = [&](const std::string& file, const std::string& what) {
-    if (same_file(output, file))
-      throw InputError(
-          fmt::format("--output {}: would overwrite {} of this run; choose another name", one_line(output), what));
-  };
-  refuse(scenario.packing_file, "the packing");
-  refuse(options.scenario_file, "the scenario");
-  if (options.from) {
-    refuse(*options.from, "the checkpoint to start from");
-    std::vector<std::string> written{checkpoint_path(output), previous_checkpoint_path(output)};
-    for (const Stage& stage : scenario.stages) written.push_back(stage_checkpoint_path(output, stage.name));
-    for (const double density : scenario.output.checkpoint_relative_densities)
-      written.push_back(density_checkpoint_path(output, density));
-    for (const std::string& path : written)
-      if (same_file(path, *options.from))
-        throw InputError(
-            fmt::format("--from {}: this run would write its own checkpoint there; allowed: another --output",
-                        one_line(*options.from)));
-  }
-  const std::string trial = output_target(output) + ".partial";
-  remove_stale_partial(trial);
-  if (!std::ofstream(trial)) throw StorageError(fmt::format("{}: cannot be written", one_line(trial)));
-  std::error_code ignored;
-  std::filesystem::remove(trial, ignored);
-}
 
 } // namespace
 

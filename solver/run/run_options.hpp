@@ -1,0 +1,20 @@
+#pragma once
+// What the command line says of a run, besides its scenario.
+
+#include <optional>
+#include <string>
+
+namespace mpfem {
+
+/// Options of `mpfem run`.
+struct RunOptions {
+  std::string output;              ///< RUN.h5
+  std::string scenario_file;       ///< never to be overwritten
+  bool resume = false;             ///< go on from the rolling checkpoint if there is one
+  std::optional<std::string> from; ///< begin the first stage from this checkpoint's state
+  int threads = 1;
+  bool quiet = false;
+  double time_limit = 0; ///< s of wall-clock time, 0 none
+};
+
+} // namespace mpfem
