@@ -21,9 +21,13 @@ public:
 
   /// `stiffness`: Young's modulus times the volume of all grains, mJ.
   explicit EnergyCheck(double stiffness) : negligible_(1e-7 * stiffness) {}
+  /// Of a run with these grains whose history so far is given.
+  EnergyCheck(const Model& model, const std::vector<HistoryRow>& history);
 
   /// Residual over the largest term so far, 0 while that is negligible; NaN if a term is not finite.
   double take(const HistoryRow& row);
+  /// The same; throws SimulationError if it is more than allowed: the run is meaningless.
+  double require(const HistoryRow& row);
 
 private:
   double negligible_;  ///< mJ

@@ -4,6 +4,7 @@
 #include <array>
 #include <chrono>
 #include <cstddef>
+#include <string>
 #include <vector>
 
 #include "solver/output/profile_parts.hpp"
@@ -39,6 +40,23 @@ private:
   };
   std::vector<PerThread> seconds_;
 };
+
+/// A line of the table of wall-clock times.
+struct PartTime {
+  std::string name;
+  double seconds = 0;
+};
+/// The table: `seconds` of all parts, and what they leave of the wall-clock time (s).
+inline std::vector<PartTime> part_times(const std::array<double, profile_parts>& seconds, double wall_time) {
+  std::vector<PartTime> times;
+  double accounted = 0;
+  for (std::size_t i = 0; i < profile_parts; ++i) {
+    times.push_back({part_names[i], seconds[i]});
+    accounted += seconds[i];
+  }
+  times.push_back({"waiting and rest", wall_time - accounted});
+  return times;
+}
 
 /// Measures one part after another on one thread: mark(part) closes the part that began at the last mark.
 class Stopwatch {

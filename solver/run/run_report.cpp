@@ -82,13 +82,12 @@ void RunReport::row(const std::vector<HistoryRow>& history, const RowReport& abo
   if (reported_lines_++ % lines_below_head == 0) head_of_rows();
   const HistoryRow& row = history.back();
   const double internal = internal_energy(history).back();
-  fmt::print(stderr,
-             "{:>8.0f} {:>10.4f} {:>10.4f} {:>8} {:>8.4f} {:>9.4g} {:>10.3g} {:>8} {:>9.2e} {:>11.4f} {:>8.1f}\n",
-             row.step, row.time * 1e6, row.time_step * 1e9, about.controlled_by_contact ? "contact" : "element",
-             row.relative_density, row.mean_stress, row.deviatoric_stress,
-             row.kinetic_energy < 1e3 * internal ? fmt::format("{:.2e}", row.kinetic_energy / internal) : "-",
-             row.external_work > 0 ? row.energy_residual / row.external_work : 0.0, row.max_penetration,
-             about.nanoseconds);
+  fmt::print(
+      stderr, "{:>8.0f} {:>10.4f} {:>10.4f} {:>8} {:>8.4f} {:>9.4g} {:>10.3g} {:>8} {:>9.2e} {:>11.4f} {:>8.1f}\n",
+      row.step, row.time * 1e6, row.time_step * 1e9, about.controlled_by_contact ? "contact" : "element",
+      row.relative_density, row.mean_stress, row.deviatoric_stress,
+      row.kinetic_energy < 1e3 * internal ? fmt::format("{:.2e}", row.kinetic_energy / internal) : "-",
+      row.external_work > 0 ? row.energy_residual / row.external_work : 0.0, row.max_penetration, about.nanoseconds);
 }
 
 void RunReport::stage_end(const StageResult& result, const std::vector<HistoryRow>& history, bool damped) const {

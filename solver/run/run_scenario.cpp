@@ -11,9 +11,6 @@
 #include "common/errors.hpp"
 #include "common/hash.hpp"
 #include "common/one_line.hpp"
-#include "common/progress.hpp"
-#include "common/run_quality.hpp"
-#include "common/stage_energy.hpp"
 #include "solver/model/bond_resolution.hpp"
 #include "solver/output/history.hpp"
 #include "solver/output/run_file.hpp"
@@ -30,38 +27,12 @@
 #include "solver/run/plan_text.hpp"
 #include "solver/run/programme.hpp"
 #include "solver/run/resume.hpp"
+#include "solver/run/run_report.hpp"
 #include "solver/run/simulation.hpp"
 
 namespace mpfem {
 
 namespace {
-
-/// "ended by axial strain 0.15; stresses held within 0.05 MPa (0.6 %)"
-std::string stage_end_text(const StageResult& result) {
-  std::string text = "ended by " + result.ended_by;
-  if (result.overshoot > 0) text += fmt::format("; target stress exceeded by {:.3g} MPa", result.overshoot);
-  if (result.hold_stress > 0)
-    text += fmt::format("; stresses held within {:.3g} MPa ({:.2g} %), {:.3g} MPa root mean square", result.hold_error,
-                        100 * result.hold_error / result.hold_stress, result.hold_rms);
-  return text;
-}
-
-/// Young's modulus times volume, summed over all grains, mJ.
-double stiffness_of(const Model& model) {
-  double stiffness = 0;
-  for (int grain = 0; grain < model.grains; ++grain)
-    stiffness += model.material_of(grain).moduli.youngs() * model.reference_volume[static_cast<std::size_t>(grain)];
-  return stiffness;
-}
-
-/// Internal energy (mJ) of the stage that each row belongs to.
-std::vector<double> internal_energy(const std::vector<HistoryRow>& history) {
-  std::vector<StageEnergyRow> rows;
-  for (const HistoryRow& row : history)
-    rows.push_back({row.stage, row.elastic_energy + row.bond_energy + row.contact_energy + row.friction_energy,
-                    row.plastic_dissipation + row.damage_dissipation + row.friction_dissipation});
-  return stage_internal_energy(rows);
-}
 
 /// Which rank owns each grain ([grains]); none: by the number of tets.
 using Owners = std::optional<std::vector<std::int32_t>>;
@@ -89,23 +60,22 @@ public:
   Runner(const Scenario& scenario, const RunOptions& options, const Communicator& ranks, const Owners& owners)
       : scenario_(scenario), options_(options), ranks_(ranks), made_(Profile::Clock::now()), team_(options.threads),
         simulation_(load_model(scenario, options, ranks, owners), scenario, team_, options.from.has_value(), ranks),
-        energy_check_(stiffness_of(simulation_.model())), progress_("mpfem", options.quiet) {
+        report_(ranks.leads(), options.quiet) {
     const auto warnings = check_bonds(simulation_.model(), scenario_, ranks_);
     begin();
     if (must_start_again_) return;
     stop_before_first_step(ranks_, checkpoint_path(options.output));
-    if (!options_.quiet && !already_complete_) {
-      for (const std::string& warning : warnings) fmt::print(stderr, "mpfem: warning: {}\n", warning);
-      if (const std::string text = mass_scaling_text(scenario_, simulation_.model()); !text.empty())
-        fmt::print(stderr, "mpfem: {}\n", text);
-      if (const std::string text = earlier_bonds_text(simulation_.contact()); !text.empty())
-        fmt::print(stderr, "mpfem: {}\n", text);
+    if (!already_complete_) {
+      for (const std::string& warning : warnings) report_.warning(warning);
+      for (const std::string& text :
+           {mass_scaling_text(scenario_, simulation_.model()), earlier_bonds_text(simulation_.contact())})
+        if (!text.empty()) report_.note(text);
     }
     const RunState& state = simulation_.state();
     const StageRun::State& stage = simulation_.stage_run().state();
     check_programme(scenario_, state.stage, stage.start, simulation_.model(),
                     simulation_.step_estimate().stable_step());
-    for (const HistoryRow& row : record_.history) energy_check_.take(row);
+    energy_check_.emplace(simulation_.model(), record_.history);
     expected_ = forecast(scenario_, state.stage, stage.start, simulation_.model());
     first_expected_ = state.stage;
     if (starts_again_) pass_densities();
@@ -135,11 +105,9 @@ public:
     leader_does(ranks_, [this] { check_promises(); });
     write_result("complete");
     leader_does(ranks_, [this] { remove_unfinished(options_.output); });
-    progress_.finish(fmt::format("{} steps, relative density {:.4f}, mean stress {:.4g} MPa, {}",
-                                 simulation_.state().step, simulation_.relative_density(),
-                                 simulation_.box().mean_stress(), options_.output));
-    if (!options_.quiet) print_profile();
-    if (!options_.quiet) print_quality();
+    report_.finish(position(), options_.output);
+    report_profile();
+    report_.quality(record_.history);
     return RunEnd::complete;
   }
 
@@ -183,7 +151,7 @@ private:
     already_complete_ = leader_finds(ranks_, [&] { return !rolling_checkpoint_exists() && is_complete(lost); });
     if (already_complete_) {
       leader_does(ranks_, [this] { remove_unfinished(options_.output); }); // of a run killed while it tidied up
-      if (!options_.quiet) fmt::print(stderr, "mpfem: {} is already complete\n", options_.output);
+      report_.note(options_.output + " is already complete");
       return true;
     }
     lost = leader_lists(ranks_, [&] { return lost; });
@@ -193,19 +161,21 @@ private:
       try {
         leader_does(ranks_, [&] { verify_checkpoint(path); });
       } catch (const InputError& error) {
-        warn(fmt::format("{}; looking for an earlier checkpoint", error.what()));
+        report_.warning_despite_quiet(fmt::format("{}; looking for an earlier checkpoint", error.what()));
         if (damage.empty()) damage = error.what();
         continue;
       }
       if (!restore(path, lost)) continue;
       if (path == previous_checkpoint_path(options_.output)) // whatever is in the rolling one's place is worse
         leader_does(ranks_, [&] { std::filesystem::rename(path, checkpoint_path(options_.output)); });
-      if (!lost.empty()) warn(fmt::format("{} is missing; the run continues from {} to write it", lost.front(), path));
-      if (!options_.quiet) fmt::print(stderr, "mpfem: resumed {} at step {}\n", path, simulation_.state().step);
+      if (!lost.empty())
+        report_.warning_despite_quiet(
+            fmt::format("{} is missing; the run continues from {} to write it", lost.front(), path));
+      report_.note(fmt::format("resumed {} at step {}", path, simulation_.state().step));
       return true;
     }
     if (!lost.empty())
-      warn(fmt::format("{} is missing; the run starts again to write it", lost.front()));
+      report_.warning_despite_quiet(fmt::format("{} is missing; the run starts again to write it", lost.front()));
     else if (!damage.empty())
       throw InputError(
           fmt::format("{}; no earlier checkpoint can be used: run without --resume to start again", damage));
@@ -245,11 +215,6 @@ private:
     return missing;
   }
 
-  /// Printed by the first rank, even with --quiet.
-  void warn(const std::string& text) const {
-    if (ranks_.leads()) fmt::print(stderr, "mpfem: warning: {}\n", text);
-  }
-
   /// Checkpoints of stages and densities that must have been written by now.
   std::vector<std::string> promised_now() const {
     const double start =
@@ -273,11 +238,10 @@ private:
   /// Removes the files of an earlier, unfinished run of this name: they would mix with those of this run.
   void drop_unfinished_run() const {
     const std::string rolling = checkpoint_path(options_.output);
-    if (!options_.quiet && std::filesystem::exists(rolling))
-      fmt::print(stderr,
-                 "mpfem: discarding {} of an unfinished run, because this run starts again (--resume would have "
-                 "continued it)\n",
-                 rolling);
+    if (std::filesystem::exists(rolling))
+      report_.note(fmt::format("discarding {} of an unfinished run, because this run starts again (--resume would have "
+                               "continued it)",
+                               rolling));
     remove_unfinished(options_.output);
   }
 
@@ -300,13 +264,15 @@ private:
   bool loop() {
     for (;;) {
       simulation_.evaluate_forces();
-      warn_of_slowest_speed();
+      if (simulation_.stage_run().loading_rate().at_slowest)
+        report_.slowest_speed(simulation_.stage().name, simulation_.relative_density());
       const bool stage_end = simulation_.stage_complete();
       const std::int64_t rows = record_.rows_in_stage;
       if (stage_end || row_due()) record_row();
       take_snapshots(stage_end, rows);
       if (stage_end) {
-        report_stage_end();
+        record_.stages.push_back(simulation_.stage_result());
+        report_.stage_end(record_.stages.back(), record_.history, simulation_.stage().damping.rate != 0);
         if (simulation_.state().stage + 1 == static_cast<std::int64_t>(scenario_.stages.size())) return true;
         begin_next_stage();
       }
@@ -327,39 +293,8 @@ private:
     }
   }
 
-  /// Warns once a stage that the tolerances require a lower speed than the scenario allows.
-  void warn_of_slowest_speed() {
-    const RunState& state = simulation_.state();
-    if (!simulation_.stage_run().loading_rate().at_slowest || warned_of_stage_ == state.stage) return;
-    warned_of_stage_ = state.stage;
-    if (!options_.quiet)
-      fmt::print(stderr,
-                 "mpfem: warning: stage '{}', relative density {:.4f}: the tolerances of quasi_static are not met even "
-                 "at slowest_speed\n",
-                 simulation_.stage().name, simulation_.relative_density());
-  }
-
-  void report_stage_end() {
-    const StageResult result = simulation_.stage_result();
-    record_.stages.push_back(result);
-    if (!options_.quiet)
-      fmt::print(stderr, "mpfem: stage '{}' {}{}\n", result.name, stage_end_text(result), damping_text());
-  }
-
-  /// What mass-proportional damping took in the stage that ends, compared with the elastic energy, which it must not
-  /// touch. It gives energy when it drags grains along with the walls.
-  std::string damping_text() const {
-    if (simulation_.stage().damping.rate == 0) return {};
-    const auto stage = static_cast<double>(simulation_.state().stage);
-    double before = 0, elastic = 0;
-    for (const HistoryRow& row : record_.history) {
-      if (row.stage < stage) before = row.damping_dissipation;
-      if (row.stage == stage) elastic = std::max(elastic, row.elastic_energy);
-    }
-    const double taken = record_.history.back().damping_dissipation - before;
-    if (!(elastic > 0)) return {};
-    return fmt::format("; damping {} {:.2g} % of the elastic energy", taken < 0 ? "added" : "removed",
-                       100 * std::abs(taken) / elastic);
+  RunPosition position() const {
+    return {simulation_.state().step, simulation_.relative_density(), simulation_.box().mean_stress()};
   }
 
   bool row_due() const {
@@ -377,22 +312,13 @@ private:
     do ++record_.rows_in_stage;
     while (row_due() && simulation_.stage_run().expected_duration() > 0);
     simulation_.profile().add_serial(Part::output, Profile::since(start));
-    if (!options_.quiet) report_row(record_.history.back());
-    check_energy(record_.history.back());
-  }
-
-  /// Fails if the energy balance is so far off that the run is meaningless; warns once if the error may matter.
-  void check_energy(const HistoryRow& row) {
-    const double error = energy_check_.take(row);
-    if (!(error <= EnergyCheck::allowed))
-      throw SimulationError(fmt::format(
-          "step {:.0f}, time {:.4g} s, relative density {:.4f}: the energy balance is off by {:.3g} % of its largest "
-          "term, allowed {:g} %: the motion is not stable; lower numerics.time_step_factor or the speed",
-          row.step, row.time, row.relative_density, 100 * error, 100 * EnergyCheck::allowed));
-    if (error <= EnergyCheck::noteworthy || warned_of_energy_ || options_.quiet) return;
-    warned_of_energy_ = true;
-    fmt::print(stderr, "mpfem: warning: the energy balance is off by {:.2g} % of its largest term at step {:.0f}\n",
-               100 * error, row.step);
+    report_.row(record_.history, {.rows_in_stage = record_.rows_in_stage,
+                                  .rows_expected = scenario_.output.history_rows,
+                                  .ends_stage = simulation_.stage_complete(),
+                                  .controlled_by_contact = simulation_.step_estimate().state().controlled_by_contact,
+                                  .nanoseconds = nanoseconds_per_tet_step()});
+    const HistoryRow& row = record_.history.back();
+    report_.energy_error(energy_check_->require(row), row.step);
   }
 
   /// `rows_before`: in the stage, at the step before.
@@ -476,9 +402,8 @@ private:
     const double remaining = done > done_at_start_ ? Profile::since(start_) * (1 - done) / (done - done_at_start_) : 0;
     if (!leader_finds(ranks_, [&] { return pays(balance, remaining, reload_seconds_); })) return;
     new_owners_ = redistribute(ranks_, simulation_.model(), balance);
-    if (!options_.quiet)
-      fmt::print(stderr, "mpfem: the busiest rank has {:.0f} % more work than the mean: redistributing grains\n",
-                 100 * (balance.imbalance - 1));
+    report_.note(fmt::format("the busiest rank has {:.0f} % more work than the mean: redistributing grains",
+                             100 * (balance.imbalance - 1)));
   }
 
   /// Densities of output.checkpoint_relative_densities that the packing has now passed for the first time.
@@ -518,14 +443,10 @@ private:
                           record_.stages,
                           {scenario_.has_friction(), scenario_.container.has_value()},
                           record_.from};
-    double accounted = 0;
-    for (std::size_t i = 0; i < profile_parts; ++i) {
-      provenance.profile_name.emplace_back(part_names[i]);
-      provenance.profile_seconds.push_back(record.profile_seconds[i]);
-      accounted += record.profile_seconds[i];
+    for (PartTime& part : part_times(record.profile_seconds, record.wall_time)) {
+      provenance.profile_name.push_back(std::move(part.name));
+      provenance.profile_seconds.push_back(part.seconds);
     }
-    provenance.profile_name.emplace_back("waiting and rest");
-    provenance.profile_seconds.push_back(record.wall_time - accounted);
     std::vector<std::string> snapshots;
     for (const std::string& name : record_.snapshot_files) snapshots.push_back(snapshot_path(name));
     const RunHistory history{record_.history, simulation_.tools(), record_.tool_history};
@@ -553,76 +474,17 @@ private:
   }
 
   void report_progress() {
-    const RunState& state = simulation_.state();
-    if (state.step % 16 != 0) return;
-    warn_of_small_step();
-    progress_.update(fraction_done(),
-                     fmt::format("step {}  relative density {:.4f}  mean stress {:.4g} MPa", state.step,
-                                 simulation_.relative_density(), simulation_.box().mean_stress()));
+    if (simulation_.state().step % 16 != 0) return;
+    report_.stable_step(simulation_.step_estimate().stable_step());
+    report_.progress(fraction_done(), position());
   }
 
-  /// Warns once: a run whose step collapses hardly writes rows that would show it.
-  void warn_of_small_step() {
-    const double step = simulation_.step_estimate().stable_step();
-    if (first_stable_step_ == 0) first_stable_step_ = step;
-    if (step >= doubtful_step_share * first_stable_step_ || warned_of_step_) return;
-    warned_of_step_ = true;
-    if (!options_.quiet)
-      fmt::print(stderr,
-                 "mpfem: warning: the stable step fell from {:.3g} s to {:.3g} s: some elements are nearly flat, and "
-                 "the run becomes ever slower\n",
-                 first_stable_step_, step);
-  }
-
-  /// Fixed-width report lines, twenty a stage.
-  void report_row(const HistoryRow& row) {
-    const std::int64_t every = std::max(1, scenario_.output.history_rows / 20);
-    if ((record_.rows_in_stage - 1) % every != 0 && !simulation_.stage_complete()) return;
-    if (reported_lines_++ % 20 == 0) {
-      constexpr const char* head = "{:>8} {:>10} {:>10} {:>8} {:>8} {:>9} {:>10} {:>8} {:>9} {:>11} {:>8}\n";
-      fmt::print(stderr, head, "step", "time", "time step", "step set", "relative", "mean", "deviatoric", "kinetic/",
-                 "residual/", "penetration", "ns per");
-      fmt::print(stderr, head, "", "µs", "ns", "by", "density", "p, MPa", "q, MPa", "internal", "work", "/ element",
-                 "tet-step");
-    }
-    const double internal = internal_energy(record_.history).back();
-    fmt::print(stderr,
-               "{:>8.0f} {:>10.4f} {:>10.4f} {:>8} {:>8.4f} {:>9.4g} {:>10.3g} {:>8} {:>9.2e} {:>11.4f} {:>8.1f}\n",
-               row.step, row.time * 1e6, row.time_step * 1e9,
-               simulation_.step_estimate().state().controlled_by_contact ? "contact" : "element", row.relative_density,
-               row.mean_stress, row.deviatoric_stress,
-               row.kinetic_energy < 1e3 * internal ? fmt::format("{:.2e}", row.kinetic_energy / internal) : "-",
-               row.external_work > 0 ? row.energy_residual / row.external_work : 0.0, row.max_penetration,
-               nanoseconds_per_tet_step());
-  }
-
-  /// Prints what makes the results doubtful. It comes last of all, so that it is seen.
-  void print_quality() const {
-    const std::vector<double> internal = internal_energy(record_.history);
-    std::vector<QualityRow> rows;
-    for (const HistoryRow& row : record_.history)
-      rows.push_back({row.external_work, row.energy_residual, row.kinetic_energy, internal[rows.size()],
-                      row.mean_stress, row.max_penetration, row.relative_density_current, row.time_step});
-    for (const std::string& warning : quality_warnings(rows)) fmt::print(stderr, "mpfem: warning: {}\n", warning);
-  }
-
-  void print_profile() const {
+  void report_profile() const {
     RunRecord record = record_;
     add_times(record);
-    fmt::print(stderr, "{:<24} {:>12} {:>8} {:>15}\n", "part", "wall time, s", "share", "ns per tet-step");
-    const double tet_steps =
-        static_cast<double>(simulation_.state().step - first_step_) * static_cast<double>(simulation_.model().tets());
-    double accounted = 0;
-    const auto line = [&](const char* name, double seconds) {
-      fmt::print(stderr, "{:<24} {:>12.2f} {:>7.1f}% {:>15.2f}\n", name, seconds, 100 * seconds / record.wall_time,
-                 1e9 * seconds / tet_steps);
-    };
-    for (std::size_t i = 0; i < profile_parts; ++i) {
-      line(part_names[i], record.profile_seconds[i]);
-      accounted += record.profile_seconds[i];
-    }
-    line("waiting and rest", record.wall_time - accounted);
-    line("total", record.wall_time);
+    const auto steps = static_cast<double>(simulation_.state().step - first_step_);
+    report_.profile(part_times(record.profile_seconds, record.wall_time), record.wall_time,
+                    steps * static_cast<double>(simulation_.model().tets()));
   }
 
   const Scenario& scenario_;
@@ -631,25 +493,21 @@ private:
   Profile::Clock::time_point made_;
   ThreadTeam team_;
   Simulation simulation_;
-  EnergyCheck energy_check_;
-  Progress progress_;
+  RunReport report_;
+  std::optional<EnergyCheck> energy_check_;
   RunRecord record_;
   Profile::Clock::time_point start_, last_checkpoint_;
   std::int64_t steps_at_start_ = 0;
   std::vector<StageForecast> expected_; ///< of the stages from first_expected_ on
   std::int64_t first_expected_ = 0;
-  std::int64_t warned_of_stage_ = -1;
-  std::int64_t first_step_ = 0; ///< steps that the checkpoint of --from had done
-  int reported_lines_ = 0;
-  double first_stable_step_ = 0; ///< s
-  bool warned_of_step_ = false;
+  std::int64_t first_step_ = 0;         ///< steps that the checkpoint of --from had done
   double reload_seconds_ = 0;           ///< that reading and preparing took
   double done_at_start_ = 0;            ///< fraction of the run
   double busy_before_ = 0;              ///< s, at the last look at the balance of ranks
   std::int64_t measured_from_step_ = 0; ///< the step of that look
   Owners new_owners_;
   RunIdentity identity_;
-  bool already_complete_ = false, starts_again_ = false, warned_of_energy_ = false;
+  bool already_complete_ = false, starts_again_ = false;
   bool restored_ = false;         ///< a checkpoint has replaced the state of the simulation
   bool must_start_again_ = false; ///< nothing that could be resumed is usable
 };
