@@ -84,6 +84,14 @@ std::string parts_folder(const std::string& run_file) {
   return stem(run_file) + ".parts";
 }
 
+std::string snapshot_name(std::size_t number) {
+  return fmt::format("snapshot-{:04}.h5", number);
+}
+
+std::string snapshot_path(const std::string& run_file, const std::string& name) {
+  return parts_folder(run_file) + "/" + name;
+}
+
 bool is_checkpoint_of(const std::string& path, const RunIdentity& run) {
   if (!fs::exists(path)) return false;
   try {

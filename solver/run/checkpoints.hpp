@@ -26,6 +26,10 @@ std::string density_checkpoint_path(const std::string& run_file, double relative
 
 /// Folder of a run's snapshots while it is unfinished.
 std::string parts_folder(const std::string& run_file);
+/// Name of a snapshot's file in that folder: snapshot-0007.h5.
+std::string snapshot_name(std::size_t number);
+/// Its path.
+std::string snapshot_path(const std::string& run_file, const std::string& name);
 
 /// What identifies the checkpoints that belong to a run.
 struct RunIdentity {

@@ -9,16 +9,14 @@
 
 #include "common/available_memory.hpp"
 #include "common/errors.hpp"
-#include "common/hash.hpp"
-#include "common/one_line.hpp"
 #include "solver/model/bond_resolution.hpp"
-#include "solver/output/history.hpp"
 #include "solver/output/run_file.hpp"
 #include "solver/output/run_lock.hpp"
 #include "solver/parallel/leader.hpp"
 #include "solver/run/balance.hpp"
 #include "solver/run/check_output.hpp"
 #include "solver/run/checkpoints.hpp"
+#include "solver/run/continuation.hpp"
 #include "solver/run/energy_check.hpp"
 #include "solver/run/history_schedule.hpp"
 #include "solver/run/interrupt.hpp"
@@ -60,12 +58,12 @@ public:
   Runner(const Scenario& scenario, const RunOptions& options, const Communicator& ranks, const Owners& owners)
       : scenario_(scenario), options_(options), ranks_(ranks), made_(Profile::Clock::now()), team_(options.threads),
         simulation_(load_model(scenario, options, ranks, owners), scenario, team_, options.from.has_value(), ranks),
-        report_(ranks.leads(), options.quiet) {
+        report_(ranks.leads(), options.quiet), continuation_(simulation_, record_, options, report_) {
     const auto warnings = check_bonds(simulation_.model(), scenario_, ranks_);
-    begin();
-    if (must_start_again_) return;
+    beginning_ = continuation_.begin();
+    if (beginning_ == Beginning::must_start_again) return;
     stop_before_first_step(ranks_, checkpoint_path(options.output));
-    if (!already_complete_) {
+    if (beginning_ != Beginning::complete) {
       for (const std::string& warning : warnings) report_.warning(warning);
       for (const std::string& text :
            {mass_scaling_text(scenario_, simulation_.model()), earlier_bonds_text(simulation_.contact())})
@@ -78,13 +76,13 @@ public:
     energy_check_.emplace(simulation_.model(), record_.history);
     expected_ = forecast(scenario_, state.stage, stage.start, simulation_.model());
     first_expected_ = state.stage;
-    if (starts_again_) pass_densities();
+    if (beginning_ == Beginning::fresh) pass_densities();
   }
 
   RunEnd run() {
-    if (must_start_again_) return RunEnd::must_start_again;
-    if (already_complete_) return RunEnd::complete;
-    if (starts_again_) leader_does(ranks_, [this] { drop_unfinished_run(); });
+    if (beginning_ == Beginning::must_start_again) return RunEnd::must_start_again;
+    if (beginning_ == Beginning::complete) return RunEnd::complete;
+    if (beginning_ == Beginning::fresh) leader_does(ranks_, [this] { continuation_.discard_unfinished_run(); });
     start_ = last_checkpoint_ = Profile::Clock::now();
     reload_seconds_ = age();
     done_at_start_ = fraction_done();
@@ -102,7 +100,7 @@ public:
       }
       throw SimulationError(fmt::format("{}; history and last state are in {}{}", error.what(), options_.output, good));
     }
-    leader_does(ranks_, [this] { check_promises(); });
+    leader_does(ranks_, [this] { continuation_.check_written_checkpoints(); });
     write_result("complete");
     leader_does(ranks_, [this] { remove_unfinished(options_.output); });
     report_.finish(position(), options_.output);
@@ -119,145 +117,9 @@ public:
 private:
   /// "; the last checkpoint before the failure is FILE", or that there is none.
   std::string last_checkpoint_text() const {
-    const auto checkpoints = leader_lists(ranks_, [this] { return resumable_checkpoints(scenario_, itself()); });
+    const auto checkpoints = leader_lists(ranks_, [this] { return continuation_.resumable(); });
     return checkpoints.empty() ? "; there is no earlier checkpoint"
                                : fmt::format("; the last checkpoint before the failure is {}", checkpoints.front());
-  }
-
-  void begin() {
-    const std::string from = leader_says(
-        ranks_, [this] { return options_.from ? checkpoint_checksum(*options_.from) : std::string("packing"); });
-    identity_ = {options_.output, scenario_.text, hash_text(simulation_.model().mesh_hash), from};
-    if (options_.resume && resume()) return;
-    if (must_start_again_) return;
-    if (options_.from) {
-      begin_branch(*options_.from, simulation_, ranks_);
-      first_step_ = simulation_.state().step;
-    }
-    record_.from = from;
-    starts_again_ = true;
-  }
-
-  /// This run, from wherever it began.
-  RunIdentity itself() const {
-    RunIdentity identity = identity_;
-    identity.from = record_.from;
-    return identity;
-  }
-
-  /// Continues from the best checkpoint, or finds the run complete. False if there is nothing to continue from.
-  bool resume() {
-    std::vector<std::string> lost; // checkpoints that should be on disk and are not
-    already_complete_ = leader_finds(ranks_, [&] { return !rolling_checkpoint_exists() && is_complete(lost); });
-    if (already_complete_) {
-      leader_does(ranks_, [this] { remove_unfinished(options_.output); }); // of a run killed while it tidied up
-      report_.note(options_.output + " is already complete");
-      return true;
-    }
-    lost = leader_lists(ranks_, [&] { return lost; });
-    std::string damage;
-    for (const std::string& path :
-         leader_lists(ranks_, [this] { return resumable_checkpoints(scenario_, identity_); })) {
-      try {
-        leader_does(ranks_, [&] { verify_checkpoint(path); });
-      } catch (const InputError& error) {
-        report_.warning_despite_quiet(fmt::format("{}; looking for an earlier checkpoint", error.what()));
-        if (damage.empty()) damage = error.what();
-        continue;
-      }
-      if (!restore(path, lost)) continue;
-      if (path == previous_checkpoint_path(options_.output)) // whatever is in the rolling one's place is worse
-        leader_does(ranks_, [&] { std::filesystem::rename(path, checkpoint_path(options_.output)); });
-      if (!lost.empty())
-        report_.warning_despite_quiet(
-            fmt::format("{} is missing; the run continues from {} to write it", lost.front(), path));
-      report_.note(fmt::format("resumed {} at step {}", path, simulation_.state().step));
-      return true;
-    }
-    if (!lost.empty())
-      report_.warning_despite_quiet(fmt::format("{} is missing; the run starts again to write it", lost.front()));
-    else if (!damage.empty())
-      throw InputError(
-          fmt::format("{}; no earlier checkpoint can be used: run without --resume to start again", damage));
-    must_start_again_ = restored_;
-    return false;
-  }
-
-  /// Restores a checkpoint. False if the run cannot continue from it. Missing checkpoints that it counts as written are
-  /// added to `lost`.
-  bool restore(const std::string& path, std::vector<std::string>& lost) {
-    const bool rolling = path == checkpoint_path(options_.output);
-    restored_ = true;
-    record_ = {};
-    mpfem::resume(path, simulation_, record_, ranks_);
-    if (options_.from && !record_.from.empty() && record_.from != identity_.from)
-      throw InputError(fmt::format(
-          "{}: the checkpoint belongs to a run that did not begin at {}; run without --resume to start again", path,
-          one_line(*options_.from)));
-    const auto missing = leader_lists(ranks_, [this] { return missing_checkpoints(promised_now(), itself()); });
-    lost.insert(lost.end(), missing.begin(), missing.end());
-    if (!missing.empty()) return false;
-    for (const std::string& part : leader_lists(ranks_, [this] { return missing_snapshots(); })) {
-      if (!rolling || !lost.empty()) return false;
-      throw InputError(fmt::format(
-          "{}: the snapshot {}, taken before this checkpoint, is missing; run without --resume to start again", path,
-          part));
-    }
-    if (!record_.history.empty()) first_step_ = static_cast<std::int64_t>(record_.history.front().step);
-    return true;
-  }
-
-  /// Files of snapshots that have been taken and are no longer there.
-  std::vector<std::string> missing_snapshots() const {
-    std::vector<std::string> missing;
-    for (const std::string& name : record_.snapshot_files)
-      if (!std::filesystem::exists(snapshot_path(name))) missing.push_back(snapshot_path(name));
-    return missing;
-  }
-
-  /// Checkpoints of stages and densities that must have been written by now.
-  std::vector<std::string> promised_now() const {
-    const double start =
-        record_.history.empty() ? simulation_.relative_density() : record_.history.front().relative_density;
-    return promised_checkpoints(scenario_, options_.output, simulation_.state().stage, simulation_.stage_complete(),
-                                record_.checkpoints_passed, start);
-  }
-
-  /// Before a run is called complete: files that it has written may have been removed meanwhile.
-  void check_promises() const {
-    if (const auto missing = missing_checkpoints(promised_now(), itself()); !missing.empty())
-      throw StorageError(fmt::format("{}: the run has written this file, but it is gone; --resume writes it again",
-                                     one_line(missing.front())));
-  }
-
-  bool rolling_checkpoint_exists() const {
-    return std::filesystem::exists(checkpoint_path(options_.output)) ||
-           std::filesystem::exists(previous_checkpoint_path(options_.output));
-  }
-
-  /// Removes the files of an earlier, unfinished run of this name: they would mix with those of this run.
-  void drop_unfinished_run() const {
-    const std::string rolling = checkpoint_path(options_.output);
-    if (std::filesystem::exists(rolling))
-      report_.note(fmt::format("discarding {} of an unfinished run, because this run starts again (--resume would have "
-                               "continued it)",
-                               rolling));
-    remove_unfinished(options_.output);
-  }
-
-  /// True if the output is the finished run of this very scenario and packing, from this beginning (if one is named),
-  /// and all its checkpoints exist. Missing ones are added to `lost`.
-  bool is_complete(std::vector<std::string>& lost) const {
-    if (!std::filesystem::exists(options_.output)) return false;
-    const RunSummary run = read_run_summary(options_.output);
-    if (run.status != "complete" || run.scenario_text != scenario_.text || run.packing_hash != identity_.packing_hash ||
-        (options_.from && !run.from.empty() && run.from != identity_.from))
-      return false;
-    RunIdentity itself = identity_;
-    itself.from = run.from;
-    lost = missing_checkpoints(promised_checkpoints(scenario_, options_.output, run.first_density, run.largest_density),
-                               itself);
-    return lost.empty();
   }
 
   /// Runs to the end of the last stage (true), or to a checkpoint after which the grains have new owners (false).
@@ -342,7 +204,7 @@ private:
     leader_does(ranks_, [this] { std::filesystem::create_directories(parts_folder(options_.output)); });
     const std::string name = snapshot_name(record_.snapshot_files.size());
     const RunState& state = simulation_.state();
-    write_snapshot_file(snapshot_path(name),
+    write_snapshot_file(snapshot_path(options_.output, name),
                         {simulation_.model(), simulation_.contact(), simulation_.box(), simulation_.wall_friction(),
                          simulation_.tools(), state.time, state.step, simulation_.relative_density()},
                         ranks_);
@@ -448,13 +310,10 @@ private:
       provenance.profile_seconds.push_back(part.seconds);
     }
     std::vector<std::string> snapshots;
-    for (const std::string& name : record_.snapshot_files) snapshots.push_back(snapshot_path(name));
+    for (const std::string& name : record_.snapshot_files) snapshots.push_back(snapshot_path(options_.output, name));
     const RunHistory history{record_.history, simulation_.tools(), record_.tool_history};
     write_run_file(options_.output, simulation_.model(), history, snapshots, provenance, ranks_);
   }
-
-  static std::string snapshot_name(std::size_t number) { return fmt::format("snapshot-{:04}.h5", number); }
-  std::string snapshot_path(const std::string& name) const { return parts_folder(options_.output) + "/" + name; }
 
   double nanoseconds_per_tet_step() const {
     const auto steps = static_cast<double>(simulation_.state().step - steps_at_start_);
@@ -482,7 +341,8 @@ private:
   void report_profile() const {
     RunRecord record = record_;
     add_times(record);
-    const auto steps = static_cast<double>(simulation_.state().step - first_step_);
+    // A branch counts its own steps; a run that was resumed, those of all its parts.
+    const double steps = record_.history.back().step - record_.history.front().step;
     report_.profile(part_times(record.profile_seconds, record.wall_time), record.wall_time,
                     steps * static_cast<double>(simulation_.model().tets()));
   }
@@ -496,20 +356,17 @@ private:
   RunReport report_;
   std::optional<EnergyCheck> energy_check_;
   RunRecord record_;
+  Continuation continuation_;
+  Beginning beginning_ = Beginning::fresh;
   Profile::Clock::time_point start_, last_checkpoint_;
   std::int64_t steps_at_start_ = 0;
   std::vector<StageForecast> expected_; ///< of the stages from first_expected_ on
   std::int64_t first_expected_ = 0;
-  std::int64_t first_step_ = 0;         ///< steps that the checkpoint of --from had done
   double reload_seconds_ = 0;           ///< that reading and preparing took
   double done_at_start_ = 0;            ///< fraction of the run
   double busy_before_ = 0;              ///< s, at the last look at the balance of ranks
   std::int64_t measured_from_step_ = 0; ///< the step of that look
   Owners new_owners_;
-  RunIdentity identity_;
-  bool already_complete_ = false, starts_again_ = false;
-  bool restored_ = false;         ///< a checkpoint has replaced the state of the simulation
-  bool must_start_again_ = false; ///< nothing that could be resumed is usable
 };
 
 } // namespace
