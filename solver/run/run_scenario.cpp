@@ -52,41 +52,22 @@ enum class RunEnd {
   redistributed     ///< the checkpoint just written goes on with other owners of grains
 };
 
-/// The time loop and its records.
+/// The time loop of a prepared simulation, and its records.
 class Runner {
 public:
-  Runner(const Scenario& scenario, const RunOptions& options, const Communicator& ranks, const Owners& owners)
-      : scenario_(scenario), options_(options), ranks_(ranks), made_(Profile::Clock::now()), team_(options.threads),
-        simulation_(load_model(scenario, options, ranks, owners), scenario, team_, options.from.has_value(), ranks),
-        report_(ranks.leads(), options.quiet), continuation_(simulation_, record_, options, report_) {
-    const auto warnings = check_bonds(simulation_.model(), scenario_, ranks_);
-    beginning_ = continuation_.begin();
-    if (beginning_ == Beginning::must_start_again) return;
-    stop_before_first_step(ranks_, checkpoint_path(options.output));
-    if (beginning_ != Beginning::complete) {
-      for (const std::string& warning : warnings) report_.warning(warning);
-      for (const std::string& text :
-           {mass_scaling_text(scenario_, simulation_.model()), earlier_bonds_text(simulation_.contact())})
-        if (!text.empty()) report_.note(text);
-    }
-    const RunState& state = simulation_.state();
-    const StageRun::State& stage = simulation_.stage_run().state();
-    check_programme(scenario_, state.stage, stage.start, simulation_.model(),
-                    simulation_.step_estimate().stable_step());
-    energy_check_.emplace(simulation_.model(), record_.history);
-    expected_ = forecast(scenario_, state.stage, stage.start, simulation_.model());
-    first_expected_ = state.stage;
-    if (beginning_ == Beginning::fresh) pass_densities();
-  }
+  /// `preparation`: s of wall-clock time that reading and preparing took.
+  Runner(Simulation& simulation, RunRecord& record, const Continuation& continuation, RunReport& report,
+         const RunOptions& options, double preparation)
+      : scenario_(simulation.scenario()), options_(options), ranks_(simulation.ranks()), simulation_(simulation),
+        report_(report), energy_check_(simulation.model(), record.history), record_(record),
+        continuation_(continuation), start_(Profile::Clock::now()), last_checkpoint_(start_),
+        steps_at_start_(simulation.state().step),
+        expected_(
+            forecast(scenario_, simulation.state().stage, simulation.stage_run().state().start, simulation.model())),
+        first_expected_(simulation.state().stage), reload_seconds_(preparation), done_at_start_(fraction_done()),
+        measured_from_step_(steps_at_start_) {}
 
   RunEnd run() {
-    if (beginning_ == Beginning::must_start_again) return RunEnd::must_start_again;
-    if (beginning_ == Beginning::complete) return RunEnd::complete;
-    if (beginning_ == Beginning::fresh) leader_does(ranks_, [this] { continuation_.discard_unfinished_run(); });
-    start_ = last_checkpoint_ = Profile::Clock::now();
-    reload_seconds_ = age();
-    done_at_start_ = fraction_done();
-    steps_at_start_ = measured_from_step_ = simulation_.state().step;
     try {
       if (!loop()) return RunEnd::redistributed;
     } catch (const SimulationError& error) {
@@ -111,8 +92,17 @@ public:
 
   /// After redistributed.
   const Owners& new_owners() const { return new_owners_; }
-  /// s of wall-clock time since this was made.
-  double age() const { return Profile::since(made_); }
+
+  /// Densities of output.checkpoint_relative_densities that the packing has now passed for the first time.
+  std::vector<double> pass_densities() {
+    const auto& densities = scenario_.output.checkpoint_relative_densities;
+    auto& count = record_.checkpoints_passed;
+    std::vector<double> passed;
+    while (count < static_cast<std::int64_t>(densities.size()) &&
+           simulation_.relative_density() >= densities[static_cast<std::size_t>(count)] * (1 - 1e-9))
+      passed.push_back(densities[static_cast<std::size_t>(count++)]);
+    return passed;
+  }
 
 private:
   /// "; the last checkpoint before the failure is FILE", or that there is none.
@@ -180,7 +170,7 @@ private:
                                   .controlled_by_contact = simulation_.step_estimate().state().controlled_by_contact,
                                   .nanoseconds = nanoseconds_per_tet_step()});
     const HistoryRow& row = record_.history.back();
-    report_.energy_error(energy_check_->require(row), row.step);
+    report_.energy_error(energy_check_.require(row), row.step);
   }
 
   /// `rows_before`: in the stage, at the step before.
@@ -268,17 +258,6 @@ private:
                              100 * (balance.imbalance - 1)));
   }
 
-  /// Densities of output.checkpoint_relative_densities that the packing has now passed for the first time.
-  std::vector<double> pass_densities() {
-    const auto& densities = scenario_.output.checkpoint_relative_densities;
-    auto& count = record_.checkpoints_passed;
-    std::vector<double> passed;
-    while (count < static_cast<std::int64_t>(densities.size()) &&
-           simulation_.relative_density() >= densities[static_cast<std::size_t>(count)] * (1 - 1e-9))
-      passed.push_back(densities[static_cast<std::size_t>(count++)]);
-    return passed;
-  }
-
   void save_checkpoint(const std::string& path) {
     RunRecord record = record_;
     add_times(record);
@@ -350,24 +329,58 @@ private:
   const Scenario& scenario_;
   const RunOptions& options_;
   const Communicator& ranks_;
-  Profile::Clock::time_point made_;
-  ThreadTeam team_;
-  Simulation simulation_;
-  RunReport report_;
-  std::optional<EnergyCheck> energy_check_;
-  RunRecord record_;
-  Continuation continuation_;
-  Beginning beginning_ = Beginning::fresh;
+  Simulation& simulation_;
+  RunReport& report_;
+  EnergyCheck energy_check_;
+  RunRecord& record_;
+  const Continuation& continuation_;
   Profile::Clock::time_point start_, last_checkpoint_;
-  std::int64_t steps_at_start_ = 0;
+  std::int64_t steps_at_start_;
   std::vector<StageForecast> expected_; ///< of the stages from first_expected_ on
-  std::int64_t first_expected_ = 0;
-  double reload_seconds_ = 0;           ///< that reading and preparing took
-  double done_at_start_ = 0;            ///< fraction of the run
-  double busy_before_ = 0;              ///< s, at the last look at the balance of ranks
-  std::int64_t measured_from_step_ = 0; ///< the step of that look
+  std::int64_t first_expected_;
+  double reload_seconds_;           ///< that reading and preparing took
+  double done_at_start_;            ///< fraction of the run
+  std::int64_t measured_from_step_; ///< the step of that look
+  double busy_before_ = 0;          ///< s, at the last look at the balance of ranks
   Owners new_owners_;
 };
+
+/// How a part of a run ended, and which rank then owns each grain, if that changes.
+struct PartEnd {
+  RunEnd end = RunEnd::complete;
+  Owners new_owners{};
+};
+
+/// What a reader of the results should know beforehand.
+void report_beginning(const RunReport& report, const std::vector<std::string>& warnings, const Simulation& simulation) {
+  for (const std::string& warning : warnings) report.warning(warning);
+  for (const std::string& text :
+       {mass_scaling_text(simulation.scenario(), simulation.model()), earlier_bonds_text(simulation.contact())})
+    if (!text.empty()) report.note(text);
+}
+
+/// Prepares a simulation where the run begins, and runs it.
+PartEnd run_part(const Scenario& scenario, const RunOptions& options, const Communicator& ranks, const Owners& owners) {
+  const auto begun = Profile::Clock::now();
+  ThreadTeam team(options.threads);
+  Simulation simulation(load_model(scenario, options, ranks, owners), scenario, team, options.from.has_value(), ranks);
+  RunReport report(ranks.leads(), options.quiet);
+  RunRecord record;
+  Continuation continuation(simulation, record, options, report);
+  const auto warnings = check_bonds(simulation.model(), scenario, ranks);
+  const Beginning beginning = continuation.begin();
+  if (beginning == Beginning::must_start_again) return {RunEnd::must_start_again};
+  stop_before_first_step(ranks, checkpoint_path(options.output));
+  if (beginning != Beginning::complete) report_beginning(report, warnings, simulation);
+  check_programme(scenario, simulation.state().stage, simulation.stage_run().state().start, simulation.model(),
+                  simulation.step_estimate().stable_step());
+  if (beginning == Beginning::complete) return {RunEnd::complete};
+  if (beginning == Beginning::fresh) leader_does(ranks, [&] { continuation.discard_unfinished_run(); });
+  Runner runner(simulation, record, continuation, report, options, Profile::since(begun));
+  if (beginning == Beginning::fresh) runner.pass_densities(); // those that the packing has from the start
+  const RunEnd end = runner.run();
+  return {end, runner.new_owners()};
+}
 
 } // namespace
 
@@ -385,12 +398,12 @@ void run_scenario(const Scenario& scenario, const RunOptions& given, const Commu
     remove_partial_files(scenario, options.output);
   });
   for (Owners owners;;) {
-    Runner runner(scenario, options, ranks, owners);
-    const RunEnd end = runner.run();
-    if (end == RunEnd::complete) return;
-    options.resume = end == RunEnd::redistributed;
-    owners = runner.new_owners();
-    if (options.time_limit > 0) options.time_limit = std::max(options.time_limit - runner.age(), 1e-9);
+    const auto begun = Profile::Clock::now();
+    const PartEnd part = run_part(scenario, options, ranks, owners);
+    if (part.end == RunEnd::complete) return;
+    options.resume = part.end == RunEnd::redistributed;
+    owners = part.new_owners;
+    if (options.time_limit > 0) options.time_limit = std::max(options.time_limit - Profile::since(begun), 1e-9);
   }
 }
 
