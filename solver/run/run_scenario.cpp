@@ -1,7 +1,6 @@
 #include "solver/run/run_scenario.hpp"
 
 #include <algorithm>
-#include <chrono>
 #include <cstdio>
 
 #include <fmt/format.h>
@@ -11,7 +10,6 @@
 #include "solver/model/bond_resolution.hpp"
 #include "solver/output/run_lock.hpp"
 #include "solver/parallel/leader.hpp"
-#include "solver/run/balance.hpp"
 #include "solver/run/check_output.hpp"
 #include "solver/run/checkpoint_writer.hpp"
 #include "solver/run/checkpoints.hpp"
@@ -21,6 +19,8 @@
 #include "solver/run/needs.hpp"
 #include "solver/run/plan_text.hpp"
 #include "solver/run/programme.hpp"
+#include "solver/run/redistribution.hpp"
+#include "solver/run/run_pace.hpp"
 #include "solver/run/run_records.hpp"
 #include "solver/run/run_report.hpp"
 #include "solver/run/simulation.hpp"
@@ -28,20 +28,6 @@
 namespace mpfem {
 
 namespace {
-
-/// Which rank owns each grain ([grains]); none: by the number of tets.
-using Owners = std::optional<std::vector<std::int32_t>>;
-
-/// Reads the packing and makes the model. Both may take a while, so a request to stop is checked in between.
-Model load_model(const Scenario& scenario, const RunOptions& options, const Communicator& ranks, const Owners& owners) {
-  const std::string checkpoint = checkpoint_path(options.output);
-  stop_before_first_step(ranks, checkpoint);
-  auto packing = read_packing(scenario.packing_file, ranks, owners);
-  stop_before_first_step(ranks, checkpoint);
-  Model model = build_model(std::move(packing), scenario, scenario.packing_file, ranks);
-  stop_before_first_step(ranks, checkpoint);
-  return model;
-}
 
 enum class RunEnd {
   complete,
@@ -55,35 +41,19 @@ public:
   /// `preparation`: s of wall-clock time that reading and preparing took.
   Runner(Simulation& simulation, RunRecords& records, const Continuation& continuation, RunReport& report,
          const RunOptions& options, double preparation)
-      : scenario_(simulation.scenario()), options_(options), ranks_(simulation.ranks()), simulation_(simulation),
-        report_(report), energy_check_(simulation.model(), records.history()), records_(records),
-        checkpoints_(simulation, records, options), continuation_(continuation), start_(Profile::Clock::now()),
-        steps_at_start_(simulation.state().step),
-        expected_(
-            forecast(scenario_, simulation.state().stage, simulation.stage_run().state().start, simulation.model())),
-        first_expected_(simulation.state().stage), reload_seconds_(preparation), done_at_start_(fraction_done()),
-        measured_from_step_(steps_at_start_) {}
+      : options_(options), ranks_(simulation.ranks()), simulation_(simulation), records_(records),
+        continuation_(continuation), report_(report), energy_check_(simulation.model(), records.history()),
+        checkpoints_(simulation, records, options), pace_(simulation),
+        redistribution_(simulation, report, preparation) {}
 
+  /// Collective. Throws as run_scenario().
   RunEnd run() {
     try {
       if (!loop()) return RunEnd::redistributed;
     } catch (const SimulationError& error) {
-      const std::string good = last_checkpoint_text();
-      // The failed state is worth a look: save a snapshot of it, and everything recorded so far.
-      try {
-        records_.save_snapshot();
-        records_.write_result(fmt::format("failed: {}", error.what()));
-      } catch (const StorageError& storage) {
-        throw SimulationError(fmt::format("{}; its state could not be saved: {}", error.what(), storage.what()));
-      }
-      throw SimulationError(fmt::format("{}; history and last state are in {}{}", error.what(), options_.output, good));
+      save_failed_state(error);
     }
-    leader_does(ranks_, [this] { continuation_.check_written_checkpoints(); });
-    records_.write_result("complete");
-    leader_does(ranks_, [this] { remove_unfinished(options_.output); });
-    report_.finish(position(), options_.output);
-    report_profile();
-    report_.quality(records_.history());
+    complete();
     return RunEnd::complete;
   }
 
@@ -91,26 +61,14 @@ public:
   const Owners& new_owners() const { return new_owners_; }
 
 private:
-  /// "; the last checkpoint before the failure is FILE", or that there is none.
-  std::string last_checkpoint_text() const {
-    const auto checkpoints = leader_lists(ranks_, [this] { return continuation_.resumable(); });
-    return checkpoints.empty() ? "; there is no earlier checkpoint"
-                               : fmt::format("; the last checkpoint before the failure is {}", checkpoints.front());
-  }
-
   /// Runs to the end of the last stage (true), or to a checkpoint after which the grains have new owners (false).
   bool loop() {
     for (;;) {
       simulation_.evaluate_forces();
-      if (simulation_.stage_run().loading_rate().at_slowest)
-        report_.slowest_speed(simulation_.stage().name, simulation_.relative_density());
-      const bool stage_end = simulation_.stage_complete();
-      const std::int64_t rows = records_.rows_in_stage();
-      if (stage_end || records_.row_is_due()) record_row();
-      records_.take_snapshots(stage_end, rows);
-      if (stage_end) {
+      record();
+      if (simulation_.stage_complete()) {
         report_.stage_end(records_.end_stage(), records_.history(), simulation_.stage().damping.rate != 0);
-        if (simulation_.state().stage + 1 == static_cast<std::int64_t>(scenario_.stages.size())) return true;
+        if (in_last_stage()) return true;
         begin_next_stage();
       }
       simulation_.advance();
@@ -118,6 +76,10 @@ private:
       if (new_owners_) return false;
       report_progress();
     }
+  }
+
+  bool in_last_stage() const {
+    return simulation_.state().stage + 1 == static_cast<std::int64_t>(simulation_.scenario().stages.size());
   }
 
   /// The stage before may have destroyed what this stage needs. That is a failure of the run, whose state is saved.
@@ -130,24 +92,30 @@ private:
     }
   }
 
-  RunPosition position() const {
-    return {simulation_.state().step, simulation_.relative_density(), simulation_.box().mean_stress()};
+  /// Row and snapshot of the present time level, if they are due.
+  void record() {
+    const bool stage_end = simulation_.stage_complete();
+    const std::int64_t rows = records_.rows_in_stage();
+    if (simulation_.stage_run().loading_rate().at_slowest)
+      report_.slowest_speed(simulation_.stage().name, simulation_.relative_density());
+    if (stage_end || records_.row_is_due()) record_row();
+    records_.take_snapshots(stage_end, rows);
   }
 
   void record_row() {
     const HistoryRow& row = records_.add_row();
     report_.row(records_.history(), {.rows_in_stage = records_.rows_in_stage(),
-                                     .rows_expected = scenario_.output.history_rows,
+                                     .rows_expected = simulation_.scenario().output.history_rows,
                                      .ends_stage = simulation_.stage_complete(),
                                      .controlled_by_contact = simulation_.step_estimate().state().controlled_by_contact,
-                                     .nanoseconds = nanoseconds_per_tet_step()});
+                                     .nanoseconds = pace_.nanoseconds_per_tet_step()});
     report_.energy_error(energy_check_.require(row), row.step);
   }
 
   /// Saves the state where that is due. Throws Interrupted where the run is to stop for now.
   void save_checkpoints() {
     const CheckpointReason reason = checkpoints_.write_due();
-    if (reason == CheckpointReason::interval) balance();
+    if (reason == CheckpointReason::interval) new_owners_ = redistribution_.new_owners(pace_.remaining());
     if (reason == CheckpointReason::none || reason == CheckpointReason::interval) return;
     records_.write_result("interrupted");
     throw Interrupted(fmt::format("{} at step {}, relative density {:.4f}; continue with --resume",
@@ -155,76 +123,68 @@ private:
                                   simulation_.state().step, simulation_.relative_density()));
   }
 
-  /// If ranks have unequal work and it pays, finds new owners for the grains. Times of a few steps are mostly those of
-  /// other programs.
-  void balance() {
-    constexpr std::int64_t steps_worth_measuring = 200;
-    const std::int64_t step = simulation_.state().step;
-    if (ranks_.alone() || step - measured_from_step_ < steps_worth_measuring) return;
-    measured_from_step_ = step;
-    double busy = 0;
-    for (const Part part : {Part::elements, Part::contact, Part::integration, Part::surface})
-      busy += simulation_.profile().seconds(part);
-    const Balance balance = measure_balance(ranks_, simulation_.model(), busy - busy_before_);
-    busy_before_ = busy;
-    const double done = fraction_done();
-    const double remaining = done > done_at_start_ ? Profile::since(start_) * (1 - done) / (done - done_at_start_) : 0;
-    if (!leader_finds(ranks_, [&] { return pays(balance, remaining, reload_seconds_); })) return;
-    new_owners_ = redistribute(ranks_, simulation_.model(), balance);
-    report_.note(fmt::format("the busiest rank has {:.0f} % more work than the mean: redistributing grains",
-                             100 * (balance.imbalance - 1)));
-  }
-
-  double nanoseconds_per_tet_step() const {
-    const auto steps = static_cast<double>(simulation_.state().step - steps_at_start_);
-    return steps > 0 ? 1e9 * Profile::since(start_) / (steps * static_cast<double>(simulation_.model().tets())) : 0.0;
-  }
-
-  double fraction_done() const {
-    const RunState& state = simulation_.state();
-    const double of_present = simulation_.stage_run().fraction_done(simulation_.box().mean_stress());
-    double done = 0, all = 0; // of the stages from the one with which this process began, by expected time
-    for (std::size_t i = 0; i < expected_.size(); ++i) {
-      const std::int64_t stage = first_expected_ + static_cast<std::int64_t>(i);
-      all += expected_[i].duration;
-      done += expected_[i].duration * (stage < state.stage ? 1.0 : stage == state.stage ? of_present : 0.0);
-    }
-    return all > 0 ? done / all : 0.0;
-  }
-
   void report_progress() {
-    if (simulation_.state().step % 16 != 0) return;
+    constexpr std::int64_t steps_between = 16;
+    if (simulation_.state().step % steps_between != 0) return;
     report_.stable_step(simulation_.step_estimate().stable_step());
-    report_.progress(fraction_done(), position());
+    report_.progress(pace_.fraction_done(), position());
   }
 
-  void report_profile() const {
+  RunPosition position() const {
+    return {simulation_.state().step, simulation_.relative_density(), simulation_.box().mean_stress()};
+  }
+
+  /// The failed state is worth a look: saves a snapshot of it, and everything recorded so far.
+  [[noreturn]] void save_failed_state(const SimulationError& error) {
+    const auto checkpoints = leader_lists(ranks_, [this] { return continuation_.resumable(); });
+    try {
+      records_.save_snapshot();
+      records_.write_result(fmt::format("failed: {}", error.what()));
+    } catch (const StorageError& storage) {
+      throw SimulationError(fmt::format("{}; its state could not be saved: {}", error.what(), storage.what()));
+    }
+    throw SimulationError(fmt::format("{}; history and last state are in {}; {}", error.what(), options_.output,
+                                      checkpoints.empty()
+                                          ? "there is no earlier checkpoint"
+                                          : "the last checkpoint before the failure is " + checkpoints.front()));
+  }
+
+  void complete() {
+    leader_does(ranks_, [this] { continuation_.check_written_checkpoints(); });
+    records_.write_result("complete");
+    leader_does(ranks_, [this] { remove_unfinished(options_.output); });
+    report_.finish(position(), options_.output);
     const RunRecord record = records_.with_times();
     // A branch counts its own steps; a run that was resumed, those of all its parts.
     const double steps = record.history.back().step - record.history.front().step;
     report_.profile(part_times(record.profile_seconds, record.wall_time), record.wall_time,
                     steps * static_cast<double>(simulation_.model().tets()));
+    report_.quality(record.history);
   }
 
-  const Scenario& scenario_;
   const RunOptions& options_;
   const Communicator& ranks_;
   Simulation& simulation_;
+  RunRecords& records_;
+  const Continuation& continuation_;
   RunReport& report_;
   EnergyCheck energy_check_;
-  RunRecords& records_;
   CheckpointWriter checkpoints_;
-  const Continuation& continuation_;
-  Profile::Clock::time_point start_;
-  std::int64_t steps_at_start_;
-  std::vector<StageForecast> expected_; ///< of the stages from first_expected_ on
-  std::int64_t first_expected_;
-  double reload_seconds_;           ///< that reading and preparing took
-  double done_at_start_;            ///< fraction of the run
-  std::int64_t measured_from_step_; ///< the step of that look
-  double busy_before_ = 0;          ///< s, at the last look at the balance of ranks
+  RunPace pace_;
+  Redistribution redistribution_;
   Owners new_owners_;
 };
+
+/// Reads the packing and makes the model. Both may take a while, so a request to stop is checked in between.
+Model load_model(const Scenario& scenario, const RunOptions& options, const Communicator& ranks, const Owners& owners) {
+  const std::string checkpoint = checkpoint_path(options.output);
+  stop_before_first_step(ranks, checkpoint);
+  auto packing = read_packing(scenario.packing_file, ranks, owners);
+  stop_before_first_step(ranks, checkpoint);
+  Model model = build_model(std::move(packing), scenario, scenario.packing_file, ranks);
+  stop_before_first_step(ranks, checkpoint);
+  return model;
+}
 
 /// How a part of a run ended, and which rank then owns each grain, if that changes.
 struct PartEnd {
