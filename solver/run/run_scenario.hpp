@@ -1,5 +1,5 @@
 #pragma once
-// The time loop: stages, rows, snapshots, checkpoints, progress, and the end of a run, good or bad.
+// A run of a scenario, from the checks of its output to its end.
 
 #include "solver/parallel/communicator.hpp"
 #include "solver/run/run_options.hpp"
