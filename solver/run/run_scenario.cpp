@@ -68,10 +68,10 @@ Outcome run_once(const Scenario& scenario, const RunOptions& options, const Comm
   const Beginning beginning = continuation.begin();
   if (beginning == Beginning::must_start_again) return {RunEnd::must_start_again};
   stop_before_first_step(ranks, checkpoint_path(options.output));
-  if (beginning != Beginning::complete) report_beginning(report, warnings, simulation);
+  if (beginning == Beginning::complete) return {RunEnd::complete};
+  report_beginning(report, warnings, simulation);
   check_programme(scenario, simulation.state().stage, simulation.stage_run().state().start, simulation.model(),
                   simulation.step_estimate().stable_step());
-  if (beginning == Beginning::complete) return {RunEnd::complete};
   if (beginning == Beginning::fresh) leader_does(ranks, [&] { continuation.discard_unfinished_run(); });
   RunRecords records(simulation, record, options);
   if (beginning == Beginning::fresh) records.pass_checkpoint_densities(); // those that the packing has from the start
