@@ -1,6 +1,6 @@
 #pragma once
-// Where a run begins: at the packing, at the checkpoint of --from, at one of its own checkpoints, or nowhere, because it
-// is complete. And which of its checkpoints must be, or can be used, when it ends.
+// Where a run begins: at the packing, at the checkpoint of --from, at one of its own checkpoints, or not at all if it
+// is complete. When it ends, the same rules say which checkpoints must be on disk, and which can be resumed.
 //
 // A run may be killed, or files removed, at any moment. Its run file and its checkpoints are believed only as far as
 // they name the same scenario, packing and beginning, and as what they promise is on disk (checkpoints.hpp).
@@ -22,7 +22,7 @@ enum class Beginning {
   complete,        ///< not at all: its run file is complete
   resumed,         ///< at one of its own checkpoints
   fresh,           ///< at the packing, or at the checkpoint of --from
-  must_start_again ///< without --resume and with a new simulation: a checkpoint of no use has changed this one
+  must_start_again ///< no checkpoint can be used, but one has replaced the state: a new simulation must be made
 };
 
 /// Finds where a run begins, and restores simulation and record there. All arguments must outlive it.
@@ -35,6 +35,7 @@ public:
   /// another beginning, if it counts on a snapshot that is lost, or if none is intact, on all ranks alike.
   Beginning begin();
 
+  // ---- on the first rank alone, as part of leader_does() or leader_lists()
   /// Removes the files of an earlier, unfinished run of this name: they would mix with those of a fresh run.
   void discard_unfinished_run() const;
   /// Throws StorageError if a checkpoint that the run has written by now is gone: the run must not be called complete.

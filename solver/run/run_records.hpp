@@ -12,8 +12,8 @@
 
 namespace mpfem {
 
-/// Adds to a RunRecord while the run goes on. All arguments must outlive it. All non-const members but begin_stage() and
-/// pass_checkpoint_densities() are collective, and so are save_checkpoint() and write_result().
+/// Adds to a RunRecord while the run goes on. All arguments must outlive it. What takes a row or writes a file is
+/// collective.
 class RunRecords {
 public:
   /// `record`: of the run before this process. The wall-clock time of this process counts from now on.

@@ -14,7 +14,7 @@ namespace mpfem {
 
 namespace {
 
-constexpr std::int64_t lines_of_stage = 20; ///< about
+constexpr std::int64_t lines_of_stage = 20;
 constexpr int lines_below_head = 20;
 
 /// Internal energy (mJ) of the stage that each row belongs to.
