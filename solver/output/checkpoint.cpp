@@ -95,11 +95,13 @@ RunRecord CheckpointReader::record() const {
   }
   record.snapshot_files = file_.read(check::run_snapshots);
   const auto name = file_.read(check::run_stage_name), end = file_.read(check::run_stage_end);
-  const auto values = file_.read(check::run_stage_values), rms = file_.read(check::run_stage_hold_rms);
-  if (end.size() != name.size() || values.size() != 3 * name.size() || rms.size() != name.size())
+  const auto values = file_.read(check::run_stage_values),
+             hold_root_mean_square = file_.read(check::run_stage_hold_rms);
+  if (end.size() != name.size() || values.size() != 3 * name.size() || hold_root_mean_square.size() != name.size())
     refuse_damaged_checkpoint(path());
   for (std::size_t i = 0; i < name.size(); ++i)
-    record.stages.push_back({name[i], end[i], values[3 * i], values[3 * i + 1], values[3 * i + 2], rms[i]});
+    record.stages.push_back(
+        {name[i], end[i], values[3 * i], values[3 * i + 1], values[3 * i + 2], hold_root_mean_square[i]});
   record.from = from();
   return record;
 }

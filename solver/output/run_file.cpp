@@ -272,19 +272,20 @@ void write_mesh(GatheredFile& file, const Model& model) {
 
 void write_stages(schema::FileWriter& file, const std::vector<StageResult>& stages) {
   std::vector<std::string> name, end;
-  std::vector<double> overshoot, hold_error, hold_rms;
+  std::vector<double> overshoot, hold_error, hold_root_mean_square;
   for (const StageResult& stage : stages) {
     name.push_back(stage.name);
     end.push_back(stage.ended_by);
     overshoot.push_back(stage.overshoot);
     hold_error.push_back(stage.hold_error);
-    hold_rms.push_back(stage.hold_rms);
+    hold_root_mean_square.push_back(stage.hold_root_mean_square);
   }
   file.write(run::provenance_stage_name, std::span<const std::string>(name), name.size());
   file.write(run::provenance_stage_end, std::span<const std::string>(end), end.size());
   file.write(run::provenance_stage_overshoot, std::span<const double>(overshoot), overshoot.size());
   file.write(run::provenance_stage_hold_error, std::span<const double>(hold_error), hold_error.size());
-  file.write(run::provenance_stage_hold_rms, std::span<const double>(hold_rms), hold_rms.size());
+  file.write(run::provenance_stage_hold_rms, std::span<const double>(hold_root_mean_square),
+             hold_root_mean_square.size());
 }
 
 void write_provenance(schema::FileWriter& file, const Model& model, const Provenance& provenance) {

@@ -33,18 +33,18 @@ void write_all(schema::FileWriter& file, const Dataset& dataset, const Vector& v
 
 void write_record(schema::FileWriter& file, const RunRecord& record) {
   std::vector<std::string> stage_name, stage_end;
-  std::vector<double> stage_values, stage_hold_rms;
+  std::vector<double> stage_values, hold_root_mean_square;
   for (const StageResult& stage : record.stages) {
     stage_name.push_back(stage.name);
     stage_end.push_back(stage.ended_by);
     stage_values.insert(stage_values.end(), {stage.overshoot, stage.hold_error, stage.hold_stress});
-    stage_hold_rms.push_back(stage.hold_rms);
+    hold_root_mean_square.push_back(stage.hold_root_mean_square);
   }
   write_all(file, check::run_snapshots, record.snapshot_files);
   write_all(file, check::run_stage_name, stage_name);
   write_all(file, check::run_stage_end, stage_end);
   write_all(file, check::run_stage_values, stage_values, stage_name.size());
-  write_all(file, check::run_stage_hold_rms, stage_hold_rms);
+  write_all(file, check::run_stage_hold_rms, hold_root_mean_square);
   write_all(file, check::run_history, flatten(record.history));
   if (!record.tool_history.empty()) write_all(file, check::run_tool_history, flatten(record.tool_history));
   if (!record.from.empty()) file.write_scalar(check::run_from, record.from);

@@ -44,7 +44,7 @@ double EnergyCheck::require(const HistoryRow& row) {
   if (!(error <= allowed))
     throw SimulationError(fmt::format(
         "step {:.0f}, time {:.4g} s, relative density {:.4f}: the energy balance is off by {:.3g} % of its largest "
-        "term, allowed {:g} %: the motion is not stable; lower numerics.time_step_factor or the speed",
+        "term, allowed: {:g} %; the motion is not stable; lower numerics.time_step_factor or the speed",
         row.step, row.time, row.relative_density, 100 * error, 100 * allowed));
   return error;
 }

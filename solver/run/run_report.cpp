@@ -32,7 +32,7 @@ std::string stage_end_text(const StageResult& result) {
   if (result.overshoot > 0) text += fmt::format("; target stress exceeded by {:.3g} MPa", result.overshoot);
   if (result.hold_stress > 0)
     text += fmt::format("; stresses held within {:.3g} MPa ({:.2g} %), {:.3g} MPa root mean square", result.hold_error,
-                        100 * result.hold_error / result.hold_stress, result.hold_rms);
+                        100 * result.hold_error / result.hold_stress, result.hold_root_mean_square);
   return text;
 }
 

@@ -212,7 +212,7 @@ void Simulation::check_penetration() const {
     if (penetration <= deepest_penetration) return {};
     return fmt::format(
         "step {}, relative density {:.4f}: a node of grain {} is {:.2f} of the element size behind a wall, "
-        "allowed up to {:g}: raise contact.stiffness_factor or lower the speed",
+        "allowed: up to {:g}; raise contact.stiffness_factor or lower the speed",
         state_.step, relative_density(), grain, penetration, deepest_penetration);
   });
 }
@@ -245,7 +245,7 @@ void Simulation::measure_tools() {
     if (const double penetration = tools_.load(tool).penetration; penetration > deepest_penetration)
       throw SimulationError(
           fmt::format("step {}, relative density {:.4f}: a node is {:.2f} of the element size behind the tool '{}', "
-                      "allowed up to {:g}: raise contact.stiffness_factor or lower the speed",
+                      "allowed: up to {:g}; raise contact.stiffness_factor or lower the speed",
                       state_.step, relative_density(), penetration, tools_[tool].name, deepest_penetration));
 }
 
@@ -408,7 +408,7 @@ void Simulation::return_walls(std::size_t axis) {
   box_.move_clear(axis, bounds_);
   if (const double length = box_.cell().length(axis); length > largest_growth * before)
     throw SimulationError(fmt::format("stage '{}': the walls along {} cannot return: the grains extend over {:.4g} mm, "
-                                      "the walls were {:.4g} mm apart; allowed up to twice that",
+                                      "the walls were {:.4g} mm apart, allowed: up to twice that",
                                       scenario_->stages[static_cast<std::size_t>(state_.stage)].name, "xyz"[axis],
                                       length, before));
 }

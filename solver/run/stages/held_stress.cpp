@@ -17,7 +17,7 @@ double ramped(double time, double ramp, double start, double given) {
 StageResult with_hold_quality(StageResult result, const HoldQuality& quality) {
   result.hold_error = quality.largest_error;
   result.hold_stress = quality.largest_stress;
-  result.hold_rms = quality.root_mean_square();
+  result.hold_root_mean_square = quality.root_mean_square();
   return result;
 }
 
