@@ -59,7 +59,7 @@ bool CheckpointReader::has_bonds() const {
   // Bonds that broke and have not formed again leave only what they dissipated.
   file_.read_in_pieces(check::bond_values, [&](std::size_t, std::span<const double> piece) {
     for (; !piece.empty(); piece = piece.subspan(rows::width<rows::Row>))
-      found = found || rows::bond_of(-1, 0, piece.first(rows::width<rows::Row>)).spent > 0;
+      found = found || rows::bond_of(-1, 0, piece.first(rows::width<rows::Row>)).dissipated_before > 0;
   });
   return found;
 }

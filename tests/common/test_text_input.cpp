@@ -139,7 +139,8 @@ TEST_CASE("Whole numbers in an array are those that an integer holds") {
   const auto document = TomlDocument::from_text("a = [0, 2.0]\nb = [1e300]\nc = [1.5]\nd = [-1]", "a.toml");
   TableReader reader(document);
   CHECK(reader.integers("a") == std::vector<std::int64_t>{0, 2});
-  CHECK_THAT(input_error([&] { (void)reader.integers("b"); }), Catch::Contains("found 1e+300, allowed: whole numbers"));
+  CHECK_THAT(input_error([&] { (void)reader.integers("b"); }),
+             Catch::Contains("found 1e+300, allowed: -9007199254740992 … 9007199254740992"));
   CHECK_THAT(input_error([&] { (void)reader.integers("c"); }), Catch::Contains("found 1.5, allowed: whole numbers"));
   CHECK_THAT(input_error([&] { (void)reader.integers("d", Range::non_negative()); }), Catch::Contains("found -1"));
 }
