@@ -39,12 +39,12 @@ std::vector<double> disc_force(std::span<const double> a, std::span<const double
   return force;
 }
 
-FirstPeak first_peak(const std::vector<double>& values, double drop) {
-  const double largest = *std::max_element(values.begin(), values.end());
+FirstPeak first_peak(const std::vector<double>& values, double drop, double smallest) {
+  const double least = std::max(smallest, 0.1 * *std::max_element(values.begin(), values.end()));
   FirstPeak peak;
   for (std::size_t row = 0; row < values.size(); ++row) {
     if (values[row] > values[peak.row]) peak.row = row;
-    if (values[peak.row] >= 0.1 * largest && values[row] <= (1 - drop) * values[peak.row]) {
+    if (values[peak.row] >= least && values[row] <= (1 - drop) * values[peak.row]) {
       peak.falls = true;
       return peak;
     }
@@ -305,10 +305,12 @@ Measurement measure_diametral(const schema::FileReader& file, const DiametralRul
   const HistoryTable history(file);
   const Test test = read_test(file, history, rule);
   const std::vector<double> smooth = smoothed(test.force);
-  const FirstPeak peak = first_peak(smooth, rule.drop);
-  if (!(smooth[peak.row] > 0))
-    throw InputError(fmt::format("{}: stage {}: found no force on the plates, allowed: a disc between them",
-                                 one_line(file.path()), test.stage.number));
+  const FirstPeak peak = first_peak(smooth, rule.drop, rule.smallest_peak);
+  if (!(smooth[peak.row] > 0) || smooth[peak.row] < rule.smallest_peak)
+    throw InputError(
+        fmt::format("{}: stage {}: found a force of at most {:.3g} N on the plates, allowed: a disc between "
+                    "them, with a peak of {:g} N or more",
+                    one_line(file.path()), test.stage.number, smooth[peak.row], rule.smallest_peak));
   const Disc disc = disc_of(file, history, test, rule);
   const std::size_t row = test.stage.first + peak.row;
   Measurement m;

@@ -27,13 +27,13 @@ inline constexpr double largest_flat_angle = 30; ///< degrees, 2 alpha
 std::vector<double> disc_force(std::span<const double> a, std::span<const double> b);
 
 /// The largest of the (smoothed) values before they first fall by a share `drop` of it. Falls from values below a tenth
-/// of the largest of all do not count: there the disc seats.
+/// of the largest of all, or below `smallest`, do not count: there the disc seats.
 struct FirstPeak {
   std::size_t row = 0;
   bool falls = false; ///< false: the largest of all values, no such fall after it
 };
 /// Finds that peak among the values of a stage, one per row.
-FirstPeak first_peak(const std::vector<double>& values, double drop);
+FirstPeak first_peak(const std::vector<double>& values, double drop, double smallest = 0);
 
 /// One state of the disc, for flat_half_angle.
 struct DiscState {
@@ -53,6 +53,7 @@ struct DiametralRule {
   std::vector<std::string> plates;           ///< two tools; default: the only two of the run
   std::optional<int> stage;                  ///< default: the last
   double drop = 0.1;                         ///< share of the peak force by which the force must fall after it
+  double smallest_peak = 0;                  ///< N, smaller peaks do not count
   int disc_axis = 2;                         ///< 0, 1, 2 for x, y, z
   std::optional<double> diameter, thickness; ///< mm; default: the nodes' extents before the test
   std::optional<double> flat_angle;          ///< degrees, 2 alpha; default: from the snapshot nearest to the peak
@@ -60,8 +61,8 @@ struct DiametralRule {
 };
 
 /// The value is 2 F / (pi D t) (MPa), F the peak of the mean force of both plates along the axis on which they
-/// approach. Throws InputError: no two plates, plates that do not move across the disc's axis, too few rows, no force,
-/// no snapshot before the test for a missing diameter or thickness, flats wider than 30 degrees.
+/// approach. Throws InputError: no two plates, plates that do not move across the disc's axis, too few rows, no force
+/// of `smallest_peak`, no snapshot before the test for a missing diameter or thickness, flats wider than 30 degrees.
 Measurement measure_diametral(const schema::FileReader& file, const DiametralRule& rule);
 
 /// CSV: where bonds have broken up to each snapshot of the stage (disc_crack.hpp), with the force on the disc. Throws

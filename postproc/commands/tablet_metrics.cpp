@@ -91,6 +91,9 @@ public:
     add_number(options(), "--drop", rule_.drop, Range::between(1e-6, 1), "",
                "Relative fall after the largest force that makes it a peak")
         ->capture_default_str();
+    add_number(options(), "--smallest-peak", rule_.smallest_peak, Range::between(0, 1e12), "N",
+               "Smaller peaks of the force do not count: while the disc settles, a plate may bounce off")
+        ->capture_default_str();
     options()
         .add_option("--disc-axis", disc_axis_, "Axis of the disc, along its thickness")
         ->check(CLI::IsMember({"x", "y", "z"}))

@@ -469,6 +469,9 @@ TEST_CASE("the peak of a disc is the largest force before its first fall by a te
   CHECK(first.falls);
   const FirstPeak seating = first_peak({0, 1, 0.2, 6, 20, 21, 15}, 0.1); // the fall of a twentieth is seating
   CHECK(seating.row == 5);
+  const FirstPeak bounce = first_peak({0, 3, 6, 4, 9, 21, 15}, 0.1, 7); // a plate bounces off below 7
+  CHECK(bounce.row == 5);
+  CHECK(bounce.falls);
   const FirstPeak none = first_peak({0, 3, 6, 10, 9.5, 9.2}, 0.1);
   CHECK(none.row == 3);
   CHECK_FALSE(none.falls);
@@ -561,6 +564,7 @@ TEST_CASE("postproc diametral refuses wrong plates, axes and wide flats, and tel
            {"--plates left", "--plates"},
            {"--disc-axis x", "--disc-axis"},
            {"--flat-angle 31", "--flat-angle"},
+           {"--smallest-peak 60", "found a force of at most 50 N on the plates"},
            {"--stage 0", "the plates do not move"},
            {"--stage 5", "--stage"}}) {
     const Outcome outcome = postproc(fmt::format("diametral {} {}", folder / "disc.h5", options));
