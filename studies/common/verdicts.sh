@@ -9,7 +9,9 @@ postproc=$1
 Every statement that a figure of Ku, Zhao, Mollon and Zhao makes, compared with our result, and why it differs.
 
 - \`coarse\` is the paper's packing of 329 grains at its coarsest mesh (0.03 mm), \`medium\` the same at 0.015 mm,
-  \`smoke\` 25 grains.
+  \`smoke\` 25 grains. Grains touch with their facets, as in the paper.
+- \`smooth\` is the packing of 329 grains with smooth surfaces at 0.04 mm (\`MESH=coarser SURFACE=smooth\`). Its mean
+  stresses are the closest to the converged ones ([speed against error](speed-against-error/README.md)).
 - The reasons begin with *the paper's choice* (an unstated choice, identified here, explains the
   difference), *the paper's error* (the number belongs to the method and not to the grains) or *open*.
 - Statements are judged by the softening law \`energy\`, which reads Eq. 5 literally. The law \`exponential\`, the
@@ -20,6 +22,7 @@ Every statement that a figure of Ku, Zhao, Mollon and Zhao makes, compared with 
 \`make -f Makefile.studies keep MESH=NAME\` writes this page.
 
 END
-  "$postproc" verdicts coarse=studies/results/coarse medium=studies/results/medium smoke=studies/results/smoke
+  results=studies/results
+  "$postproc" verdicts coarse=$results/coarse smooth=$results/coarser-smooth medium=$results/medium smoke=$results/smoke
 } >docs/verdicts.md.partial
 mv docs/verdicts.md.partial docs/verdicts.md
