@@ -73,7 +73,10 @@ TEST_CASE("a run whose checkpoint is lost is made again, with those before it, o
   const Figure figure = studies.figure(chain);
   const std::string first = studies.path("out/first"), second = studies.path("out/second"),
                     third = studies.path("out/third");
-  const std::string rules = studies.rules(figure), checkpoint = "/work/run.pressing.checkpoint.h5";
+  const auto checkpoint = [](const std::string& run) {
+    return (std::filesystem::path(run) / "work" / "run.pressing.checkpoint.h5").string();
+  };
+  const std::string rules = studies.rules(figure);
   CHECK_THAT(rules, !Contains("run.h5: FORCE")); // nothing is there: all is made anyway
   for (const std::string& run : {first, second, third}) {
     write_text(run + "/run.h5", "");
@@ -83,14 +86,14 @@ TEST_CASE("a run whose checkpoint is lost is made again, with those before it, o
   CHECK_THAT(studies.rules(figure), !Contains("run.h5: FORCE"));
   std::filesystem::remove(third + "/run.h5");
   CHECK_THAT(studies.rules(figure), Contains(second + "/run.h5: FORCE") && Contains(first + "/run.h5: FORCE"));
-  write_text(first + checkpoint, "");
+  write_text(checkpoint(first), "");
   CHECK_THAT(studies.rules(figure), Contains(second + "/run.h5: FORCE") && !Contains(first + "/run.h5: FORCE"));
-  write_text(second + checkpoint, "");
+  write_text(checkpoint(second), "");
   CHECK_THAT(studies.rules(figure), !Contains("run.h5: FORCE"));
   // A branch whose settings changed is to be made, too.
   write_text(third + "/run.h5", "");
   write_text(third + "/run.settings", "others\n");
-  std::filesystem::remove(second + checkpoint);
+  std::filesystem::remove(checkpoint(second));
   CHECK_THAT(studies.rules(figure), Contains(second + "/run.h5: FORCE"));
 }
 
