@@ -230,7 +230,7 @@ public:
 
 private:
   bool has_bonds(int number) const {
-    const std::string name = file_.snapshots()[static_cast<std::size_t>(number)];
+    const std::string name = snapshot_name(file_, number);
     return file_.has(schema::run::snapshots_bond_node, name) && file_.rows(schema::run::snapshots_bond_node, name) > 0;
   }
 
