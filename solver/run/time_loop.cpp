@@ -74,7 +74,7 @@ void TimeLoop::record_row() {
   report_.energy_error(energy_check_.require(row), row.step);
 }
 
-/// Saves the state where that is due. Throws Interrupted where the run is to stop for now.
+/// Saves the state where that is due. Throws Interrupted if the run was told to stop.
 void TimeLoop::save_checkpoints() {
   const CheckpointReason reason = checkpoints_.write_due();
   if (reason == CheckpointReason::interval) new_owners_ = redistribution_.new_owners(pace_.remaining());
