@@ -1,9 +1,9 @@
 #!/bin/sh
 # keep.sh MESH BIN FIGURE...: copies the small results of figures from out/MESH to studies/results/MESH (with another
-# element or surface MESH-ELEMENT or MESH-SURFACE), with what their
-# runs took (out/MESH/times.csv, plan.csv) and from what they came (provenance.txt: program, packing, settings of every
-# run). The verdicts of all figures kept for that mesh go to verdicts.md there, those of all meshes side by side to
-# docs/verdicts.md. Pictures and tables above 20 kB, which make writes again from the runs, are not kept.
+# element or surface MESH-ELEMENT or MESH-SURFACE), with what their runs took (out/MESH/times.csv, plan.csv) and from
+# what they came (provenance.txt: program, packing, settings of every run). The verdicts of all figures kept for that
+# mesh go to verdicts.md there, those of all meshes side by side to docs/verdicts.md. Pictures and tables above 20 kB,
+# which make writes again from the runs, are not kept.
 set -eu
 mesh=$1
 mpfem=$2/mpfem
@@ -22,10 +22,9 @@ done
 {
   echo "# Verdicts, MESH=$mesh"
   echo
-  echo 'Statements of Ku, Zhao, Mollon and Zhao beside what the studies of this folder found, computed from their' \
-    'data. How each is'
-  echo 'judged, and why it differs, stands in the verdict.json files. A study that is no figure states what it expects'
-  echo 'itself.'
+  echo 'Statements of Ku, Zhao, Mollon and Zhao beside what the studies of this folder found, computed from their data.'
+  echo 'How each is judged, and why it differs, stands in the verdict.json files. A study that is no figure states what'
+  echo 'it expects itself.'
   "$postproc" verdicts "$mesh=$kept"
   # Times of the figures at hand take the place of those kept before; of the plan, what is not this machine's.
   kept_times=$kept/times.csv
