@@ -10,6 +10,8 @@ Every statement that a figure of Ku, Zhao, Mollon and Zhao makes, compared with 
 
 - \`coarse\` is the paper's packing of 329 grains at its coarsest mesh (0.03 mm), \`medium\` the same at 0.015 mm,
   \`smoke\` 25 grains. Grains touch with their facets, as in the paper.
+- \`plain\` is \`coarse\` with plain tetrahedra, the paper's element (\`ELEMENT=tet4\`). The others have averaged nodal
+  pressure from fig10 on.
 - \`smooth\` is the packing of 329 grains with smooth surfaces at 0.04 mm (\`MESH=coarser SURFACE=smooth\`). Its mean
   stresses are the closest to the converged ones ([speed against error](speed-against-error/README.md)).
 - The reasons begin with *the paper's choice* (an unstated choice, identified here, explains the
@@ -23,6 +25,7 @@ Every statement that a figure of Ku, Zhao, Mollon and Zhao makes, compared with 
 
 END
   results=studies/results
-  "$postproc" verdicts coarse=$results/coarse smooth=$results/coarser-smooth medium=$results/medium smoke=$results/smoke
+  "$postproc" verdicts coarse=$results/coarse plain=$results/coarse-tet4 smooth=$results/coarser-smooth \
+    medium=$results/medium smoke=$results/smoke
 } >docs/verdicts.md.partial
 mv docs/verdicts.md.partial docs/verdicts.md
