@@ -1,8 +1,17 @@
-// Speed against error with friction: two caps that are dragged to and fro, and a column in a die that rubs. Prints the
-// tables of docs/speed-against-error/README.md. Usage: friction-accuracy [largest number of cells, default 18]
+// Speed against error with friction: two caps that are dragged to and fro, and a column in a die that rubs. Runs one
+// case of studies/accuracy on one thread and prints its size, its steps and its values as CSV.
+//
+//   friction-accuracy partial-slip ELEMENT FINENESS     FINENESS: elements in the contact's radius
+//   friction-accuracy die-column ELEMENT FINENESS       FINENESS: R/h
+//
+// ELEMENT: tet4, tet4-anp, tet4-patch.
 
-#include <chrono>
+#include <array>
+#include <cmath>
+#include <cstdint>
 #include <cstdlib>
+#include <optional>
+#include <string>
 
 #include <fmt/format.h>
 
@@ -13,10 +22,11 @@ namespace {
 
 using namespace mpfem;
 using namespace mpfem::test;
-using Clock = std::chrono::steady_clock;
 
-double seconds_since(Clock::time_point start) {
-  return std::chrono::duration<double>(Clock::now() - start).count();
+std::optional<ElementType> element_of(const std::string& name) {
+  for (const ElementType element : {ElementType::tet4, ElementType::tet4_anp, ElementType::tet4_patch})
+    if (name == element_name(element)) return element;
+  return {};
 }
 
 /// Tets of a block of n^3 cells.
@@ -24,41 +34,41 @@ int tets_of_cube(int n) {
   return 6 * n * n * n;
 }
 
-void print_partial_slip(int largest) {
-  fmt::print("| element | elements in the contact's radius | tets | shear force out | back | loss per cycle | s |\n"
-             "|---|---|---|---|---|---|---|\n");
-  for (const ElementType element : {ElementType::tet4, ElementType::tet4_anp})
-    for (int n = 10; n <= largest; n += 4) {
-      const auto start = Clock::now();
-      const partial_slip::Errors e = partial_slip::errors({n, element}, 0.3);
-      // Of the half edge's n/2 cells six tenths span 1.4 radii.
-      fmt::print("| `{}` | {:.1f} | {} | {:.1f} % | {:.1f} % | {:+.1f} % | {:.3g} |\n", element_name(element),
-                 0.6 * n / 2 / 1.4, 2 * tets_of_cube(n), 100 * e.out, 100 * e.back, 100 * e.loss, seconds_since(start));
-      std::fflush(stdout);
-    }
+void print_size(int tets, std::int64_t steps) {
+  fmt::print("quantity,value\ntets,{}\nsteps,{}\n", tets, steps);
 }
 
-void print_die_column(int largest) {
-  // nu, mu, transmission by finite elements (tests/reference/die_transmission.csv).
-  constexpr std::array<std::array<double, 3>, 2> cases = {{{0.3, 0.1, 0.8422}, {0.4, 0.3, 0.4657}}};
-  fmt::print("\n| element | R/h | tets | transmission, nu = 0.3, mu = 0.1 | nu = 0.4, mu = 0.3 | s |\n"
-             "|---|---|---|---|---|---|\n");
-  for (const ElementType element : {ElementType::tet4, ElementType::tet4_anp})
-    for (const int n : {4, 6, 8, 12, 16}) {
-      if (n > largest) continue;
-      const auto start = Clock::now();
-      fmt::print("| `{}` | {} | {} ", element_name(element), n, tets_of_cube(n));
-      for (const auto& [nu, mu, reference] : cases)
-        fmt::print("| {:+.2f} % ", 100 * (die_column::press({n, element}, nu, mu).transmission / reference - 1));
-      fmt::print("| {:.3g} |\n", seconds_since(start));
-      std::fflush(stdout);
-    }
+/// Shear forces where they differ most from the theory: 1 and the difference over mu P. The loss is over the theory's.
+void print_partial_slip(ElementType element, double fineness) {
+  // Cells along an edge are even in number, so that a line of the mesh lies in the middle.
+  const int n = 2 * static_cast<int>(std::lround(fineness / partial_slip::elements_in_radius(2)));
+  const partial_slip::Errors errors = partial_slip::errors({.n = n, .element = element, .threads = 1}, 0.3);
+  print_size(2 * tets_of_cube(n), errors.steps);
+  fmt::print("shear-force-loading,{:.6e}\nshear-force-unloading,{:.6e}\nloss,{:.6e}\n", 1 + errors.out, 1 + errors.back,
+             1 + errors.loss);
+}
+
+/// Transmission where the whole wall slides (mu = 0.1) and where a part of it sticks (0.3).
+void print_die_column(ElementType element, double fineness) {
+  const int n = static_cast<int>(std::lround(fineness));
+  const die_column::Pressed slides = die_column::press({.n = n, .element = element}, 0.3, 0.1),
+                            sticks = die_column::press({.n = n, .element = element}, 0.4, 0.3);
+  print_size(tets_of_cube(n), slides.steps + sticks.steps);
+  fmt::print("transmission-0.1,{:.6e}\ntransmission-0.3,{:.6e}\n", slides.transmission, sticks.transmission);
 }
 
 } // namespace
 
 int main(int argc, char** argv) {
-  const int largest = argc > 1 ? std::atoi(argv[1]) : 18;
-  print_partial_slip(largest);
-  print_die_column(largest);
+  const std::string scene = argc == 4 ? argv[1] : "";
+  const std::optional<ElementType> element = argc == 4 ? element_of(argv[2]) : std::nullopt;
+  const double fineness = argc == 4 ? std::atof(argv[3]) : 0;
+  if (!element || !(fineness >= 1 && fineness <= 100) || (scene != "partial-slip" && scene != "die-column")) {
+    fmt::print(stderr, "friction-accuracy partial-slip | die-column ELEMENT FINENESS\n");
+    return 2;
+  }
+  if (scene == "partial-slip")
+    print_partial_slip(*element, fineness);
+  else
+    print_die_column(*element, fineness);
 }

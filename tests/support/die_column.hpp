@@ -5,6 +5,7 @@
 
 #include <array>
 #include <cmath>
+#include <cstdint>
 
 #include "solver/run/simulation.hpp"
 #include "tests/support/driven_tools.hpp"
@@ -40,6 +41,7 @@ struct Pressed {
   double approach = 0;      ///< mm, of the punches to each other at the end
   double lost_at_tools = 0; ///< mJ, friction's dissipation, tool by tool
   HistoryRow row{};         ///< the last
+  std::int64_t steps = 0;
 };
 
 /// Presses by 0.2 % in 33 transits of waves; forces are means of the last eight.
@@ -47,6 +49,7 @@ inline Pressed press(const Settings& settings, double nu, double mu) {
   constexpr double strain = 2e-3;
   Scenario scenario = holding_scenario(1);
   scenario.numerics.element = settings.element;
+  scenario.numerics.own_pressure = usual_own_pressure(settings.element);
   scenario.material.poissons_ratio = nu;
   scenario.contact.stiffness_factor = 30; // the wall gives by 1/300 of an element under the column's own stress
   scenario.contact.surface = ContactSurface::facets;
@@ -80,6 +83,7 @@ inline Pressed press(const Settings& settings, double nu, double mu) {
   pressed.die_force = die / levels;
   pressed.approach = simulation.tools()[1].moved[2] - simulation.tools()[2].moved[2];
   pressed.row = simulation.observe();
+  pressed.steps = simulation.state().step;
   for (std::size_t tool = 0; tool < simulation.tools().size(); ++tool)
     pressed.lost_at_tools += simulation.tools()[tool].friction_dissipation;
   return pressed;

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <utility>
 #include <vector>
 
@@ -54,13 +55,20 @@ struct Drag {
 struct Dragged {
   std::vector<std::vector<Drag>> stage;
   double lost_in_loop = 0; ///< mJ, by friction in the last two stages
+  std::int64_t steps = 0;
 };
 
 /// What is varied.
 struct Settings {
   int n = 14; ///< cells along an edge: 0.6 n/2 of them over 1.4 of the contact's radius
   ElementType element = ElementType::tet4_anp;
+  int threads = 2;
 };
+
+/// Elements in the contact's radius: of the half edge's n/2 cells six tenths span 1.4 radii.
+inline double elements_in_radius(int n) {
+  return 0.6 * n / 2 / 1.4;
+}
 
 /// Presses, drags by `way` (mm), back to -`way` and again to `way`.
 inline Dragged drag(const Settings& settings, double friction, double way, bool loop) {
@@ -77,8 +85,9 @@ inline Dragged drag(const Settings& settings, double friction, double way, bool 
   scenario.contact.friction = friction;
   scenario.contact.surface = ContactSurface::facets;
   scenario.numerics.element = settings.element;
+  scenario.numerics.own_pressure = usual_own_pressure(settings.element);
   scenario.stages = stages;
-  ThreadTeam team(2);
+  ThreadTeam team(settings.threads);
   Simulation simulation(build_model(two_caps(settings.n), scenario, "test"), scenario, team);
   // What the grips hold at both ends.
   const auto offset_of_ends = [&] {
@@ -118,6 +127,7 @@ inline Dragged drag(const Settings& settings, double friction, double way, bool 
     simulation.advance();
   }
   dragged.lost_in_loop = simulation.energies().friction_dissipation - before_loop;
+  dragged.steps = simulation.state().step;
   return dragged;
 }
 
@@ -149,10 +159,10 @@ struct Theory {
 };
 
 /// Largest difference of measured shear forces from those that the theory has at the same displacement (of the
-/// contact: what blocks and grips yield, `compliance` in mm/N, is taken off), over mu P.
+/// contact: what blocks and grips yield, `compliance` in mm/N, is taken off), over mu P, with its sign.
 template <class Displacement>
-double largest_error(const std::vector<Drag>& drag, const Theory& theory, double compliance, double lowest,
-                     double highest, const Displacement& displacement) {
+double largest_difference(const std::vector<Drag>& drag, const Theory& theory, double compliance, double lowest,
+                          double highest, const Displacement& displacement) {
   double largest = 0;
   for (const Drag& at : drag) {
     double low = lowest, high = highest;
@@ -160,33 +170,37 @@ double largest_error(const std::vector<Drag>& drag, const Theory& theory, double
       const double middle = 0.5 * (low + high);
       (displacement(middle) < at.way - compliance * at.shear ? low : high) = middle;
     }
-    largest = std::max(largest, std::abs(at.shear - 0.5 * (low + high)) / theory.limit);
+    const double difference = (at.shear - 0.5 * (low + high)) / theory.limit;
+    if (std::abs(difference) > std::abs(largest)) largest = difference;
   }
   return largest;
 }
 
 /// Over mu P; the loss over that of the theory, less one.
 struct Errors {
-  double out = 0, back = 0; ///< largest, of the shear force where the drag goes out and comes back
+  double out = 0, back = 0; ///< largest with its sign, of the shear force where the drag goes out and comes back
   double loss = 0;          ///< of the energy that a whole cycle dissipates
   double amplitude = 0;     ///< of the shear force in the cycle, over mu P
   double other_share = 0;   ///< of blocks and grips in what yields, over that of the contact
+  std::int64_t steps = 0;   ///< of both runs: one in which everything sticks, and the cycle
 };
 
 inline Errors errors(const Settings& settings, double mu) {
   const double way = 0.8 * mu * pressing * (2 - poisson) / (2 * (1 - poisson));
   // With so much friction everything sticks: what yields besides the contact.
-  const std::vector<Drag> stuck = drag(settings, 2, way, false).stage[1];
+  const Dragged sticking = drag(settings, 2, way, false);
+  const Drag stuck = sticking.stage[1].back();
   const Dragged dragged = drag(settings, mu, way, true);
   const Theory theory(mu, dragged.stage[0].back().push);
-  const double compliance = stuck.back().way / stuck.back().shear - 1 / theory.stick_stiffness();
+  const double compliance = stuck.way / stuck.shear - 1 / theory.stick_stiffness();
   const double turned = dragged.stage[1].back().shear;
   Errors errors;
   errors.other_share = compliance * theory.stick_stiffness();
-  errors.out =
-      largest_error(dragged.stage[1], theory, compliance, 0, theory.limit, [&](double q) { return theory.loading(q); });
-  errors.back = largest_error(dragged.stage[2], theory, compliance, -turned, turned,
-                              [&](double q) { return theory.unloading(q, turned); });
+  errors.steps = sticking.steps + dragged.steps;
+  errors.out = largest_difference(dragged.stage[1], theory, compliance, 0, theory.limit,
+                                  [&](double q) { return theory.loading(q); });
+  errors.back = largest_difference(dragged.stage[2], theory, compliance, -turned, turned,
+                                   [&](double q) { return theory.unloading(q, turned); });
   const double amplitude = 0.5 * (dragged.stage[3].back().shear - dragged.stage[3].front().shear);
   errors.loss = dragged.lost_in_loop / theory.loss(amplitude) - 1;
   errors.amplitude = amplitude / theory.limit;
