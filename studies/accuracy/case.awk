@@ -1,7 +1,8 @@
 # awk -f case.awk -v sets='default large' cases.csv: the cases as words for make,
 # CASE|SCENE|MESH|SCENARIO|OPTIONS|RECOVERY, blanks in options as ';'. MESH is KIND-FINENESS as mesh.sh reads it,
 # OPTIONS are KEY=VALUE words of the scenario, RECOVERY those of recovery.toml, which packings go on with ('-': no such
-# run).
+# run). Scenes with friction are run by the program friction-accuracy: SCENARIO is the header that defines the scene,
+# OPTIONS are its arguments, MESH is '-'.
 #
 # Masses of hemispheres follow the step that they are made for, 4e-7 s/mm times the element size (studies/fig04):
 # mass_factor times the mass is a step longer by the root of it.
@@ -17,6 +18,8 @@ BEGIN {
   scenario["pair"] = "studies/accuracy/pair.toml"
   scenario["pull-off"] = "studies/fig04/hemispheres.toml"
   scenario["small"] = scenario["full"] = "studies/compaction/compaction.toml"
+  scenario["partial-slip"] = "tests/support/partial_slip.hpp"
+  scenario["die-column"] = "tests/support/die_column.hpp"
   # Contact radius at an approach of 0.08 R (similarity law) and at the pull-off with 0.1 N/mm, mm: as in mesh.sh.
   contact_radius["pair"] = 0.0278586
   contact_radius["pull-off"] = 0.00685143
@@ -27,6 +30,10 @@ NR == 1 || /^#/ || !($9 in wanted) { next }
   if (!(scene in scenario)) {
     print "cases.csv: " $1 ": no scene " scene > "/dev/stderr"
     exit 1
+  }
+  if (scenario[scene] ~ /hpp$/) {
+    print $1 "|" scene "|-|" scenario[scene] "|" scene ";" $4 ";" $5 "|-"
+    next
   }
   options = "element.type=" $4 " contact.stiffness_factor=" $6
   if ($3 == "precision") options = options " element.precision=mixed"

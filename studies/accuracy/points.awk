@@ -1,6 +1,6 @@
 # awk -f ../common/verdict.awk -f points.awk cost.csv references.csv runs.csv values.csv: error and cost of every case,
 # a row for each measure of its scene: force (hertz, flattened, pair), axial-stress (confined), pull-off, mean-stress,
-# recovery, modulus (small, full).
+# recovery, modulus (small, full), shear-force, loss (partial-slip), transmission (die-column).
 #
 # error: mean of |value/reference - 1| over the quantities of the measure; bias: the same with signs; uncertainty: that
 # of the references, likewise. work: steps x tets x ns of the element per tet-step (cost.csv), in seconds of one core;
@@ -30,7 +30,7 @@ file == 3 {
 file == 4 && $2 == "mean-stress-0.7" { next }
 file == 4 && ($1 in of_scene) && (of_scene[$1], $2) in reference {
   measure = $2
-  sub(/-[0-9.]+$/, "", measure)
+  sub(/-([0-9.]+|loading|unloading)$/, "", measure)
   if (of_scene[$1] == "pull-off") measure = "pull-off"
   key = $1 SUBSEP measure
   if (!(key in count)) order[++n] = key

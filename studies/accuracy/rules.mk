@@ -7,8 +7,8 @@
 
 accuracy := out/accuracy
 accuracy_page := docs/speed-against-error
-# default: some 40 minutes of processor time. paper adds finer meshes of 329 grains up to the paper's (an hour); large
-# all others.
+# default: some 40 minutes of processor time. friction adds the scenes with friction (7 minutes), paper finer meshes
+# of 329 grains up to the paper's (an hour), large all others.
 ACCURACY_SETS ?= default
 .PHONY: accuracy
 
@@ -23,7 +23,10 @@ accuracy_field = $(word $(2),$(subst |, ,$(1)))
 accuracy_cases := $(foreach row,$(accuracy_rows),$(call accuracy_field,$(row),1))
 accuracy_scenarios := $(addprefix accuracy/,sphere-elastic sphere-plastic sphere-confined pair recovery)
 accuracy_scenarios += fig04/hemispheres compaction/compaction
-$(foreach s,$(accuracy_scenarios:%=studies/%.toml),$(eval content_$(s) := $(call content_of,$(s))))
+# Scenes with friction are not in scenarios but in headers, which tests share.
+accuracy_headers := tests/support/partial_slip.hpp tests/support/die_column.hpp
+accuracy_rubbed := $(foreach row,$(accuracy_rows),$(if $(filter %.hpp,$(call accuracy_field,$(row),4)),$(row)))
+$(foreach s,$(accuracy_scenarios:%=studies/%.toml) $(accuracy_headers),$(eval content_$(s) := $(call content_of,$(s))))
 
 $(accuracy)/meshes $(accuracy)/work $(accuracy_page):
 	mkdir -p $@
@@ -75,9 +78,26 @@ endef
 # $(call accuracy_apply,RULES,ROW) by way of $(call accuracy_give,RULES,FIELDS)
 accuracy_give = $(call $(1),$(word 1,$(2)),$(word 2,$(2)),$(word 3,$(2)),$(word 4,$(2)),$(word 5,$(2)),$(word 6,$(2)))
 accuracy_apply = $(call accuracy_give,$(1),$(subst |, ,$(2)))
-$(foreach row,$(accuracy_rows),$(eval $(call accuracy_apply,accuracy_rules,$(row))))
+$(foreach row,$(filter-out $(accuracy_rubbed),$(accuracy_rows)),$(eval $(call accuracy_apply,accuracy_rules,$(row))))
 accuracy_recovered := $(foreach row,$(accuracy_rows),$(if $(filter -,$(call accuracy_field,$(row),6)),,$(row)))
 $(foreach row,$(accuracy_recovered),$(eval $(call accuracy_apply,accuracy_recovery_rules,$(row))))
+
+# The program prints at once what summaries and values of other scenes are made from. It runs minutes at most and begins
+# anew when it was interrupted.
+$(BIN)/friction-accuracy: tests/benchmarks/friction_accuracy.cpp $(accuracy_headers)
+	cmake --build $(BIN)/.. --target $(@F)
+define accuracy_friction_rules
+$(call stamp,$(accuracy)/work/$(1).settings,$(5) scenario $(content_$(4)))
+$(accuracy)/work/$(1).summary.csv: $(accuracy)/work/$(1).settings | $(accuracy)/work $(BIN)/friction-accuracy
+	rm -f $$(@D)/$(1).seconds
+	$$(RUN) sh studies/accuracy/run.sh $$(@D)/$(1).seconds $$(BIN)/friction-accuracy $(subst ;, ,$(5)) > $$@.partial
+	mv $$@.partial $$@
+
+$(accuracy)/work/$(1).values.csv: $(accuracy)/work/$(1).summary.csv
+	cp $$< $$@.partial
+	mv $$@.partial $$@
+endef
+$(foreach row,$(accuracy_rubbed),$(eval $(call accuracy_apply,accuracy_friction_rules,$(row))))
 
 $(accuracy)/work/%.curve.csv: $(accuracy)/work/%.h5 | $(BIN)/postproc
 	$(BIN)/postproc curve $< --columns step,stage,relative_density,box_lengths,wall_stress,mean_stress --quiet \
@@ -88,7 +108,7 @@ $(accuracy)/work/%.summary.csv: $(accuracy)/work/%.h5 | $(BIN)/postproc
 	$(BIN)/postproc summary $< --quiet -o $(@D)/new-$*.summary.csv
 	mv $(@D)/new-$*.summary.csv $@
 # ------------------------------------------------------------------------------------------------ numbers
-# kept.csv: what finer meshes gave that were run once; they give way to runs of this folder.
+# kept.csv: what the sets gave that are not made by default; they give way to runs of this folder.
 accuracy_kept := studies/accuracy/kept.csv
 accuracy_values := $(accuracy_cases:%=$(accuracy)/work/%.values.csv)
 accuracy_summaries := $(accuracy_cases:%=$(accuracy)/work/%.summary.csv)
@@ -106,7 +126,8 @@ $(accuracy)/values.csv: studies/accuracy/values-table.awk $(accuracy_kept) $(acc
 	mv $@.partial $@
 
 $(accuracy)/references.csv: studies/common/verdict.awk studies/accuracy/references.awk \
-  $(accuracy)/runs.csv $(accuracy)/values.csv studies/fig05/finite-elements.csv studies/fig04/cohesive.csv
+  $(accuracy)/runs.csv $(accuracy)/values.csv studies/fig05/finite-elements.csv studies/fig04/cohesive.csv \
+  tests/reference/die_transmission.csv
 	awk $(addprefix -f ,$(filter %.awk,$^)) $(filter %.csv,$^) > $@.partial
 	mv $@.partial $@
 
@@ -116,7 +137,7 @@ $(accuracy)/points.csv: studies/common/verdict.awk studies/accuracy/points.awk s
 	mv $@.partial $@
 
 # ----------------------------------------------------------------------------------------------- tables, pictures, page
-accuracy_tables := choice meshes levers surface equal locking packing
+accuracy_tables := choice meshes levers surface equal locking packing partial-slip die-column
 $(accuracy)/tables:
 	mkdir -p $@
 $(accuracy)/tables/%.md: studies/common/verdict.awk studies/accuracy/tables.awk \
@@ -147,6 +168,11 @@ $(eval $(call accuracy_picture,full,full,mean-stress,Compaction of 329 grains: m
 $(eval $(call accuracy_picture,full-recovery,full,recovery,Unloading of 329 grains: elastic recovery,element size / mm))
 $(eval $(call accuracy_picture,full-modulus,full,modulus,Reloading of 329 grains: \
   Young modulus of the compact,element size / mm))
+$(eval $(call accuracy_picture,partial-slip,partial-slip,shear-force,Two caps that slip: \
+  shear force,elements in the contact radius))
+$(eval $(call accuracy_picture,partial-slip-loss,partial-slip,loss,Two caps that slip: \
+  loss per cycle,elements in the contact radius))
+$(eval $(call accuracy_picture,die-column,die-column,transmission,Column that rubs in a die: transmission,R/h))
 
 $(foreach p,locking packing,$(accuracy_page)/$(p).png $(accuracy_page)/$(p).svg): \
   studies/accuracy/plot-convergence.gp studies/common/style.gp \

@@ -42,6 +42,7 @@ END {
             seconds + (all == "" ? 0 : sum_of(work "/" name ".recovery.seconds")), \
             value_of(file, "largest_kinetic_over_internal_under_load"), value_of(file, "largest_penetration_over_h")
     } else if (name in kept)
-      print settings[name], number[name, "tets"], number[name, "steps"], number[name, "steps_all"], "", "", "", ""
+      print settings[name], number[name, "tets"], number[name, "steps"], number[name, "steps_all"], \
+            number[name, "processor_time"], "", "", ""
   }
 }

@@ -9,6 +9,7 @@
 #   equal       at which mesh and work the other elements have the error of plain tets
 #   locking     values of the sphere over meshes, and what they tend to
 #   packing     values of the packings, likewise
+#   partial-slip, die-column   error of each quantity of the scene and what it costs
 
 BEGIN {
   FS = ","
@@ -27,7 +28,8 @@ file == 1 {
   speed[group, i] = $need("speed_factor")
   mass[group, i] = $need("mass_factor")
   tets[group, i] = $need("tets")
-  work[group, i] = $need("work")
+  work[group, i] = work_of[$1] = $need("work")
+  spent_of[$1] = $need("processor_time")
   error[group, i] = $need("error")
   bias[group, i] = $need("bias")
   doubt[group] = $need("uncertainty")
@@ -55,12 +57,14 @@ function title(scene, measure) {
   if (scene == "confined") return "sphere in a die: axial stress"
   if (scene == "pair") return "two plastic hemispheres: force"
   if (scene == "pull-off") return "bonded elastic hemispheres: force and pull-off"
+  if (scene == "partial-slip") return "two caps that slip: " (measure == "loss" ? "loss per cycle" : "shear force")
+  if (scene == "die-column") return "column that rubs in a die: transmission"
   return (scene == "small" ? "25 grains: " : "329 grains: ") \
          (measure == "mean-stress" ? "mean stress" : measure == "recovery" ? "elastic recovery" : "E_p")
 }
 function unit(scene) {
   if (scene == "small" || scene == "full") return "h = %s mm"
-  if (scene == "pair" || scene == "pull-off") return "%s elements in the contact radius"
+  if (scene == "pair" || scene == "pull-off" || scene == "partial-slip") return "%s elements in the contact radius"
   return "R/h = %s"
 }
 function percent(x) { return sprintf(absolute(x) < 0.0995 ? "%.1f %%" : "%.0f %%", 100 * x) }
@@ -252,6 +256,11 @@ function equal_at(group, which, wish,   i, n, at, t, low, high) {
   equal_work = exp(log(work[group, low]) + t * log(work[group, high] / work[group, low]))
   if (t > 1) equal_mark = equal_tets > 1.5 * tets[group, high] ? ">" : "~"
 }
+# Whether this is a finer mesh of plain tets that has no smaller error than the coarsest: it shows nothing about meshes.
+function gains_nothing(group, i,   j) {
+  for (j = 1; lever[group, j] != "mesh" || element[group, j] != "tet4"; ++j) continue
+  return j < i && error[group, j] <= error[group, i]
+}
 function equal(   g, i, e, part, first, cell, any, less) {
   heads("| scene and measure | `tet4`: mesh | tets | work | error", 2, ": tets | work | times less work", "")
   for (g = 1; g <= groups; ++g) {
@@ -259,7 +268,7 @@ function equal(   g, i, e, part, first, cell, any, less) {
     first = 1
     for (i = 1; i <= cases[group_of[g]]; ++i) {
       if (lever[group_of[g], i] != "mesh" || element[group_of[g], i] != "tet4" || \
-          error[group_of[g], i] < doubt[group_of[g]]) continue
+          error[group_of[g], i] < doubt[group_of[g]] || gains_nothing(group_of[g], i)) continue
       cell = ""
       any = 0
       for (e = 2; e <= elements; ++e) {
@@ -281,6 +290,32 @@ function equal(   g, i, e, part, first, cell, any, less) {
       first = 0
     }
   }
+}
+
+# Errors of a scene, a row for each mesh and element.
+function errors(wanted,   q, k, i, c, part, line, rule) {
+  line = "| mesh | tets | element"
+  rule = "|---|---|---"
+  k = 0
+  for (q = 1; q <= quantities; ++q) {
+    split(quantity[q], part, SUBSEP)
+    if (part[1] != wanted) continue
+    shown[++k] = part[2]
+    line = line " | " heading(wanted, part[2])
+    rule = rule "|---"
+  }
+  print line " | work | processor time |"
+  print rule "|---|---|"
+  for (i = 1; i <= many_names; ++i) {
+    c = names[i]
+    if (scene_of[c] != wanted) continue
+    printf "| %s | %s | `%s`", sprintf(unit(wanted), fineness_of[c]), thousands(tets_of[c]), element_of[c]
+    for (q = 1; q <= k; ++q) printf " | %s", signed(value[c, shown[q]] / reference[wanted, shown[q]] - 1)
+    printf " | %s | %s |\n", seconds(work_of[c]), seconds(spent_of[c])
+  }
+  printf "| the reference is known to | | "
+  for (q = 1; q <= k; ++q) printf "| %.2g %% ", 100 * unsure[wanted, shown[q]] / reference[wanted, shown[q]]
+  print "| | |"
 }
 
 # Values of scenes, a row for each mesh and element.
@@ -321,6 +356,9 @@ function heading(scene, q,   at) {
   if (q ~ /^force/) return "100 F/(E R²) at " at " R"
   if (q ~ /^axial-stress/) return "σ_z at D_r = " at " / MPa"
   if (q ~ /^mean-stress/) return "p at D_r = " at " / MPa"
+  if (q ~ /^shear-force/) return at
+  if (q == "loss") return "loss per cycle"
+  if (q ~ /^transmission/) return "ν = " (at == "0.1" ? "0.3" : "0.4") ", μ = " at
   return q == "recovery" ? "R_E / %" : "E_p / MPa"
 }
 function shown_value(scene, q, x) {
@@ -343,4 +381,5 @@ END {
   if (table == "equal") equal()
   if (table == "locking") values("flattened confined")
   if (table == "packing") values("small full")
+  if (table == "partial-slip" || table == "die-column") errors(table)
 }

@@ -9,6 +9,8 @@
 #   small, full mean stress in MPa at relative densities of 0.70, 0.80 and 0.92; elastic recovery and Young's modulus of
 #               the compact in MPa, the slope of axial stress over axial strain from 0.004 to 0.010
 #
+# What the scenes with friction came to is defined in tests/benchmarks/friction_accuracy.cpp.
+#
 # E = 5000 MPa, R = 0.1 mm in all.
 
 BEGIN {
