@@ -124,7 +124,8 @@ private:
     if (!s.colour_by.empty())
       draw(block, fmt::format("using 1:2:3 with lines linewidth 1.5 palette{}", title_text(title)));
     else if (!s.error.empty())
-      draw(block, fmt::format("using 1:2:3 with yerrorbars{}{}", line_style(drawn), title_text(title)));
+      draw(block, fmt::format("using 1:2:3 with {}{}{}", s.style == "points" ? "yerrorbars" : "yerrorlines",
+                              line_style(drawn), title_text(title)));
     else
       draw(block, fmt::format("using 1:2 with {}{}{}", s.style, line_style(drawn), title_text(title)));
   }

@@ -415,6 +415,7 @@ x = { label = "it's D", low = 0.5 }
 y = { label = "s", logarithmic = true }
 series = [
   { table = "strength", x = "density", y = "strength", error = "density", y_scale = 10, title = "computed" },
+  { table = "strength", x = "density", y = "strength", error = "density", style = "linespoints", title = "joined" },
   { fit = "line", to = 2, dash = "dashed" },
 ]
 )");
@@ -428,6 +429,7 @@ series = [
   CHECK_THAT(script, Contains("set xlabel 'it''s D'") && Contains("set logscale y") && Contains("set xrange [0.5:*]"));
   CHECK_THAT(script, Contains("1 30 10 \n2 NaN 20 \n"));
   CHECK_THAT(script, Contains("using 1:2:3 with yerrorbars linetype 1") && Contains("title 'computed'"));
+  CHECK_THAT(script, Contains("with yerrorlines linetype") && Contains("title 'joined'"));
   CHECK_THAT(script, Contains("\n2 5\nEOD") && Contains("dashtype 2"));
   write_text(folder + "/strength.csv", "name,density [1],strength [MPa]\na,,\n");
   write_text(folder + "/fits.json", R"([{"name": "line", "refused": "too few points"}])");
