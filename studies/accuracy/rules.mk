@@ -24,8 +24,8 @@ accuracy_cases := $(foreach row,$(accuracy_rows),$(call accuracy_field,$(row),1)
 accuracy_scenarios := $(addprefix accuracy/,sphere-elastic sphere-plastic sphere-confined pair recovery)
 accuracy_scenarios += fig04/hemispheres compaction/compaction
 # Scenes with friction are not in scenarios but in headers, which tests share.
-accuracy_headers := tests/support/partial_slip.hpp tests/support/die_column.hpp
 accuracy_rubbed := $(foreach row,$(accuracy_rows),$(if $(filter %.hpp,$(call accuracy_field,$(row),4)),$(row)))
+accuracy_headers := $(sort $(foreach row,$(accuracy_rubbed),$(call accuracy_field,$(row),4)))
 $(foreach s,$(accuracy_scenarios:%=studies/%.toml) $(accuracy_headers),$(eval content_$(s) := $(call content_of,$(s))))
 
 $(accuracy)/meshes $(accuracy)/work $(accuracy_page):
