@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <map>
+#include <optional>
 #include <sstream>
 
 #include <fmt/format.h>
@@ -442,6 +443,19 @@ void append_each(TableReader& root, const std::string& key, Spec (*read)(Texts&)
   for (TableReader& table : root.tables(key)) for_each(table, [&](Texts& t) { specs.push_back(read(t)); });
 }
 
+/// Adds the entries of another table. Where both have a key, tables are merged and other values are replaced.
+void merge(toml::table& into, const toml::table& other) {
+  for (const auto& [key, node] : other) {
+    toml::table* ours = into[key].as_table();
+    const toml::table* theirs = node.as_table();
+    if (ours != nullptr && theirs != nullptr) {
+      merge(*ours, *theirs);
+    } else {
+      into.insert_or_assign(key, node);
+    }
+  }
+}
+
 /// Reads a file into the figure, after the files that it includes.
 class FigureReader {
 public:
@@ -460,13 +474,16 @@ public:
       read((plain ? filesystem::path(programmes_) / other : beside).lexically_normal().string(), false);
     }
     if (main) read_heading(root);
+    if (root.has("powder")) read_powder(root);
     read_runs(root, folder);
     read_tables(root, folder);
     read_plots(root);
     append_each(root, "statements", read_statement, main ? figure_.statements : included_statements_);
     root.finish();
-    if (main) // statements of included files follow the figure's own
-      figure_.statements.insert(figure_.statements.end(), included_statements_.begin(), included_statements_.end());
+    if (!main) return;
+    finish_powder();
+    // Statements of included files follow the figure's own.
+    figure_.statements.insert(figure_.statements.end(), included_statements_.begin(), included_statements_.end());
   }
 
 private:
@@ -474,14 +491,22 @@ private:
     figure_.title = root.string("title");
     figure_.question = root.string_or("question", "");
     figure_.source = root.string_or("source", "");
-    if (auto powder = root.optional_table("powder")) {
-      figure_.element_size = powder->number("element_size", Range::positive());
-      toml::table description = *root.value("powder")->as_table();
-      description.erase("element_size");
-      std::ostringstream text;
-      text << description << '\n';
-      figure_.powder = text.str();
-    }
+  }
+
+  /// Adds a file's [powder] to that of the files which were read before: those that it includes.
+  void read_powder(TableReader& root) {
+    last_powder_ = root.table("powder");
+    merge(powder_, *root.value("powder")->as_table());
+    figure_.element_size = last_powder_->number_or("element_size", figure_.element_size, Range::positive());
+  }
+
+  void finish_powder() {
+    if (!last_powder_) return;
+    if (!powder_.contains("element_size")) last_powder_->number("element_size", Range::positive()); // refuses
+    powder_.erase("element_size");
+    std::ostringstream text;
+    text << powder_ << '\n';
+    figure_.powder = text.str();
   }
 
   void read_runs(TableReader& root, const filesystem::path& folder) {
@@ -587,6 +612,8 @@ private:
   std::string programmes_;
   std::vector<StatementSpec> included_statements_;
   ColumnLists columns_;
+  toml::table powder_;                     ///< of all files
+  std::optional<TableReader> last_powder_; ///< of the file read last, for messages
 };
 
 template <class Item>

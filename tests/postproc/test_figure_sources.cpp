@@ -224,6 +224,32 @@ TEST_CASE("a packing is a size or a command, and a run begins at one") {
                     Contains("'r' is a run, allowed: one of [[packings]]"));
 }
 
+TEST_CASE("a study's powder has the keys of the files that it includes, and its own instead where it has them") {
+  const Studies studies;
+  write_text(studies.path("grains.toml"), "[powder]\nseed = 1\ncount = 10\nelement_size = 0.03\n"
+                                          "[powder.size_distribution]\nkind = \"table\"\nvalues = [1.0, 2.0]\n");
+  write_text(studies.path("box.toml"), "include = [\"grains.toml\"]\n[powder]\ncount = 20\nbox = [1, 1, 1]\n");
+  const Figure figure = studies.figure("include = [\"box.toml\"]\n[powder]\nelement_size = 0.04\nseed = 2\n"
+                                       "[powder.size_distribution]\nvalues = [3.0, 4.0]\n");
+  CHECK(figure.powder == studies
+                             .figure("[powder]\nelement_size = 0.04\ncount = 20\nbox = [1, 1, 1]\nseed = 2\n"
+                                     "[powder.size_distribution]\nkind = \"table\"\nvalues = [3.0, 4.0]\n")
+                             .powder);
+  CHECK(figure.element_size == 0.04);
+  CHECK(studies.figure("include = [\"box.toml\"]\n").element_size == 0.03);
+  CHECK(studies.figure("").powder.empty());
+}
+
+TEST_CASE("a powder without the size of its elements is refused where it stands") {
+  const Studies studies;
+  write_text(studies.path("grains.toml"), "[powder]\nseed = 1\n");
+  CHECK_THROWS_WITH(studies.figure("include = [\"grains.toml\"]\n"),
+                    Contains("grains.toml:1") && Contains("key 'powder.element_size': missing"));
+  write_text(studies.path("grains.toml"), "[powder]\nelement_size = -1\n");
+  CHECK_THROWS_WITH(studies.figure("include = [\"grains.toml\"]\n[powder]\nelement_size = 1\n"),
+                    Contains("grains.toml:2") && Contains("found -1"));
+}
+
 TEST_CASE("a script makes one file for all cases that name the same, from what each of them needs") {
   const Studies studies;
   const std::string text = R"([[cases]]
