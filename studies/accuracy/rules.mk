@@ -136,15 +136,7 @@ $(accuracy)/points.csv: studies/common/verdict.awk studies/accuracy/points.awk s
 	awk $(addprefix -f ,$(filter %.awk,$^)) $(filter %.csv,$^) > $@.partial
 	mv $@.partial $@
 
-# ----------------------------------------------------------------------------------------------- tables, pictures, page
-accuracy_tables := choice meshes levers surface equal locking packing partial-slip die-column
-$(accuracy)/tables:
-	mkdir -p $@
-$(accuracy)/tables/%.md: studies/common/verdict.awk studies/accuracy/tables.awk \
-  $(accuracy)/points.csv $(accuracy)/values.csv $(accuracy)/references.csv | $(accuracy)/tables
-	awk $(addprefix -f ,$(filter %.awk,$^)) -v table=$* $(filter %.csv,$^) > $@.partial
-	mv $@.partial $@
-
+# ------------------------------------------------------------------------------------------------------ pictures, page
 # $(call accuracy_picture,NAME,SCENE,MEASURE,TITLE,NUMBERS)
 define accuracy_picture
 accuracy_pictures += $(1)
@@ -185,9 +177,9 @@ $(addprefix $(accuracy_page)/,$(accuracy_kept_tables)): $(accuracy_page)/%.csv: 
 	cp $< $@.partial
 	mv $@.partial $@
 
-$(accuracy_page)/README.md: studies/accuracy/page.awk studies/accuracy/page.md \
-  $(accuracy_tables:%=$(accuracy)/tables/%.md) | $(accuracy_page)
-	awk -v tables=$(accuracy)/tables -f $(wordlist 1,2,$^) > $@.partial
+$(accuracy_page)/README.md: studies/accuracy/page.sh studies/accuracy/page.md studies/accuracy/tables.awk \
+  studies/common/verdict.awk $(accuracy)/points.csv $(accuracy)/values.csv $(accuracy)/references.csv | $(accuracy_page)
+	sh $< $(filter %.csv,$^) > $@.partial
 	mv $@.partial $@
 
 accuracy: $(foreach p,$(accuracy_pictures) locking packing,$(accuracy_page)/$(p).png $(accuracy_page)/$(p).svg)

@@ -4,12 +4,4 @@
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/../.."
 page=docs/speed-against-error
-study=studies/accuracy
-work=$(mktemp -d)
-trap 'rm -rf "$work"' EXIT
-
-awk '$1 == "@table" { print $2 }' "$study/page.md" | while read -r table; do
-  awk -f studies/common/verdict.awk -f "$study/tables.awk" -v table="$table" \
-    "$page/points.csv" "$page/values.csv" "$page/references.csv" >"$work/$table.md"
-done
-awk -v tables="$work" -f "$study/page.awk" "$study/page.md" | diff "$page/README.md" -
+sh studies/accuracy/page.sh "$page/points.csv" "$page/values.csv" "$page/references.csv" | diff "$page/README.md" -
