@@ -166,9 +166,6 @@ void read_walls(TableReader& root, Scenario& scenario) {
 
 void read_gravity(TableReader table, Scenario& scenario) {
   scenario.gravity = table.vector3("acceleration", Range::between(-1e12, 1e12)); // mm/s^2
-  if (scenario.has_gravity() && scenario.numerics.mass_scaling_step > 0)
-    table.fail("acceleration", "cannot be used with 'numerics.mass_scaling_step', which makes single nodes heavier; "
-                               "allowed: 'numerics.mass_scaling'");
   table.finish();
 }
 
