@@ -110,8 +110,9 @@ void write_meshed(const Arguments& arguments, const SpherePacking& packing, cons
   write_packing_file(arguments.output, packing, origin,
                      MeshForFile{&mesh, arguments.size, report.facet_gap.gap, report.smallest_quality});
   progress.finish(fmt::format("{} tetrahedra, {}", report.tets, arguments.output));
+  if (arguments.quiet) return;
   for (const std::string& note : mesh.notes) fmt::print(stderr, "pack-gen: note: {}\n", note);
-  if (!arguments.quiet) fmt::print("{}", report_text(report));
+  fmt::print("{}", report_text(report));
 }
 
 void mesh(const Arguments& arguments) {
@@ -297,7 +298,7 @@ void add_container(CLI::App& command, Arguments& arguments, const std::string& o
 CLI::App* add_command(CLI::App& app, Arguments& arguments, const char* name, const char* help, const char* input) {
   CLI::App* command = app.add_subcommand(name, help);
   command->add_option("input", arguments.input, input)->required();
-  command->add_flag("--quiet", arguments.quiet, "No progress, no report");
+  command->add_flag("--quiet", arguments.quiet, "No progress, notes or report");
   return command;
 }
 

@@ -8,10 +8,14 @@
 #include <set>
 
 #include <catch2/catch.hpp>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "common/errors.hpp"
 #include "pack-gen/convex_distance.hpp"
 #include "pack-gen/mesh_report.hpp"
+#include "pack-gen/sphere_file.hpp"
+#include "tests/support/folder.hpp"
 
 using namespace mpfem;
 
@@ -182,6 +186,20 @@ TEST_CASE("grains that extend beyond their spheres are rotated until none touch,
     CHECK(mesh_volume(grain) == Approx(4.0 / 3.0 * M_PI * std::pow(0.06, 3)).epsilon(1e-12));
   }
   CHECK((one.node == mesh_packing(packing, {.nominal_size = 0.02, .seed = 1, .threads = 3}).node));
+}
+
+TEST_CASE("pack-gen prints the notes of a mesh, and with --quiet nothing") {
+  const test::Folder folder;
+  const SpherePacking packing = cluster(0.06, 0.0006);
+  export_spheres(folder / "s.csv", packing);
+  const std::string import = fmt::format("'{}' import {} --box {} --size 0.02 -o {}", MPFEM_PACK_GEN, folder / "s.csv",
+                                         fmt::join(packing.box, ","), folder / "m.h5");
+  const test::Outcome loud = test::run_command(import), quiet = test::run_command(import + " --quiet");
+  CHECK(loud.exit_code == 0);
+  CHECK_THAT(loud.messages, Catch::Contains("pack-gen: note: ") && Catch::Contains("rotated"));
+  CHECK(quiet.exit_code == 0);
+  CHECK(quiet.messages.empty());
+  CHECK(quiet.output.empty());
 }
 
 TEST_CASE("spheres too near for so coarse a mesh are refused, with the grains named") {
