@@ -277,8 +277,7 @@ void add_flats(Measurement& m, std::optional<double> half_angle, const std::stri
 
 } // namespace
 
-std::string disc_crack_csv(const schema::FileReader& file, const DiametralRule& rule) {
-  const HistoryTable history(file);
+std::string disc_crack_csv(const schema::FileReader& file, const HistoryTable& history, const DiametralRule& rule) {
   const Test test = read_test(file, history, rule);
   const CrackSince crack_since(file, history, test, rule.disc_axis, disc_of(file, history, test, rule).diameter);
   const std::span<const double> times = test.stage.rows().of(history["time"]);
@@ -301,8 +300,7 @@ std::string disc_crack_csv(const schema::FileReader& file, const DiametralRule& 
   return text;
 }
 
-Measurement measure_diametral(const schema::FileReader& file, const DiametralRule& rule) {
-  const HistoryTable history(file);
+Measurement measure_diametral(const schema::FileReader& file, const HistoryTable& history, const DiametralRule& rule) {
   const Test test = read_test(file, history, rule);
   const std::vector<double> smooth = smoothed(test.force);
   const FirstPeak peak = first_peak(smooth, rule.drop, rule.smallest_peak);

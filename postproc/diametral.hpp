@@ -63,10 +63,10 @@ struct DiametralRule {
 /// The value is 2 F / (pi D t) (MPa), F the peak of the mean force of both plates along the axis on which they
 /// approach. Throws InputError: no two plates, plates that do not move across the disc's axis, too few rows, no force
 /// of `smallest_peak`, no snapshot before the test for a missing diameter or thickness, flats wider than 30 degrees.
-Measurement measure_diametral(const schema::FileReader& file, const DiametralRule& rule);
+Measurement measure_diametral(const schema::FileReader& file, const HistoryTable& history, const DiametralRule& rule);
 
 /// CSV: where bonds have broken up to each snapshot of the stage (disc_crack.hpp), with the force on the disc. Throws
 /// InputError as measure_diametral() where there is no test or no diameter.
-std::string disc_crack_csv(const schema::FileReader& file, const DiametralRule& rule);
+std::string disc_crack_csv(const schema::FileReader& file, const HistoryTable& history, const DiametralRule& rule);
 
 } // namespace mpfem

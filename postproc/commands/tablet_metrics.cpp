@@ -115,8 +115,9 @@ private:
     DiametralRule rule = rule_;
     rule.stage = stage();
     rule.disc_axis = axis_number(disc_axis_);
-    if (!data_.empty()) write_file(data_, disc_crack_csv(run, rule));
-    return measure_diametral(run, rule);
+    const HistoryTable history(run);
+    if (!data_.empty()) write_file(data_, disc_crack_csv(run, history, rule));
+    return measure_diametral(run, history, rule);
   }
 
   DiametralRule rule_;
