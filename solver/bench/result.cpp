@@ -74,18 +74,29 @@ Fields scene_fields(const BenchScene& s) {
           integer("steps", s.steps)};
 }
 
+/// Searches are not among them: their cost is that of one search over the steps that it lasts.
+void add_step_fields(Fields& fields, const StepCost& step) {
+  const auto add = [&](const std::string& name, double cost) {
+    fields.push_back(number(name + "_ns_per_tet_step", cost));
+  };
+  add("elements", step.of(Part::elements));
+  add("contact", step.of(Part::contact));
+  add("integration", step.of(Part::integration));
+  add("surface", step.of(Part::surface));
+  add("step_estimate", step.of(Part::step_estimate));
+  add("whole_step", step.whole);
+}
+
 void add_element_fields(Fields& fields, const BenchResult& r) {
   fields.push_back(number("element_pass_ns_per_tet_step", r.elements.nanoseconds));
   fields.push_back(number("element_pass_hardening_fraction", r.elements.hardening));
   add_rate(fields, "element_pass", element_rate(r));
   fields.push_back(number("flop_per_tet_step", r.tet.operations));
   fields.push_back(number("bytes_per_tet_step", r.tet.bytes));
-  fields.push_back(number("elements_ns_per_tet_step", r.step.of(Part::elements)));
 }
 
 void add_contact_fields(Fields& fields, const BenchResult& r) {
   const double contact = r.step.of(Part::contact), search = r.search_per_step();
-  fields.push_back(number("contact_ns_per_tet_step", contact));
   fields.push_back(number("contact_ns_per_point", r.per_point(contact)));
   add_rate(fields, "contact", contact_rate(r));
   fields.push_back(number("search_ns_per_tet_step", search));
@@ -96,11 +107,7 @@ void add_contact_fields(Fields& fields, const BenchResult& r) {
 }
 
 void add_rest_fields(Fields& fields, const BenchResult& r) {
-  fields.push_back(number("integration_ns_per_tet_step", r.step.of(Part::integration)));
   add_rate(fields, "integration", integration_rate(r));
-  fields.push_back(number("surface_ns_per_tet_step", r.step.of(Part::surface)));
-  fields.push_back(number("step_estimate_ns_per_tet_step", r.step.of(Part::step_estimate)));
-  fields.push_back(number("whole_step_ns_per_tet_step", r.step.whole));
   fields.push_back(number("output_ns_per_tet_step", r.output_per_step()));
   fields.push_back(number("history_row_ns_per_tet", r.per_tet(r.output.row_seconds)));
   fields.push_back(number("checkpoint_ns_per_tet", r.per_tet(r.output.checkpoint_seconds)));
@@ -112,12 +119,6 @@ void add_rest_fields(Fields& fields, const BenchResult& r) {
 }
 
 void add_fields_of_ranks(Fields& fields, const BenchResult& r) {
-  fields.push_back(number("elements_ns_per_tet_step", r.step.of(Part::elements)));
-  fields.push_back(number("contact_ns_per_tet_step", r.step.of(Part::contact)));
-  fields.push_back(number("integration_ns_per_tet_step", r.step.of(Part::integration)));
-  fields.push_back(number("surface_ns_per_tet_step", r.step.of(Part::surface)));
-  fields.push_back(number("step_estimate_ns_per_tet_step", r.step.of(Part::step_estimate)));
-  fields.push_back(number("whole_step_ns_per_tet_step", r.step.whole));
   fields.push_back(number("sent_bytes_per_step", r.sent));
   fields.push_back(number("memory_bytes_of_first_rank", r.memory));
 }
@@ -201,6 +202,7 @@ double BenchResult::output_per_step() const {
 
 std::string json_text(const BenchResult& result) {
   Fields fields = scene_fields(result.scene);
+  add_step_fields(fields, result.step);
   if (result.scene.ranks == 1) {
     add_element_fields(fields, result);
     add_contact_fields(fields, result);
