@@ -34,7 +34,7 @@ std::string stage(const std::string& keys) {
 
 /// The run up to a stage, and with a stage on top that cannot end.
 Outcome run_with(const Folder& folder, const std::string& keys) {
-  prepare_stages(folder, pressed + stage(keys));
+  prepare(folder, 3, pressed + stage(keys));
   return run_stages(folder, "run.h5");
 }
 
@@ -64,10 +64,11 @@ TEST_CASE("a stage whose target lies behind it ends the run with code 3, names s
 
 TEST_CASE("a branch whose first stage cannot be reached from its checkpoint is refused before its first step") {
   const Folder folder;
-  prepare_stages(folder, pressed);
+  prepare(folder, 3, pressed);
   REQUIRE(run_stages(folder, "run.h5").exit_code == 0);
-  prepare_stages(folder, material_text + stage("type = \"isotropic_unloading\"\nmean_stress = 900\n"
-                                               "wall_speed = 10000\n"));
+  prepare(folder, 3,
+          material_text + stage("type = \"isotropic_unloading\"\nmean_stress = 900\n"
+                                "wall_speed = 10000\n"));
   const Outcome branch = run_stages(folder, "branch.h5", "--from " + (folder / "run.pressed.checkpoint.h5"));
   INFO(branch.messages);
   CHECK(branch.exit_code == 2);
@@ -96,7 +97,7 @@ TEST_CASE("a grip that would hold the whole packing is bad input") {
 
 TEST_CASE("a scenario that would never end, or whose numbers overflow, is refused before it begins") {
   const Folder folder;
-  prepare_stages(folder, pressed);
+  prepare(folder, 3, pressed);
   for (const auto& [assignment, word] :
        std::vector<std::pair<std::string, std::string>>{{"stages.0.wall_speed=1e-12", "steps"},
                                                         {"material.youngs_modulus=1e308", "youngs_modulus"},
@@ -157,7 +158,7 @@ TEST_CASE("motion that is not finite stops every kind of stage, and the message 
   std::string velocities = "[initial]\ngrain_velocity = [[0, 0, 1e12]";
   for (int grain = 1; grain < 8; ++grain) velocities += ", [0, 0, 0]";
   for (const std::string& keys : stages) {
-    prepare_stages(folder, material_text + velocities + "]\n" + stage(keys));
+    prepare(folder, 3, material_text + velocities + "]\n" + stage(keys));
     const Outcome outcome = run_command("timeout 20 " + stages_command(folder, "run.h5"));
     INFO(keys << outcome.messages);
     CHECK(outcome.exit_code == 3);

@@ -16,7 +16,7 @@ namespace fs = std::filesystem;
 
 TEST_CASE("no rolling checkpoint is newer than the stage's or the density's that it counts as written") {
   const Folder folder;
-  prepare_stages(folder, two_stages);
+  prepare(folder, 3, two_stages);
   // A directory in the place of a checkpoint stands for a kill before that checkpoint: it cannot be written.
   for (const std::string blocked : {"run.first.checkpoint.h5", "run.D0.500.checkpoint.h5"}) {
     fs::create_directories(folder / (blocked + ".partial/full"));
@@ -34,9 +34,9 @@ TEST_CASE("no rolling checkpoint is newer than the stage's or the density's that
 
 TEST_CASE("a complete run whose stage checkpoint was lost is not complete, and --resume writes it again") {
   const Folder folder;
-  prepare_stages(folder, two_stages);
+  prepare(folder, 3, two_stages);
   REQUIRE(run_stages(folder, "run.h5").exit_code == 0);
-  const auto numbers = numbers_of_run(folder / "run.h5");
+  const auto numbers = results(folder / "run.h5");
   for (const std::string name : {"first", "D0.500", "second"}) {
     const std::string lost = folder / ("run." + name + ".checkpoint.h5");
     REQUIRE(fs::remove(lost));
@@ -45,14 +45,14 @@ TEST_CASE("a complete run whose stage checkpoint was lost is not complete, and -
     CHECK(outcome.exit_code == 0);
     CHECK_THAT(outcome.messages, Catch::Contains(name + ".checkpoint.h5 is missing"));
     CHECK(fs::exists(lost));
-    CHECK(numbers_of_run(folder / "run.h5") == numbers);
+    CHECK(results(folder / "run.h5") == numbers);
   }
   CHECK(run_stages(folder, "run.h5", "--resume").messages.find("missing") == std::string::npos);
 }
 
 TEST_CASE("an unfinished run whose stage checkpoint was lost continues from an earlier one") {
   const Folder folder;
-  prepare_stages(folder, two_stages);
+  prepare(folder, 3, two_stages);
   REQUIRE(run_stages(folder, "whole.h5").exit_code == 0);
   // Without its last stage's checkpoint the run cannot end: it stops with everything else done.
   fs::create_directories(folder / "run.second.checkpoint.h5.partial/full");
@@ -65,12 +65,12 @@ TEST_CASE("an unfinished run whose stage checkpoint was lost continues from an e
   CHECK(outcome.exit_code == 0);
   CHECK_THAT(outcome.messages, Catch::Contains("run.first.checkpoint.h5 is missing; the run continues from"));
   CHECK(fs::exists(folder / "run.first.checkpoint.h5"));
-  CHECK(numbers_of_run(folder / "run.h5") == numbers_of_run(folder / "whole.h5"));
+  CHECK(results(folder / "run.h5") == results(folder / "whole.h5"));
 }
 
 TEST_CASE("a damaged or missing rolling checkpoint falls back to the one before, and the run ends the same") {
   const Folder folder;
-  prepare_stages(folder, two_stages);
+  prepare(folder, 3, two_stages);
   REQUIRE(run_stages(folder, "whole.h5").exit_code == 0);
   for (const bool damaged : {true, false}) {
     fs::create_directories(folder / "run.second.checkpoint.h5.partial/full");
@@ -86,7 +86,7 @@ TEST_CASE("a damaged or missing rolling checkpoint falls back to the one before,
     CHECK(outcome.exit_code == 0);
     CHECK_THAT(outcome.messages, Catch::Contains("resumed") && Catch::Contains("run.checkpoint.previous.h5"));
     if (damaged) CHECK_THAT(outcome.messages, Catch::Contains("warning") && Catch::Contains("earlier checkpoint"));
-    CHECK(numbers_of_run(folder / "run.h5") == numbers_of_run(folder / "whole.h5"));
+    CHECK(results(folder / "run.h5") == results(folder / "whole.h5"));
     CHECK_FALSE(fs::exists(folder / "run.checkpoint.previous.h5"));
     fs::remove(folder / "run.h5");
   }
@@ -94,7 +94,7 @@ TEST_CASE("a damaged or missing rolling checkpoint falls back to the one before,
 
 TEST_CASE("a run that was killed while it tidied up is complete, and what was left is removed") {
   const Folder folder;
-  prepare_stages(folder, two_stages);
+  prepare(folder, 3, two_stages);
   REQUIRE(run_stages(folder, "run.h5").exit_code == 0);
   fs::create_directories(folder / "run.parts");
   write_text(folder / "run.parts/snapshot-0001.h5", "of the time before");
@@ -108,7 +108,7 @@ TEST_CASE("a run that was killed while it tidied up is complete, and what was le
 
 TEST_CASE("a file size limit ends a run with exit code 4, not with a signal, and what was stored stays") {
   const Folder folder;
-  prepare_stages(folder, two_stages);
+  prepare(folder, 3, two_stages);
   const Outcome outcome = run_command("ulimit -f 40; " + stages_command(folder, "run.h5"));
   INFO(outcome.messages);
   CHECK(outcome.exit_code == 4);
@@ -118,7 +118,7 @@ TEST_CASE("a file size limit ends a run with exit code 4, not with a signal, and
 
 TEST_CASE("a run that is told to stop while its packing loads ends with exit code 5 and says what can be resumed") {
   const Folder folder;
-  prepare_stages(folder, two_stages, 14);
+  prepare(folder, 14, two_stages);
   // The lock stands before the packing is read.
   const auto stop = [&](const std::string& options) {
     return run_command(fmt::format("{} {} & pid=$!; while [ ! -e {} ] && kill -0 $pid; do :; done; kill -TERM $pid; "

@@ -1,5 +1,5 @@
 #pragma once
-// Scenes of rigid tools that move.
+// Parts of scenes in which rigid tools move.
 
 #include <algorithm>
 #include <array>
@@ -8,7 +8,8 @@
 #include <utility>
 #include <vector>
 
-#include "solver/scenario/scenario.hpp"
+#include "solver/run/simulation.hpp"
+#include "tests/support/meshes.hpp"
 
 namespace mpfem::test {
 
@@ -31,6 +32,19 @@ inline Stage driven(std::vector<ToolDrive> drives, double duration, double dampi
   stage.type = loading;
   if (damping > 0) stage.damping = {damping, 1e9};
   return stage;
+}
+
+/// A block with edges of 0.2 mm about the point 0.5, 0.5, 0.5, of three cells along each.
+inline GrainMesh block_in_the_middle() {
+  GrainMesh block = cube_mesh(3);
+  scale(block, 0.1);
+  move(block, {0.5, 0.5, 0.5});
+  return block;
+}
+
+/// Advances to the end of the stage, and has the forces there.
+inline void finish_stage(Simulation& simulation) {
+  for (simulation.evaluate_forces(); !simulation.stage_complete(); simulation.evaluate_forces()) simulation.advance();
 }
 
 } // namespace mpfem::test

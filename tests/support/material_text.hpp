@@ -1,5 +1,5 @@
 #pragma once
-// The beginning of a scenario for tests: packing.h5 of grains of microcrystalline cellulose.
+// Parts of scenarios for tests: packing.h5 of grains of microcrystalline cellulose, and their compaction.
 
 #include <string>
 
@@ -16,6 +16,16 @@ law = "power"
 yield_stress = 25
 coefficient = 125
 exponent = 0.3
+)";
+
+/// A stage in which eight grains come to touch each other.
+inline const std::string compaction_text = R"([[stages]]
+name = "compaction"
+type = "isotropic_compaction"
+relative_density = 0.62
+wall_speed = 20000
+damping_rate = 1e6
+damping_fade_stress = 5
 )";
 
 } // namespace mpfem::test

@@ -25,14 +25,7 @@ inline Outcome mpfem_command(const std::string& arguments) {
 inline const std::string scenario_text = material_text + R"([output]
 history_rows = 20
 snapshot_relative_densities = [0.52]
-[[stages]]
-name = "compaction"
-type = "isotropic_compaction"
-relative_density = 0.62
-wall_speed = 20000
-damping_rate = 1e6
-damping_fade_stress = 5
-)";
+)" + compaction_text;
 
 /// The same with bonds, unloaded and torn apart by grips.
 inline const std::string bonded_text = scenario_text + R"(

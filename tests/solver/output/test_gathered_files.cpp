@@ -61,14 +61,7 @@ friction = 0.2
 friction = 0.3
 [element]
 type = "tet4-anp"
-[[stages]]
-name = "compaction"
-type = "isotropic_compaction"
-relative_density = 0.62
-wall_speed = 20000
-damping_rate = 1e6
-damping_fade_stress = 5
-)",
+)" + compaction_text,
                                                             "test"));
   scenario.bond = bond;
   // In the middle, where it comes to touch all grains.

@@ -175,7 +175,7 @@ TEST_CASE("a grain that sticks to a tool hangs from it and moves with it") {
   simulation.begin_next_stage();
   const double start = model.position[0];
   simulation.advance();
-  for (simulation.evaluate_forces(); !simulation.stage_complete(); simulation.evaluate_forces()) simulation.advance();
+  finish_stage(simulation);
   const double way = simulation.tools()[upper].moved[0];
   CHECK(way > 3e-3);
   CHECK(std::abs(model.position[0] - start - way) < 0.01 * way); // it swings on its bonds

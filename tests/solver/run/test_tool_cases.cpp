@@ -57,11 +57,8 @@ Pressed press_block(std::vector<ToolParameters> floors) {
                      driven({}, 2e-5, 1e6)};
   std::get<ToolLoading>(scenario.stages[0].type).ends.travel = 0.0011;
   scenario.stages[1].name = "rest";
-  GrainMesh block = cube_mesh(3);
-  scale(block, 0.1);
-  move(block, {0.5, 0.5, 0.5});
   ThreadTeam team(1);
-  Simulation simulation(build_model(pack({block}, {1, 1, 1}), scenario, "test"), scenario, team);
+  Simulation simulation(build_model(pack({block_in_the_middle()}, {1, 1, 1}), scenario, "test"), scenario, team);
   for (;; simulation.advance()) {
     simulation.evaluate_forces();
     if (!simulation.stage_complete()) continue;
@@ -117,14 +114,11 @@ TEST_CASE("a floor bears the weight of the grain's own mass, however its masses 
     if (scaling.step > 0) scenario.numerics.mass_scaling_step = scaling.step;
     scenario.numerics.mass_scaling_lighten = scaling.lighten;
     scenario.stages = {driven({}, 1e-4, 1e6)};
-    GrainMesh block = cube_mesh(3);
-    scale(block, 0.5 * edge);
-    move(block, {0.5, 0.5, 0.5});
     ThreadTeam team(1);
-    Simulation simulation(build_model(pack({block}, {1, 1, 1}), scenario, "test"), scenario, team);
+    Simulation simulation(build_model(pack({block_in_the_middle()}, {1, 1, 1}), scenario, "test"), scenario, team);
     CAPTURE(scaling.factor, scaling.step, scaling.lighten, simulation.model().added_mass);
     if (scaling.step > 0) REQUIRE(std::abs(simulation.model().added_mass) > 0.1);
-    for (simulation.evaluate_forces(); !simulation.stage_complete(); simulation.evaluate_forces()) simulation.advance();
+    finish_stage(simulation);
     CHECK(within(-simulation.tools()[0].force[2], weight, 0.02)); // which still swings a little
     const HistoryRow row = simulation.observe();
     CHECK(std::abs(row.energy_residual) < 2e-3 * row.external_work);
@@ -181,12 +175,9 @@ TEST_CASE("a ram that is taken away within some steps of its impact takes the pu
   std::get<ToolLoading>(scenario.stages[0].type).ramp_fraction = 1e-4;
   std::get<ToolLoading>(scenario.stages[1].type).away = {0, 1};
   scenario.stages[1].name = "away";
-  GrainMesh block = cube_mesh(3);
-  scale(block, 0.1);
-  move(block, {0.5, 0.5, 0.5});
   ThreadTeam team(1);
-  Simulation simulation(build_model(pack({block}, {1, 1, 1}), scenario, "test"), scenario, team);
-  for (simulation.evaluate_forces(); !simulation.stage_complete(); simulation.evaluate_forces()) simulation.advance();
+  Simulation simulation(build_model(pack({block_in_the_middle()}, {1, 1, 1}), scenario, "test"), scenario, team);
+  finish_stage(simulation);
   const HistoryRow pressed = simulation.observe();
   REQUIRE(pressed.external_work > 0);
   REQUIRE(simulation.tools()[1].force[2] > 0);
