@@ -13,8 +13,8 @@
 #include "common/version.hpp"
 #include "solver/bench/bench.hpp"
 #include "solver/hand_over.hpp"
-#include "solver/parallel/leader.hpp"
 #include "solver/parallel/on_all_ranks.hpp"
+#include "solver/parallel/root.hpp"
 #include "solver/parallel/share_of_cores.hpp"
 #include "solver/run/bond_programme.hpp"
 #include "solver/run/check_scenario.hpp"
@@ -191,7 +191,7 @@ int run_command(int argc, char** argv, const Communicator& ranks) {
 
   if (const auto done = parse_command_line(app, "mpfem", argc, argv)) return *done;
 
-  if (bond->parsed()) leader_does(ranks, [&] { run_bond_programme(bond_options); });
+  if (bond->parsed()) root_does(ranks, [&] { run_bond_programme(bond_options); });
   if (bench->parsed()) measure_steps(arguments, bench_options, ranks);
   if (!run->parsed() && !check->parsed()) return 0;
   const Scenario scenario = load_scenario(arguments);

@@ -182,7 +182,7 @@ OutputCost measure_output(Simulation& simulation, const Scenario& scenario) {
   const auto scratch = std::filesystem::temp_directory_path() / fmt::format("mpfem-bench-{}.checkpoint.h5", getpid());
   const Communicator& ranks = simulation.ranks();
   cost.checkpoint_seconds = median_time(1, [&] { save_checkpoint(scratch.string(), simulation, RunRecord{}, ranks); });
-  if (ranks.leads()) cost.checkpoint_bytes = static_cast<double>(std::filesystem::file_size(scratch));
+  if (ranks.is_root()) cost.checkpoint_bytes = static_cast<double>(std::filesystem::file_size(scratch));
   std::error_code ignored;
   std::filesystem::remove(scratch, ignored);
   cost.steps_per_row = simulation.stage_run().expected_duration() /
@@ -264,7 +264,7 @@ void measure_alone(Simulation& simulation, ThreadTeam& team, BenchResult& result
 void run_bench(const BenchOptions& options, const Communicator& ranks) {
   ThreadTeam team(options.threads);
   const auto say = [&](const std::string& text) {
-    if (ranks.leads() && !options.quiet && !options.json) fmt::print(stderr, "{}\n", text);
+    if (ranks.is_root() && !options.quiet && !options.json) fmt::print(stderr, "{}\n", text);
   };
   Scenario scenario;
   Model made = make_model(options, scenario, ranks);

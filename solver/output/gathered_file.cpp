@@ -3,18 +3,18 @@
 #include <fmt/format.h>
 
 #include "common/version.hpp"
-#include "solver/parallel/leader.hpp"
+#include "solver/parallel/root.hpp"
 
 namespace mpfem {
 
 GatheredFile::GatheredFile(const Communicator& ranks, const Ownership& ownership, const std::string& path,
                            schema::FileKind kind)
     : ranks_(ranks), ownership_(ownership) {
-  leader_does(ranks, [&] { file_.emplace(path, kind, fmt::format("mpfem {}", version_and_commit())); });
+  root_does(ranks, [&] { file_.emplace(path, kind, fmt::format("mpfem {}", version_and_commit())); });
 }
 
 void GatheredFile::commit() {
-  leader_does(ranks_, [this] {
+  root_does(ranks_, [this] {
     if (failure_) std::rethrow_exception(failure_);
     file_->commit();
   });

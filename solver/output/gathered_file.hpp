@@ -30,7 +30,7 @@ public:
   const Communicator& ranks() const { return ranks_; }
   /// Calls write(file) on the first rank, for data that all ranks share.
   template <class Write>
-  void at_leader(Write&& write) {
+  void at_root(Write&& write) {
     attempt([&] { write(*file_); });
   }
   /// The same for one array. `member`: what takes the place of '*' in the dataset's path.
@@ -85,7 +85,7 @@ private:
   void append_grains(const schema::Dataset<T, Rank>& dataset, std::span<const std::int64_t> rows, Fill&& fill) {
     std::vector<std::int64_t> values(rows.begin(), rows.end());
     for (std::int64_t& count : values) count *= static_cast<std::int64_t>(columns(dataset));
-    gather_at_leader<T>(ranks_, ownership_, values, fill, [this](std::span<const T> piece) { append(piece); });
+    gather_at_root<T>(ranks_, ownership_, values, fill, [this](std::span<const T> piece) { append(piece); });
   }
 
   const Communicator& ranks_;

@@ -319,14 +319,14 @@ void write_snapshot_file(const std::string& path, const SnapshotState& state, co
   const Model& model = state.model;
   const std::string name = "0000";
   GatheredFile file(ranks, model.ownership, path, schema::FileKind::run);
-  file.at_leader([&](schema::FileWriter& leader) {
-    leader.write_scalar(run::snapshots_time, state.time, name);
-    leader.write_scalar(run::snapshots_step, state.step, name);
-    leader.write_scalar(run::snapshots_relative_density, state.relative_density, name);
-    leader.write_scalar(run::snapshots_mean_stress, state.box.mean_stress(), name);
-    leader.write(run::snapshots_box_low, std::span<const double>(state.box.cell().low), 3, name);
-    leader.write(run::snapshots_box_high, std::span<const double>(state.box.cell().high), 3, name);
-    write_placed_tools(leader, name, state.tools);
+  file.at_root([&](schema::FileWriter& writer) {
+    writer.write_scalar(run::snapshots_time, state.time, name);
+    writer.write_scalar(run::snapshots_step, state.step, name);
+    writer.write_scalar(run::snapshots_relative_density, state.relative_density, name);
+    writer.write_scalar(run::snapshots_mean_stress, state.box.mean_stress(), name);
+    writer.write(run::snapshots_box_low, std::span<const double>(state.box.cell().low), 3, name);
+    writer.write(run::snapshots_box_high, std::span<const double>(state.box.cell().high), 3, name);
+    write_placed_tools(writer, name, state.tools);
   });
   write_node_rows(file, name, run::snapshots_node, model, model.position);
   write_node_rows(file, name, run::snapshots_velocity, model, model.velocity);
@@ -346,18 +346,18 @@ void write_run_file(const std::string& path, const Model& model, const RunHistor
                     const std::vector<std::string>& snapshot_files, const Provenance& provenance,
                     const Communicator& ranks) {
   GatheredFile file(ranks, model.ownership, path, schema::FileKind::run);
-  file.at_leader([&](schema::FileWriter& leader) {
-    write_history(leader, history.rows, provenance.columns);
-    write_tool_history(leader, names_of(history.tools), history.tool_rows);
-    write_tool_geometry(leader, history.tools);
+  file.at_root([&](schema::FileWriter& writer) {
+    write_history(writer, history.rows, provenance.columns);
+    write_tool_history(writer, names_of(history.tools), history.tool_rows);
+    write_tool_geometry(writer, history.tools);
   });
   write_mesh(file, model);
-  file.at_leader([&](schema::FileWriter& leader) {
+  file.at_root([&](schema::FileWriter& writer) {
     for (std::size_t i = 0; i < snapshot_files.size(); ++i) {
       const schema::FileReader from(snapshot_files[i], schema::FileKind::run);
-      leader.copy_snapshot(from, "0000", fmt::format("{:04}", i));
+      writer.copy_snapshot(from, "0000", fmt::format("{:04}", i));
     }
-    write_provenance(leader, model, provenance);
+    write_provenance(writer, model, provenance);
   });
   file.commit();
 }

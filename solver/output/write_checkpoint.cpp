@@ -59,12 +59,12 @@ void write_fields(schema::FileWriter& file, const FieldValues& fields) {
 /// Writes what identifies the run and the build that made the arrays.
 void write_identity(GatheredFile& file, const Model& model, const std::string& scenario_text) {
   const std::string numbering = hash_text(numbering_hash(file.ranks(), model));
-  file.at_leader([&](schema::FileWriter& leader) {
-    leader.write_scalar(check::scenario, scenario_text);
-    leader.write_scalar(check::packing_hash, hash_text(model.mesh_hash));
-    leader.write_scalar(check::numbering_hash, numbering);
-    leader.write_scalar(check::smooth_grains, Index{model.smooth_grains});
-    leader.write_scalar(check::lanes, Index{native_lanes});
+  file.at_root([&](schema::FileWriter& writer) {
+    writer.write_scalar(check::scenario, scenario_text);
+    writer.write_scalar(check::packing_hash, hash_text(model.mesh_hash));
+    writer.write_scalar(check::numbering_hash, numbering);
+    writer.write_scalar(check::smooth_grains, Index{model.smooth_grains});
+    writer.write_scalar(check::lanes, Index{native_lanes});
   });
 }
 
@@ -283,9 +283,9 @@ void write_checkpoint(const std::string& path, const CheckpointState& state, con
   const Model& model = state.model;
   GatheredFile file(ranks, model.ownership, path, schema::FileKind::checkpoint);
   write_identity(file, model, scenario_text);
-  file.at_leader([&](schema::FileWriter& leader) {
-    write_record(leader, record);
-    write_fields(leader, state.fields);
+  file.at_root([&](schema::FileWriter& writer) {
+    write_record(writer, record);
+    write_fields(writer, state.fields);
   });
   write_nodes(file, model, state.grain_steps);
   write_tets(file, model);

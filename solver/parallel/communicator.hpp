@@ -32,8 +32,8 @@ public:
   int rank() const { return rank_; } ///< 0 … size() - 1
   int size() const { return size_; }
   bool alone() const { return size_ == 1; }
-  /// Whether this rank reads and writes files for all, and reports.
-  bool leads() const { return rank_ == 0; }
+  /// Whether this is the root, rank 0, which reads and writes files for all, and reports.
+  bool is_root() const { return rank_ == 0; }
   /// Whether this build has MPI.
   static bool has_mpi();
   /// Name and version of the MPI library, such as "Open MPI v4.1.4"; empty in a build without MPI.
@@ -52,7 +52,7 @@ public:
   /// them; none of these may be NaN.
   void combine(std::span<std::int64_t> sums, std::span<double> largest) const;
   /// Collective. Copies what the first rank has to all others.
-  void broadcast_from_leader(Bytes& bytes) const;
+  void broadcast_from_root(Bytes& bytes) const;
 
   /// Sends to one rank, which must receive the same number of bytes.
   void send(int rank, std::span<const std::byte> bytes) const;

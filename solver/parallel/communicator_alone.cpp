@@ -43,7 +43,7 @@ double Communicator::largest(double own) const {
   return own;
 }
 void Communicator::combine(std::span<std::int64_t>, std::span<double>) const {}
-void Communicator::broadcast_from_leader(Bytes&) const {}
+void Communicator::broadcast_from_root(Bytes&) const {}
 void Communicator::send(int, std::span<const std::byte>) const {}
 void Communicator::receive(int, std::span<std::byte>) const {}
 Communicator::Transfer Communicator::start(const std::vector<Outgoing>&, const std::vector<Incoming>&) const {

@@ -191,7 +191,7 @@ void Communicator::combine(std::span<std::int64_t> sums, std::span<double> large
                  [](std::int64_t bits) { return std::bit_cast<double>(bits); });
 }
 
-void Communicator::broadcast_from_leader(Bytes& bytes) const {
+void Communicator::broadcast_from_root(Bytes& bytes) const {
   if (alone()) return;
   std::uint64_t size = bytes.size();
   MPI_Bcast(&size, 1, MPI_UINT64_T, 0, MPI_COMM_WORLD);

@@ -43,8 +43,8 @@ void share_of_grains(const Communicator& ranks, const Ownership& ownership, std:
 /// is called for the rank's own grains and sets counts[grain] values; `take(values)` is called on the first rank alone,
 /// for one piece after another.
 template <class T, class Fill, class Take>
-void gather_at_leader(const Communicator& ranks, const Ownership& ownership, std::span<const std::int64_t> counts,
-                      Fill&& fill, Take&& take) {
+void gather_at_root(const Communicator& ranks, const Ownership& ownership, std::span<const std::int64_t> counts,
+                    Fill&& fill, Take&& take) {
   static_assert(std::is_trivially_copyable_v<T>);
   constexpr std::size_t piece_bytes = std::size_t{4} << 20;
   std::vector<T> piece, part;
@@ -63,7 +63,7 @@ void gather_at_leader(const Communicator& ranks, const Ownership& ownership, std
         fill(static_cast<std::int32_t>(g), std::span<T>(piece.data() + place, count));
       place += count;
     }
-    if (!ranks.leads()) {
+    if (!ranks.is_root()) {
       part.clear();
       place = 0;
       for (std::size_t g = begin; g < end; ++g) {

@@ -17,16 +17,16 @@ constexpr double patience = 10;
 
 int on_all_ranks(const char* program, const Communicator& ranks, const std::function<int()>& body) {
   if (ranks.alone()) return body();
-  if (!ranks.leads() && std::freopen("/dev/null", "w", stdout) == nullptr)
+  if (!ranks.is_root() && std::freopen("/dev/null", "w", stdout) == nullptr)
     throw StorageError("/dev/null: cannot be written");
   try {
     return body();
   } catch (...) {
     Failure failure = present_failure();
-    if (ranks.leads()) report(program, failure);
+    if (ranks.is_root()) report(program, failure);
     const bool together = ranks.all_arrive_within(patience);
     if (together) return static_cast<int>(failure.code);
-    if (!ranks.leads()) {
+    if (!ranks.is_root()) {
       failure.message = fmt::format("rank {}: {}", ranks.rank(), failure.message);
       report(program, failure);
     }

@@ -10,7 +10,7 @@
 #include "common/errors.hpp"
 #include "solver/model/bond_resolution.hpp"
 #include "solver/output/checkpoint.hpp"
-#include "solver/parallel/leader.hpp"
+#include "solver/parallel/root.hpp"
 #include "solver/run/needs.hpp"
 #include "solver/run/plan_text.hpp"
 #include "solver/run/programme.hpp"
@@ -180,7 +180,7 @@ void check_scenario(const Scenario& scenario, int threads, const std::optional<s
                     const Communicator& ranks) {
   Needs needs;
   std::string scarce;
-  leader_does(ranks, [&] {
+  root_does(ranks, [&] {
     needs = needs_of(read_packing_counts(scenario.packing_file), scenario);
     scarce = check_needs(scenario.packing_file, needs, {available_memory(), std::numeric_limits<double>::infinity()});
   });

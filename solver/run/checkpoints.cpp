@@ -7,7 +7,7 @@
 
 #include "common/errors.hpp"
 #include "common/one_line.hpp"
-#include "solver/parallel/leader.hpp"
+#include "solver/parallel/root.hpp"
 
 namespace mpfem {
 
@@ -107,12 +107,12 @@ void replace_rolling_checkpoint(const Communicator& ranks, const std::string& ru
                                 const std::function<void(const std::string&)>& write) {
   const std::string rolling = checkpoint_path(run_file), previous = previous_checkpoint_path(run_file),
                     next = next_checkpoint_path(run_file);
-  leader_does(ranks, [&] {
+  root_does(ranks, [&] {
     std::error_code ignored;
     fs::remove(previous, ignored); // at most two are on disk; the one that stays was read back
   });
   write(next);
-  leader_does(ranks, [&] {
+  root_does(ranks, [&] {
     verify_written(next, rolling);
     if (fs::exists(rolling)) fs::rename(rolling, previous);
     fs::rename(next, rolling);

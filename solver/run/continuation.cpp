@@ -8,7 +8,7 @@
 #include "common/hash.hpp"
 #include "common/one_line.hpp"
 #include "solver/output/run_file.hpp"
-#include "solver/parallel/leader.hpp"
+#include "solver/parallel/root.hpp"
 #include "solver/run/resume.hpp"
 
 namespace mpfem {
@@ -32,7 +32,7 @@ std::vector<std::string> missing_snapshots(const std::string& run_file, const st
 /// Collective. What is wrong with a checkpoint; empty if it is intact.
 std::string damage_of(const std::string& path, const Communicator& ranks) {
   try {
-    leader_does(ranks, [&] { verify_checkpoint(path); });
+    root_does(ranks, [&] { verify_checkpoint(path); });
   } catch (const InputError& error) {
     return error.what();
   }
@@ -47,7 +47,7 @@ Continuation::Continuation(Simulation& simulation, RunRecord& record, const RunO
       options_(options), report_(report) {}
 
 Beginning Continuation::begin() {
-  const std::string from = leader_says(
+  const std::string from = root_says(
       ranks_, [this] { return options_.from ? checkpoint_checksum(*options_.from) : std::string("packing"); });
   identity_ = {options_.output, scenario_.text, hash_text(simulation_.model().mesh_hash), from};
   if (options_.resume)
@@ -74,7 +74,7 @@ std::optional<Beginning> Continuation::resume() {
 /// Collective. Whether the output is the finished run of this very scenario and packing, from this beginning (if one is
 /// named), and all its checkpoints exist. Missing ones are added to `lost`.
 bool Continuation::found_complete(std::vector<std::string>& lost) const {
-  const bool complete = leader_finds(ranks_, [&] {
+  const bool complete = root_finds(ranks_, [&] {
     if (rolling_checkpoint_exists(options_.output) || !fs::exists(options_.output)) return false;
     const RunSummary run = read_run_summary(options_.output);
     if (run.status != "complete" || run.scenario_text != scenario_.text || run.packing_hash != identity_.packing_hash ||
@@ -85,18 +85,18 @@ bool Continuation::found_complete(std::vector<std::string>& lost) const {
     return lost.empty();
   });
   if (complete) {
-    leader_does(ranks_, [this] { remove_unfinished(options_.output); }); // of a run killed while it tidied up
+    root_does(ranks_, [this] { remove_unfinished(options_.output); }); // of a run killed while it tidied up
     report_.note(options_.output + " is already complete");
     return true;
   }
-  lost = leader_lists(ranks_, [&] { return lost; });
+  lost = root_lists(ranks_, [&] { return lost; });
   return false;
 }
 
 /// Collective. Restores the best checkpoint. False if there is none; `damage` then says what is wrong with the first
 /// damaged one.
 bool Continuation::restore_best(std::vector<std::string>& lost, std::string& damage) {
-  for (const std::string& path : leader_lists(ranks_, [this] { return resumable_checkpoints(scenario_, identity_); })) {
+  for (const std::string& path : root_lists(ranks_, [this] { return resumable_checkpoints(scenario_, identity_); })) {
     if (const std::string found = damage_of(path, ranks_); !found.empty()) {
       report_.warning_despite_quiet(found + "; looking for an earlier checkpoint");
       if (damage.empty()) damage = found;
@@ -104,7 +104,7 @@ bool Continuation::restore_best(std::vector<std::string>& lost, std::string& dam
     }
     if (!restore(path, lost)) continue;
     if (path == previous_checkpoint_path(options_.output)) // whatever is in the rolling one's place is worse
-      leader_does(ranks_, [&] { fs::rename(path, checkpoint_path(options_.output)); });
+      root_does(ranks_, [&] { fs::rename(path, checkpoint_path(options_.output)); });
     if (!lost.empty())
       report_.warning_despite_quiet(
           fmt::format("{} is missing; the run continues from {} to write it", lost.front(), path));
@@ -124,11 +124,11 @@ bool Continuation::restore(const std::string& path, std::vector<std::string>& lo
     throw InputError(
         fmt::format("{}: the checkpoint belongs to a run that did not begin at {}; run without --resume to start again",
                     path, one_line(*options_.from)));
-  const auto missing = leader_lists(ranks_, [this] { return missing_written_checkpoints(); });
+  const auto missing = root_lists(ranks_, [this] { return missing_written_checkpoints(); });
   lost.insert(lost.end(), missing.begin(), missing.end());
   if (!missing.empty()) return false;
   const auto snapshots =
-      leader_lists(ranks_, [this] { return missing_snapshots(options_.output, record_.snapshot_files); });
+      root_lists(ranks_, [this] { return missing_snapshots(options_.output, record_.snapshot_files); });
   if (snapshots.empty()) return true;
   // The checkpoints that a complete run keeps count on snapshots that it has removed; the rolling one does not.
   const bool rolling = path == checkpoint_path(options_.output);

@@ -35,7 +35,7 @@ public:
   /// another beginning, if it counts on a snapshot that is lost, or if none is intact, on all ranks alike.
   Beginning begin();
 
-  // ---- on the first rank alone, as part of leader_does() or leader_lists()
+  // ---- on the first rank alone, as part of root_does() or root_lists()
   /// Removes the files of an earlier, unfinished run of this name: they would mix with those of a fresh run.
   void discard_unfinished_run() const;
   /// Throws StorageError if a checkpoint that the run has written by now is gone: the run must not be called complete.

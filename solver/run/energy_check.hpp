@@ -16,8 +16,8 @@ namespace mpfem {
 /// the contact's energy, occurs once, and is soon small in comparison.
 class EnergyCheck {
 public:
-  static constexpr double allowed = 0.1;     ///< of the largest term: beyond, the run fails
-  static constexpr double noteworthy = 0.01; ///< of the largest term: beyond, the run warns
+  static constexpr double allowed = 0.1;        ///< of the largest term: beyond, the run fails
+  static constexpr double warning_limit = 0.01; ///< of the largest term: beyond, the run warns
 
   /// `stiffness`: Young's modulus times the volume of all grains, mJ.
   explicit EnergyCheck(double stiffness) : negligible_(1e-7 * stiffness) {}

@@ -8,7 +8,7 @@
 
 #include "common/errors.hpp"
 #include "common/one_line.hpp"
-#include "solver/parallel/leader.hpp"
+#include "solver/parallel/root.hpp"
 
 namespace mpfem {
 
@@ -49,7 +49,7 @@ bool interrupt_requested() {
 
 void stop_before_first_step(const Communicator& ranks, const std::string& checkpoint) {
   if (ranks.largest(interrupt_requested() ? 1 : 0) == 0) return;
-  if (leader_finds(ranks, [&] { return std::filesystem::exists(checkpoint); }))
+  if (root_finds(ranks, [&] { return std::filesystem::exists(checkpoint); }))
     throw Interrupted(fmt::format("interrupted before the first step; {} is unchanged; continue with --resume",
                                   one_line(checkpoint)));
   throw Interrupted("interrupted before the first step; nothing to resume");

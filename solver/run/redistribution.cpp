@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "solver/parallel/leader.hpp"
+#include "solver/parallel/root.hpp"
 #include "solver/run/balance.hpp"
 
 namespace mpfem {
@@ -33,7 +33,7 @@ Owners Redistribution::new_owners(double remaining) {
   const double busy = busy_time(simulation_.profile());
   const Balance balance = measure_balance(ranks, simulation_.model(), busy - busy_before_);
   busy_before_ = busy;
-  if (!leader_finds(ranks, [&] { return pays(balance, remaining, reload_); })) return std::nullopt;
+  if (!root_finds(ranks, [&] { return pays(balance, remaining, reload_); })) return std::nullopt;
   Owners owners = redistribute(ranks, simulation_.model(), balance);
   report_.note(fmt::format("the busiest rank has {:.0f} % more work than the mean: redistributing grains",
                            100 * (balance.imbalance - 1)));

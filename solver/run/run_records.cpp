@@ -3,7 +3,7 @@
 #include <filesystem>
 
 #include "solver/output/run_file.hpp"
-#include "solver/parallel/leader.hpp"
+#include "solver/parallel/root.hpp"
 #include "solver/run/checkpoints.hpp"
 #include "solver/run/history_schedule.hpp"
 #include "solver/run/observer.hpp"
@@ -53,7 +53,7 @@ void RunRecords::take_snapshots(bool stage_end, std::int64_t rows_before) {
 
 void RunRecords::save_snapshot() {
   const auto start = Profile::Clock::now();
-  leader_does(simulation_.ranks(), [this] { std::filesystem::create_directories(parts_folder(options_.output)); });
+  root_does(simulation_.ranks(), [this] { std::filesystem::create_directories(parts_folder(options_.output)); });
   const std::string name = snapshot_name(record_.snapshot_files.size());
   const RunState& state = simulation_.state();
   write_snapshot_file(snapshot_path(options_.output, name),

@@ -53,7 +53,8 @@ std::string damping_text(const std::vector<HistoryRow>& history) {
 
 } // namespace
 
-RunReport::RunReport(bool leads, bool quiet) : leads_(leads), quiet_(quiet || !leads), progress_("mpfem", quiet_) {}
+RunReport::RunReport(bool is_root, bool quiet)
+    : is_root_(is_root), quiet_(quiet || !is_root), progress_("mpfem", quiet_) {}
 
 void RunReport::note(const std::string& text) const {
   if (!quiet_) fmt::print(stderr, "mpfem: {}\n", text);
@@ -64,7 +65,7 @@ void RunReport::warning(const std::string& text) const {
 }
 
 void RunReport::warning_despite_quiet(const std::string& text) const {
-  if (leads_) fmt::print(stderr, "mpfem: warning: {}\n", text);
+  if (is_root_) fmt::print(stderr, "mpfem: warning: {}\n", text);
 }
 
 void RunReport::head_of_rows() {
@@ -101,7 +102,7 @@ void RunReport::progress(double fraction, const RunPosition& position) {
 }
 
 void RunReport::energy_error(double error, double step) {
-  if (error <= EnergyCheck::noteworthy || warned_of_energy_) return;
+  if (error <= EnergyCheck::warning_limit || warned_of_energy_) return;
   warned_of_energy_ = true;
   warning(fmt::format("the energy balance is off by {:.2g} % of its largest term at step {:.0f}", 100 * error, step));
 }

@@ -33,8 +33,8 @@ struct RowReport {
 /// The messages of one run. Only the first rank prints, and with --quiet nothing but warning_despite_quiet().
 class RunReport {
 public:
-  /// `leads`: whether this is the first rank.
-  RunReport(bool leads, bool quiet);
+  /// `is_root`: whether this is the first rank.
+  RunReport(bool is_root, bool quiet);
 
   void note(const std::string& text) const;
   void warning(const std::string& text) const;
@@ -67,7 +67,7 @@ public:
 private:
   void head_of_rows();
 
-  bool leads_, quiet_;
+  bool is_root_, quiet_;
   Progress progress_;
   int reported_lines_ = 0;
   double first_stable_step_ = 0; ///< s, 0: not known yet

@@ -8,7 +8,7 @@
 #include "common/errors.hpp"
 #include "solver/model/bond_resolution.hpp"
 #include "solver/output/run_lock.hpp"
-#include "solver/parallel/leader.hpp"
+#include "solver/parallel/root.hpp"
 #include "solver/run/check_output.hpp"
 #include "solver/run/checkpoints.hpp"
 #include "solver/run/continuation.hpp"
@@ -61,7 +61,7 @@ Outcome run_once(const Scenario& scenario, const RunOptions& options, const Comm
   const auto begun = Profile::Clock::now();
   ThreadTeam team(options.threads);
   Simulation simulation(load_model(scenario, options, ranks, owners), scenario, team, options.from.has_value(), ranks);
-  RunReport report(ranks.leads(), options.quiet);
+  RunReport report(ranks.is_root(), options.quiet);
   RunRecord record;
   Continuation continuation(simulation, record, options, report);
   const auto warnings = check_bonds(simulation.model(), scenario, ranks);
@@ -72,7 +72,7 @@ Outcome run_once(const Scenario& scenario, const RunOptions& options, const Comm
   report_beginning(report, warnings, simulation);
   check_programme(scenario, simulation.state().stage, simulation.stage_run().state().start, simulation.model(),
                   simulation.step_estimate().stable_step());
-  if (beginning == Beginning::fresh) leader_does(ranks, [&] { continuation.discard_unfinished_run(); });
+  if (beginning == Beginning::fresh) root_does(ranks, [&] { continuation.discard_unfinished_run(); });
   RunRecords records(simulation, record, options);
   if (beginning == Beginning::fresh) records.pass_checkpoint_densities(); // those that the packing has from the start
   TimeLoop loop(simulation, records, continuation, report, options, Profile::since(begun));
@@ -84,9 +84,9 @@ Outcome run_once(const Scenario& scenario, const RunOptions& options, const Comm
 
 void run_scenario(const Scenario& scenario, const RunOptions& given, const Communicator& ranks) {
   RunOptions options = given;
-  if (!ranks.leads()) options.quiet = true;
+  if (!ranks.is_root()) options.quiet = true;
   std::optional<RunLock> lock;
-  leader_does(ranks, [&] {
+  root_does(ranks, [&] {
     check_output(scenario, options);
     const std::string scarce =
         check_needs(options.output, needs_of(read_packing_counts(scenario.packing_file), scenario),

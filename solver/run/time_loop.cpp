@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "solver/parallel/leader.hpp"
+#include "solver/parallel/root.hpp"
 #include "solver/run/checkpoints.hpp"
 
 namespace mpfem {
@@ -98,7 +98,7 @@ RunPosition TimeLoop::position() const {
 
 /// The failed state is worth a look: saves a snapshot of it, and everything recorded so far.
 void TimeLoop::save_failed_state(const SimulationError& error) {
-  const auto checkpoints = leader_lists(ranks_, [this] { return continuation_.resumable(); });
+  const auto checkpoints = root_lists(ranks_, [this] { return continuation_.resumable(); });
   try {
     records_.save_snapshot();
     records_.write_result(fmt::format("failed: {}", error.what()));
@@ -112,9 +112,9 @@ void TimeLoop::save_failed_state(const SimulationError& error) {
 }
 
 void TimeLoop::complete() {
-  leader_does(ranks_, [this] { continuation_.check_written_checkpoints(); });
+  root_does(ranks_, [this] { continuation_.check_written_checkpoints(); });
   records_.write_result("complete");
-  leader_does(ranks_, [this] { remove_unfinished(options_.output); });
+  root_does(ranks_, [this] { remove_unfinished(options_.output); });
   report_.finish(position(), options_.output);
   const RunRecord record = records_.with_times();
   // A branch counts its own steps; a run that was resumed, those of all its parts.

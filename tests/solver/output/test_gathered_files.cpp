@@ -38,7 +38,7 @@ public:
     const std::string path = own_ / "";
     Bytes message;
     append(message, std::span<const char>(path));
-    test_ranks().broadcast_from_leader(message);
+    test_ranks().broadcast_from_root(message);
     path_.resize(message.size());
     MessageReader(message).take(std::span<char>(path_));
   }
@@ -344,7 +344,7 @@ TEST_CASE("a checkpoint of all ranks is that of one") {
   REQUIRE(std::ranges::any_of(simulation.contact().point_friction, &PointFriction::exists));
   const SharedFolder folder;
   write_together(folder / "together.h5", simulation);
-  if (!test_ranks().leads()) return;
+  if (!test_ranks().is_root()) return;
   write_alone(folder / "alone.h5", simulation);
   CHECK(content(folder / "together.h5") == content(folder / "alone.h5"));
   CHECK(schema::validate(folder / "together.h5").empty());
@@ -370,7 +370,7 @@ TEST_CASE("a snapshot and a run file of all ranks are those of one") {
   };
   const All all{simulation.model(), simulation.contact(), simulation.wall_friction(), simulation.tools()};
   write_snapshot_file(folder / "together-0.h5", state(part), test_ranks());
-  if (test_ranks().leads()) write_snapshot_file(folder / "alone-0.h5", state(all));
+  if (test_ranks().is_root()) write_snapshot_file(folder / "alone-0.h5", state(all));
 
   const std::vector<HistoryRow> rows(2);
   const std::vector<ToolRow> tool_rows(2);
@@ -380,7 +380,7 @@ TEST_CASE("a snapshot and a run file of all ranks are those of one") {
   provenance.status = "complete";
   provenance.ranks = 3;
   write_run_file(folder / "together.h5", part.model, history, {folder / "together-0.h5"}, provenance, test_ranks());
-  if (!test_ranks().leads()) return;
+  if (!test_ranks().is_root()) return;
   write_run_file(folder / "alone.h5", simulation.model(), history, {folder / "alone-0.h5"}, provenance);
   CHECK(content(folder / "together-0.h5") == content(folder / "alone-0.h5"));
   CHECK(content(folder / "together.h5") == content(folder / "alone.h5"));

@@ -39,7 +39,7 @@ TEST_CASE("The imbalance of ranks is the largest share of the work over the mean
   CHECK(even.imbalance == Approx(1));
   CHECK_FALSE(pays(even, 1e9, 0));
   // The first rank works three times as long: 3 over (3 + (n - 1)) / n.
-  const Balance uneven = measure_balance(test_ranks(), model, test_ranks().leads() ? 3.0 : 1.0);
+  const Balance uneven = measure_balance(test_ranks(), model, test_ranks().is_root() ? 3.0 : 1.0);
   CHECK(uneven.imbalance == Approx(3.0 * ranks / (2 + ranks)));
   if (ranks == 1) return;
   CHECK(pays(uneven, 100, 1));
@@ -49,7 +49,7 @@ TEST_CASE("The imbalance of ranks is the largest share of the work over the mean
 TEST_CASE("A rank that is three times as slow hands over work") {
   const Model model = model_of_eight_grains();
   const int ranks = test_ranks().size();
-  const Balance balance = measure_balance(test_ranks(), model, test_ranks().leads() ? 3.0 : 1.0);
+  const Balance balance = measure_balance(test_ranks(), model, test_ranks().is_root() ? 3.0 : 1.0);
   const auto owner = redistribute(test_ranks(), model, balance);
   REQUIRE(owner.size() == 8);
   // s of the busiest rank, where each grain costs what it has cost its first owner.

@@ -128,7 +128,7 @@ TEST_CASE("values of grains come in their order and in pieces of whole grains, g
   for (std::size_t g = 0; g < counts.size(); ++g)
     expected.insert(expected.end(), static_cast<std::size_t>(counts[g]), static_cast<double>(g));
   std::size_t largest = 0;
-  gather_at_leader<double>(
+  gather_at_root<double>(
       alone, sole_ownership(20), counts,
       [&](std::int32_t grain, std::span<double> values) {
         CHECK(static_cast<std::int64_t>(values.size()) == counts[static_cast<std::size_t>(grain)]);

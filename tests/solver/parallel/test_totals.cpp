@@ -57,7 +57,7 @@ TEST_CASE("Totals over ranks are those of one rank that has all grains, to the l
 
 TEST_CASE("Totals of several quantities stay separate, and show that a rank has failed") {
   Totals<Load> totals(2);
-  if (test_ranks().leads()) totals.add({.force = 1, .penetration = 0.5, .bonds = 2, .admissible = true}, 1);
+  if (test_ranks().is_root()) totals.add({.force = 1, .penetration = 0.5, .bonds = 2, .admissible = true}, 1);
   totals.add({.force = 3, .penetration = 0.25, .bonds = 0, .admissible = true}, 0);
   CHECK_FALSE(totals.combine(test_ranks()));
   CHECK(totals[0].force == 3.0 * test_ranks().size());
