@@ -13,7 +13,7 @@ namespace mpfem {
 struct ContactTable {
   double relative_density = 0, mean_stress = 0; ///< 1, MPa
   double contact_area_ratio = 0;  ///< area in contact over total surface, in the history row nearest in time
-  double coordination_number = 0; ///< 2 pairs / grains
+  double coordination_number = 0; ///< 2 pairs / grains, of all pairs in the columns
   std::vector<Column> columns;    ///< a row per pair: first, second, force_x, _y, _z, force, area, pressure; with
                                   ///< bonds also bonded_area, damage (-1: never bonded), bond_energy,
                                   ///< damage_dissipation; N, mm^2, MPa, mJ
