@@ -9,16 +9,13 @@
 
 #include "pack-gen/sphere_file.hpp"
 #include "results-schema/file.hpp"
+#include "run_pack_gen.hpp"
 #include "tests/support/folder.hpp"
 
 using namespace mpfem;
 using namespace mpfem::test;
 
 namespace {
-
-Outcome pack_gen(const std::string& arguments) {
-  return run_command(fmt::format("'{}' {}", MPFEM_PACK_GEN, arguments));
-}
 
 const std::string description = R"(count = 11
 relative_density = 0.3
@@ -86,7 +83,7 @@ TEST_CASE("a cylinder goes through spheres, mesh, quality, export and import wit
     CHECK(schema::validate(folder / name).empty());
     const SpherePacking packing = read_spheres(folder / name).packing;
     CHECK(packing.shape == ContainerShape::cylinder);
-    CHECK(packing.box == Point{0.44, 0.44, 0.42});
+    CHECK(packing.box == mpfem::Point{0.44, 0.44, 0.42});
     CHECK(relative_density(packing) == Approx(0.3).epsilon(1e-12));
     CHECK(smallest_gap(packing).gap >= 0.002 * (1 - 1e-12));
     const schema::FileReader file(folder / name);
@@ -153,7 +150,7 @@ TEST_CASE("spheres about an axis elsewhere are imported with the centre of the b
                                folder / "s.csv", folder / "s.h5"))
               .exit_code == 0);
   const SpherePacking packing = read_spheres(folder / "s.h5").packing;
-  CHECK(packing.center[0] == Point{1, 1, 0.5});
+  CHECK(packing.center[0] == mpfem::Point{1, 1, 0.5});
   CHECK(packing.center[1][0] == Approx(1.7));
   // Further out the second sphere is beyond the round wall: it is named, with its number.
   write_text(folder / "s.csv", "x,y,z,radius\n0, 0, 0.5, 0.3\n0.6, 0.6, 0.5, 0.25\n");

@@ -27,8 +27,8 @@ SpherePacking three_spheres() {
           .radius = {0.12, 0.105, 0.08}};
 }
 
-std::vector<Point> nodes_of(const PackingMesh& mesh, std::size_t grain) {
-  std::vector<Point> nodes;
+std::vector<mpfem::Point> nodes_of(const PackingMesh& mesh, std::size_t grain) {
+  std::vector<mpfem::Point> nodes;
   for (auto n = static_cast<std::size_t>(mesh.grain_node_offset[grain]);
        n < static_cast<std::size_t>(mesh.grain_node_offset[grain + 1]); ++n)
     nodes.push_back({mesh.node[3 * n], mesh.node[3 * n + 1], mesh.node[3 * n + 2]});
@@ -74,14 +74,14 @@ TEST_CASE("the proven facet gap is below every distance of sampled surface point
   const double proven = smallest_facet_gap(packing, mesh).gap;
   CHECK(proven > 0);
   // Points on all facets: corners, and a grid inside.
-  std::vector<std::vector<Point>> surface(3);
+  std::vector<std::vector<mpfem::Point>> surface(3);
   double sampled = std::numeric_limits<double>::infinity();
   for (std::size_t g = 0; g < 3; ++g) {
     const auto nodes = nodes_of(mesh, g);
     for (const Facet& f : boundary_facets(tets_of(mesh, g)))
       for (int a = 0; a <= 4; ++a)
         for (int b = 0; a + b <= 4; ++b) {
-          Point p{};
+          mpfem::Point p{};
           for (std::size_t k = 0; k < 3; ++k)
             p[k] = (a * nodes[static_cast<std::size_t>(f[0])][k] + b * nodes[static_cast<std::size_t>(f[1])][k] +
                     (4 - a - b) * nodes[static_cast<std::size_t>(f[2])][k]) /
@@ -92,8 +92,8 @@ TEST_CASE("the proven facet gap is below every distance of sampled surface point
   }
   for (std::size_t g = 0; g < 3; ++g)
     for (std::size_t h = 0; h < g; ++h)
-      for (const Point& p : surface[g])
-        for (const Point& q : surface[h])
+      for (const mpfem::Point& p : surface[g])
+        for (const mpfem::Point& q : surface[h])
           sampled = std::min(sampled, std::hypot(p[0] - q[0], p[1] - q[1], p[2] - q[2]));
   CHECK(proven <= sampled + 1e-12);
   CHECK(proven > sampled - 0.002); // the grid's own error: (edge/4)^2 over the sphere's radius and the like
@@ -128,13 +128,13 @@ TEST_CASE("the mesh does not depend on the number of threads, and the same seed 
 }
 
 TEST_CASE("quality and critical step of the regular tetrahedron are known") {
-  const Point a{1, 1, 1}, b{-1, 1, -1}, c{1, -1, -1}, d{-1, -1, 1};
+  const mpfem::Point a{1, 1, 1}, b{-1, 1, -1}, c{1, -1, -1}, d{-1, -1, 1};
   const double quality = tet_quality(a, b, c, d);
   CHECK(quality == Approx(1).epsilon(1e-12));
   CHECK(tet_quality({0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0.3, 0.3, 1e-9}) < 1e-6);
   // The step grows with the size and falls with the wave speed.
   const StepMaterial material;
-  const Point a2{2, 2, 2}, b2{-2, 2, -2}, c2{2, -2, -2}, d2{-2, -2, 2};
+  const mpfem::Point a2{2, 2, 2}, b2{-2, 2, -2}, c2{2, -2, -2}, d2{-2, -2, 2};
   CHECK(critical_step(a2, b2, c2, d2, material) == Approx(2 * critical_step(a, b, c, d, material)).epsilon(1e-9));
 }
 
@@ -164,7 +164,7 @@ SpherePacking cluster(double radius, double gap) {
   const double step = (2 * radius + gap) / std::sqrt(2.0);
   for (const double a : {-step, step})
     for (const double b : {-step, step})
-      for (const Point& offset : {Point{a, b, 0}, Point{a, 0, b}, Point{0, a, b}}) {
+      for (const mpfem::Point& offset : {mpfem::Point{a, b, 0}, mpfem::Point{a, 0, b}, mpfem::Point{0, a, b}}) {
         packing.center.push_back({4 * radius + offset[0], 4 * radius + offset[1], 4 * radius + offset[2]});
         packing.radius.push_back(radius);
       }

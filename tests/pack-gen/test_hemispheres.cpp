@@ -45,17 +45,17 @@ TetMesh grain_of(const PackingMesh& mesh, std::size_t grain) {
   return result;
 }
 
-double distance(const Point& p, const Point& q) {
+double distance(const mpfem::Point& p, const mpfem::Point& q) {
   return std::hypot(p[0] - q[0], p[1] - q[1], p[2] - q[2]);
 }
 
 /// Edge lengths of the facets whose middle is within `reach` of the axis, on the side of the tip.
-std::vector<double> edges_near_tip(const TetMesh& grain, const Point& centre, double reach) {
+std::vector<double> edges_near_tip(const TetMesh& grain, const mpfem::Point& centre, double reach) {
   std::vector<double> edges;
   for (const Facet& f : boundary_facets(grain.tet)) {
-    const Point &a = grain.node[static_cast<std::size_t>(f[0])], &b = grain.node[static_cast<std::size_t>(f[1])],
-                &c = grain.node[static_cast<std::size_t>(f[2])];
-    const Point middle{(a[0] + b[0] + c[0]) / 3, (a[1] + b[1] + c[1]) / 3, (a[2] + b[2] + c[2]) / 3};
+    const mpfem::Point &a = grain.node[static_cast<std::size_t>(f[0])], &b = grain.node[static_cast<std::size_t>(f[1])],
+                       &c = grain.node[static_cast<std::size_t>(f[2])];
+    const mpfem::Point middle{(a[0] + b[0] + c[0]) / 3, (a[1] + b[1] + c[1]) / 3, (a[2] + b[2] + c[2]) / 3};
     if (std::hypot(middle[0] - centre[0], middle[1] - centre[1]) > reach) continue;
     if (std::abs(middle[2] - centre[2]) < 0.5 * radius) continue; // the flat face
     edges.insert(edges.end(), {distance(a, b), distance(b, c), distance(c, a)});
@@ -73,20 +73,20 @@ TEST_CASE("hemispheres: boundary nodes lie on the sphere or exactly on the flat 
   CHECK(pair.packing.center[1][2] == height);
   for (std::size_t g = 0; g < 2; ++g) {
     const TetMesh grain = grain_of(pair.mesh, g);
-    const Point& centre = pair.packing.center[g];
+    const mpfem::Point& centre = pair.packing.center[g];
     const double flat = g == 0 ? 0 : height;
     CHECK(ball_defect(grain).empty());
     std::size_t on_flat = 0, on_sphere = 0, elsewhere = 0;
     double lowest = flat, highest = flat;
     for (const Facet& f : boundary_facets(grain.tet))
       for (const std::int32_t n : f) {
-        const Point& p = grain.node[static_cast<std::size_t>(n)];
+        const mpfem::Point& p = grain.node[static_cast<std::size_t>(n)];
         const bool round = std::abs(distance(p, centre) - radius) < 1e-14; // rounding of sums of a few 0.1 mm
         on_flat += p[2] == flat;
         on_sphere += round;
         elsewhere += !round && p[2] != flat;
       }
-    for (const Point& p : grain.node) {
+    for (const mpfem::Point& p : grain.node) {
       lowest = std::min(lowest, p[2]);
       highest = std::max(highest, p[2]);
     }
@@ -147,12 +147,12 @@ TEST_CASE("hemispheres: the meshes are apart by the gap and a little more, and n
   // the mean of that distance is about 0.4 edges; for mirrored meshes it is 0.
   double sum = 0;
   std::size_t count = 0;
-  const Point& centre = pair.packing.center[0];
-  for (const Point& p : lower.node) {
+  const mpfem::Point& centre = pair.packing.center[0];
+  for (const mpfem::Point& p : lower.node) {
     const double from_axis = std::hypot(p[0] - centre[0], p[1] - centre[1]);
     if (std::abs(distance(p, centre) - radius) > 1e-12 || from_axis > contact_radius || p[2] < 0.5 * radius) continue;
     double nearest = std::numeric_limits<double>::infinity();
-    for (const Point& q : upper.node)
+    for (const mpfem::Point& q : upper.node)
       if (std::abs(distance(q, pair.packing.center[1]) - radius) < 1e-12 && q[2] < 1.5 * radius)
         nearest = std::min(nearest, std::hypot(p[0] - q[0], p[1] - q[1]));
     sum += nearest;
@@ -188,7 +188,7 @@ TEST_CASE("pack-gen hemispheres writes a file that holds to the schema, with the
         Approx(4.0 / 3.0 * M_PI * 1e-3 / (0.3 * 0.3 * 0.200002)).epsilon(1e-12));
   const SphereFile file = read_spheres(folder / "pair.h5");
   CHECK(file.packing.box[0] == 0.3);
-  CHECK(file.packing.center[0] == Point{0.15, 0.15, 0});
+  CHECK(file.packing.center[0] == mpfem::Point{0.15, 0.15, 0});
   CHECK(file.packing.radius == std::vector<double>{0.1, 0.1});
 
   const Outcome quiet = run_command(fmt::format("'{}' {} --quiet -o {}", MPFEM_PACK_GEN, options, folder / "again.h5"));

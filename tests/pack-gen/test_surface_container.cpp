@@ -8,6 +8,7 @@
 
 #include "pack-gen/sphere_file.hpp"
 #include "results-schema/file.hpp"
+#include "run_pack_gen.hpp"
 #include "tests/support/folder.hpp"
 #include "tests/support/triangle_meshes.hpp"
 
@@ -17,10 +18,6 @@ using namespace mpfem::test;
 
 namespace {
 
-Outcome pack_gen(const std::string& arguments) {
-  return run_command(fmt::format("'{}' {}", MPFEM_PACK_GEN, arguments));
-}
-
 /// An L of 0.5 x 0.5 mm less a quarter, 0.3 mm high, somewhere in space; in metres.
 void write_l_shape(const std::string& path) {
   LooseTriangles body = prism(l_shape, 0, 1);
@@ -29,7 +26,7 @@ void write_l_shape(const std::string& path) {
   write_text(path, text_stl(body));
 }
 
-const std::string description = R"(count = 30
+const std::string l_description = R"(count = 30
 relative_density = 0.4
 container = "surface"
 surface_file = "l.stl"
@@ -56,7 +53,7 @@ double inside_l(const mpfem::Point& p) {
 TEST_CASE("a surface from an STL file is filled, meshed, exported and imported with its volume") {
   const Folder folder;
   write_l_shape(folder / "l.stl");
-  write_text(folder / "pack.toml", description);
+  write_text(folder / "pack.toml", l_description);
   const Outcome filled = pack_gen(fmt::format("spheres {} -o {}", folder / "pack.toml", folder / "s.h5"));
   INFO(filled.messages);
   REQUIRE(filled.exit_code == 0);
@@ -117,7 +114,7 @@ TEST_CASE("a surface from an STL file is filled, meshed, exported and imported w
 TEST_CASE("spheres settle in a surface from an STL file, within its walls") {
   const Folder folder;
   write_l_shape(folder / "l.stl");
-  write_text(folder / "pack.toml", description);
+  write_text(folder / "pack.toml", l_description);
   REQUIRE(pack_gen(fmt::format("spheres {} -o {}", folder / "pack.toml", folder / "s.h5")).exit_code == 0);
   const Outcome outcome = pack_gen(fmt::format("settle {} -o {}", folder / "s.h5", folder / "b.h5"));
   INFO(outcome.messages);
@@ -139,7 +136,7 @@ TEST_CASE("surfaces that are open, too small or without a scale are not filled")
   const Folder folder;
   write_l_shape(folder / "l.stl");
   const auto refusal = [&](const std::string& from, const std::string& to) {
-    std::string text = description;
+    std::string text = l_description;
     text.replace(text.find(from), from.size(), to);
     write_text(folder / "pack.toml", text);
     const Outcome outcome = pack_gen(fmt::format("spheres {} -o {}", folder / "pack.toml", folder / "s.h5"));

@@ -16,7 +16,7 @@ using namespace mpfem::test;
 
 namespace {
 
-constexpr double rounding = 1e-12; // sums and products of a few numbers of one size
+constexpr double rounding_of_sums = 1e-12; // sums and products of a few numbers of one size
 
 schema::FileReader file_of(const Folder& folder, const RunContents& contents) {
   write_run(folder / "run.h5", contents);
@@ -48,9 +48,9 @@ TEST_CASE("a test's kinetic energy is compared with its own internal energy, wit
   const StageRows stage = stages_of(history, {}).back();
   const double largest = 0.16 / (6 + 1 + 0.5 + 2 + 0.5); // over all that is stored and dissipated since the start: 107
   CHECK(triaxial_test(history, stage, 8, {}).details["kinetic_over_internal"].get<double>() ==
-        Approx(largest).epsilon(rounding));
+        Approx(largest).epsilon(rounding_of_sums));
   CHECK(quasi_static(history, stage, {}).details["kinetic_over_internal"].get<double>() ==
-        Approx(largest).epsilon(rounding));
+        Approx(largest).epsilon(rounding_of_sums));
   CHECK(quasi_static(history, stage, {}).details["inertial_number"].is_null());
 }
 
@@ -62,7 +62,8 @@ TEST_CASE("the inertial number is strain rate times diameter times the root of d
   const auto grains = grain_inertia(file, history);
   REQUIRE(grains);
   CHECK(grains->density == 2e-9);
-  CHECK(grains->diameter == Approx(std::cbrt(6 * 0.6 / (2 * std::numbers::pi))).epsilon(rounding)); // two grains
+  CHECK(grains->diameter ==
+        Approx(std::cbrt(6 * 0.6 / (2 * std::numbers::pi))).epsilon(rounding_of_sums)); // two grains
   const auto numbers = inertial_numbers(history, *grains);
   CHECK(numbers[0] == 0);                                                                          // nothing before it
   CHECK(numbers[1] == Approx(0.01 / 1e-6 * grains->diameter * std::sqrt(2e-9 / 3)).epsilon(1e-9)); // a log of an exp
@@ -88,7 +89,7 @@ TEST_CASE("the inertial number uses the density of all grains with the run's mas
   const auto density = [&](const std::string& scenario) {
     return scenario_facts(file_of(folder, run_of(straining(), scenario))).density;
   };
-  CHECK(*density(material + "[numerics]\nmass_scaling = 100\n") == Approx(2e-7).epsilon(rounding));
+  CHECK(*density(material + "[numerics]\nmass_scaling = 100\n") == Approx(2e-7).epsilon(rounding_of_sums));
   CHECK(density(material + "[[grain_material]]\ngrains = [0]\ndensity = 2e-9\n") == 2e-9);
   CHECK_FALSE(density(material + "[[grain_material]]\ngrains = [0]\ndensity = 3e-9\n"));
   CHECK_FALSE(density(material + "[numerics]\nmass_scaling_step = 1e-8\n"));

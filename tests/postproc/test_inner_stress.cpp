@@ -6,18 +6,17 @@
 #include "postproc/inner_stress.hpp"
 #include "postproc/love_weber.hpp"
 #include "tests/support/folder.hpp"
+#include "tests/support/tolerances.hpp"
 
 using namespace mpfem;
 using namespace mpfem::test;
 
 namespace {
 
-constexpr double rounding = 1e-13; // sums of some hundred products of numbers of one size
-
 /// A cubic lattice of n^3 grains with a spacing of 1 mm in the box [0, n]^3, under a stress (MPa, compression
 /// positive): each contact passes on the traction of the face between two cells; walls stand half a spacing from the
 /// outer grains.
-std::vector<ForceLine> lattice(int n, const Eigen::Matrix3d& stress, bool with_walls) {
+std::vector<ForceLine> stressed_lattice(int n, const Eigen::Matrix3d& stress, bool with_walls) {
   std::vector<ForceLine> lines;
   for (int z = 0; z < n; ++z)
     for (int y = 0; y < n; ++y)
@@ -52,12 +51,12 @@ TEST_CASE("Love and Weber's stress of a lattice is the applied stress, with shea
   stress << 7, 1, -2, 1, 11, 3, -2, 3, 30;
   const Region box{{0, 0, 0}, {6, 6, 6}};
   // The inner half of each length cuts grains' lines in their middle.
-  const Eigen::Matrix3d inner = love_weber_stress(inner_region(box, 0.5), lattice(6, stress, false));
+  const Eigen::Matrix3d inner = love_weber_stress(inner_region(box, 0.5), stressed_lattice(6, stress, false));
   CHECK((inner - stress).cwiseAbs().maxCoeff() < rounding * 30);
-  const Eigen::Matrix3d whole = love_weber_stress(box, lattice(6, stress, true));
+  const Eigen::Matrix3d whole = love_weber_stress(box, stressed_lattice(6, stress, true));
   CHECK((whole - stress).cwiseAbs().maxCoeff() < rounding * 30);
   // Without what the walls push the outer half layer is missing: five contacts of six spacings.
-  const Eigen::Matrix3d without = love_weber_stress(box, lattice(6, stress, false));
+  const Eigen::Matrix3d without = love_weber_stress(box, stressed_lattice(6, stress, false));
   CHECK((without - 5.0 / 6 * stress).cwiseAbs().maxCoeff() < rounding * 30);
 }
 

@@ -181,7 +181,7 @@ std::vector<double> sprung_back(const std::vector<double>& node, double radial, 
   return later;
 }
 
-std::vector<float> single(const std::vector<double>& values) {
+std::vector<float> in_single_precision(const std::vector<double>& values) {
   return {values.begin(), values.end()};
 }
 
@@ -189,7 +189,8 @@ std::vector<float> single(const std::vector<double>& values) {
 
 TEST_CASE("thickness and diameter out of the die are those of the stretch, however the tablet lies") {
   const Cylinder cylinder = cylinder_of_grains();
-  const std::vector<float> pressed = single(cylinder.node), later = single(sprung_back(cylinder.node, 0.012, 0.05));
+  const std::vector<float> pressed = in_single_precision(cylinder.node),
+                           later = in_single_precision(sprung_back(cylinder.node, 0.012, 0.05));
   std::string why;
   const auto shape = tablet_shape({pressed, later, cylinder.node_grain, {0, 0, 0}, {2, 2, 1}}, {0.01, 0.2}, why);
   REQUIRE(shape);
@@ -203,9 +204,9 @@ TEST_CASE("thickness and diameter out of the die are those of the stretch, howev
 
 TEST_CASE("a grain that has left the tablet does not count in its thickness") {
   const Cylinder cylinder = cylinder_of_grains();
-  std::vector<float> later = single(sprung_back(cylinder.node, 0.012, 0.05));
+  std::vector<float> later = in_single_precision(sprung_back(cylinder.node, 0.012, 0.05));
   for (std::size_t i = 0; i < 12; ++i) later[12 * 30 + i] += 7; // an upper one
-  const std::vector<float> pressed = single(cylinder.node);
+  const std::vector<float> pressed = in_single_precision(cylinder.node);
   std::string why;
   const auto shape = tablet_shape({pressed, later, cylinder.node_grain, {0, 0, 0}, {2, 2, 1}}, {0.01, 0.2}, why);
   REQUIRE(shape);
@@ -217,7 +218,7 @@ TEST_CASE("a grain that has left the tablet does not count in its thickness") {
 
 TEST_CASE("without nodes at a punch there is no thickness, and a note says why") {
   const Cylinder cylinder = cylinder_of_grains();
-  const std::vector<float> pressed = single(cylinder.node);
+  const std::vector<float> pressed = in_single_precision(cylinder.node);
   std::string why;
   CHECK_FALSE(tablet_shape({pressed, pressed, cylinder.node_grain, {0, 0, 0}, {2, 2, 1.5}}, {0.01, 0.2}, why));
   CHECK_THAT(why, Catch::Contains("within 0.01 mm of the upper punch found nodes of 0 grains"));

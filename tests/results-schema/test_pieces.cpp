@@ -13,9 +13,12 @@
 #include "results-schema/file.hpp"
 #include "tamper.hpp"
 #include "temporary_folder.hpp"
+#include "tests/common/one_line_error.hpp"
 
 using namespace mpfem;
 using namespace mpfem::schema;
+
+using test::input_error;
 
 namespace {
 
@@ -35,15 +38,6 @@ void append_rows(FileWriter& writer, Doubles values, std::size_t rows_of_piece) 
     writer.append(values.first(piece));
     values = values.subspan(piece);
   }
-}
-
-std::string input_error(const auto& read) {
-  try {
-    read();
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "no error";
 }
 
 /// Reads node positions of a packing piece by piece.

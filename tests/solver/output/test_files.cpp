@@ -22,7 +22,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-const std::string scenario_text = material_text + R"([output]
+const std::string short_scenario = material_text + R"([output]
 history_rows = 20
 checkpoint_relative_densities = [0.5]
 snapshot_relative_densities = [0.5]
@@ -35,9 +35,9 @@ damping_rate = 1e6
 damping_fade_stress = 5
 )";
 
-void prepare(const Folder& folder) {
+void prepare_short_run(const Folder& folder) {
   write_packing(folder / "packing.h5", eight_grains(3), std::vector<double>(8, 0.1));
-  write_text(folder / "scenario.toml", scenario_text);
+  write_text(folder / "scenario.toml", short_scenario);
 }
 
 Outcome run(const Folder& folder, const std::string& arguments) {
@@ -56,7 +56,7 @@ void flip_a_bit(const std::string& path, double share) {
 
 TEST_CASE("a checkpoint without checksums, as earlier versions wrote them, is refused") {
   const Folder folder;
-  prepare(folder);
+  prepare_short_run(folder);
   REQUIRE(run(folder, "-o first.h5").exit_code == 0);
   const std::string checkpoint = folder / "first.D0.500.checkpoint.h5";
   CHECK(checkpoint_checksum(checkpoint) == schema::FileReader(checkpoint).checksums());
@@ -73,7 +73,7 @@ TEST_CASE("a checkpoint without checksums, as earlier versions wrote them, is re
 
 TEST_CASE("a packing with one flipped bit, at any place, is refused") {
   const Folder folder;
-  prepare(folder);
+  prepare_short_run(folder);
   const std::string good = read_text(folder / "packing.h5");
   for (const double share : {0.1, 0.3, 0.5, 0.7, 0.9}) {
     write_text(folder / "packing.h5", good);
@@ -89,7 +89,7 @@ TEST_CASE("a packing with one flipped bit, at any place, is refused") {
 
 TEST_CASE("a run is not written to a device, FIFO or folder, and follows a link to a file") {
   const Folder folder;
-  prepare(folder);
+  prepare_short_run(folder);
   REQUIRE(mkfifo((folder / "fifo").c_str(), 0600) == 0);
   std::vector<std::pair<std::string, std::string>> cases = {{"fifo", "found a FIFO"}, {".", "found a folder"}};
   if (make_null_device(folder / "null")) cases.emplace_back("null", "found a character device");

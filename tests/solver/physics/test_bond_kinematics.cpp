@@ -12,10 +12,6 @@ using namespace mpfem::test;
 
 namespace {
 
-double length_of(const Vector3<double>& v) {
-  return std::sqrt(dot(v, v));
-}
-
 BondLaw law_of(double tensile, double shear) {
   return {.stiffness = 0, .tensile_strength = tensile, .shear_strength = shear, .fracture_energy = 40};
 }
@@ -107,7 +103,7 @@ TEST_CASE("turning a bonded point with its facet turns its force and leaves its 
   for (Vector3<double>& x : point.x) x = turned(x);
   const PointForces after = point.evaluate();
   CHECK(within(after.energy, before.energy, rounding));
-  CHECK(length_of(after.node - turned(before.node)) < rounding * length_of(before.node));
+  CHECK(norm(after.node - turned(before.node)) < rounding * norm(before.node));
 }
 
 TEST_CASE("pulling a bond apart takes the fracture energy of its area, opening or sliding") {
@@ -133,8 +129,8 @@ TEST_CASE("forces of a bonded point add up to no force and no moment, open and c
     const PointForces f = point.evaluate();
     Vector3<double> force = f.node, moment = cross(point.node, f.node);
     for (int c = 0; c < 3; ++c) force = force + f.facet[c], moment = moment + cross(point.x[c], f.facet[c]);
-    REQUIRE(length_of(f.node) > 0);
-    CHECK(length_of(force) < rounding * length_of(f.node));
-    CHECK(length_of(moment) < rounding * length_of(f.node));
+    REQUIRE(norm(f.node) > 0);
+    CHECK(norm(force) < rounding * norm(f.node));
+    CHECK(norm(moment) < rounding * norm(f.node));
   }
 }

@@ -59,7 +59,7 @@ double tangential(const PointForces& forces) {
 }
 
 /// Moves a point to `end` in steps. Returns the work (mJ) against the forces on its node, by the trapezoidal rule.
-double work_to(ContactPoint& point, const Vector3<double>& end, int steps) {
+double work_of_moving_to(ContactPoint& point, const Vector3<double>& end, int steps) {
   const Vector3<double> start = point.node;
   double work = 0;
   Vector3<double> force = point.evaluate().node, place = start;
@@ -110,10 +110,10 @@ TEST_CASE(
   for (const int steps : {50, 500}) {
     ContactPoint point = pressed_point(depth);
     const double k = point.stiffness * point.area;
-    work_to(point, {amplitude, 0, -depth}, steps);
+    work_of_moving_to(point, {amplitude, 0, -depth}, steps);
     const double before = point.rubbed;
-    const double work =
-        work_to(point, {-amplitude, 0, -depth}, 2 * steps) + work_to(point, {amplitude, 0, -depth}, 2 * steps);
+    const double work = work_of_moving_to(point, {-amplitude, 0, -depth}, 2 * steps) +
+                        work_of_moving_to(point, {amplitude, 0, -depth}, 2 * steps);
     const double expected = 4 * mu * k * depth * (amplitude - mu * depth);
     CHECK(within(point.rubbed - before, expected, 1e-9)); // 5 mm of facet in numbers of 16 digits
     // The step in which a point begins to slide is the one whose work is not that of a straight line.

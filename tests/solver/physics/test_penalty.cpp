@@ -13,10 +13,6 @@ using namespace mpfem::test;
 
 namespace {
 
-double length_of(const Vector3<double>& v) {
-  return std::sqrt(dot(v, v));
-}
-
 /// Points beneath the facet: under its interior, its edges and its corners.
 std::vector<Vector3<double>> points_inside() {
   std::mt19937 random(7);
@@ -49,8 +45,8 @@ TEST_CASE("the force of a contact point is minus the gradient of its energy, ben
                                    (energy_at(0, 0, step) - energy_at(0, 0, -step)) / (2 * step)};
     point.node = x;
     const Vector3<double> force = point.evaluate().node;
-    REQUIRE(length_of(force) > 0);
-    CHECK(length_of(force + gradient) < 1e-6 * length_of(force));
+    REQUIRE(norm(force) > 0);
+    CHECK(norm(force + gradient) < 1e-6 * norm(force));
   }
 }
 
@@ -61,8 +57,8 @@ TEST_CASE("force and reactions of a contact point add up to no force and no mome
     const PointForces f = point.evaluate();
     Vector3<double> force = f.node, moment = cross(x, f.node);
     for (int c = 0; c < 3; ++c) force = force + f.facet[c], moment = moment + cross(point.x[c], f.facet[c]);
-    CHECK(length_of(force) < rounding * length_of(f.node));
-    CHECK(length_of(moment) < rounding * length_of(f.node)); // lever arms are of the order of 1 mm
+    CHECK(norm(force) < rounding * norm(f.node));
+    CHECK(norm(moment) < rounding * norm(f.node)); // lever arms are of the order of 1 mm
   }
 }
 
