@@ -9,16 +9,20 @@ include(Catch)
 option(MPFEM_TESTS_TOGETHER "Compile up to six test files as one" ON)
 set(MPFEM_TEST_TIMEOUT 120 CACHE STRING "Seconds that one test case may take unless its part says otherwise")
 
-# mpfem_add_test(NAME name SOURCES file... [LIBRARIES target...] [TIMEOUT seconds] [LABELS label...])
+# mpfem_add_test(NAME name SOURCES file... [LIBRARIES target...] [TIMEOUT seconds] [COST seconds] [LABELS label...])
 # Makes the executable test-NAME with Catch2's main. Include paths: the project root and tests/support.
 # Test cases appear in ctest as "NAME/test case"; `ctest -L NAME` runs those of one part.
+# COST: about what the longest case takes. Parts with the highest start first, so that no long case is the last to end.
 function(mpfem_add_test)
-  cmake_parse_arguments(PARSE_ARGV 0 test "" "NAME;TIMEOUT" "SOURCES;LIBRARIES;LABELS")
+  cmake_parse_arguments(PARSE_ARGV 0 test "" "NAME;TIMEOUT;COST" "SOURCES;LIBRARIES;LABELS")
   if(NOT test_NAME OR NOT test_SOURCES OR test_UNPARSED_ARGUMENTS)
     message(FATAL_ERROR "mpfem_add_test needs NAME and SOURCES; not understood: '${test_UNPARSED_ARGUMENTS}'")
   endif()
   if(NOT test_TIMEOUT)
     set(test_TIMEOUT ${MPFEM_TEST_TIMEOUT})
+  endif()
+  if(NOT test_COST)
+    set(test_COST 0)
   endif()
 
   add_executable(test-${test_NAME} ${test_SOURCES})
@@ -31,6 +35,6 @@ function(mpfem_add_test)
   catch_discover_tests(test-${test_NAME}
     TEST_PREFIX "${test_NAME}/"
     WORKING_DIRECTORY ${PROJECT_SOURCE_DIR}
-    PROPERTIES TIMEOUT ${test_TIMEOUT} LABELS "${labels}"
+    PROPERTIES TIMEOUT ${test_TIMEOUT} COST ${test_COST} LABELS "${labels}"
                ENVIRONMENT LSAN_OPTIONS=suppressions=${PROJECT_SOURCE_DIR}/cmake/leaks-of-others.txt)
 endfunction()
