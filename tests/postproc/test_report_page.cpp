@@ -56,7 +56,7 @@ struct StudyReport {
     const ReportRun run{"fig03/press", run_file(), folder / "press.toml"};
     const ReportEntry entry{"fig03",
                             "fig03: the traction-separation law, force and displacement",
-                            "Does breaking it dissipate exactly the fracture energy G^c for any size of steps?",
+                            "Does breaking it dissipate exactly the fracture energy G^c, whatever the step size?",
                             folder / "figure.toml",
                             {run},
                             {{"law.png", "Traction of a bond in opening, with unloading and reloading."}}};
