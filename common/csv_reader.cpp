@@ -64,7 +64,7 @@ std::optional<CsvRow> CsvReader::next() {
     for (std::size_t begin = 0; begin <= line.size();) {
       const std::size_t comma = std::min(line.find(',', begin), line.size());
       if (row.cells.size() == most_columns)
-        fail(row, fmt::format("found more than {} columns, the most allowed", most_columns));
+        fail(row, fmt::format("found too many columns, allowed: up to {}", most_columns));
       row.cells.push_back(trimmed(line.substr(begin, comma - begin), " \t\r\""));
       begin = comma + 1;
     }

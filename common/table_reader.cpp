@@ -83,9 +83,8 @@ std::string quoted_list(const std::vector<std::string>& words) {
 
 toml::table parse_toml(std::string_view text, const std::string& name) {
   if (const auto line = line_nested_too_deep(text))
-    throw_input_error(
-        fmt::format("{}:{}", shown_path(name), *line),
-        fmt::format("tables and arrays are nested deeper than {} levels, the most allowed", deepest_toml));
+    throw_input_error(fmt::format("{}:{}", shown_path(name), *line),
+                      fmt::format("tables and arrays are nested too deeply, allowed: up to {} levels", deepest_toml));
   try {
     return toml::parse(text, name);
   } catch (const toml::parse_error& error) {
@@ -101,7 +100,7 @@ toml::table parse_assigned_value(std::string_view value, const std::string& sour
   value = value.substr(first, value.find_last_not_of(" \t") - first + 1);
   if (value.find_first_of("\r\n") != std::string_view::npos) throw_input_error(source, "the value has several lines");
   if (line_nested_too_deep(value))
-    throw_input_error(source, fmt::format("the value is nested deeper than {} levels, the most allowed", deepest_toml));
+    throw_input_error(source, fmt::format("the value is nested too deeply, allowed: up to {} levels", deepest_toml));
   try {
     return toml::parse(fmt::format("value = {}", value), source);
   } catch (const toml::parse_error& error) {
@@ -124,11 +123,11 @@ std::vector<std::string> split_key(std::string_view key, const std::string& sour
     parts.emplace_back(key.substr(begin, end - begin));
     if (parts.back().empty() || parts.back().find_first_of(" \t\r\n\"'[]") != std::string::npos)
       throw_input_error(source,
-                        fmt::format("'{}' is not a key, allowed: words joined by dots, as 'contact.search_margin' "
+                        fmt::format("'{}' is not a key, allowed: words joined by dots, such as 'contact.search_margin' "
                                     "or 'stages.0.name'",
                                     shortened(key, longest_word)));
     if (parts.size() > deepest_toml)
-      throw_input_error(source, fmt::format("found a key of more than {} parts, the most allowed", deepest_toml));
+      throw_input_error(source, fmt::format("found a key of too many parts, allowed: up to {}", deepest_toml));
     begin = end + 1;
   }
   return parts;

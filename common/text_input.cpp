@@ -44,7 +44,7 @@ std::string read_text_file(const std::string& path, std::size_t most_bytes) {
   }
   if (file.bad()) fail("cannot be read to its end");
   if (text.size() > most_bytes || size > most_bytes)
-    fail(fmt::format("has more than {} MiB, the most allowed", most_bytes >> 20U));
+    fail(fmt::format("is too large, allowed: up to {} MiB", most_bytes >> 20U));
   return text;
 }
 

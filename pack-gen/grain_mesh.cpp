@@ -148,7 +148,7 @@ TetMesh gmsh_half_ball(double radius, const std::function<double(const Point&)>&
     if (tet_volume(at(0), at(1), at(2), at(3)) < 0) std::swap(t[2], t[3]);
   }
   if (const std::string defect = ball_defect(mesh); !defect.empty())
-    throw SimulationError(fmt::format("gmsh gave no valid mesh of the half-ball: {}", defect));
+    throw SimulationError(fmt::format("gmsh made no valid mesh of the half-ball: {}", defect));
   return mesh;
 }
 
@@ -257,7 +257,7 @@ UnitBall mesh_unit_ball(double size_ratio, std::uint64_t seed, bool optimise) {
   }
   if (best.ball.mesh.tet.empty())
     throw SimulationError(fmt::format(
-        "gmsh gave no valid mesh of a sphere with radius/element size {:.3f} in {} attempts: {}", size_ratio,
+        "gmsh made no valid mesh of a sphere with radius/element size {:.3f} in {} attempts: {}", size_ratio,
         tries + static_cast<std::size_t>(std::min(search.failures(), 10)), search.last_defect()));
   best.volume = mesh_volume(best.ball.mesh);
   if (search.failures() > 0)

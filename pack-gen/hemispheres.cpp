@@ -96,7 +96,7 @@ TetMesh mesh_lower(const HemisphereRequest& r) {
   for (Point& p : mesh.node)
     for (double& x : p) x *= r.radius;
   if (const std::string defect = ball_defect(mesh); !defect.empty())
-    throw SimulationError(fmt::format("improving the half-ball gave {}", defect));
+    throw SimulationError(fmt::format("optimising the mesh of the half-ball led to {}", defect));
   return mesh;
 }
 

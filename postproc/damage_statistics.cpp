@@ -117,7 +117,7 @@ Measurement measure_damage(const schema::FileReader& file, int snapshot) {
   m.uncertainty_meaning =
       "half of the 95 % interval of the ratio of sums over pairs of grains, taken as independent of each "
       "other; not that of the mesh";
-  m.method = "mean damage of the bonds ever formed, both sides of every contact, weighted with their areas";
+  m.method = "mean damage of the bonds ever formed, both sides of every contact, weighted by their areas";
   m.snapshot = snapshot_window(file, snapshot);
 
   const auto add = [&](const std::string& key, Ratio ratio) {

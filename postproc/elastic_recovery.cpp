@@ -69,7 +69,7 @@ Measurement measure_elastic_recovery(const schema::FileReader& file, std::option
   m.metric = "elastic-recovery";
   m.value = r.recovery;
   m.uncertainty = r.uncertainty;
-  m.uncertainty_meaning = "what the rest of the stress would add, linear or as in Hertz's theory, the 95 % interval "
+  m.uncertainty_meaning = "change by extrapolation to zero stress, linear or as in Hertz's theory, the 95 % interval "
                           "of that line at zero stress, and the distance of the last row from it";
   m.window = isotropic_window(history, unloading, {begin + r.densest_row, unloading.last});
   m.method =

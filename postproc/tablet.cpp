@@ -311,8 +311,8 @@ void add_out_of_die(Tablet& tablet) {
   tablet.add("axial_recovery", "1", h.value / tablet.smallest_height - 1, h.half_width / tablet.smallest_height);
   tablet.add("radial_recovery", "1", d.value / tablet.diameter - 1, d.half_width / tablet.diameter);
   if (shape->grains_lost > 0)
-    tablet.note(fmt::format("{} grains have moved by more than half a grain's diameter against the others and are left "
-                            "out of thickness and diameter",
+    tablet.note(fmt::format("{} grains have moved by more than half a grain's diameter relative to the others; they "
+                            "do not count in thickness and diameter",
                             shape->grains_lost));
   tablet.result.measurement.details["grains_at_upper_face"] = shape->upper_grains;
   tablet.result.measurement.details["grains_at_lower_face"] = shape->lower_grains;

@@ -66,7 +66,7 @@ void add_common(CLI::App& command, Arguments& arguments) {
 CLI::App* add_bond(CLI::App& app, BondProgrammeOptions& options) {
   CLI::App* bond = app.add_subcommand(
       "bond",
-      "Drive one bonded contact point through a programme of separations.\n"
+      "Drive one bonded contact point along a sequence of separations.\n"
       "Example: mpfem bond law.toml programme.csv -o result.csv --set bond.softening=energy\n"
       "  law.toml         stiffness = 3.68e6   # MPa/mm, normal and tangential penalty\n"
       "                   [bond]               # the table of a scenario\n"
@@ -85,7 +85,7 @@ CLI::App* add_bond(CLI::App& app, BondProgrammeOptions& options) {
   bond->add_option("-o,--output", options.output, "Table to write (CSV)")->required();
   bond->add_option("--set", options.assignments, "Override a value of the law: KEY=VALUE")->take_all();
   add_number(*bond, "--increments", options.increments, Range::between(1, 1e7), "",
-             "Increments of a row of the programme that gives none")
+             "Increments for rows that give no number of their own")
       ->capture_default_str();
   bond->add_flag("--quiet", options.quiet, "No summary");
   return bond;

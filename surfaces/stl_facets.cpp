@@ -141,10 +141,10 @@ bool begins_with_solid(std::string_view bytes) {
 [[noreturn]] void fail_of_no_form(std::string_view bytes, const std::string& name) {
   const std::string binary = bytes.size() < head_bytes
                                  ? fmt::format("{} at least", head_bytes)
-                                 : fmt::format("{} for the {} triangles that it counts",
+                                 : fmt::format("{} for the {} triangles in its header",
                                                head_bytes + facet_bytes * binary_count(bytes), binary_count(bytes));
   throw InputError(
-      fmt::format("{}: is not an STL file: found {} bytes, a binary one has {}; one of text begins with 'solid'",
+      fmt::format("{}: is not an STL file: found {} bytes, a binary one has {}; an ASCII one begins with 'solid'",
                   shown_path(name), bytes.size(), binary));
 }
 

@@ -56,7 +56,7 @@ public:
                "low,high: axial strain since the stage began, instead of the rule")
         ->delimiter(',')
         ->expected(2);
-    options().add_flag("--need-window", need_window_, "Fail where no window meets the rule");
+    options().add_flag("--need-window", need_window_, "Fail if no window meets the rule");
     add_number(options(), "--youngs-modulus", youngs_modulus_, moduli, "MPa",
                "Young's modulus of the grains (default: the scenario's)");
   }

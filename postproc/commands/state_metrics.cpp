@@ -138,7 +138,7 @@ std::unique_ptr<Command> section_stress_command(CLI::App& app) {
       app, "section-stress",
       "Von Mises stress on the middle plane: mean, percentiles, share above a threshold.\n"
       "Example: postproc section-stress run.h5 --threshold 25 -o stress.json",
-      "MPa", measure_section_stress);
+      "Stress above which the area counts, MPa", measure_section_stress);
 }
 
 std::unique_ptr<Command> section_damage_command(CLI::App& app) {
@@ -146,7 +146,7 @@ std::unique_ptr<Command> section_damage_command(CLI::App& app) {
       app, "section-damage",
       "Damage along the grains' boundaries on the middle plane: mean, share above a threshold.\n"
       "Example: postproc section-damage run.h5 --axis x --threshold 0.99 -o damage.json",
-      "Damage from which on a bond counts as opened", measure_section_damage);
+      "Smallest damage at which a bond counts as opened", measure_section_damage);
 }
 
 std::unique_ptr<Command> stress_at_densities_command(CLI::App& app) {

@@ -224,7 +224,7 @@ std::string terminal(const std::string& format) {
 std::string key_text(const PlotSpec& plot) {
   if (plot.key.find_first_not_of("abcdefghijklmnopqrstuvwxyzLR0123456789 ") != std::string::npos)
     throw InputError(
-        fmt::format("key: found '{}', allowed: words of place as 'left top' or 'outside right'", plot.key));
+        fmt::format("key: found '{}', allowed: words of position such as 'left top' or 'outside right'", plot.key));
   std::string text = "set key Left reverse samplen 2 spacing 1.2 noautotitle\n";
   text += fmt::format("set key {}\n", plot.key);
   if (!plot.key_title.empty()) text += fmt::format("set key title {} left\n", gnuplot_string(plot.key_title));

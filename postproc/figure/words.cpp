@@ -22,7 +22,8 @@ std::string number_text(double number, std::string_view format) {
     const std::string pattern = format.empty() ? "{}" : fmt::format("{{:{}}}", format);
     return fmt::format(fmt::runtime(pattern), percent ? 100 * number : number) + (percent ? " %" : "");
   } catch (const fmt::format_error&) {
-    throw InputError(fmt::format("found the format '{}', allowed: one of numbers, as .2f or .3g", one_line(format)));
+    throw InputError(
+        fmt::format("found the format '{}', allowed: a number format such as .2f or .3g", one_line(format)));
   }
 }
 

@@ -1,5 +1,5 @@
 #pragma once
-// One contact point with a bond, walked through a programme of separations: the traction-separation law by itself.
+// One contact point with a bond, driven along a sequence of separations: the traction-separation law by itself.
 
 #include <string>
 #include <string_view>

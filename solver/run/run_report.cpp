@@ -112,7 +112,7 @@ void RunReport::stable_step(double stable_step) {
   if (stable_step >= doubtful_step_share * first_stable_step_ || warned_of_step_) return;
   warned_of_step_ = true;
   warning(fmt::format("the stable step fell from {:.3g} s to {:.3g} s: some elements are nearly flat, and the run "
-                      "becomes ever slower",
+                      "keeps slowing down",
                       first_stable_step_, stable_step));
 }
 

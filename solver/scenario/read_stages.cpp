@@ -170,7 +170,7 @@ ToolEnds read_tool_ends(TableReader& table, const StageContext& context) {
   ends.watched = tool_named(table, "watch", table.string("watch"), context.tools);
   const auto direction = direction_of(context.tools[ends.watched].shape);
   if (!direction)
-    table.fail("watch", "found a sphere or an STL surface, whose push has no direction, allowed: another tool");
+    table.fail("watch", "found a sphere or an STL surface, which has no direction, allowed: another tool");
   ends.watched_direction = *direction;
   return ends;
 }

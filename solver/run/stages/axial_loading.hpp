@@ -45,7 +45,7 @@ class UnconfinedCompressionControl final : public AxialLoading {
 public:
   UnconfinedCompressionControl(const UnconfinedCompression& stage, const StageLabel& label, const StageStart& start)
       : AxialLoading(stage, label, start) {}
-  std::string describe() const override { return "z walls driven, x and y walls away"; }
+  std::string describe() const override { return "z walls driven, x and y walls withdrawn"; }
 
 private:
   double watched_stress(const ObservedSample& seen) const override { return seen.stress[2]; }

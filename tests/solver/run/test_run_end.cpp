@@ -62,7 +62,7 @@ TEST_CASE("a run says what ended its stages, and how well stresses were held") {
   prepare(folder, 3, loading_text);
   const Outcome plan = mpfem_command(fmt::format("check {}", folder / "scenario.toml"));
   CHECK(plan.exit_code == 0);
-  CHECK_THAT(plan.output, Catch::Contains("held at constant force") && Catch::Contains("x and y walls away") &&
+  CHECK_THAT(plan.output, Catch::Contains("held at constant force") && Catch::Contains("x and y walls withdrawn") &&
                               Catch::Contains("all walls held at 15 MPa"));
   const Outcome outcome = mpfem_command(fmt::format("run {} -o {}", folder / "scenario.toml", folder / "run.h5"));
   REQUIRE(outcome.exit_code == 0);
