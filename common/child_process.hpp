@@ -1,5 +1,5 @@
 #pragma once
-// Work in a process of its own: what crashes there does not end the program.
+// Work in a separate process: what crashes there does not end the program.
 
 #include <functional>
 #include <string>

@@ -42,7 +42,7 @@ CLI::Option* add_number(CLI::App& command, const std::string& name, Variable& va
       ->check(std::is_integral_v<Number> ? whole_number_in(range, unit) : finite_number_in(range, unit));
 }
 
-/// Largest number that fits in an option's variable, for options without a limit of their own.
+/// Largest number that fits in an option's variable, for options without their own limit.
 constexpr Range whole_numbers = Range::between(-2147483647.0, 2147483647.0);
 /// Numbers of threads.
 constexpr Range thread_numbers = Range::between(1, 1024);

@@ -22,7 +22,7 @@ class Progress {
 public:
   /// Writes nothing at all when `quiet`. `stream` stays open as long as this object lives.
   Progress(std::string label, bool quiet, std::FILE* stream = stderr);
-  /// Ends an unfinished line, so that an error message begins on a line of its own.
+  /// Ends an unfinished line, so that an error message begins on a separate line.
   ~Progress();
   Progress(const Progress&) = delete;
   Progress& operator=(const Progress&) = delete;

@@ -14,7 +14,7 @@ struct QualityRow {
   double internal_energy = 0; ///< of the row's stage (common/stage_energy.hpp)
   double mean_stress = 0;
   double penetration = 0;     ///< over the element size
-  double current_density = 0; ///< present volume of the grains over the box's: overlaps count twice
+  double current_density = 0; ///< current volume of the grains over the box's: overlaps count twice
   double time_step = 0;       ///< 0: none yet
 };
 

@@ -49,7 +49,7 @@ struct PackingContainer {
   ContainerShape shape = ContainerShape::box;
   std::shared_ptr<const SurfaceContainer> surface{}; ///< of a surface
   // A surface is not rebuilt when walls move inwards or lengths are in another unit.
-  double unit = 1;  ///< mm of the surface in the present unit of length
+  double unit = 1;  ///< mm of the surface in the current unit of length
   double inset = 0; ///< mm, by which the walls have moved inwards; the origin has moved with the box
 
   double radius() const { return 0.5 * lengths[0]; } ///< mm, of the cylinder
@@ -122,7 +122,7 @@ struct PackingContainer {
 private:
   /// mm in the surface's own frame, of a point here.
   Point in_file(const Point& p) const { return {p[0] * unit + inset, p[1] * unit + inset, p[2] * unit + inset}; }
-  /// A gap to the surface, mm, as one to the wall that has moved inwards, in the present unit.
+  /// A gap to the surface, mm, as one to the wall that has moved inwards, in the current unit.
   SurfaceGap moved_in(SurfaceGap gap) const {
     gap.distance = (gap.distance - inset) / unit;
     return gap;

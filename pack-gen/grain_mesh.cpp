@@ -83,7 +83,7 @@ std::vector<Tet> gmsh_tetrahedralize(const std::vector<Point>& points) {
 
 namespace {
 
-/// The tets of gmsh's present model and their nodes, put exactly on the sphere of a radius (mm) and the plane z = 0.
+/// The tets of gmsh's current model and their nodes, put exactly on the sphere of a radius (mm) and the plane z = 0.
 TetMesh read_half_ball(double radius) {
   TetMesh mesh;
   std::vector<std::size_t> tags, element, corner;

@@ -35,7 +35,7 @@ std::string stress_at_densities_csv(const schema::FileReader& file, const std::v
                                     const std::optional<CompactionCurve>& reference = {});
 
 /// Over the rows from a relative density on, largest values of: kinetic over internal energy (the value), residual of
-/// the energy balance over external work, penetration over element size, present volume of the grains over that of the
+/// the energy balance over external work, penetration over element size, current volume of the grains over that of the
 /// box, and the inertial number (also its median; null where not known). Throws InputError where no row is as dense.
 Measurement measure_compaction_quality(const schema::FileReader& file, double from_density);
 

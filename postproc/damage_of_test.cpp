@@ -55,7 +55,7 @@ double total_area(const std::vector<BondRow>& bonds) {
   return area;
 }
 
-/// Adds the present state of one group of bonds; each key begins with `prefix`.
+/// Adds the current state of one group of bonds; each key begins with `prefix`.
 void add_group(nlohmann::ordered_json& details, const std::string& prefix, const std::vector<BondRow>& bonds) {
   const auto broken = [](const BondRow& bond) { return bond.broken() ? 1.0 : 0.0; };
   const auto add = [&](const char* key, const std::vector<double>& values) {

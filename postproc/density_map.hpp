@@ -18,7 +18,7 @@ struct DensityMapRule {
 struct DensityCell {
   double inner = 0, outer = 0; ///< mm, from the axis
   double low = 0, high = 0;    ///< mm, from the lower punch
-  double density = 0;          ///< solid fraction from present volumes
+  double density = 0;          ///< solid fraction from current volumes
   double uncertainty = 0;      ///< half of the 95 % interval of the mean over sectors
 };
 
@@ -26,7 +26,7 @@ struct DensityCell {
 struct DensityMap {
   std::string snapshot;
   double radius = 0, height = 0; ///< mm, of the container
-  double density = 0;            ///< solid fraction of the whole, from present volumes
+  double density = 0;            ///< solid fraction of the whole, from current volumes
   DensityMapRule rule;
   std::vector<DensityCell> cells; ///< layer by layer from below, in each from the axis outwards
 };

@@ -14,7 +14,7 @@ public:
   TemporaryFile(const TemporaryFile&) = delete;
   TemporaryFile& operator=(const TemporaryFile&) = delete;
   const std::string& path() const { return path_; }
-  /// Its present content.
+  /// Its current content.
   std::string content() const;
 
 private:

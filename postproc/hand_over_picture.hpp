@@ -1,5 +1,5 @@
 #pragma once
-// postproc picture is an executable of its own.
+// postproc picture is a separate executable.
 
 namespace mpfem {
 

@@ -29,7 +29,7 @@ struct ForceLine {
 };
 
 /// Mean stress of a region by Love and Weber (MPa, compression positive): -1/V sum of force (x) line, each line
-/// weighted with its share inside the region (Love 1927; Weber 1966; lines as in Goldhirsch, Granular Matter 12 (2010)
+/// weighted by its share inside the region (Love 1927; Weber 1966; lines as in Goldhirsch, Granular Matter 12 (2010)
 /// 239, with the region as the averaging function). For a region that holds all grains, with the forces of its walls,
 /// it equals what the walls carry, exactly in equilibrium.
 Eigen::Matrix3d love_weber_stress(const Region& region, std::span<const ForceLine> lines);

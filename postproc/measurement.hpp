@@ -39,7 +39,7 @@ struct Measurement {
   double uncertainty = 0;          ///< in the value's unit
   std::string uncertainty_meaning; ///< what it covers
   Window window;
-  std::optional<SnapshotWindow> snapshot; ///< in place of `window`
+  std::optional<SnapshotWindow> snapshot; ///< instead of `window`
   std::string method;                     ///< the rule in words, with the figures used
   std::string brief;                      ///< further numbers in words, for the line on the terminal
   nlohmann::ordered_json details;         ///< further numbers by name

@@ -29,7 +29,7 @@ struct Summary {
   std::optional<double> inertial_number, largest_inertial_number; ///< over the same rows; empty where not known
   std::optional<double> kinetic_small_from_density; ///< relative density from which the ratio stays <= 1 % to the end
   double largest_penetration = 0;                   ///< over h
-  double largest_current_density = 0;               ///< present volume of the grains over the box's
+  double largest_current_density = 0;               ///< current volume of the grains over the box's
   double smallest_time_step = 0, largest_time_step = 0;   ///< s
   double coordination_number = 0, contact_area_ratio = 0; ///< at the end
   struct Bonds {

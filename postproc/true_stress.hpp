@@ -1,5 +1,5 @@
 #pragma once
-// Unconfined stress over the present face of the sample, and over its initial face.
+// Unconfined stress over the current face of the sample, and over its initial face.
 
 #include <vector>
 

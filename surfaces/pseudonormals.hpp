@@ -2,7 +2,7 @@
 // Directions that decide on which side of a closed surface a point lies, wherever its closest point is.
 //
 // On a face this is the normal, on an edge the sum of both faces' normals, at a corner the sum of the surrounding
-// normals, each weighted with the triangle's angle there. Only with these weights is the sign correct for every closed
+// normals, each weighted by the triangle's angle there. Only with these weights is the sign correct for every closed
 // surface (Baerentzen and Aanaes, IEEE Trans. Vis. Comput. Graph. 11, 243, 2005): unweighted means, and the normal of
 // any single face, fail at sharp corners.
 

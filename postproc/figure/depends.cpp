@@ -261,7 +261,7 @@ private:
     }
   }
 
-  /// Packings given by an element size have their rule in rules.mk; those with a command of their own have a settings
+  /// Packings given by an element size have their rule in rules.mk; those with their own command have a settings
   /// file.
   void add_packing_rules(const RunInstance& packing) {
     if (packing.command.empty()) return;

@@ -33,7 +33,7 @@ TextTable make_table(const Figure& figure, const TableSpec& spec, const ResultsF
 std::string curve_help();
 
 /// Mean and standard deviation (of the sample, N - 1) over packings of the columns `spec.spread`, by the rows' names.
-/// The first table is that of the present packing and determines the rows.
+/// The first table is that of the current packing and determines the rows.
 TextTable spread_of(const TableSpec& spec, const std::vector<std::string>& files);
 
 } // namespace mpfem

@@ -63,7 +63,7 @@ struct RunProgress {
 /// can be read; retries for a file that is being renamed.
 RunProgress read_progress(const std::string& run_file);
 
-/// Rows of the present stage, over the number of rows in its expected time: approximately the elapsed share of that
+/// Rows of the current stage, over the number of rows in its expected time: approximately the elapsed share of that
 /// time. Steps since the last row count as part of the next row. A stage may end earlier or later.
 double stage_share(const RunProgress& progress);
 

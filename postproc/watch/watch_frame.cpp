@@ -53,7 +53,7 @@ std::string stage_line(const RunProgress& progress) {
   return text + "\n";
 }
 
-/// Time (s) until the expected end of the present stage; empty where the pace is not known or that time is over.
+/// Time (s) until the expected end of the current stage; empty where the pace is not known or that time is over.
 std::optional<double> remaining(const RunProgress& progress, double now) {
   if (progress.ended() || !progress.seconds_per_stage) return {};
   const double left = (1 - stage_share(progress)) * *progress.seconds_per_stage;

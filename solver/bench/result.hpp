@@ -42,7 +42,7 @@ struct ElementCost {
 /// A contact search.
 struct SearchCost {
   double seconds = 0;
-  double steps = 0; ///< that one search lasts at the present speeds of the grains
+  double steps = 0; ///< that one search lasts at the current speeds of the grains
 };
 
 /// A row of the history and a checkpoint.

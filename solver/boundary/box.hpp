@@ -38,7 +38,7 @@ public:
   // ---- a step
   /// mm, inward movement of a wall in the step that led to the present; 0 after take_loads().
   double movement(std::size_t side) const { return movement_[side]; }
-  /// Adds the walls' forces on a grain to model.force. `bounds`: the present bounding box of the grain's surface.
+  /// Adds the walls' forces on a grain to model.force. `bounds`: the current bounding box of the grain's surface.
   BoxSums add_forces(Model& model, const Bounds& bounds, int grain) const;
   /// N, the push of all walls on the contact point of a surface node.
   double wall_force_on_node(const Model& model, std::size_t node, int grain) const;

@@ -76,7 +76,7 @@ public:
   const Tool& operator[](std::size_t tool) const { return tools_[tool]; }
 
   // ---- a step
-  /// Adds the tools' forces on a grain to model.force. `bounds`: the present bounding box of the grain's surface;
+  /// Adds the tools' forces on a grain to model.force. `bounds`: the current bounding box of the grain's surface;
   /// `last_step` in s. Different grains may be handled at the same time.
   void add_forces(Model& model, const Bounds& bounds, double last_step, int grain);
   /// Collective. Adds up what the tools bear at this time level. Returns their work (mJ) on the grains since the level

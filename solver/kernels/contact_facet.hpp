@@ -18,7 +18,7 @@ inline Vector3<double> vector_of(const LazyArray<double>& rows, std::int32_t nod
   return {r[0], r[1], r[2]};
 }
 
-/// A facet with the present positions of its nodes, mm.
+/// A facet with the current positions of its nodes, mm.
 struct Facet {
   std::int32_t node[3];
   Vector3<double> x[3];

@@ -174,7 +174,7 @@ private:
     return bond.intact() ? pull(pair, bond, node, x, -distance) : 1.0;
   }
 
-  /// Updates a bond to the present position of its node and records its force. `gap` in mm, negative inside. Returns
+  /// Updates a bond to the current position of its node and records its force. `gap` in mm, negative inside. Returns
   /// the part of the penalty that the bond leaves to a closed point.
   double pull(PairOfGrains& pair, PointBond& bond, std::int32_t node, const Vector3<double>& x, double gap) {
     const Facet facet = facet_geometry(model_, bond.facet);

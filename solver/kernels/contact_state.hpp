@@ -54,7 +54,7 @@ struct Contact {
   std::vector<PointFriction> point_friction; ///< [points]
   /// mJ that friction has dissipated so far at points that are no longer candidates, by ordered pair of grains.
   std::map<std::pair<std::int32_t, std::int32_t>, double> friction_of_former_points;
-  double last_step = 0;                 ///< s, of the step to the present positions; shows where points came in
+  double last_step = 0;                 ///< s, of the step to the current positions; shows where points came in
   std::vector<double> travel;           ///< [grains], mm: bound of any node's path length since the run began
   std::vector<double> travel_at_search; ///< [grains], mm
 

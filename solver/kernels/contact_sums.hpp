@@ -12,7 +12,7 @@ namespace mpfem {
 /// mm^2 of a grain's surface in contact with other grains.
 double contact_area(const Model& model, const Contact& contact, int grain);
 
-/// Sums over bonds at the present time level.
+/// Sums over bonds at the current time level.
 struct BondSums {
   double stored = 0;       ///< mJ
   double dissipated = 0;   ///< mJ, lost to damage so far

@@ -19,7 +19,7 @@ struct ElementSums {
   }
 };
 
-/// Advances stresses over the step that led to the present positions and writes the internal forces (N) of the grain's
+/// Advances stresses over the step that led to the current positions and writes the internal forces (N) of the grain's
 /// nodes to model.force, overwriting it. model.velocity is that of the half step just done, `time_step` its length in
 /// s.
 ElementSums element_forces(Model& model, int grain, double time_step);

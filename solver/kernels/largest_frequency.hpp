@@ -17,7 +17,7 @@ struct LargestFrequency {
   int iterations;
 };
 
-/// Largest eigenvalue of M^-1 (K + 2/dt C) + D of a grain: K its elastic stiffness in the present shape, C its bulk
+/// Largest eigenvalue of M^-1 (K + 2/dt C) + D of a grain: K its elastic stiffness in the current shape, C its bulk
 /// viscosity, D = `nodal_stiffness_rate` (1/s^2, [nodes of the model]) a bound of contact as a diagonal matrix. With
 /// lagged viscous forces, central differences are stable if it is at most 4/dt^2. `step` (s) may be any dt not longer
 /// than the one sought: viscosity is then overestimated. The elastic stiffness is that of plain tets; tets with shared

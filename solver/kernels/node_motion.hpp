@@ -24,7 +24,7 @@ struct AdvanceSums {
 AdvanceSums advance(Model& model, int grain, const Advance& parameters);
 
 /// Kinetic energy (mJ) at the time of the positions: sum of m v- . v+ / 2, the form that central differences conserve,
-/// with the v+ that `advance` would reach from the present forces without damping. `step_mean` in s.
+/// with the v+ that `advance` would reach from the current forces without damping. `step_mean` in s.
 double kinetic_energy(const Model& model, int grain, double step_mean);
 
 /// Adds the weights of a grain's nodes to model.force: `gravity` (mm/s^2) times their masses before mass_factor.

@@ -5,7 +5,7 @@
 
 namespace mpfem {
 
-/// Sets model.normal of the grain's surface nodes at the present positions, as set_normals() does
+/// Sets model.normal of the grain's surface nodes at the current positions, as set_normals() does
 /// (solver/model/normals.hpp). Returns the bounding box of the surface, mm.
 Bounds update_surface(Model& model, int grain);
 

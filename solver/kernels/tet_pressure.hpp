@@ -122,7 +122,7 @@ private:
   }
 };
 
-/// Returns f(pressure), where `pressure` gives the tets of a grain their mean stress at the present positions. `nodal`
+/// Returns f(pressure), where `pressure` gives the tets of a grain their mean stress at the current positions. `nodal`
 /// [nodes of the grain] is written if nodes take part; it must live as long as f needs it.
 template <class Real, class F>
 auto with_pressure(const Model& model, int grain, double* nodal, F&& f) {

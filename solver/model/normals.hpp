@@ -6,7 +6,7 @@
 
 namespace mpfem {
 
-/// Sets model.normal of the grain's surface nodes at the present positions: the sum of a third of each adjacent facet's
+/// Sets model.normal of the grain's surface nodes at the current positions: the sum of a third of each adjacent facet's
 /// area vector gives the unit normal by its direction and the tributary area (mm^2) by its length.
 void set_normals(Model& model, int grain);
 

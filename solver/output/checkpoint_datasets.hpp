@@ -85,7 +85,7 @@ using FrictionRow = std::array<double, 8>;
 
 /// Shape functions of the facet's second and third node; effective separation at which damage began and the largest one
 /// (mm); share of the stiffness that remains; N/mm dissipated by earlier bonds of the point. The facet and the law have
-/// datasets of their own.
+/// separate datasets.
 inline Row row_of(const PointBond& bond) {
   return {bond.weight1,       bond.weight2,   bond.state.initiation,
           bond.state.largest, bond.remaining, bond.dissipated_before};
@@ -103,7 +103,7 @@ inline PointBond bond_of(std::int32_t facet, std::int32_t law, std::span<const d
 }
 
 /// Shape functions of the facet's second and third node, stiffness (N/mm), force (N; x, y, z), stored and dissipated
-/// energy (mJ). The facet has a dataset of its own.
+/// energy (mJ). The facet has a separate dataset.
 inline FrictionRow row_of(const PointFriction& point) {
   return {point.weight1, point.weight2, point.stiffness, point.force.x,
           point.force.y, point.force.z, point.stored,    point.dissipated};

@@ -1,7 +1,7 @@
 #pragma once
 // Snapshots, and the run file that gathers them with history and provenance.
 //
-// While a run goes on, each snapshot is a complete file of its own beside the run file (written as .partial and
+// While a run goes on, each snapshot is a separate, complete file beside the run file (written as .partial and
 // renamed), so that a kill at any moment leaves no broken file. They are merged into the run file at the end.
 
 #include <string>

@@ -14,7 +14,7 @@ namespace mpfem {
 /// Two readings of the paper's Eq. 5. With delta_0 = T_0/K, G_0 = T_0 delta_0 / 2 and b = G^c - G_0:
 enum class SofteningLaw {
   exponential, ///< T = T_0 exp(-T_0 (delta - delta_0)/b): the peak is the strength, as the paper's Fig. 3 draws it
-  energy, ///< 1 - D = exp(-K (delta^2 - delta_0^2)/(2 b)): Eq. 5 to the letter; the traction rises beyond the strength
+  energy, ///< 1 - D = exp(-K (delta^2 - delta_0^2)/(2 b)): Eq. 5, literally; the traction rises beyond the strength
 };
 
 /// Constants of a bond.

@@ -27,7 +27,7 @@ namespace mpfem {
 struct BondDamage {
   BondState state;                    ///< separations at first damage and largest, mm
   double remaining = 1;               ///< 1 - D
-  double opening = 0, separation = 0; ///< mm, at the present time level
+  double opening = 0, separation = 0; ///< mm, at the current time level
 };
 
 /// The bond of one contact point, attached to a facet of the other grain.

@@ -155,7 +155,7 @@ Pack<W, Real> min(Pack<W, Real> a, Pack<W, Real> b) {
 /// True if the mask holds in at least one lane.
 template <int W, class Real>
 bool any(Mask<W, Real> mask) {
-#if defined(__AVX__) // one instruction in place of ten
+#if defined(__AVX__) // one instruction instead of ten
   if constexpr (sizeof(mask.v) == 32) {
     if constexpr (W == 4) return _mm256_movemask_pd(reinterpret_cast<__m256d>(mask.v)) != 0;
     return _mm256_movemask_ps(reinterpret_cast<__m256>(mask.v)) != 0;

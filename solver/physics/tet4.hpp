@@ -15,7 +15,7 @@ struct TetConstants {
   BulkViscosity viscosity;
   double wave_speed; ///< dilatational, mm/s
   double density;    ///< tonne/mm^3, in the reference state
-  double step;       ///< s, the step that led to the present positions
+  double step;       ///< s, the step that led to the current positions
 };
 
 /// The state of one tet.

@@ -18,8 +18,8 @@ struct Balance {
 /// Collective. `busy`: s that this rank has worked, without waiting for others.
 Balance measure_balance(const Communicator& ranks, const Model& model, double busy);
 
-/// Collective. The owner of each grain ([grains]) by recursive bisection at the present places of the grains. The
-/// weight of a grain is what its tets have cost its present owner.
+/// Collective. The owner of each grain ([grains]) by recursive bisection of their current positions. The
+/// weight of a grain is what its tets have cost its current owner.
 std::vector<std::int32_t> redistribute(const Communicator& ranks, const Model& model, const Balance& balance);
 
 /// Whether redistributing pays: it saves more than twice what it costs (`reload`, s). `remaining`: s that the rest of

@@ -7,7 +7,7 @@ namespace mpfem {
 
 /// Takes in the rows of a history, one after the other.
 ///
-/// The residual of a row is compared with the largest term of any row so far: energy that has been given back
+/// The residual of a row is compared with the largest term of any row so far: energy that has been released again
 /// (an elastic pair that has parted) must still be accounted for. While they are stable, explicit central differences
 /// close the balance to some thousandths of that term (studies/hard-cases/README.md); when they are not, energy
 /// appears from nothing and grows without limit. Terms below 1e-7 of the solid's volume times Young's modulus, the

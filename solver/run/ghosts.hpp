@@ -23,7 +23,7 @@ public:
   Ghosts(const Communicator& ranks, bool velocities) : ranks_(&ranks), velocities_(velocities) {}
 
   // ---- at a search; all of these are collective
-  /// Makes ghosts of the grains that belong to other ranks, and sets their present surfaces in the model.
+  /// Makes ghosts of the grains that belong to other ranks, and sets their current surfaces in the model.
   void choose(std::vector<std::int32_t> grains, Model& model);
   /// Sends pairs whose second grain belongs to another rank to that rank, and receives such pairs. Before the call
   /// `contact` has only own pairs. After it the ghosts are the second grains of own pairs.

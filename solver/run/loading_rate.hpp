@@ -9,7 +9,7 @@
 // both of which vanish in equilibrium. (The second also shows symmetric vibration, which the first does not.)
 // Kinetic energy grows with the square of the speed, stresses with the speed; the larger of
 //   sqrt(kinetic / (tolerance internal)),   stress / (tolerance largest wall stress)
-// is the load L. The rate factor r, the present speed over the stage's own, follows d ln r/dt = (aim - L) / transit,
+// is the load L. The rate factor r, the current speed over the stage's own, follows d ln r/dt = (aim - L) / transit,
 // between bounds: waves need about a transit to show a change. The stage's clock runs r times as fast as time. When
 // walls are about to stop, r returns to 1: the stage decides how gently they stop.
 
@@ -23,7 +23,7 @@ namespace mpfem {
 
 /// State of the control.
 struct LoadingRateState {
-  double factor = 1;                 ///< present speed over the stage's own
+  double factor = 1;                 ///< current speed over the stage's own
   double dissipation_at_start = 0;   ///< mJ, plastic, when the stage began
   double slowest = 1, fastest = 1;   ///< of `factor` so far
   std::array<double, 3> imbalance{}; ///< MPa, of opposite walls across each axis, averaged over a transit

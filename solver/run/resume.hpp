@@ -8,7 +8,7 @@
 
 namespace mpfem {
 
-/// Writes a checkpoint of the present state, after an advance(). Throws StorageError as write_checkpoint.
+/// Writes a checkpoint of the current state, after an advance(). Throws StorageError as write_checkpoint.
 void save_checkpoint(const std::string& path, const Simulation& simulation, const RunRecord& record,
                      const Communicator& ranks = Communicator());
 

@@ -43,7 +43,7 @@ struct RunState {
   std::int64_t step = 0;
   std::int64_t stage = 0;                  ///< index
   double time = 0;                         ///< s
-  double last_step = 0;                    ///< s, the step that led to the present positions; 0 at the start
+  double last_step = 0;                    ///< s, the step that led to the current positions; 0 at the start
   double damping_force = 0;                ///< N, sum of magnitudes at the last advance
   double weight_potential = 0;             ///< mJ, work of gravity from the origin to where the nodes are
   std::array<double, 3> initial_lengths{}; ///< mm, of the cell
@@ -98,13 +98,13 @@ public:
              const Communicator& ranks = alone());
 
   // ---- the step
-  /// Adds contact and wall forces at the present positions. Throws SimulationError where contact cannot hold.
+  /// Adds contact and wall forces at the current positions. Throws SimulationError where contact cannot hold.
   void evaluate_forces();
   /// One step of central differences. Throws SimulationError naming the element or grain that failed.
   void advance();
 
   // ---- stages
-  /// Begins the stage of this index with the present cell.
+  /// Begins the stage of this index with the current cell.
   void begin_stage(std::int64_t stage);
   void begin_next_stage() { begin_stage(state_.stage + 1); }
   bool stage_complete() const { return stage_run_->complete(); }

@@ -45,7 +45,7 @@ public:
   const State& state() const { return state_; }
   const LoadingRateState& loading_rate() const { return rate_state_; }
 
-  /// True when the present time level is the stage's last.
+  /// True when the current time level is the stage's last.
   bool complete() const { return state_.ended || state_.time >= control_->duration(); }
   double expected_duration() const { return control_->expected_duration(); }
   double fraction_done(double mean_stress) const { return control_->fraction_done(state_.time, mean_stress); }
@@ -57,7 +57,7 @@ public:
   StepPlan plan(const Cell& cell, double stable_step, double last_step) const;
 
   bool needs_damage(std::int64_t step) const { return control_->needs_damage(step); }
-  /// Takes in the present time level; time and rate factor are filled in here. Does nothing if the stage is complete.
+  /// Takes in the current time level; time and rate factor are filled in here. Does nothing if the stage is complete.
   void observe(StageObservation seen);
   bool loading_rate_is_due(std::int64_t step) const;
   /// Changes the speed from the step after the next on: the next one may be planned already.

@@ -54,7 +54,7 @@ public:
 
   /// Takes in the largest strain of a step (s). True when the estimate is to be renewed.
   bool is_due_after(double strain, double step);
-  /// Collective. Estimates the stable step of the present state; sets the tets' lengths in the model. `anew`: finds the
+  /// Collective. Estimates the stable step of the current state; sets the tets' lengths in the model. `anew`: finds the
   /// frequencies of whole grains even if they were found recently.
   void renew(Model& model, const Contact& contact, const Boundaries& boundaries, std::span<const Bounds> bounds,
              ThreadTeam& team, bool anew);

@@ -54,7 +54,7 @@ void TimeLoop::begin_next_stage() {
   }
 }
 
-/// Row and snapshot of the present time level, if they are due.
+/// Row and snapshot of the current time level, if they are due.
 void TimeLoop::record() {
   const bool stage_end = simulation_.stage_complete();
   const std::int64_t rows = records_.rows_in_stage();

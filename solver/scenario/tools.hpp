@@ -93,7 +93,7 @@ struct ToolDrive {
   std::array<double, 3> velocity{};  ///< mm/s, at full speed
   std::array<double, 3> direction{}; ///< unit vector; 0 where the tool has none
   std::optional<double> force{};     ///< N, push on the grains along the direction, held instead of a velocity
-  std::optional<double> stress{};    ///< MPa, that push over the container's section, in place of `force`
+  std::optional<double> stress{};    ///< MPa, that push over the container's section, instead of `force`
   double servo_speed = 0;            ///< mm/s, largest speed of a tool that holds its push
 
   bool holds_push() const { return force || stress; }

@@ -226,7 +226,7 @@ Scenario cycling_scenario(const std::string& element, int count) {
   return scenario;
 }
 
-/// Runs the present stage; `print` is called with the number of each half cycle that ends before the last, whose
+/// Runs the current stage; `print` is called with the number of each half cycle that ends before the last, whose
 /// number is returned.
 template <class Print>
 std::int64_t run_half_cycles(Simulation& simulation, const Print& print) {

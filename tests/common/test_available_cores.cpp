@@ -9,7 +9,7 @@
 using namespace mpfem;
 
 TEST_CASE("the cores available are those to which a process is bound, not the machine's") {
-  // In a thread of its own, to which the binding is confined.
+  // In a separate thread, to which the binding is confined.
   std::thread([] {
     cpu_set_t all;
     REQUIRE(sched_getaffinity(0, sizeof all, &all) == 0);

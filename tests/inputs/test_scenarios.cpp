@@ -13,7 +13,7 @@ using namespace mpfem::test;
 
 namespace {
 
-/// Every table, and most keys. The keys of other kinds of stages have tests of their own.
+/// Every table, and most keys. The keys of other kinds of stages have separate tests.
 const char* const good_scenario = R"(packing = 'packing.h5'
 walls = true
 [material]

@@ -65,7 +65,7 @@ TEST_CASE("spheres, mesh, quality and export follow each other, and the files ho
 
 namespace {
 
-/// The description with a cylinder in place of its box, as high as wide.
+/// The description with a cylinder instead of its box, as high as wide.
 std::string cylinder_description() {
   return replaced(description, "box = [0.4, 0.4, 0.4]", "container = \"cylinder\"\ndiameter = 0.44\nheight = 0.42");
 }

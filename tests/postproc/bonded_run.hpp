@@ -15,7 +15,7 @@ inline double damage_at(double y) {
   return 0.5 * (y + 1);
 }
 
-/// The mesh, in place of that of small_run().
+/// The mesh, instead of that of small_run().
 inline void add_mesh(RunContents& c, const MeshedPacking& packing) {
   std::erase_if(c.numbers, [](const auto& entry) {
     return entry.first.starts_with("/snapshots/") || entry.first.starts_with("/mesh/");

@@ -10,7 +10,7 @@
 
 namespace mpfem::test {
 
-/// Contents of a run file by dataset path ('*' for all snapshots or tools that have no path of their own). What is not
+/// Contents of a run file by dataset path ('*' for all snapshots or tools that have no separate path). What is not
 /// given is filled with zeros of the right extent, strings with "text"; optional datasets that are not given are left
 /// out.
 struct RunContents {

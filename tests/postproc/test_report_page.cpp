@@ -150,7 +150,7 @@ void check_view(const json& view, bool phone) {
   CHECK(view.at("canvas").at("height") >= 250);
 }
 
-/// A plot's letters, a fortieth of its width, can be read once it is large, in a box of its own.
+/// A plot's letters, a fortieth of its width, can be read once it is large, in a separate box.
 void check_picture(const json& picture, int width) {
   INFO(picture.dump());
   CHECK(picture.at("before") > std::min(0.9 * width, 550.0));

@@ -156,7 +156,7 @@ TEST_CASE("a section beside a rod's axis is as wide as the chord there") {
     CHECK(std::abs(area_within(section_outline(bodies[0], {1, y})) - 2 * chord) < 1e-9);
   }
   CHECK(section_outline(bodies[0], {1, 0.81}).empty());
-  // 360 chords in place of the circle: (2 pi / 360)^2 / 6 less; the midpoint rule's own error is of the same order.
+  // 360 chords instead of the circle: (2 pi / 360)^2 / 6 less; the midpoint rule's own error is of the same order.
   CHECK(area_within(section_outline(bodies[0], {0, 0.5})) == Approx(M_PI * 0.64).epsilon(2e-4));
 }
 

@@ -7,7 +7,7 @@
 
 namespace mpfem::test {
 
-/// A folder of its own for every test case, gone at its end.
+/// A separate folder for every test case, gone at its end.
 class TemporaryFolder {
 public:
   TemporaryFolder() {

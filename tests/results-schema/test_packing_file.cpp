@@ -15,7 +15,7 @@ using test::input_error;
 
 namespace {
 
-/// Two spheres in a box, each with a tet of its own.
+/// Two spheres in a box, each with its own tet.
 struct Contents {
   std::vector<double> lengths = {1, 2, 3};
   std::vector<double> center = {0.5, 0.5, 0.5, 0.5, 1.5, 2.5};

@@ -115,7 +115,7 @@ inline std::array<double, 3> angular_momentum(const Model& m) {
   return sum;
 }
 
-/// Gives all grains one rigid rotation about the middle of the box, in place of the velocities that they have.
+/// Gives all grains one rigid rotation about the middle of the box, instead of the velocities that they have.
 inline void spin(Simulation& simulation, const std::array<double, 3>& rate) {
   Model& m = simulation.model_to_disturb();
   for (std::size_t n = 0; n < static_cast<std::size_t>(m.nodes()); ++n) {

@@ -41,7 +41,7 @@ struct ContactPoint {
     return dot(offset, facet_direction(x)) < 0 ? -norm(offset) : norm(offset);
   }
 
-  /// Forces at the present positions. A bond forms where the node is inside, and is taken to its present separation.
+  /// Forces at the current positions. A bond forms where the node is inside, and is taken to its current separation.
   PointForces evaluate() {
     PointForces forces;
     const ClosestPoint<double> closest = closest_point_on_triangle(node, x);

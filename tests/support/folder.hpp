@@ -15,7 +15,7 @@
 
 namespace mpfem::test {
 
-/// A folder of its own for every test, removed at its end.
+/// A separate folder for every test, removed at its end.
 class Folder {
 public:
   Folder() {

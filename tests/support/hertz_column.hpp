@@ -78,7 +78,7 @@ inline std::pair<std::size_t, std::size_t> nodes_of(const Model& model, int grai
   return {static_cast<std::size_t>(model.node_offset[g]), static_cast<std::size_t>(model.node_offset[g + 1])};
 }
 
-/// Mean of one component of `rows` (four numbers for each node) over the nodes of a grain, weighted with their masses.
+/// Mean of one component of `rows` (four numbers for each node) over the nodes of a grain, weighted by their masses.
 inline double mean_of_grain(const Model& model, const LazyArray<double>& rows, int grain, std::size_t axis) {
   double sum = 0;
   for (auto [n, end] = nodes_of(model, grain); n < end; ++n) sum += rows[4 * n + axis] / model.inverse_mass[n];
@@ -101,7 +101,7 @@ inline double finite_sphere_force(double approach) {
          (1 - poissons_ratio * poissons_ratio) * std::sqrt(column_radius) * std::pow(approach, 1.5);
 }
 
-/// Reads the errors from the present state; `size_ratio`: R/h.
+/// Reads the errors from the current state; `size_ratio`: R/h.
 inline ColumnResult result_of_column(const Simulation& simulation, double size_ratio) {
   const Model& model = simulation.model();
   const HistoryRow row = simulation.observe();

@@ -14,8 +14,8 @@ namespace mpfem::test {
 
 /// Contact pressures of surface nodes by grain contacts (walls and bonds are left out), of every node of the model.
 struct SurfacePressure {
-  std::vector<double> total;      ///< MPa: own and reaction forces along the inward normal over the present area
-  std::vector<double> own;        ///< MPa: K times gap of the node's own points, over the present area
+  std::vector<double> total;      ///< MPa: own and reaction forces along the inward normal over the current area
+  std::vector<double> own;        ///< MPa: K times gap of the node's own points, over the current area
   std::vector<char> touching;     ///< 1 where an own point is active
   std::vector<double> net_force;  ///< [3], N: sum of all contact forces, zero if action equals reaction
   std::vector<double> net_moment; ///< [3], N mm, about the origin
@@ -63,7 +63,7 @@ inline SurfacePressure surface_pressure(const Model& model, const Contact& conta
   return result;
 }
 
-/// The same for what the walls press, in place of other grains: rigid planes, so that no facets take part.
+/// The same for what the walls press, instead of other grains: rigid planes, so that no facets take part.
 inline SurfacePressure wall_pressure(const Simulation& simulation, SurfacePressure surface) {
   const Model& model = simulation.model();
   const Box& box = simulation.box();

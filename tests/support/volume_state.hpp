@@ -108,7 +108,7 @@ inline void add_tets(VolumeState& state, const std::vector<TetVolumes>& tets, co
   }
 }
 
-/// At the model's present positions, whatever its element: the nodal pressures of averaged tets, and of plain tets what
+/// At the model's current positions, whatever its element: the nodal pressures of averaged tets, and of plain tets what
 /// they would be.
 inline VolumeState volume_state(const Model& model, const std::vector<std::vector<std::int32_t>>& neighbours) {
   const double bulk = model.material_of(0).moduli.bulk;

@@ -55,7 +55,7 @@ private:
   double target() const { return upwards() ? stage_.highest_mean_stress : stage_.lowest_mean_stress; }
 
   struct State {
-    double leg_start = 0;  ///< MPa, mean stress where the present half cycle began
+    double leg_start = 0;  ///< MPa, mean stress where the current half cycle began
     std::int64_t legs = 0; ///< half cycles done
     bool inside = false;   ///< the mean stress has been in the lower half of the range
     double overshoot = 0;  ///< MPa, largest amount by which the mean stress passed a turning point

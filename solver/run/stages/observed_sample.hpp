@@ -8,7 +8,7 @@ namespace mpfem {
 /// Stresses in MPa, compression positive; logarithmic strains since the stage began, compression positive.
 struct ObservedSample {
   double time = 0, step = 0;                                           ///< s
-  double rate_factor = 1;                                              ///< present speed over the stage's own
+  double rate_factor = 1;                                              ///< current speed over the stage's own
   std::array<double, 3> length{}, area{}, force{}, stress{}, strain{}; ///< mm, mm^2, N, MPa, 1, of each axis
   double mean_stress = 0, deviatoric_stress = 0;
   double relative_density = 0;

@@ -24,7 +24,7 @@ namespace mpfem {
 struct StageObservation {
   double time = 0;        ///< s since the stage began, by the stage's clock (loading_rate.hpp)
   double step = 0;        ///< s since the observation before
-  double rate_factor = 1; ///< present speed over the stage's own
+  double rate_factor = 1; ///< current speed over the stage's own
   Cell cell{};
   std::array<double, 3> force{};              ///< N, mean of the two faces across each axis; compression positive
   double mean_stress = 0;                     ///< MPa, of all faces
@@ -69,7 +69,7 @@ public:
   // ---- run
   /// Whether an observation at this step number needs the dissipation by damage, for which all bonds are visited.
   virtual bool needs_damage(std::int64_t /*step*/) const { return false; }
-  /// Takes in the present time level. Throws SimulationError if the stage's end cannot be reached.
+  /// Takes in the current time level. Throws SimulationError if the stage's end cannot be reached.
   virtual void observe(const StageObservation& seen) = 0;
   /// Changes the cell by one step of `step` s, `clock_step` s by the stage's clock, to the stage's time `time`.
   virtual void move(Cell& cell, double time, double clock_step, double step) const = 0;
@@ -79,7 +79,7 @@ public:
   virtual std::span<const std::array<double, 3>> tool_velocities() const { return {}; }
   /// Whether what was last observed ends the stage. Stages with a duration end by that.
   virtual bool ended() const { return false; }
-  /// Part of the stage that is done at its time `time` (s) and the present mean stress (MPa), in [0, 1].
+  /// Part of the stage that is done at its time `time` (s) and the current mean stress (MPa), in [0, 1].
   virtual double fraction_done(double time, double mean_stress) const = 0;
 
   // ---- end

@@ -43,7 +43,7 @@ double work_to(ContactPoint& point, const Vector3<double>& end, int steps) {
 } // namespace
 
 TEST_CASE("an undamaged bond returns all work along a closed path through opening, sliding and closing") {
-  for (const double penalty_ratio : {0.0, 0.2, 1.0, 5.0}) { // 0: a stiffness of its own
+  for (const double penalty_ratio : {0.0, 0.2, 1.0, 5.0}) { // 0: its own stiffness
     BondLaw law = law_of(1e6, 1e6);
     law.stiffness = penalty_ratio == 0 ? 120 : 0;
     law.penalty_ratio = penalty_ratio;

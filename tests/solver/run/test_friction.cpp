@@ -147,7 +147,7 @@ TEST_CASE("cubes that are pressed together stick until their shear comes to mu N
 }
 
 TEST_CASE("a pair of materials rubs with its own coefficient, all other pairs with the common one") {
-  // Pressed and dragged until they slide; the second cube is of a material of its own with the same constants.
+  // Pressed and dragged until they slide; the second cube is of a separate material with the same constants.
   const auto drag = [](double common, std::vector<MaterialPair> pairs) {
     Scenario scenario = rubbing_scenario({grip("press", -6e-4, 500), grip("slide", 0, 500, {1e-3, 0, 0})});
     scenario.walls = false;

@@ -82,7 +82,7 @@ struct Bench {
   Bench(const MeshedPacking& packing, Scenario s)
       : scenario(std::move(s)), team(2), simulation(build_model(packing, scenario, "test"), scenario, team) {}
 
-  /// Runs the present stage to its end; a row every `every` steps and the last one.
+  /// Runs the current stage to its end; a row every `every` steps and the last one.
   std::vector<HistoryRow> finish_stage(int every = 20) {
     std::vector<HistoryRow> rows;
     for (int step = 0;; ++step) {

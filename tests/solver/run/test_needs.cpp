@@ -159,7 +159,7 @@ TEST_CASE("a compaction takes the number of steps that check predicts") {
   CHECK(predicted == Approx(taken).epsilon(0.05));
 }
 
-#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__) // which need memory of their own
+#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__) // which need more memory
 TEST_CASE("a run needs at most the predicted memory, within 15 %") {
   const Folder folder;
   const MeshedPacking packing = eight_grains(16);

@@ -81,7 +81,7 @@ TEST_CASE("tools may overlap each other: two floors in one place bear half each,
   REQUIRE(one.ram > 0.5);
   CHECK(within(two.floor[0], two.floor[1], 1e-9));
   CHECK(two.floor[2] == 0);
-  CHECK(within(two.floor[0] + two.floor[1], two.ram, 0.01)); // what still swings
+  CHECK(within(two.floor[0] + two.floor[1], two.ram, 0.01)); // the rest is vibration
   CHECK(within(two.ram, one.ram, 0.05));                     // two penalties give half as much
   CHECK(two.ram > one.ram);
   for (const Pressed& pressed : {one, two})
@@ -119,7 +119,7 @@ TEST_CASE("a floor bears the weight of the grain's own mass, however its masses 
     CAPTURE(scaling.factor, scaling.step, scaling.lighten, simulation.model().added_mass);
     if (scaling.step > 0) REQUIRE(std::abs(simulation.model().added_mass) > 0.1);
     finish_stage(simulation);
-    CHECK(within(-simulation.tools()[0].force[2], weight, 0.02)); // which still swings a little
+    CHECK(within(-simulation.tools()[0].force[2], weight, 0.02)); // which still vibrates a little
     const HistoryRow row = simulation.observe();
     CHECK(std::abs(row.energy_residual) < 2e-3 * row.external_work);
   }

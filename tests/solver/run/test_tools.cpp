@@ -123,11 +123,11 @@ TEST_CASE("a block on an inclined plane rests for a million steps below the angl
     const Motion after = motion_of(simulation.model());
     const Vector down(c, 0, -s);
     if (steepness < 1) {
-      // It still swings by some 1e-6 of an element when the million steps begin.
+      // It still vibrates by some 1e-6 of an element when the million steps begin.
       CHECK((after.centre - before.centre).norm() < 1e-5 * simulation.model().element_size[0]);
       const Tool& incline = simulation.tools()[0];
       const double weight = after.mass * gravity;
-      CHECK(within(-incline.force[2], weight, 0.01)); // which still swings a little
+      CHECK(within(-incline.force[2], weight, 0.01)); // which still vibrates a little
     } else {
       const double acceleration =
           (after.momentum - before.momentum).dot(down) / (after.mass * (simulation.state().time - start));
@@ -204,7 +204,7 @@ TEST_CASE("a ball comes to rest in a cone, in a bowl and on a plane that bear it
     const Motion motion = motion_of(simulation.model());
     const ToolLoad load = simulation.tools().load(0);
     const double weight = motion.mass * gravity;
-    CHECK(within(-load.force.z, weight, 0.02)); // which still swings a little
+    CHECK(within(-load.force.z, weight, 0.02)); // which still vibrates a little
     CHECK(std::hypot(load.force.x, load.force.y) < 0.02 * weight);
     return std::pair(motion.centre, (1 / weight) * load.moment);
   };
@@ -456,7 +456,7 @@ TEST_CASE("a press keeps the ledger, and its forces balance") {
   REQUIRE(force("upper", row) > 0.5);
   const double sum = force("upper", row) + force("lower", row) + force("die", row);
   INFO(sum << " N of " << force("upper", row));
-  CHECK(std::abs(sum) < 0.02 * force("upper", row)); // what still swings
+  CHECK(std::abs(sum) < 0.02 * force("upper", row)); // the rest is vibration
   const double wall = file.read(schema::run::history_tools_normal_force, "die")[row];
   CHECK(std::abs(force("die", row)) <= 0.1 * wall * (1 + 1e-9));
   // The container's stresses are those of its tools.
@@ -533,7 +533,7 @@ damping_fade_stress = 1e3
   const auto fixed = forces(""), floating = forces("drive.die = { force = 0, servo_speed = 40000 }\n");
   REQUIRE(fixed[0] > 1);                           // N
   CHECK(fixed[2] < -0.02 * fixed[0]);              // it drags the die along
-  CHECK(std::abs(floating[2]) < 0.005 * fixed[0]); // what still swings
+  CHECK(std::abs(floating[2]) < 0.005 * fixed[0]); // the rest is vibration
   CHECK(within(-floating[1], floating[0], 0.02));
 }
 
