@@ -43,7 +43,7 @@ struct UnitBall {
 };
 
 /// The ball of unit radius meshed for a ratio radius/size >= smallest_size_ratio. Without `optimise`: the first valid
-/// candidate as it was laid out (to see the gain of choosing candidates and moving nodes). Throws SimulationError when
+/// candidate without moved nodes (to see the gain of choosing candidates and moving nodes). Throws SimulationError when
 /// no attempt gives a valid mesh.
 UnitBall mesh_unit_ball(double size_ratio, std::uint64_t seed, bool optimise = true);
 

@@ -22,9 +22,9 @@ done
 {
   echo "# Verdicts, MESH=$mesh"
   echo
-  echo 'Statements of Ku, Zhao, Mollon and Zhao beside what the studies of this folder found, computed from their data.'
-  echo 'How each is judged, and why it differs, stands in the verdict.json files. A study that is no figure states what'
-  echo 'it expects itself.'
+  echo 'Statements of Ku, Zhao, Mollon and Zhao, compared with the results of the studies in this folder.'
+  echo 'The verdict.json files say how each statement is judged and why it differs. Studies that are not figures are'
+  echo 'compared with their own expectations.'
   "$postproc" verdicts "$mesh=$kept"
   # Times of the figures at hand take the place of those kept before; of the plan, what is not this machine's.
   kept_times=$kept/times.csv

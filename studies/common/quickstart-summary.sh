@@ -6,7 +6,7 @@ out=out/$1
 echo
 echo 'Pictures drawn:'
 for picture in "$out"/fig*/*.png; do echo "  $picture"; done
-echo 'Numbers and verdicts beside them; all on one page:'
+echo 'Numbers and verdicts are next to them. Everything on one page:'
 echo "  $out/report/index.html"
 echo
 echo "Mean stress against relative density ($out/fig09/load-density.csv):"
