@@ -145,7 +145,19 @@ StageType read_grip(TableReader& table) {
   return grip;
 }
 
-ToolEnds read_tool_ends(TableReader& table, const StageContext& context) {
+/// The direction along which the push of a watched tool is taken: that in which the stage drives it, or its own.
+std::array<double, 3> read_watched_direction(TableReader& table, const StageContext& context, std::size_t watched,
+                                             std::span<const ToolDrive> drives) {
+  const auto drive = std::find_if(drives.begin(), drives.end(), [&](const ToolDrive& d) { return d.tool == watched; });
+  if (drive != drives.end() && drive->direction != std::array<double, 3>{}) return drive->direction;
+  const auto direction = direction_of(context.tools[watched].shape);
+  if (!direction)
+    table.fail("watch", "found a sphere or an STL surface, which has no direction, allowed: another tool, or one that "
+                        "the stage drives with a 'direction'");
+  return *direction;
+}
+
+ToolEnds read_tool_ends(TableReader& table, const StageContext& context, std::span<const ToolDrive> drives) {
   ToolEnds ends;
   ends.relative_density = table.optional_number("relative_density", target_density);
   ends.height = table.optional_number("height", positive_length);
@@ -168,10 +180,7 @@ ToolEnds read_tool_ends(TableReader& table, const StageContext& context) {
   if (!watches && table.has("watch")) table.fail("watch", "is used only with 'force' or 'force_drop'");
   if (!watches) return ends;
   ends.watched = tool_named(table, "watch", table.string("watch"), context.tools);
-  const auto direction = direction_of(context.tools[ends.watched].shape);
-  if (!direction)
-    table.fail("watch", "found a sphere or an STL surface, which has no direction, allowed: another tool");
-  ends.watched_direction = *direction;
+  ends.watched_direction = read_watched_direction(table, context, ends.watched, drives);
   return ends;
 }
 
@@ -190,7 +199,7 @@ StageType read_tool_loading(TableReader& table, const StageContext& context) {
     loading.servo_speed = std::max(loading.servo_speed, drive.servo_speed);
   }
   loading.ramp_fraction = read_ramp_fraction(table);
-  loading.ends = read_tool_ends(table, context);
+  loading.ends = read_tool_ends(table, context, loading.drives);
   if (loading.speed == 0 && loading.ends.travel)
     table.fail("travel", "is used only if a tool is driven at a speed or velocity");
   if (loading.speed == 0 && loading.servo_speed == 0 && !loading.ends.duration)

@@ -145,10 +145,23 @@ ToolParameters read_tool(TableReader& table) {
   return tool;
 }
 
+/// The direction of a drive: that of the tool, unless the key `direction` gives another; none if there is neither.
+std::optional<Vector> read_direction(TableReader& table, const ToolShape& shape) {
+  if (!table.has("direction")) return direction_of(shape);
+  if (std::holds_alternative<PlaneShape>(shape))
+    table.fail("direction", "found for a plane, which moves along its normal; allowed: another tool");
+  for (const char* key : {"velocity", "stress"})
+    if (table.has(key)) table.fail("direction", "is used only with 'speed' or 'force'");
+  const Vector given = table.vector3("direction", Range::between(-1e6, 1e6));
+  const double length = std::hypot(given[0], given[1], given[2]);
+  if (!(length > 0)) table.fail("direction", "found a vector of length 0, allowed: the direction of the push");
+  return Vector{given[0] / length, given[1] / length, given[2] / length};
+}
+
 /// Reads what one tool does; `is_punch`: it is a punch of the container.
 ToolDrive read_drive(TableReader table, std::size_t tool, const ToolShape& shape, bool is_punch) {
   ToolDrive drive{.tool = tool};
-  const auto direction = direction_of(shape);
+  const auto direction = read_direction(table, shape);
   drive.direction = direction.value_or(Vector{});
   const auto given = static_cast<int>(table.has("speed")) + static_cast<int>(table.has("velocity")) +
                      static_cast<int>(table.has("force")) + static_cast<int>(table.has("stress"));
@@ -156,7 +169,8 @@ ToolDrive read_drive(TableReader table, std::size_t tool, const ToolShape& shape
     table.fail("speed",
                fmt::format("found {} of the keys speed, velocity, force and stress, allowed: one of them", given));
   if (!direction && !table.has("velocity"))
-    table.fail("velocity", "missing, allowed: a vector; this tool has no axis or normal");
+    table.fail("velocity",
+               "missing, allowed: a vector, or 'speed' or 'force' with a 'direction'; this tool has no axis or normal");
   if (table.has("velocity")) drive.velocity = table.vector3("velocity", any_speed);
   if (table.has("speed")) {
     const double speed = table.number("speed", any_speed);

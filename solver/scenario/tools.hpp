@@ -91,7 +91,7 @@ std::optional<std::array<double, 3>> direction_of(const ToolShape& shape);
 struct ToolDrive {
   std::size_t tool = 0;              ///< index into the scenario's tools
   std::array<double, 3> velocity{};  ///< mm/s, at full speed
-  std::array<double, 3> direction{}; ///< unit vector; 0 where the tool has none
+  std::array<double, 3> direction{}; ///< unit vector: the stage's, or the tool's own; 0 where there is neither
   std::optional<double> force{};     ///< N, push on the grains along the direction, held instead of a velocity
   std::optional<double> stress{};    ///< MPa, that push over the container's section, instead of `force`
   double servo_speed = 0;            ///< mm/s, largest speed of a tool that holds its push
