@@ -251,7 +251,7 @@ void Tools::return_tool(Tool& tool, const Model& model, const Communicator& rank
   const auto* plane = std::get_if<OrientedPlane>(&tool.surface);
   if (plane == nullptr)
     throw SimulationError(
-        fmt::format("tool '{}' returns {:.4g} mm inside grains, allowed: a place where it touches none; "
+        fmt::format("tool '{}' is placed {:.4g} mm inside grains, allowed: a place where it touches none; "
                     "let the grains move out of its way first, or do not withdraw it",
                     tool.name, deepest));
   const std::array<double, 3> normal = array_of(plane->normal);

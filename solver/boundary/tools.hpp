@@ -107,9 +107,18 @@ public:
   std::optional<std::pair<std::string, double>> behind(const Model& model, std::size_t node) const;
 
   // ---- checkpoints
-  template <class Self, class Visitor>
-  static void for_each_field(Self& s, Visitor&& visit) {
-    for (auto& tool : s.tools_) Tool::for_each_field(tool, visit);
+  template <class Writer>
+  void write(Writer& to) const {
+    for (const Tool& tool : tools_) Tool::for_each_field(tool, to);
+  }
+  /// Reads the first `saved` tools. Those after them are new: they are away until a stage places them.
+  template <class Reader>
+  void read(Reader& from, std::size_t saved) {
+    for (std::size_t tool = 0; tool < size(); ++tool)
+      if (tool < saved)
+        Tool::for_each_field(tools_[tool], from);
+      else
+        tools_[tool].away = true;
   }
   int grains() const { return grains_; }
   /// By ascending node.

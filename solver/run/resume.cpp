@@ -20,10 +20,12 @@ Scenario scenario_of(const CheckpointReader& checkpoint) {
   return read_scenario(TomlDocument::from_text(checkpoint.scenario_text(), checkpoint.path()));
 }
 
-bool tools_differ(const std::vector<ToolParameters>& a, const std::vector<ToolParameters>& b) {
-  return !std::equal(a.begin(), a.end(), b.begin(), b.end(), [](const ToolParameters& x, const ToolParameters& y) {
-    return x.name == y.name && x.shape == y.shape && x.adhesion == y.adhesion;
-  });
+/// Whether a scenario has the tools of the one before, apart from their friction, and perhaps more after them.
+bool continues_tools(const std::vector<ToolParameters>& before, const std::vector<ToolParameters>& now) {
+  return before.size() <= now.size() &&
+         std::equal(before.begin(), before.end(), now.begin(), [](const ToolParameters& x, const ToolParameters& y) {
+           return x.name == y.name && x.shape == y.shape && x.adhesion == y.adhesion;
+         });
 }
 
 /// Refuses what a branch must not change. A branch continues with the same material: stresses and strains mean nothing
@@ -38,9 +40,10 @@ void check_branch(const CheckpointReader& checkpoint, bool bonded, const Scenari
       !now.grain_angular_velocity.empty())
     refuse("[initial] cannot be used in a run that begins at a checkpoint: grains keep the velocities that they have "
            "there");
-  if (tools_differ(before.tools, now.tools) || before.container != now.container)
-    refuse("the checkpoint's tools differ from the scenario's; allowed: the same [[tools]] and [container]; only their "
-           "friction may differ");
+  if (!continues_tools(before.tools, now.tools) || before.container != now.container)
+    refuse(
+        "the checkpoint's tools differ from the scenario's; allowed: the same [[tools]], apart from friction, in the "
+        "same order, further ones after them, and the same [container]");
   if (!bonded) return;
   // Bonds keep the law by which they formed, and [bond] is the law of future bonds. Whether bonds resist sliding
   // decides how all bonds are tracked.
@@ -63,7 +66,7 @@ void restore(const CheckpointReader& checkpoint, bool bonded, const Scenario& be
   FieldReader fields(values);
   try {
     simulation.restore(
-        fields, branch ? std::optional<std::int64_t>(0) : std::nullopt, [&](const Simulation::Arrays& arrays) {
+        fields, branch ? std::optional(before.tools.size()) : std::nullopt, [&](const Simulation::Arrays& arrays) {
           agree(ranks, [&] { // what follows on all ranks needs all of them
             checkpoint.take_arrays(arrays.model, arrays.contact, arrays.wall_friction, arrays.tools, arrays.grain_steps,
                                    arrays.grips, bonded ? before.bond : std::nullopt);

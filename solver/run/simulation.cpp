@@ -453,23 +453,23 @@ void Simulation::reset_energy_balance(HistoryRow& first_row) {
 void Simulation::write(FieldWriter& to) const {
   RunState::for_each_field(state_, to);
   Box::for_each_field(box_, to);
-  Tools::for_each_field(tools_, to);
+  tools_.write(to);
   EnergyLedger::for_each_field(energies_, to);
   StepEstimate::State::for_each_field(step_estimate_.state(), to);
   stage_run_->write(to);
 }
 
-void Simulation::read(FieldReader& from, std::optional<std::int64_t> stage) {
+void Simulation::read(FieldReader& from, std::optional<std::size_t> tools_of_branch) {
   RunState::for_each_field(state_, from);
   Box::for_each_field(box_, from);
-  Tools::for_each_field(tools_, from);
+  tools_.read(from, tools_of_branch.value_or(tools_.size()));
   EnergyLedger::for_each_field(energies_, from);
   StepEstimate::State step = step_estimate_.state();
   StepEstimate::State::for_each_field(step, from);
   step_estimate_.restore(step);
   stage_run_.reset();
-  if (stage) { // a branch begins its own stage: begin_branch()
-    state_.stage = *stage;
+  if (tools_of_branch) { // a branch begins its own stage: begin_branch()
+    state_.stage = 0;
     return;
   }
   StageRun::State stage_state;

@@ -147,11 +147,11 @@ public:
     Grips* grips; ///< of a stage that grips, its axis set, or none
   };
   /// Restores the state of a checkpoint: `take(arrays)` replaces the arrays, `fields` the rest. It becomes the state of
-  /// `stage` if that is given (a branch), else of the checkpoint's own stage. Throws std::invalid_argument if the
-  /// fields are of another version.
+  /// the checkpoint's own stage or, for a branch, of the scenario's first. `tools_of_branch`: for a branch, how many of
+  /// the tools the checkpoint has. Throws std::invalid_argument if the fields are of another version.
   template <class Take>
-  void restore(FieldReader& fields, std::optional<std::int64_t> stage, Take&& take) {
-    read(fields, stage);
+  void restore(FieldReader& fields, std::optional<std::size_t> tools_of_branch, Take&& take) {
+    read(fields, tools_of_branch);
     GrainSteps grain_steps;
     take(Arrays{model_, contact_, wall_friction_, tools_, grain_steps, prepare_grips()});
     set_grain_steps(std::move(grain_steps));
@@ -163,7 +163,7 @@ public:
   Model& model_to_disturb() { return model_; }
 
 private:
-  void read(FieldReader& fields, std::optional<std::int64_t> stage);
+  void read(FieldReader& fields, std::optional<std::size_t> tools_of_branch);
   Grips* prepare_grips();
   void set_grain_steps(GrainSteps grain_steps);
   static const Communicator& alone();

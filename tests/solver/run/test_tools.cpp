@@ -13,6 +13,7 @@
 #include <catch2/catch.hpp>
 #include <fmt/format.h>
 
+#include "common/table_reader.hpp"
 #include "results-schema/file.hpp"
 #include "solver/output/tool_geometry.hpp"
 #include "solver/run/make_tools.hpp"
@@ -162,6 +163,53 @@ TEST_CASE("a tool that holds a force comes to rest where the grains carry it") {
   CHECK(within(simulation.tools()[1].force[2], force, 0.02));
   CHECK(within(-simulation.tools()[0].force[2], force, 0.02));
   CHECK(simulation.tools()[1].moved[2] < -1e-4); // it closed its gap of 1e-4 mm first
+}
+
+TEST_CASE("rounded jaws that hold a force across their axes bear it on opposite sides of a ball") {
+  constexpr double force = 0.2, radius = 0.1, jaw_radius = 1.5 * radius, gap = 1e-4; // N, mm
+  Scenario scenario = holding_scenario(1);
+  const auto jaw = [&](const std::string& name, double surface, double towards) {
+    return ToolParameters{
+        .name = name,
+        .shape = CylinderShape{
+            .axis = 2, .centre = {{surface + towards * jaw_radius, 0.5, 0}}, .radius = jaw_radius, .inside = true}};
+  };
+  scenario.tools = {jaw("left", 0.5 - radius - gap, 1), jaw("right", 0.5 + radius + gap, -1)};
+  const ToolDrive left{.tool = 0, .direction = {1, 0, 0}, .force = force, .servo_speed = 500};
+  const ToolDrive right{.tool = 1, .direction = {-1, 0, 0}, .force = force, .servo_speed = 500};
+  scenario.stages = {driven({left, right}, 4e-5, 1e6)};
+  GrainMesh ball = ball_mesh(4, radius);
+  move(ball, {0.5, 0.5, 0.5});
+  ThreadTeam team(1);
+  Simulation simulation(build_model(pack({ball}, {1, 1, 1}), scenario, "test"), scenario, team);
+  for (simulation.evaluate_forces(); !simulation.stage_complete(); simulation.evaluate_forces()) simulation.advance();
+  // The grain's force on a jaw is the reverse of the jaw's push; damping at 1e6/s leaves 2 % of vibration at most.
+  CHECK(within(-simulation.tools()[0].force[0], force, 0.02));
+  CHECK(within(simulation.tools()[1].force[0], force, 0.02));
+  CHECK(std::abs(simulation.tools()[0].force[1]) < 0.02 * force);
+  CHECK(simulation.tools()[0].moved[0] > gap); // both closed their gaps
+  CHECK(simulation.tools()[1].moved[0] < -gap);
+}
+
+TEST_CASE("a direction lets every shape but a plane be driven by speed and force, and be watched along it") {
+  const auto stage_of = [&](const std::string& shape, const std::string& keys) {
+    const std::string text = replaced(replaced(tablet_text, "type = \"plane\"\nface = \"+x\"", shape),
+                                      "travel = 0.02\ndrive.plate.speed = 10000", keys);
+    const Scenario scenario = read_scenario(TomlDocument::from_text(text, "test"));
+    return std::get<ToolLoading>(scenario.stages.back().type);
+  };
+  const std::string ball = "type = \"sphere\"\ncentre = [1, 0.3, 0.3]\nradius = 0.2";
+  const std::string rod = "type = \"cylinder\"\ngrains = \"outside\"\ncentre = [1, 0.3, 0]\nradius = 0.2";
+  for (const std::string& shape : {ball, rod}) {
+    const ToolLoading pushed =
+        stage_of(shape, "force_drop = 0.2\nwatch = \"plate\"\ndrive.plate = { speed = 10000, direction = [-3, 4, 0] }");
+    CHECK(pushed.drives.at(0).velocity == std::array<double, 3>{-6000, 8000, 0});
+    CHECK(pushed.ends.watched_direction == std::array<double, 3>{-0.6, 0.8, 0});
+    const ToolLoading held =
+        stage_of(shape, "duration = 1e-6\ndrive.plate = { force = 0.1, servo_speed = 1000, direction = [-2, 0, 0] }");
+    CHECK(held.drives.at(0).direction == std::array<double, 3>{-1, 0, 0});
+    CHECK(held.drives.at(0).force == 0.1);
+  }
 }
 
 TEST_CASE("the push of a tool that is watched and not driven is that along its normal, without its friction") {
@@ -622,7 +670,7 @@ TEST_CASE("spheres, cones, endless cylinders and triangles are written with all 
   CHECK(*std::max_element(vertex.begin(), vertex.end()) == Approx(1).epsilon(1e-12)); // mm, of a file in metres
 }
 
-TEST_CASE("a branch continues with the tools in place, and refuses other tools") {
+TEST_CASE("a branch continues with the tools in place, may add further ones, and refuses other tools") {
   const Folder folder;
   prepare(folder, 3, tablet_text);
   REQUIRE(mpfem_command(fmt::format("run {} -o {} --quiet", folder / "scenario.toml", folder / "run.h5")).exit_code ==
@@ -638,6 +686,21 @@ TEST_CASE("a branch continues with the tools in place, and refuses other tools")
   const Outcome good = branch(replaced(unloading, "friction = 0.2", "friction = 0.4"));
   INFO(good.messages);
   CHECK(good.exit_code == 0);
+  // A new tool is in place from the branch's first stage on, unless that stage leaves it out.
+  const std::string with_pin = replaced(unloading, "[container]\nwall", R"([[tools]]
+name = "pin"
+type = "sphere"
+centre = [0.3, 0.3, 1]
+radius = 0.2
+[container]
+wall)");
+  const Outcome further = branch(with_pin);
+  INFO(further.messages);
+  CHECK(further.exit_code == 0);
+  const schema::FileReader file(folder / "branch.h5", schema::FileKind::run);
+  CHECK(file.has(schema::run::history_tools_work, "pin"));
+  CHECK_THAT(branch(replaced(with_pin, "centre = [0.3, 0.3, 1]", "centre = [0.3, 0.3, 0.3]")).messages,
+             Catch::Contains("tool 'pin'") && Catch::Contains("inside grains"));
   const Outcome bad = branch(replaced(unloading, "radius = 0.29", "radius = 0.3"));
   CHECK(bad.exit_code == 2);
   CHECK_THAT(bad.messages, Catch::Contains("tools differ"));
@@ -665,6 +728,17 @@ TEST_CASE("mistakes in tools are refused with the key and what is allowed") {
   CHECK_THAT(refusal("upper = \"upper\"", "upper = \"lower\""), Catch::Contains("normal is [0, 0, -1]"));
   CHECK_THAT(refusal("watch = \"upper\"", "watch = \"uper\""), Catch::Contains("one of die, lower, upper, plate"));
   CHECK_THAT(refusal("drive.plate.speed = 10000", "drive.plate.velocity = [1, 2]"), Catch::Contains("velocity"));
+  const auto driven_so = [&](const std::string& keys) {
+    return refusal("drive.plate.speed = 10000", "drive.plate = { " + keys + " }");
+  };
+  CHECK_THAT(driven_so("speed = 1, direction = [1, 0, 0]"), Catch::Contains("moves along its normal"));
+  CHECK_THAT(refusal("drive.lower.velocity = [0, 0, 20000]", "drive.lower.speed = 20000\n"
+                                                             "drive.die = { speed = 1, direction = [0, 0, 0] }"),
+             Catch::Contains("length 0"));
+  CHECK_THAT(refusal("drive.lower.velocity = [0, 0, 20000]",
+                     "drive.lower.speed = 20000\n"
+                     "drive.die = { velocity = [1, 0, 0], direction = [1, 0, 0] }"),
+             Catch::Contains("only with 'speed' or 'force'"));
   CHECK_THAT(refusal("away = [\"plate\"]\nrelative", "away = [\"plate\", \"upper\"]\nrelative"),
              Catch::Contains("which the stage also drives"));
   CHECK_THAT(refusal("radius = 0.29", "radius = 0.2"), Catch::Contains("into the tool 'die'"));
