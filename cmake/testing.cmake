@@ -31,10 +31,13 @@ function(mpfem_add_test)
   set_target_properties(test-${test_NAME} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/tests
                                                      UNITY_BUILD ${MPFEM_TESTS_TOGETHER} UNITY_BUILD_BATCH_SIZE 6)
 
+  # catch_discover_tests would keep only the first of a list of labels, and none of the properties after it. `ctest -L`
+  # takes regular expressions, so one label with all names serves.
   set(labels ${test_NAME} ${test_LABELS})
+  list(JOIN labels "." label)
   catch_discover_tests(test-${test_NAME}
     TEST_PREFIX "${test_NAME}/"
     WORKING_DIRECTORY ${PROJECT_SOURCE_DIR}
-    PROPERTIES TIMEOUT ${test_TIMEOUT} COST ${test_COST} LABELS "${labels}"
+    PROPERTIES TIMEOUT ${test_TIMEOUT} COST ${test_COST} LABELS ${label}
                ENVIRONMENT LSAN_OPTIONS=suppressions=${PROJECT_SOURCE_DIR}/cmake/leaks-of-others.txt)
 endfunction()
