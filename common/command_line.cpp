@@ -22,7 +22,7 @@ CLI::Validator validator(const Range& range, const std::string& unit, const char
             if (value && range.contains(static_cast<double>(*value))) return std::string();
             return fmt::format("found '{}', allowed: {}", shortened(text, 40), joined(kind, limits));
           },
-          limits};
+          range.low == whole_numbers.low ? std::string() : limits}; // the help does not print the limits of the type
 }
 
 } // namespace

@@ -190,7 +190,7 @@ FigureCommands::FigureCommands(CLI::App& app) : state_(std::make_unique<State>()
   plot.add_option("name", s.name, "Name of the plot")->required();
   add_number(plot, "--packings", s.packings, Range::between(0, 1e6), "",
              "Draw the spread over this number of packings");
-  plot.get_option("--output")->required();
+  plot.get_option("--output")->required()->description("Picture to write (PNG or SVG)");
   s.add_on_figure(app, "verdict", "Compare the statements of a figure with the results, as JSON.",
                   [&s] { s.verdict(); });
   s.add(app, "verdicts",
