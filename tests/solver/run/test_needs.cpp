@@ -71,7 +71,7 @@ double number_before(const std::string& text, const std::string& word) {
   return std::stod(text.substr(begin == std::string::npos ? 0 : begin + 1));
 }
 
-const std::string compaction_text = material_text + R"([[stages]]
+const std::string undamped_text = material_text + R"([[stages]]
 name = "compaction"
 type = "isotropic_compaction"
 relative_density = 0.62
@@ -148,7 +148,7 @@ TEST_CASE("a run that cannot fit is refused in one line that says what it needs 
 TEST_CASE("a compaction takes the number of steps that check predicts") {
   const Folder folder;
   write_packing(folder / "packing.h5", eight_grains(4), std::vector<double>(8, 0.1));
-  write_text(folder / "scenario.toml", compaction_text);
+  write_text(folder / "scenario.toml", undamped_text);
   const Outcome check = run_command(fmt::format("'{}' check {}", MPFEM_EXECUTABLE, folder / "scenario.toml"));
   REQUIRE(check.exit_code == 0);
   const Outcome run =
@@ -164,7 +164,7 @@ TEST_CASE("a run needs at most the predicted memory, within 15 %") {
   const Folder folder;
   const MeshedPacking packing = eight_grains(16);
   write_packing(folder / "packing.h5", packing, std::vector<double>(8, 0.1));
-  write_text(folder / "scenario.toml", compaction_text);
+  write_text(folder / "scenario.toml", undamped_text);
   const rusage usage = usage_of_mpfem({"run", folder / "scenario.toml", "-o", folder / "run.h5", "--quiet", "--set",
                                        "output.history_rows=20", "--time-limit", "2"});
   const Scenario scenario = one_stage();
