@@ -28,6 +28,8 @@ function(mpfem_add_test)
   add_executable(test-${test_NAME} ${test_SOURCES})
   target_include_directories(test-${test_NAME} PRIVATE ${PROJECT_SOURCE_DIR} ${PROJECT_SOURCE_DIR}/tests/support)
   target_link_libraries(test-${test_NAME} PRIVATE mpfem::options ${test_LIBRARIES} Catch2::Catch2WithMain)
+  # Test files themselves need no speed: -O1 halves the time that they take to compile. The libraries keep theirs.
+  target_compile_options(test-${test_NAME} PRIVATE $<$<CONFIG:Release>:-O1>)
   set_target_properties(test-${test_NAME} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/tests
                                                      UNITY_BUILD ${MPFEM_TESTS_TOGETHER} UNITY_BUILD_BATCH_SIZE 6)
 
