@@ -55,4 +55,4 @@ plot \
     title (many(of('tet4-anp', 'precision')) ? 'tet4-anp, mixed precision' : ''), \
   sorted('$17 == 1') using 12:18 with steps linetype 5 linewidth 1.2 dashtype 2, \
   sorted('$17 == 1') using 12:18 with points linetype 5 linewidth 1.2 pointtype 6 pointsize 2.6 title 'on the front', \
-  NaN with filledcurves fillcolor rgb '#dddddd' title (doubt > bottom ? 'reference unsure' : '')
+  NaN with filledcurves fillcolor rgb '#dddddd' title (doubt > bottom ? 'uncertainty of the reference' : '')

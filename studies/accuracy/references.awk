@@ -1,18 +1,18 @@
 # awk -f ../common/verdict.awk -f references.awk runs.csv values.csv fig05/finite-elements.csv fig04/cohesive.csv
-# die_transmission.csv: what the values of each scene should be, and their uncertainty:
+# die_transmission.csv one-grain/limits.csv: what the values of each scene should be, and their uncertainty:
 # scene,quantity,reference,uncertainty,source,extrapolated.
 #
 # Spheres and hemispheres in elastic contact, the plastic pair and the scenes with friction have references of others:
 # Hertz with the finite-sphere factor (tests/reference/README.md), axisymmetric finite elements, boundary elements,
-# Cattaneo and Mindlin. All else is extrapolated from the runs that differ in mesh and element alone: tet4 and tet4-anp
+# Cattaneo and Mindlin. The mean stress of 329 grains has the limits by one grain (studies/one-grain). All else is extrapolated from the runs that differ in mesh and element alone: tet4 and tet4-anp
 # (tet4-patch has no part in the answer that it is measured by) tend to one answer q as their size x = tets^(-1/3), of
 # hemispheres and caps the element size at the contact, vanishes,
 #   value(element, x) = q + c(element) x^order(element),
 # fitted by least squares to the finest four meshes of each element with all pairs of orders from 1 to 2. The reference
 # is the middle of the q of all pairs that fit nearly as well as the best (at most 1.5 times its scatter, or 0.5 %,
 # taken as the noise of single meshes), its uncertainty half of their range and the scatter. References of others are
-# taken as good to 1 %, an assumption, but for the transmission of a die (die_uncertainty); what the runs themselves
-# tend to stands beside them.
+# taken as good to 1 %, an assumption, but for the transmission of a die (die_uncertainty) and the limits by one grain;
+# what the runs themselves tend to stands beside them.
 
 BEGIN { FS = "," }
 FNR == 1 { ++file; split("", column) }
@@ -34,6 +34,11 @@ file == 2 && $1 in scene {
 file == 3 && $need("approach") != "" { finite[$need("approach") + 0] = $need("table_1") }
 file == 4 && $need("energy") == 0.1 && $need("lambda") == 2 { cohesive = $need("pull_off_over_jkr") }
 file == 5 && $need("H_over_D") == 1 { through_die[$need("nu"), $need("mu")] = $need("transmission") }
+file == 6 {
+  density = $need("relative_density") + 0
+  limit[density] = $need("mean_stress")
+  limit_unsure[density] = $need("uncertainty")
+}
 
 # Fit of q, c(tet4), c(tet4-anp) with given orders; returns q, sets `scatter` (root mean square).
 function fit(key, plain, averaged,   i, j, k, a, b, s, row, sum, count) {
@@ -98,6 +103,13 @@ function hertz(approach, factor) { return factor * 4 / 3 / (1 - 0.3^2) * approac
 # the end of its press 0.2 % shorter, transmits more by 0.2 % of -log(t).
 function die_uncertainty(t) { return 1e-4 - 0.002 * log(t) * t }
 
+function uncertainty_of_known(scene, quantity, value,   density) {
+  if (scene == "die-column") return die_uncertainty(value)
+  density = quantity
+  sub(/.*-/, "", density)
+  return scene == "full" ? limit_unsure[density + 0] : taken_as * value
+}
+
 END {
   if (failed) exit 1
   finest = 4
@@ -121,6 +133,8 @@ END {
   known["die-column", "transmission-0.1"] = through_die["0.3", "0.1"]
   known["die-column", "transmission-0.3"] = through_die["0.4", "0.3"]
   source["die-column"] = "axisymmetric finite elements"
+  for (d in limit) known["full", "mean-stress-" d] = limit[d]
+  source["full"] = "one grain"
   print "scene,quantity,reference,uncertainty,source,extrapolated,uncertainty_of_extrapolation"
   for (i = 1; i <= quantities; ++i) {
     key = order_of[i]
@@ -128,8 +142,8 @@ END {
     tends = extrapolate(key) ? sprintf("%.6g,%.2g", best, uncertainty) : ","
     if ((part[1], part[2]) in known) {
       value = known[part[1], part[2]]
-      printf "%s,%s,%.6g,%.2g,%s,%s\n", part[1], part[2], value, \
-             part[1] == "die-column" ? die_uncertainty(value) : taken_as * value, source[part[1]], tends
+      printf "%s,%s,%.6g,%.2g,%s,%s\n", part[1], part[2], value, uncertainty_of_known(part[1], part[2], value), \
+             source[part[1]], tends
     } else if (tends != ",")
       printf "%s,%s,%.6g,%.2g,%s,%s\n", part[1], part[2], best, uncertainty, "extrapolated", tends
   }

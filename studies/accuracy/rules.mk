@@ -127,7 +127,7 @@ $(accuracy)/values.csv: studies/accuracy/values-table.awk $(accuracy_kept) $(acc
 
 $(accuracy)/references.csv: studies/common/verdict.awk studies/accuracy/references.awk \
   $(accuracy)/runs.csv $(accuracy)/values.csv studies/fig05/finite-elements.csv studies/fig04/cohesive.csv \
-  tests/reference/die_transmission.csv
+  tests/reference/die_transmission.csv studies/one-grain/limits.csv
 	awk $(addprefix -f ,$(filter %.awk,$^)) $(filter %.csv,$^) > $@.partial
 	mv $@.partial $@
 
