@@ -9,7 +9,8 @@ postproc=$1
 Every statement that a figure of Ku, Zhao, Mollon and Zhao makes, compared with our result, and why it differs.
 
 - \`coarse\` is the paper's packing of 329 grains at its coarsest mesh (0.03 mm), \`medium\` the same at 0.015 mm,
-  \`smoke\` 25 grains. Grains touch with their facets, as in the paper.
+  \`finest\` at 0.0075 mm (more of it in [finest mesh](../studies/finest-mesh/README.md)), \`smoke\` 25 grains. Grains
+  touch with their facets, as in the paper.
 - \`plain\` is \`coarse\` with plain tetrahedra, the paper's element (\`ELEMENT=tet4\`). The others have averaged nodal
   pressure from fig10 on.
 - \`smooth\` is the packing of 329 grains with smooth surfaces at 0.04 mm (\`MESH=coarser SURFACE=smooth\`). Its mean
@@ -26,6 +27,6 @@ Every statement that a figure of Ku, Zhao, Mollon and Zhao makes, compared with 
 END
   results=studies/results
   "$postproc" verdicts coarse=$results/coarse plain=$results/coarse-tet4 smooth=$results/coarser-smooth \
-    medium=$results/medium smoke=$results/smoke
+    medium=$results/medium finest=$results/paper smoke=$results/smoke
 } >docs/verdicts.md.partial
 mv docs/verdicts.md.partial docs/verdicts.md
