@@ -4,9 +4,10 @@
 #
 # Spheres and hemispheres in elastic contact, the plastic pair and the scenes with friction have references of others:
 # Hertz with the finite-sphere factor (tests/reference/README.md), axisymmetric finite elements, boundary elements,
-# Cattaneo and Mindlin. The mean stress of 329 grains has the limits by one grain (studies/one-grain). All else is extrapolated from the runs that differ in mesh and element alone: tet4 and tet4-anp
-# (tet4-patch has no part in the answer that it is measured by) tend to one answer q as their size x = tets^(-1/3), of
-# hemispheres and caps the element size at the contact, vanishes,
+# Cattaneo and Mindlin. The mean stress of 329 grains has the limits by one grain (studies/one-grain). All else is
+# extrapolated from the runs that differ in mesh and element alone: tet4 and tet4-anp (tet4-patch has no part in the
+# answer that it is measured by) tend to one answer q as their size x = tets^(-1/3), of hemispheres and caps the element
+# size at the contact, vanishes,
 #   value(element, x) = q + c(element) x^order(element),
 # fitted by least squares to the finest four meshes of each element with all pairs of orders from 1 to 2. The reference
 # is the middle of the q of all pairs that fit nearly as well as the best (at most 1.5 times its scatter, or 0.5 %,
