@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 
 #include "common/errors.hpp"
-#include "postproc/text_file.hpp"
+#include "postproc/files/text_file.hpp"
 
 namespace mpfem {
 

@@ -7,7 +7,7 @@
 
 #include "common/command_line.hpp"
 #include "common/output_file.hpp"
-#include "postproc/snapshot.hpp"
+#include "postproc/run_data/snapshot.hpp"
 #include "results-schema/file.hpp"
 
 namespace mpfem {

@@ -5,10 +5,10 @@
 #include "common/errors.hpp"
 #include "postproc/commands/command.hpp"
 #include "postproc/commands/commands.hpp"
-#include "postproc/contact.hpp"
-#include "postproc/contact_history.hpp"
-#include "postproc/contact_picture.hpp"
-#include "postproc/text_file.hpp"
+#include "postproc/drawing/contact_picture.hpp"
+#include "postproc/files/text_file.hpp"
+#include "postproc/metrics/contact_history.hpp"
+#include "postproc/run_data/contact.hpp"
 
 namespace mpfem {
 

@@ -2,9 +2,9 @@
 
 #include "postproc/commands/command.hpp"
 #include "postproc/commands/commands.hpp"
-#include "postproc/density_map.hpp"
-#include "postproc/round_die.hpp"
-#include "postproc/text_file.hpp"
+#include "postproc/drawing/density_map.hpp"
+#include "postproc/files/text_file.hpp"
+#include "postproc/metrics/round_die.hpp"
 
 namespace mpfem {
 

@@ -3,11 +3,11 @@
 
 #include "postproc/commands/commands.hpp"
 #include "postproc/commands/metric_command.hpp"
-#include "postproc/coordination.hpp"
-#include "postproc/damage_of_test.hpp"
-#include "postproc/inner_stress.hpp"
-#include "postproc/offset_yield.hpp"
-#include "postproc/unload_reload.hpp"
+#include "postproc/metrics/coordination.hpp"
+#include "postproc/metrics/damage_of_test.hpp"
+#include "postproc/metrics/inner_stress.hpp"
+#include "postproc/metrics/offset_yield.hpp"
+#include "postproc/metrics/unload_reload.hpp"
 
 namespace mpfem {
 

@@ -5,8 +5,8 @@
 #include "common/errors.hpp"
 #include "postproc/commands/command.hpp"
 #include "postproc/commands/commands.hpp"
-#include "postproc/summary.hpp"
-#include "postproc/validate.hpp"
+#include "postproc/files/validate.hpp"
+#include "postproc/metrics/summary.hpp"
 
 namespace mpfem {
 

@@ -5,10 +5,10 @@
 #include "common/errors.hpp"
 #include "postproc/commands/command.hpp"
 #include "postproc/commands/commands.hpp"
-#include "postproc/csv_file.hpp"
-#include "postproc/fit.hpp"
-#include "postproc/measurement.hpp"
-#include "postproc/text_file.hpp"
+#include "postproc/files/csv_file.hpp"
+#include "postproc/files/text_file.hpp"
+#include "postproc/fits/fit.hpp"
+#include "postproc/run_data/measurement.hpp"
 
 namespace mpfem {
 

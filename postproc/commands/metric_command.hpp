@@ -5,7 +5,7 @@
 #include <string>
 
 #include "postproc/commands/command.hpp"
-#include "postproc/measurement.hpp"
+#include "postproc/run_data/measurement.hpp"
 
 namespace mpfem {
 

@@ -8,9 +8,9 @@
 #include "common/one_line.hpp"
 #include "postproc/commands/command.hpp"
 #include "postproc/commands/commands.hpp"
-#include "postproc/summary.hpp"
-#include "postproc/text_file.hpp"
-#include "postproc/vtk.hpp"
+#include "postproc/drawing/vtk.hpp"
+#include "postproc/files/text_file.hpp"
+#include "postproc/metrics/summary.hpp"
 
 namespace mpfem {
 

@@ -9,9 +9,9 @@
 #include "common/errors.hpp"
 #include "postproc/commands/command.hpp"
 #include "postproc/commands/commands.hpp"
-#include "postproc/damage_section.hpp"
-#include "postproc/section_picture.hpp"
-#include "postproc/text_file.hpp"
+#include "postproc/drawing/damage_section.hpp"
+#include "postproc/drawing/section_picture.hpp"
+#include "postproc/files/text_file.hpp"
 
 namespace mpfem {
 

@@ -3,11 +3,11 @@
 #include "common/errors.hpp"
 #include "postproc/commands/commands.hpp"
 #include "postproc/commands/metric_command.hpp"
-#include "postproc/compaction_curve.hpp"
-#include "postproc/damage_statistics.hpp"
-#include "postproc/section_statistics.hpp"
-#include "postproc/stress_path.hpp"
-#include "postproc/text_file.hpp"
+#include "postproc/drawing/section_statistics.hpp"
+#include "postproc/files/text_file.hpp"
+#include "postproc/metrics/compaction_curve.hpp"
+#include "postproc/metrics/damage_statistics.hpp"
+#include "postproc/metrics/stress_path.hpp"
 
 namespace mpfem {
 

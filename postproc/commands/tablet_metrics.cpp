@@ -4,9 +4,9 @@
 
 #include "postproc/commands/commands.hpp"
 #include "postproc/commands/metric_command.hpp"
-#include "postproc/diametral.hpp"
-#include "postproc/heckel.hpp"
-#include "postproc/tablet.hpp"
+#include "postproc/metrics/diametral.hpp"
+#include "postproc/metrics/heckel.hpp"
+#include "postproc/metrics/tablet.hpp"
 
 namespace mpfem {
 

@@ -15,8 +15,8 @@
 #include "postproc/figure/figure_plot.hpp"
 #include "postproc/figure/report.hpp"
 #include "postproc/figure/verdict_pages.hpp"
-#include "postproc/gnuplot.hpp"
-#include "postproc/text_file.hpp"
+#include "postproc/files/gnuplot.hpp"
+#include "postproc/files/text_file.hpp"
 #include "postproc/view/view_page.hpp"
 
 namespace mpfem {

@@ -2,7 +2,7 @@
 // A figure's fits through the points of its tables.
 
 #include "postproc/figure/text_table.hpp"
-#include "postproc/fit.hpp"
+#include "postproc/fits/fit.hpp"
 
 namespace mpfem {
 

@@ -7,7 +7,7 @@
 #include <fmt/ranges.h>
 
 #include "common/errors.hpp"
-#include "postproc/gnuplot.hpp"
+#include "postproc/files/gnuplot.hpp"
 
 namespace mpfem {
 

@@ -13,7 +13,7 @@
 #include "common/errors.hpp"
 #include "common/nearest_word.hpp"
 #include "common/one_line.hpp"
-#include "postproc/stages.hpp"
+#include "postproc/run_data/stages.hpp"
 
 namespace mpfem {
 

@@ -12,7 +12,7 @@
 #include "common/one_line.hpp"
 #include "postproc/figure/figure.hpp"
 #include "postproc/figure/figure_texts.hpp"
-#include "postproc/fit.hpp"
+#include "postproc/fits/fit.hpp"
 
 namespace mpfem {
 

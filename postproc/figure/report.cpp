@@ -12,8 +12,8 @@
 
 #include "common/errors.hpp"
 #include "common/one_line.hpp"
-#include "postproc/base64.hpp"
 #include "postproc/figure/run_graph.hpp"
+#include "postproc/files/base64.hpp"
 #include "postproc/view/view_page.hpp"
 
 namespace mpfem {

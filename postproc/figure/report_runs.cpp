@@ -5,7 +5,7 @@
 #include "common/errors.hpp"
 #include "common/table_reader.hpp"
 #include "postproc/figure/run_graph.hpp"
-#include "postproc/summary.hpp"
+#include "postproc/metrics/summary.hpp"
 #include "postproc/view/view_page.hpp"
 
 namespace mpfem {

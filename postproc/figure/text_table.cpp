@@ -9,7 +9,7 @@
 #include "common/errors.hpp"
 #include "common/nearest_word.hpp"
 #include "common/one_line.hpp"
-#include "postproc/text_file.hpp"
+#include "postproc/files/text_file.hpp"
 
 namespace mpfem {
 

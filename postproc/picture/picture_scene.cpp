@@ -10,9 +10,9 @@
 
 #include "common/errors.hpp"
 #include "common/one_line.hpp"
-#include "postproc/field_display.hpp"
-#include "postproc/tet_geometry.hpp"
-#include "postproc/tool_surface.hpp"
+#include "postproc/drawing/field_display.hpp"
+#include "postproc/drawing/tool_surface.hpp"
+#include "postproc/run_data/tet_geometry.hpp"
 
 namespace mpfem {
 

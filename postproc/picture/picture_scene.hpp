@@ -7,9 +7,9 @@
 #include <utility>
 #include <vector>
 
-#include "postproc/colour_scale.hpp"
-#include "postproc/picture/cut_solid.hpp"
-#include "postproc/raster_picture.hpp"
+#include "postproc/drawing/colour_scale.hpp"
+#include "postproc/drawing/cut_solid.hpp"
+#include "postproc/drawing/raster_picture.hpp"
 
 namespace mpfem {
 

@@ -8,10 +8,10 @@
 #include <Eigen/Geometry>
 
 #include "common/errors.hpp"
-#include "postproc/field_display.hpp"
-#include "postproc/picture/cut_solid.hpp"
-#include "postproc/surface_facets.hpp"
-#include "postproc/tool_surface.hpp"
+#include "postproc/drawing/cut_solid.hpp"
+#include "postproc/drawing/field_display.hpp"
+#include "postproc/drawing/tool_surface.hpp"
+#include "postproc/run_data/surface_facets.hpp"
 
 namespace mpfem {
 

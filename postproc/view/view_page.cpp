@@ -9,8 +9,8 @@
 
 #include "common/errors.hpp"
 #include "common/one_line.hpp"
-#include "postproc/base64.hpp"
-#include "postproc/field_display.hpp"
+#include "postproc/drawing/field_display.hpp"
+#include "postproc/files/base64.hpp"
 #include "postproc/view/view_data.hpp"
 #include "postproc/view/view_page_text.hpp" // generated from view_page.html
 

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "postproc/snapshot.hpp"
+#include "postproc/run_data/snapshot.hpp"
 
 namespace mpfem {
 

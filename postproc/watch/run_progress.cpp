@@ -13,7 +13,7 @@
 #include "common/errors.hpp"
 #include "common/one_line.hpp"
 #include "common/table_reader.hpp"
-#include "postproc/history_table.hpp"
+#include "postproc/run_data/history_table.hpp"
 #include "results-schema/file.hpp"
 
 namespace mpfem {

@@ -13,7 +13,18 @@ common:
 results-schema: common
 surfaces: common solver/physics
 pack-gen: common results-schema surfaces solver/physics
-postproc: common results-schema
+postproc: common postproc/commands postproc/figure
+postproc/fits: common
+postproc/run_data: common results-schema postproc/fits
+postproc/files: common results-schema postproc/run_data
+postproc/metrics: common results-schema postproc/fits postproc/run_data postproc/files
+postproc/drawing: common results-schema postproc/fits postproc/run_data postproc/files postproc/metrics
+postproc/picture: common results-schema postproc/run_data postproc/files postproc/drawing postproc/commands
+postproc/view: common results-schema postproc/run_data postproc/files postproc/drawing postproc/picture
+postproc/watch: common results-schema postproc/run_data
+postproc/figure: common results-schema postproc/fits postproc/run_data postproc/files postproc/metrics postproc/view
+postproc/commands: common results-schema postproc/fits postproc/run_data postproc/files postproc/metrics
+postproc/commands: postproc/drawing postproc/view postproc/watch
 solver/physics:
 solver/scenario: common solver/physics
 solver/parallel: common
@@ -35,9 +46,9 @@ folders='common results-schema surfaces pack-gen postproc solver'
 # shellcheck disable=SC2086 # folders are several words
 grep -rnE --include='*.cpp' --include='*.hpp' '^ *# *include +"' $folders |
   awk -v allowed="$allowed" -v open="$open" '
-    function folder(path) { # of a file: its first two parts in solver/, its first part elsewhere
+    function folder(path) { # of a file: its first two parts in solver/ and postproc/, its first part elsewhere
       n = split(path, part, "/")
-      return n == 1 ? "" : part[1] == "solver" && n > 2 ? part[1] "/" part[2] : part[1]
+      return n == 1 ? "" : part[1] ~ /^(solver|postproc)$/ && n > 2 ? part[1] "/" part[2] : part[1]
     }
     BEGIN {
       lines = split(allowed, line, "\n")

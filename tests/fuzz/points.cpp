@@ -1,7 +1,7 @@
 // Tables of points to fit: CSV text -> columns.
 
 #include "common/csv_reader.hpp"
-#include "postproc/csv_file.hpp"
+#include "postproc/files/csv_file.hpp"
 #include "refusal.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {

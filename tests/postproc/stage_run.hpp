@@ -3,7 +3,7 @@
 
 #include <random>
 
-#include "postproc/stage_curve.hpp"
+#include "postproc/run_data/stage_curve.hpp"
 #include "small_run.hpp"
 #include "tests/support/folder.hpp"
 

@@ -3,7 +3,7 @@
 #include <catch2/catch.hpp>
 
 #include "bonded_run.hpp"
-#include "postproc/coordination.hpp"
+#include "postproc/metrics/coordination.hpp"
 #include "tests/support/folder.hpp"
 
 using namespace mpfem;

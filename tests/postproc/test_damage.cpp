@@ -8,14 +8,14 @@
 #include <fmt/format.h>
 
 #include "bonded_run.hpp"
-#include "postproc/contact.hpp"
-#include "postproc/contact_picture.hpp"
-#include "postproc/damage_section.hpp"
-#include "postproc/energy.hpp"
-#include "postproc/raster.hpp"
-#include "postproc/summary.hpp"
-#include "postproc/surface_facets.hpp"
-#include "postproc/vtk.hpp"
+#include "postproc/drawing/contact_picture.hpp"
+#include "postproc/drawing/damage_section.hpp"
+#include "postproc/drawing/raster.hpp"
+#include "postproc/drawing/vtk.hpp"
+#include "postproc/metrics/energy.hpp"
+#include "postproc/metrics/summary.hpp"
+#include "postproc/run_data/contact.hpp"
+#include "postproc/run_data/surface_facets.hpp"
 #include "run_postproc.hpp"
 #include "tests/support/folder.hpp"
 

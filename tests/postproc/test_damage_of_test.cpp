@@ -3,9 +3,9 @@
 #include <catch2/catch.hpp>
 
 #include "bonded_run.hpp"
-#include "postproc/bond_energy.hpp"
-#include "postproc/damage_of_test.hpp"
-#include "postproc/damage_statistics.hpp"
+#include "postproc/metrics/bond_energy.hpp"
+#include "postproc/metrics/damage_of_test.hpp"
+#include "postproc/metrics/damage_statistics.hpp"
 #include "tests/support/folder.hpp"
 
 using namespace mpfem;

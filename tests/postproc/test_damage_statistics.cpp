@@ -9,7 +9,7 @@
 
 #include "bonded_run.hpp"
 #include "coverage.hpp"
-#include "postproc/damage_statistics.hpp"
+#include "postproc/metrics/damage_statistics.hpp"
 #include "run_postproc.hpp"
 #include "stage_run.hpp"
 #include "tests/support/tolerances.hpp"

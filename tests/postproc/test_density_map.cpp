@@ -7,7 +7,7 @@
 #include <catch2/catch.hpp>
 #include <fmt/format.h>
 
-#include "postproc/density_map.hpp"
+#include "postproc/drawing/density_map.hpp"
 #include "run_postproc.hpp"
 #include "small_run.hpp"
 #include "tests/support/folder.hpp"

@@ -8,8 +8,8 @@
 #include <fmt/format.h>
 
 #include "common/errors.hpp"
-#include "postproc/csv_file.hpp"
-#include "postproc/fit.hpp"
+#include "postproc/files/csv_file.hpp"
+#include "postproc/fits/fit.hpp"
 #include "run_postproc.hpp"
 #include "stage_run.hpp"
 #include "tests/support/tolerances.hpp"

@@ -5,10 +5,10 @@
 
 #include <catch2/catch.hpp>
 
-#include "postproc/inertia.hpp"
-#include "postproc/quasi_static.hpp"
-#include "postproc/summary.hpp"
-#include "postproc/triaxial_test.hpp"
+#include "postproc/metrics/inertia.hpp"
+#include "postproc/metrics/quasi_static.hpp"
+#include "postproc/metrics/summary.hpp"
+#include "postproc/metrics/triaxial_test.hpp"
 #include "stage_run.hpp"
 
 using namespace mpfem;

@@ -3,8 +3,8 @@
 #include <catch2/catch.hpp>
 
 #include "bonded_run.hpp"
-#include "postproc/inner_stress.hpp"
-#include "postproc/love_weber.hpp"
+#include "postproc/metrics/inner_stress.hpp"
+#include "postproc/metrics/love_weber.hpp"
 #include "tests/support/folder.hpp"
 #include "tests/support/tolerances.hpp"
 

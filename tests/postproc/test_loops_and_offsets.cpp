@@ -4,11 +4,11 @@
 
 #include <catch2/catch.hpp>
 
-#include "postproc/modulus.hpp"
-#include "postproc/offset_yield.hpp"
-#include "postproc/strength.hpp"
-#include "postproc/true_stress.hpp"
-#include "postproc/unload_reload.hpp"
+#include "postproc/metrics/modulus.hpp"
+#include "postproc/metrics/offset_yield.hpp"
+#include "postproc/metrics/strength.hpp"
+#include "postproc/metrics/true_stress.hpp"
+#include "postproc/metrics/unload_reload.hpp"
 #include "stage_run.hpp"
 #include "tests/support/tolerances.hpp"
 

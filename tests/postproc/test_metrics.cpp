@@ -7,9 +7,9 @@
 #include <catch2/catch.hpp>
 #include <fmt/format.h>
 
-#include "postproc/contact.hpp"
-#include "postproc/energy.hpp"
-#include "postproc/summary.hpp"
+#include "postproc/metrics/energy.hpp"
+#include "postproc/metrics/summary.hpp"
+#include "postproc/run_data/contact.hpp"
 #include "run_postproc.hpp"
 #include "small_run.hpp"
 #include "tests/support/folder.hpp"

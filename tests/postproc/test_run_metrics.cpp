@@ -2,11 +2,11 @@
 
 #include <catch2/catch.hpp>
 
-#include "postproc/compaction_curve.hpp"
-#include "postproc/quasi_static.hpp"
-#include "postproc/section_statistics.hpp"
-#include "postproc/stress_path.hpp"
-#include "postproc/triaxial_test.hpp"
+#include "postproc/drawing/section_statistics.hpp"
+#include "postproc/metrics/compaction_curve.hpp"
+#include "postproc/metrics/quasi_static.hpp"
+#include "postproc/metrics/stress_path.hpp"
+#include "postproc/metrics/triaxial_test.hpp"
 #include "small_run.hpp"
 #include "stage_run.hpp"
 

@@ -6,7 +6,7 @@
 #include <catch2/catch.hpp>
 #include <fmt/format.h>
 
-#include "postproc/section_picture.hpp"
+#include "postproc/drawing/section_picture.hpp"
 #include "small_run.hpp"
 #include "tests/support/folder.hpp"
 #include "tests/support/packing_file.hpp"

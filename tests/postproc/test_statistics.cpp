@@ -2,9 +2,9 @@
 
 #include <catch2/catch.hpp>
 
-#include "postproc/least_squares.hpp"
-#include "postproc/smoothing.hpp"
-#include "postproc/statistics.hpp"
+#include "postproc/fits/least_squares.hpp"
+#include "postproc/fits/statistics.hpp"
+#include "postproc/run_data/smoothing.hpp"
 #include "stage_run.hpp"
 #include "tests/support/tolerances.hpp"
 

@@ -6,12 +6,12 @@
 #include <catch2/catch.hpp>
 #include <fmt/format.h>
 
+#include "postproc/drawing/section_picture.hpp"
+#include "postproc/drawing/tool_outline.hpp"
+#include "postproc/drawing/tool_surface.hpp"
+#include "postproc/drawing/vtk.hpp"
 #include "postproc/picture/picture_scene.hpp"
-#include "postproc/section_picture.hpp"
-#include "postproc/tool_outline.hpp"
-#include "postproc/tool_surface.hpp"
 #include "postproc/view/view_data.hpp"
-#include "postproc/vtk.hpp"
 #include "tests/support/folder.hpp"
 #include "tool_run.hpp"
 

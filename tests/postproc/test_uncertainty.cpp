@@ -13,12 +13,12 @@
 #include <catch2/catch.hpp>
 
 #include "coverage.hpp"
-#include "postproc/contact_history.hpp"
-#include "postproc/energy_release.hpp"
-#include "postproc/hysteresis.hpp"
-#include "postproc/modulus.hpp"
-#include "postproc/strength.hpp"
-#include "postproc/uncertainty.hpp"
+#include "postproc/metrics/contact_history.hpp"
+#include "postproc/metrics/energy_release.hpp"
+#include "postproc/metrics/hysteresis.hpp"
+#include "postproc/metrics/modulus.hpp"
+#include "postproc/metrics/strength.hpp"
+#include "postproc/run_data/uncertainty.hpp"
 #include "stage_run.hpp"
 #include "tests/support/tolerances.hpp"
 

@@ -9,8 +9,8 @@
 #include <nlohmann/json.hpp>
 
 #include "bonded_run.hpp"
-#include "postproc/base64.hpp"
-#include "postproc/picture/cut_solid.hpp"
+#include "postproc/drawing/cut_solid.hpp"
+#include "postproc/files/base64.hpp"
 #include "postproc/view/view_data.hpp"
 #include "postproc/view/view_page.hpp"
 #include "small_run.hpp"

@@ -5,7 +5,7 @@
 #include <catch2/catch.hpp>
 #include <fmt/format.h>
 
-#include "postproc/vtk.hpp"
+#include "postproc/drawing/vtk.hpp"
 #include "small_run.hpp"
 #include "tests/support/folder.hpp"
 

@@ -18,7 +18,7 @@
 #include <vtkXMLUtilities.h>
 
 #include "bonded_run.hpp"
-#include "postproc/vtk.hpp"
+#include "postproc/drawing/vtk.hpp"
 #include "tests/support/folder.hpp"
 #include "tool_run.hpp"
 

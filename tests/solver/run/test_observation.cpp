@@ -6,9 +6,9 @@
 #include <catch2/catch.hpp>
 
 #include "common/table_reader.hpp"
-#include "postproc/bond_table.hpp"
-#include "postproc/coordination.hpp"
-#include "postproc/inner_stress.hpp"
+#include "postproc/metrics/coordination.hpp"
+#include "postproc/metrics/inner_stress.hpp"
+#include "postproc/run_data/bond_table.hpp"
 #include "results-schema/file.hpp"
 #include "solver/model/model.hpp"
 #include "solver/run/simulation.hpp"

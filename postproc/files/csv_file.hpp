@@ -1,0 +1,21 @@
+#pragma once
+// Tables of numbers in CSV files: those that this program writes, and similar ones.
+
+#include <string>
+#include <vector>
+
+#include "common/csv_reader.hpp"
+#include "postproc/run_data/history_table.hpp"
+
+namespace mpfem {
+
+/// Columns of a CSV file. The first line that is neither empty nor a comment (#) names them: "name [unit]", the unit
+/// optional, quotes allowed. Every other such line has a number in each column. Throws InputError with file and line.
+std::vector<Column> read_csv(const std::string& path);
+/// The same for a table that is already open.
+std::vector<Column> read_csv(CsvReader reader);
+
+/// A column by its name without unit. Throws InputError that suggests the nearest name.
+const Column& csv_column(const std::vector<Column>& columns, const std::string& name, const std::string& path);
+
+} // namespace mpfem

@@ -1,0 +1,39 @@
+#include "postproc/files/text_file.hpp"
+
+#include <filesystem>
+
+#include <fmt/format.h>
+
+#include "common/errors.hpp"
+#include "common/one_line.hpp"
+
+namespace mpfem {
+
+void refuse_overwriting(const std::string& output, const std::string& input) {
+  std::error_code ignored; // where one does not exist, they are not the same
+  if (!output.empty() && !input.empty() && std::filesystem::equivalent(output, input, ignored))
+    throw InputError(fmt::format("{}: is the input; allowed: another file for the output", one_line(output)));
+}
+
+std::string csv_text(const std::vector<const Column*>& columns) {
+  std::string text;
+  const auto end_cell = [&](std::size_t i) { text += i + 1 < columns.size() ? ',' : '\n'; };
+  for (std::size_t i = 0; i < columns.size(); ++i) {
+    text += fmt::format("{} [{}]", columns[i]->name, columns[i]->unit);
+    end_cell(i);
+  }
+  for (std::size_t row = 0; !columns.empty() && row < columns.front()->values.size(); ++row)
+    for (std::size_t i = 0; i < columns.size(); ++i) {
+      text += fmt::format("{}", columns[i]->values[row]); // the shortest text that reads back to the same number
+      end_cell(i);
+    }
+  return text;
+}
+
+std::string csv_text(const std::vector<Column>& columns) {
+  std::vector<const Column*> pointers;
+  for (const Column& column : columns) pointers.push_back(&column);
+  return csv_text(pointers);
+}
+
+} // namespace mpfem

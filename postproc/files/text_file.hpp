@@ -1,0 +1,20 @@
+#pragma once
+// Small result files.
+
+#include <string>
+#include <vector>
+
+#include "common/output_file.hpp"
+#include "postproc/run_data/history_table.hpp"
+
+namespace mpfem {
+
+/// Throws InputError where `output` is the same file as `input`, which would be overwritten.
+void refuse_overwriting(const std::string& output, const std::string& input);
+
+/// CSV with the heading "name [unit],…"; all columns must have the same number of values.
+std::string csv_text(const std::vector<const Column*>& columns);
+/// The same for columns that are given by value.
+std::string csv_text(const std::vector<Column>& columns);
+
+} // namespace mpfem

@@ -1,0 +1,283 @@
+#include "postproc/metrics/hysteresis.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "common/errors.hpp"
+#include "common/one_line.hpp"
+#include "postproc/run_data/uncertainty.hpp"
+#include "postproc/run_data/windows.hpp"
+
+namespace mpfem {
+
+namespace {
+
+struct TurningPoint {
+  std::size_t row;
+  bool high;
+};
+
+std::vector<TurningPoint> turning_points(std::span<const double> p) {
+  const auto [low, high] = std::minmax_element(p.begin(), p.end());
+  const double threshold = 0.2 * (*high - *low);
+  std::vector<TurningPoint> points;
+  if (!(threshold > 0)) return points;
+  std::size_t lowest = 0, highest = 0;
+  for (std::size_t row = 0; row < p.size(); ++row) {
+    if (p[row] < p[lowest]) lowest = row;
+    if (p[row] > p[highest]) highest = row;
+    const bool may_be_low = points.empty() || points.back().high, may_be_high = points.empty() || !points.back().high;
+    if (may_be_low && p[row] > p[lowest] + threshold) {
+      points.push_back({lowest, false});
+      highest = row;
+    } else if (may_be_high && p[row] < p[highest] - threshold) {
+      points.push_back({highest, true});
+      lowest = row;
+    }
+  }
+  // The extreme after the last turning point counts as one too: the curve ends before it can turn back.
+  if (!points.empty()) points.push_back(points.back().high ? TurningPoint{lowest, false} : TurningPoint{highest, true});
+  return points;
+}
+
+/// Where the stress first passes `stress` between two rows, rising or falling.
+Crossing crossing(std::span<const double> p, std::size_t begin, std::size_t end, double stress) {
+  for (std::size_t row = begin; row < end; ++row) {
+    const double change = p[row + 1] - p[row];
+    if (change != 0 && (stress - p[row]) * (stress - p[row + 1]) <= 0) return {row, (stress - p[row]) / change};
+  }
+  return {end, 0};
+}
+
+double area_with_stride(std::span<const double> p, std::span<const double> strain, CycleRows c, std::size_t stride) {
+  const double base = 0.5 * (p[c.begin] + p[c.end]);
+  double area = 0;
+  std::size_t row = c.begin;
+  while (row < c.end) {
+    // The turning points are kept, so that only the resolution of the loop changes and its tips remain.
+    const std::size_t stop = row < c.top ? c.top : c.end, next = std::min(row + stride, stop);
+    area += (0.5 * (p[row] + p[next]) - base) * (strain[next] - strain[row]);
+    row = next;
+  }
+  return area;
+}
+
+/// Energy dissipated from the first row of a cycle to its last (mJ), and its uncertainty from the places of these
+/// turning points.
+double dissipated_in(std::span<const double> dissipation, CycleRows c) {
+  return dissipation[c.end] - dissipation[c.begin];
+}
+double turning_uncertainty(std::span<const double> dissipation, CycleRows c) {
+  return turning_point_uncertainty(dissipation, c.begin) + turning_point_uncertainty(dissipation, c.end);
+}
+
+/// Curves row by row, as for hysteresis().
+struct Curves {
+  std::span<const double> mean_stress, volumetric_strain, relative_density, plastic_dissipation, damage_dissipation,
+      energy_residual;
+};
+
+/// `low`, `high`: the stresses that all cycles reach, MPa.
+CycleResult cycle_result(const Curves& curve, CycleRows c, double low, double high) {
+  const auto& p = curve.mean_stress;
+  const Crossing at_high = crossing(p, c.begin, c.top, high), at_low = crossing(p, c.top, c.end, low);
+  CycleResult r;
+  r.rows = c;
+  r.lowest_stress = std::min(p[c.begin], p[c.end]);
+  r.highest_stress = p[c.top];
+  r.area = loop_area(p, curve.volumetric_strain, c);
+  r.area_uncertainty = std::abs(area_with_stride(p, curve.volumetric_strain, c, 2) - r.area);
+  r.density_at_high = at_high.of(curve.relative_density);
+  r.density_at_low = at_low.of(curve.relative_density);
+  r.density_at_high_uncertainty = interpolation_uncertainty(p, curve.relative_density, at_high, high, {c.begin, c.top});
+  r.density_at_low_uncertainty = interpolation_uncertainty(p, curve.relative_density, at_low, low, {c.top, c.end});
+  r.plastic = dissipated_in(curve.plastic_dissipation, c);
+  r.damage = dissipated_in(curve.damage_dissipation, c);
+  r.plastic_uncertainty =
+      std::hypot(turning_uncertainty(curve.plastic_dissipation, c), dissipated_in(curve.energy_residual, c));
+  r.damage_uncertainty = turning_uncertainty(curve.damage_dissipation, c); // of bonds: see energy_uncertainty
+  return r;
+}
+
+const CycleResult& first_whole(const Hysteresis& h) {
+  return h.cycles[h.cycles.front().rows.whole ? 0 : 1];
+}
+std::size_t whole_cycles(const Hysteresis& h) {
+  return h.cycles.size() - (h.cycles.front().rows.whole ? 0 : 1);
+}
+
+} // namespace
+
+std::vector<CycleRows> find_cycles(std::span<const double> p) {
+  const auto points = turning_points(p);
+  std::vector<CycleRows> cycles;
+  for (std::size_t i = 0; i + 2 < points.size(); ++i) {
+    if (points[i].high) continue;
+    // The last lowest point counts only if the stress has come down to where the cycle began, to within a fifth of the
+    // rise.
+    const double rise = p[points[i + 1].row] - p[points[i].row], fall = p[points[i + 1].row] - p[points[i + 2].row];
+    const bool whole = !cycles.empty() || rise > 0.8 * fall;
+    if (fall > 0.8 * rise) cycles.push_back({points[i].row, points[i + 1].row, points[i + 2].row, whole});
+  }
+  return cycles;
+}
+
+double loop_area(std::span<const double> mean_stress, std::span<const double> volumetric_strain, CycleRows cycle) {
+  return area_with_stride(mean_stress, volumetric_strain, cycle, 1);
+}
+
+Hysteresis hysteresis(std::span<const double> mean_stress, std::span<const double> volumetric_strain,
+                      std::span<const double> relative_density, std::span<const double> plastic_dissipation,
+                      std::span<const double> damage_dissipation, std::span<const double> energy_residual,
+                      const std::string& path) {
+  Hysteresis h;
+  const auto cycles = find_cycles(mean_stress);
+  if (cycles.empty() || !cycles.back().whole)
+    throw InputError(
+        fmt::format("{}: the mean stress makes no whole cycle, from low over high to low; allowed: a stage "
+                    "with one, or --stage N",
+                    one_line(path)));
+  h.low_stress = mean_stress[cycles.front().end];
+  h.high_stress = mean_stress[cycles.front().top];
+  for (const CycleRows& c : cycles) {
+    h.low_stress = std::max(h.low_stress, mean_stress[c.end]);
+    h.high_stress = std::min(h.high_stress, mean_stress[c.top]);
+  }
+  const Curves curves{mean_stress,         volumetric_strain,  relative_density,
+                      plastic_dissipation, damage_dissipation, energy_residual};
+  for (const CycleRows& c : cycles) h.cycles.push_back(cycle_result(curves, c, h.low_stress, h.high_stress));
+  const auto steps = static_cast<double>(whole_cycles(h)) - 1;
+  if (steps > 0) {
+    const CycleResult &first = first_whole(h), &last = h.cycles.back();
+    h.drift_at_low = (last.density_at_low - first.density_at_low) / steps;
+    h.drift_at_high = (last.density_at_high - first.density_at_high) / steps;
+    h.drift_at_low_uncertainty = std::hypot(first.density_at_low_uncertainty, last.density_at_low_uncertainty) / steps;
+    h.drift_at_high_uncertainty =
+        std::hypot(first.density_at_high_uncertainty, last.density_at_high_uncertainty) / steps;
+  }
+  return h;
+}
+
+std::vector<Column> cycle_table(const Hysteresis& h, std::size_t first_row) {
+  std::vector<Column> columns = {{"cycle", "1", {}},
+                                 {"first_row", "1", {}},
+                                 {"top_row", "1", {}},
+                                 {"last_row", "1", {}},
+                                 {"lowest_mean_stress", "MPa", {}},
+                                 {"highest_mean_stress", "MPa", {}},
+                                 {"loop_area", "MPa", {}},
+                                 {"loop_area_uncertainty", "MPa", {}},
+                                 {"relative_density_at_low_stress", "1", {}},
+                                 {"relative_density_at_high_stress", "1", {}},
+                                 {"plastic_dissipation", "mJ", {}},
+                                 {"damage_dissipation", "mJ", {}},
+                                 {"relative_density_at_low_stress_uncertainty", "1", {}},
+                                 {"relative_density_at_high_stress_uncertainty", "1", {}},
+                                 {"plastic_dissipation_uncertainty", "mJ", {}},
+                                 {"damage_dissipation_uncertainty", "mJ", {}},
+                                 {"cycles_before", "1", {}},
+                                 {"change_of_density_at_low_stress", "1", {}},
+                                 {"change_of_density_at_high_stress", "1", {}}};
+  for (std::size_t i = 0; i < h.cycles.size(); ++i) {
+    const CycleResult& c = h.cycles[i];
+    const CycleResult& before = h.cycles[i > 0 ? i - 1 : 0]; // for the first row: itself, so no change
+    const double row[] = {static_cast<double>(h.cycles.front().rows.whole ? i + 1 : i),
+                          static_cast<double>(first_row + c.rows.begin),
+                          static_cast<double>(first_row + c.rows.top),
+                          static_cast<double>(first_row + c.rows.end),
+                          c.lowest_stress,
+                          c.highest_stress,
+                          c.area,
+                          c.area_uncertainty,
+                          c.density_at_low,
+                          c.density_at_high,
+                          c.plastic,
+                          c.damage,
+                          c.density_at_low_uncertainty,
+                          c.density_at_high_uncertainty,
+                          c.plastic_uncertainty,
+                          c.damage_uncertainty,
+                          static_cast<double>(i),
+                          c.density_at_low - before.density_at_low,
+                          c.density_at_high - before.density_at_high};
+    for (std::size_t k = 0; k < columns.size(); ++k) columns[k].values.push_back(row[k]);
+  }
+  return columns;
+}
+
+namespace {
+
+/// The given stage, otherwise the last stress_cycles, otherwise the whole run as stage -1.
+StageRows choose_cycles(const HistoryTable& history, const schema::FileReader& file, std::optional<int> number) {
+  const auto stages = stages_of(history, scenario_facts(file));
+  const StageRows& stage = choose_stage(stages, number, {"stress_cycles"}, file.path());
+  if (!number && stage.type != "stress_cycles") return {-1, "", 0, history.rows() - 1, ""};
+  return stage;
+}
+
+nlohmann::ordered_json details_of(const Hysteresis& h, const std::vector<Column>& cycles) {
+  nlohmann::ordered_json json = {
+      {"cycles", whole_cycles(h)},
+      {"drift_of_relative_density_at_low_stress_per_cycle", h.drift_at_low},
+      {"drift_of_relative_density_at_low_stress_per_cycle_uncertainty", h.drift_at_low_uncertainty},
+      {"drift_of_relative_density_at_high_stress_per_cycle", h.drift_at_high},
+      {"drift_of_relative_density_at_high_stress_per_cycle_uncertainty", h.drift_at_high_uncertainty},
+      {"drift_uncertainty", std::max(h.drift_at_low_uncertainty, h.drift_at_high_uncertainty)},
+      {"low_stress_MPa", h.low_stress},
+      {"high_stress_MPa", h.high_stress}};
+  for (const Column& column : cycles)
+    json["per_cycle"][column.unit == "1" ? column.name : fmt::format("{} [{}]", column.name, column.unit)] =
+        column.values;
+  return json;
+}
+
+/// `highest_stress`: of the window, MPa.
+std::vector<std::string> notes_on(const Hysteresis& h, std::array<double, 2> deviatoric, double highest_stress,
+                                  double first_stress) {
+  std::vector<std::string> notes;
+  if (std::max(-deviatoric[0], deviatoric[1]) > 0.1 * highest_stress)
+    notes.push_back(fmt::format("the cycles are not isotropic: q is between {:.3g} and {:.3g} MPa in them",
+                                deviatoric[0], deviatoric[1]));
+  if (!h.cycles.front().rows.whole)
+    notes.push_back(fmt::format("the first loading begins at {:.3g} MPa, between the cycles' stresses: it does not "
+                                "count as a cycle and has number 0",
+                                first_stress));
+  if (whole_cycles(h) == 1) notes.emplace_back("one whole cycle: no drift from cycle to cycle");
+  return notes;
+}
+
+} // namespace
+
+HysteresisMeasurement measure_hysteresis(const schema::FileReader& file, std::optional<int> number) {
+  const HistoryTable history(file);
+  const StageRows stage = choose_cycles(history, file, number);
+  const auto part = [&](const char* name) { return stage.rows().of(history[name]); };
+  const Hysteresis h =
+      hysteresis(part("mean_stress"), part("volumetric_strain"), part("relative_density"), part("plastic_dissipation"),
+                 part("damage_dissipation"), part("energy_residual"), file.path());
+  const CycleResult& last = h.cycles.back();
+  HysteresisMeasurement result;
+  result.cycles = cycle_table(h, stage.first);
+  Measurement& m = result.measurement;
+  m.metric = "hysteresis";
+  m.value = last.area;
+  m.unit = "MPa";
+  m.uncertainty = last.area_uncertainty;
+  m.uncertainty_meaning = "change of the area when every second row is left out";
+  m.window = isotropic_window(history, stage, {stage.first + first_whole(h).rows.begin, stage.first + last.rows.end});
+  m.method =
+      "area of the last cycle's loop, integral of (p - p_low) over the volumetric strain (mJ/mm^3 = MPa); cycles "
+      "from lowest over highest to lowest mean stress";
+  m.details = details_of(h, result.cycles);
+  m.brief = fmt::format("loop area of the last of {} cycles, drift of the relative density per cycle {:+.2e} at {:.3g} "
+                        "MPa and {:+.2e} at {:.3g} MPa, last cycle {:.3g} mJ plastic and {:.3g} mJ damage",
+                        whole_cycles(h), h.drift_at_low, h.low_stress, h.drift_at_high, h.high_stress, last.plastic,
+                        last.damage);
+  m.notes = notes_on(h, range_of(history["deviatoric_stress"], m.window.first_row, m.window.last_row),
+                     m.window.stress[1], part("mean_stress")[h.cycles.front().rows.begin]);
+  return result;
+}
+
+} // namespace mpfem
