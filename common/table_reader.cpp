@@ -207,6 +207,7 @@ TableReader::TableReader(const toml::table& table, std::string file, std::string
     : table_(&table), file_(std::move(file)), path_(std::move(path)) {}
 
 bool TableReader::has(std::string_view key) const {
+  mentioned_.emplace(key);
   return table_->get(key) != nullptr;
 }
 
@@ -449,10 +450,13 @@ void TableReader::finish() const {
   if (first == nullptr) return;
 
   std::string message = fmt::format("unknown key '{}'", shortened(full_key(first->str())));
-  if (const auto near = nearest_word(first->str(), {asked_.begin(), asked_.end()}))
+  std::set<std::string, std::less<>> known = asked_;
+  known.insert(mentioned_.begin(), mentioned_.end());
+  known.erase(std::string(first->str()));
+  if (const auto near = nearest_word(first->str(), {known.begin(), known.end()}))
     message += fmt::format(" (did you mean '{}'?)", *near);
-  else if (!asked_.empty())
-    message += fmt::format(", known here: {}", fmt::join(asked_, ", "));
+  else if (!known.empty())
+    message += fmt::format(", known here: {}", fmt::join(known, ", "));
   throw_input_error(place_text(file_, first->source()), message);
 }
 

@@ -58,6 +58,7 @@ class TableReader {
 public:
   explicit TableReader(const TomlDocument& document);
 
+  /// Whether the key is there. It counts as known, but is not yet read.
   bool has(std::string_view key) const;
   /// All keys of the table, in the order of the file.
   std::vector<std::string> keys() const;
@@ -116,7 +117,8 @@ private:
   const toml::table* table_;
   std::string file_;
   std::string path_;
-  std::set<std::string, std::less<>> asked_;
+  std::set<std::string, std::less<>> asked_;             ///< read, or looked for to be read
+  mutable std::set<std::string, std::less<>> mentioned_; ///< asked whether they are there
 };
 
 } // namespace mpfem

@@ -461,32 +461,70 @@ class FigureReader {
 public:
   FigureReader(Figure& figure, std::string programmes) : figure_(figure), programmes_(std::move(programmes)) {}
 
-  void read(const std::string& path, bool main) {
-    if (std::find(figure_.files.begin(), figure_.files.end(), path) != figure_.files.end()) return;
-    figure_.files.push_back(path);
-    const auto document = std::make_shared<const TomlDocument>(TomlDocument::from_file(path));
-    figure_.documents.push_back(document);
-    TableReader root(*document);
-    const filesystem::path folder = filesystem::path(path).parent_path();
-    for (const std::string& other : root.strings_or("include", {})) {
-      const filesystem::path beside = folder / other;
-      const bool plain = filesystem::path(other).parent_path().empty() && !filesystem::exists(beside);
-      read((plain ? filesystem::path(programmes_) / other : beside).lexically_normal().string(), false);
-    }
-    if (main) read_heading(root);
-    if (root.has("powder")) read_powder(root);
-    read_runs(root, folder);
-    read_tables(root, folder);
-    read_plots(root);
-    append_each(root, "statements", read_statement, main ? figure_.statements : included_statements_);
-    root.finish();
-    if (!main) return;
+  void read(const std::string& path) {
+    including_ = {filesystem::path(path).lexically_normal().string()};
+    read(path, true);
     finish_powder();
     // Statements of included files follow the figure's own.
     figure_.statements.insert(figure_.statements.end(), included_statements_.begin(), included_statements_.end());
   }
 
 private:
+  void read(const std::string& path, bool main) {
+    figure_.files.push_back(path);
+    const auto document = std::make_shared<const TomlDocument>(TomlDocument::from_file(path));
+    figure_.documents.push_back(document);
+    TableReader root(*document);
+    for (const std::string& file : included_files(root, path)) include(file);
+    if (main)
+      read_heading(root);
+    else
+      for (const char* heading : {"title", "question", "source"}) root.value(heading); // not taken over
+    if (root.has("powder")) read_powder(root);
+    const filesystem::path folder = filesystem::path(path).parent_path();
+    read_runs(root, folder);
+    read_tables(root, folder);
+    read_plots(root);
+    append_each(root, "statements", read_statement, main ? figure_.statements : included_statements_);
+    root.finish();
+  }
+
+  /// The files that a file includes: beside it, or in the folder of programmes.
+  std::vector<std::string> included_files(TableReader& root, const std::string& path) const {
+    std::vector<std::string> files;
+    for (const std::string& other : root.strings_or("include", {})) {
+      const filesystem::path beside = filesystem::path(path).parent_path() / other;
+      const bool plain = filesystem::path(other).parent_path().empty() && !filesystem::exists(beside);
+      const filesystem::path file = (plain ? filesystem::path(programmes_) / other : beside).lexically_normal();
+      if (!filesystem::is_regular_file(file))
+        root.fail("include",
+                  fmt::format("found '{}', but there is no such file; allowed: a file beside this one, or in "
+                              "the folder '{}'",
+                              other, programmes_));
+      files.push_back(file.string());
+      if (std::find(including_.begin(), including_.end(), files.back()) != including_.end())
+        root.fail("include", fmt::format("found '{}', which includes this file, allowed: files that do not", other));
+    }
+    return files;
+  }
+
+  /// Reads a file, or only its [powder] if it was read before: a later file's powder counts.
+  void include(const std::string& path) {
+    const auto found = std::find(figure_.files.begin(), figure_.files.end(), path);
+    including_.push_back(path);
+    if (found == figure_.files.end())
+      read(path, false);
+    else
+      repeat_powder(path, *figure_.documents[static_cast<std::size_t>(found - figure_.files.begin())]);
+    including_.pop_back();
+  }
+
+  void repeat_powder(const std::string& path, const TomlDocument& document) {
+    TableReader root(document);
+    for (const std::string& file : included_files(root, path)) include(file);
+    if (root.has("powder")) read_powder(root);
+  }
+
   void read_heading(TableReader& root) {
     figure_.title = root.string("title");
     figure_.question = root.string_or("question", "");
@@ -610,6 +648,7 @@ private:
 
   Figure& figure_;
   std::string programmes_;
+  std::vector<std::string> including_; ///< the files that are being read, each included by the one before
   std::vector<StatementSpec> included_statements_;
   ColumnLists columns_;
   toml::table powder_;                     ///< of all files
@@ -736,7 +775,7 @@ Figure read_figure(const std::string& path, const std::string& programmes) {
   const filesystem::path file(path);
   figure.name = (file.filename() == "figure.toml" && file.has_parent_path()) ? file.parent_path().filename().string()
                                                                              : file.stem().string();
-  FigureReader(figure, programmes).read(path, true);
+  FigureReader(figure, programmes).read(path);
   check_names(figure);
   return figure;
 }

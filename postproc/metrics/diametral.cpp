@@ -1,6 +1,7 @@
 #include "postproc/metrics/diametral.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 
@@ -122,25 +123,30 @@ std::vector<std::string> plates_of(const schema::FileReader& file, const Diametr
   return plates;
 }
 
-/// The axis on which the distance of the plates changes most in the stage. Throws InputError where they do not move, or
-/// move along the disc's axis.
+/// The axis on which the distance of the plates changes in the stage. Throws InputError where they do not move, or move
+/// along the disc's axis or obliquely.
 int axis_of_approach(const HistoryTable& history, const Test& test, int disc_axis, const std::string& path) {
-  int axis = -1;
-  double farthest = 0;
-  for (int k = 0; k < 3; ++k) {
+  constexpr double oblique = 0.02; // of the way along the axis
+  std::array<double, 3> way{};
+  for (std::size_t k = 0; k < 3; ++k) {
     const auto column = [&](const std::string& plate) -> const std::vector<double>& {
       return history[fmt::format("tools/{}/displacement_{}", plate, k)];
     };
     const auto &a = column(test.plates[0]), &b = column(test.plates[1]);
     const RowRange rows = test.stage.rows();
-    const double way = std::abs((a[rows.last] - a[rows.first]) - (b[rows.last] - b[rows.first]));
-    if (way > farthest) farthest = way, axis = k;
+    way[k] = std::abs((a[rows.last] - a[rows.first]) - (b[rows.last] - b[rows.first]));
   }
-  if (axis < 0 || axis == disc_axis)
+  const auto axis = static_cast<int>(std::max_element(way.begin(), way.end()) - way.begin());
+  const double farthest = way[static_cast<std::size_t>(axis)];
+  const auto refuse = [&](const char* finding) {
     throw InputError(fmt::format("{}: stage {}: the plates {}, allowed: plates that move across the disc's axis {} "
-                                 "(--disc-axis)",
-                                 path, test.stage.number, axis < 0 ? "do not move" : "move along it",
-                                 "xyz"[static_cast<std::size_t>(disc_axis)]));
+                                 "(--disc-axis), along another axis",
+                                 path, test.stage.number, finding, "xyz"[static_cast<std::size_t>(disc_axis)]));
+  };
+  if (farthest == 0) refuse("do not move");
+  if (axis == disc_axis) refuse("move along it");
+  for (int k = 0; k < 3; ++k)
+    if (k != axis && way[static_cast<std::size_t>(k)] > oblique * farthest) refuse("approach each other obliquely");
   return axis;
 }
 

@@ -239,6 +239,13 @@ double Tools::set_away(std::span<const std::size_t> away, Model& model, std::spa
   return taken;
 }
 
+void Tools::refuse_triangles(std::size_t tool) const {
+  throw InputError(
+      fmt::format("tool '{}': its STL file is another one than that with which the checkpoint was written, "
+                  "allowed: the same triangles at the same place",
+                  tools_[tool].name));
+}
+
 void Tools::return_tool(Tool& tool, const Model& model, const Communicator& ranks) const {
   double deepest = 0;
   with_surface(tool, [&](const auto& surface) {
@@ -251,8 +258,8 @@ void Tools::return_tool(Tool& tool, const Model& model, const Communicator& rank
   const auto* plane = std::get_if<OrientedPlane>(&tool.surface);
   if (plane == nullptr)
     throw SimulationError(
-        fmt::format("tool '{}' is placed {:.4g} mm inside grains, allowed: a place where it touches none; "
-                    "let the grains move out of its way first, or do not withdraw it",
+        fmt::format("tool '{}' would stand {:.4g} mm inside grains, allowed: a place where it touches none; move it, "
+                    "or let the grains move out of its way first",
                     tool.name, deepest));
   const std::array<double, 3> normal = array_of(plane->normal);
   for (std::size_t axis = 0; axis < 3; ++axis) tool.moved[axis] -= deepest * normal[axis];

@@ -2,6 +2,7 @@
 // Rigid tools: surfaces that stages move, with friction, and what they bear.
 
 #include <array>
+#include <cstdint>
 #include <optional>
 #include <span>
 #include <string>
@@ -49,6 +50,7 @@ struct Tool {
   ToolSurface surface;                ///< in its starting position
   double friction = 0;                ///< mu
   std::optional<Adhesion> adhesion{}; ///< none: nothing sticks to it
+  std::uint64_t triangles = 0;        ///< hash of the triangles of an STL file; 0 for other shapes
   bool away = false;                  ///< it touches nothing
   std::array<double, 3> moved{};      ///< mm, since the start of the run
   std::array<double, 3> movement{};   ///< mm, in the step that led to the present
@@ -59,7 +61,8 @@ struct Tool {
 
   template <class Self, class Visitor>
   static void for_each_field(Self& s, Visitor&& visit) {
-    visit("tool.away", s.away), visit("tool.moved", s.moved), visit("tool.movement", s.movement);
+    visit("tool.triangles", s.triangles), visit("tool.away", s.away), visit("tool.moved", s.moved),
+        visit("tool.movement", s.movement);
     visit("tool.force", s.force), visit("tool.work", s.work);
     visit("tool.friction_dissipation", s.friction_dissipation);
     visit("tool.adhesion_dissipation", s.adhesion_dissipation);
@@ -111,14 +114,18 @@ public:
   void write(Writer& to) const {
     for (const Tool& tool : tools_) Tool::for_each_field(tool, to);
   }
-  /// Reads the first `saved` tools. Those after them are new: they are away until a stage places them.
+  /// Reads the first `saved` tools. Those after them are new: they are away until a stage places them. Throws InputError
+  /// if the triangles of an STL file are not those that were saved.
   template <class Reader>
   void read(Reader& from, std::size_t saved) {
-    for (std::size_t tool = 0; tool < size(); ++tool)
+    for (std::size_t tool = 0; tool < size(); ++tool) {
+      const std::uint64_t triangles = tools_[tool].triangles;
       if (tool < saved)
         Tool::for_each_field(tools_[tool], from);
       else
         tools_[tool].away = true;
+      if (tools_[tool].triangles != triangles) refuse_triangles(tool);
+    }
   }
   int grains() const { return grains_; }
   /// By ascending node.
@@ -130,6 +137,7 @@ public:
   const std::vector<SurfaceBond>& bonds(int grain, std::size_t tool) const { return bonds_[slot(grain, tool)]; }
 
 private:
+  [[noreturn]] void refuse_triangles(std::size_t tool) const;
   std::size_t slot(int grain, std::size_t tool) const { return static_cast<std::size_t>(grain) * size() + tool; }
   ToolLoad add_tool(Model& model, std::size_t tool, const Bounds& bounds, double last_step, int grain);
   double remove_forces_on_grain(Model& model, std::size_t tool, const Bounds& bounds, double last_step, int grain);

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "common/hash.hpp"
 #include "solver/model/material.hpp"
 #include "surfaces/stl.hpp"
 
@@ -62,6 +63,15 @@ BodySurface body_of(const StlShape& shape) {
           std::make_shared<const TriangleMesh>(body.mesh)};
 }
 
+/// Identifies the triangles of a surface.
+std::uint64_t hash_of(const TriangleMesh& mesh) {
+  std::uint64_t hash = 0;
+  for (const Vector3<double>& v : mesh.vertex)
+    hash = hash_values(std::span<const double>(std::array{v.x, v.y, v.z}), hash);
+  for (const auto& triangle : mesh.triangle) hash = hash_values(std::span<const std::int32_t>(triangle), hash);
+  return hash;
+}
+
 } // namespace
 
 ToolSurface make_surface(const ToolShape& shape, const std::array<double, 3>& low, const std::array<double, 3>& high) {
@@ -82,6 +92,7 @@ Tools make_tools(const Scenario& scenario, const Model& model) {
     Tool tool{.name = parameters.name,
               .surface = make_surface(parameters.shape, model.box_low, model.box_high),
               .friction = parameters.friction};
+    if (const auto* body = std::get_if<BodySurface>(&tool.surface)) tool.triangles = hash_of(*body->mesh);
     if (const auto& adhesion = parameters.adhesion)
       tool.adhesion = {law_of_bonds(*adhesion, scenario.contact), adhesion->rebond_on_contact};
     tools.push_back(std::move(tool));

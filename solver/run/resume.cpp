@@ -20,12 +20,39 @@ Scenario scenario_of(const CheckpointReader& checkpoint) {
   return read_scenario(TomlDocument::from_text(checkpoint.scenario_text(), checkpoint.path()));
 }
 
-/// Whether a scenario has the tools of the one before, apart from their friction, and perhaps more after them.
-bool continues_tools(const std::vector<ToolParameters>& before, const std::vector<ToolParameters>& now) {
-  return before.size() <= now.size() &&
-         std::equal(before.begin(), before.end(), now.begin(), [](const ToolParameters& x, const ToolParameters& y) {
-           return x.name == y.name && x.shape == y.shape && x.adhesion == y.adhesion;
-         });
+/// Whether two shapes are the same; the triangles of STL files are compared elsewhere (Tools::read), and their names do
+/// not matter.
+bool same_shape(ToolShape x, ToolShape y) {
+  for (ToolShape* shape : {&x, &y})
+    if (auto* stl = std::get_if<StlShape>(shape)) stl->file.clear();
+  return x == y;
+}
+
+/// Refuses a scenario that does not begin with the tools of the one before; their friction may differ, and more tools
+/// may follow.
+void check_tools(const std::string& checkpoint, const Scenario& before, const Scenario& now) {
+  const std::string as_before =
+      fmt::format("as in {}; a branch begins with the tools of the checkpoint", one_line(checkpoint));
+  for (std::size_t i = 0; i < before.tools.size(); ++i) {
+    const ToolParameters& tool = before.tools[i];
+    if (i >= now.tools.size())
+      throw InputError(fmt::format("{}: the checkpoint has the tool '{}', the scenario has not; allowed: a scenario "
+                                   "that begins with the tools of the checkpoint",
+                                   one_line(checkpoint), tool.name));
+    const ToolParameters& own = now.tools[i];
+    const auto refuse = [&](const char* key, const std::string& finding) {
+      throw InputError(fmt::format("{}key 'tools.{}.{}': {}", own.places.prefix(key), i, key, finding));
+    };
+    if (own.name != tool.name)
+      refuse("name", fmt::format("found '{}', allowed: '{}', {}", own.name, tool.name, as_before));
+    if (!same_shape(own.shape, tool.shape))
+      refuse("type", fmt::format("the shape or place of the tool '{}' differs, allowed: {}", own.name, as_before));
+    if (own.adhesion != tool.adhesion)
+      refuse("adhesion", fmt::format("that of the tool '{}' differs, allowed: {}", own.name, as_before));
+  }
+  if (before.container != now.container)
+    throw InputError(fmt::format("{}: the checkpoint's [container] differs from the scenario's, allowed: the same",
+                                 one_line(checkpoint)));
 }
 
 /// Refuses what a branch must not change. A branch continues with the same material: stresses and strains mean nothing
@@ -40,10 +67,7 @@ void check_branch(const CheckpointReader& checkpoint, bool bonded, const Scenari
       !now.grain_angular_velocity.empty())
     refuse("[initial] cannot be used in a run that begins at a checkpoint: grains keep the velocities that they have "
            "there");
-  if (!continues_tools(before.tools, now.tools) || before.container != now.container)
-    refuse(
-        "the checkpoint's tools differ from the scenario's; allowed: the same [[tools]], apart from friction, in the "
-        "same order, further ones after them, and the same [container]");
+  check_tools(checkpoint.path(), before, now);
   if (!bonded) return;
   // Bonds keep the law by which they formed, and [bond] is the law of future bonds. Whether bonds resist sliding
   // decides how all bonds are tracked.
@@ -113,7 +137,12 @@ void begin_branch(const std::string& path, Simulation& simulation, const Communi
   check_branch(checkpoint, bonded, before, simulation.scenario());
   RunRecord earlier;
   restore(checkpoint, bonded, before, simulation, earlier, true, ranks);
-  simulation.begin_branch();
+  try {
+    simulation.begin_branch();
+  } catch (const SimulationError& error) { // what the scenario wants is not possible with this sample
+    throw InputError(fmt::format("{}the sample of {}: {}", simulation.scenario().stages.front().places.prefix("type"),
+                                 one_line(path), error.what()));
+  }
 }
 
 } // namespace mpfem

@@ -393,12 +393,12 @@ void Simulation::change_walls(const Axes& withdrawn) {
   wall_friction_.forget(withdrawn);
 }
 
-/// Only stages that load by tools change them.
+/// In stages of other types all tools are in place.
 void Simulation::change_tools() {
   const auto* loading = std::get_if<ToolLoading>(&scenario_->stages[static_cast<std::size_t>(state_.stage)].type);
-  if (loading == nullptr) return;
-  energies_.external_work -= tools_.set_away(loading->away, model_, bounds_, state_.last_step, *ranks_);
-  if (container_) box_.set_cell(container_->cell(tools_, box_.cell()));
+  const std::vector<std::size_t> away = loading != nullptr ? loading->away : std::vector<std::size_t>{};
+  energies_.external_work -= tools_.set_away(away, model_, bounds_, state_.last_step, *ranks_);
+  if (loading != nullptr && container_) box_.set_cell(container_->cell(tools_, box_.cell()));
 }
 
 void Simulation::return_walls(std::size_t axis) {

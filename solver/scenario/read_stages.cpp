@@ -200,6 +200,10 @@ StageType read_tool_loading(TableReader& table, const StageContext& context) {
   }
   loading.ramp_fraction = read_ramp_fraction(table);
   loading.ends = read_tool_ends(table, context, loading.drives);
+  const bool watches = loading.ends.force || loading.ends.force_drop;
+  if (watches && std::find(loading.away.begin(), loading.away.end(), loading.ends.watched) != loading.away.end())
+    table.fail("watch", fmt::format("found '{}', which is away in this stage, allowed: a tool that is in place",
+                                    context.tools[loading.ends.watched].name));
   if (loading.speed == 0 && loading.ends.travel)
     table.fail("travel", "is used only if a tool is driven at a speed or velocity");
   if (loading.speed == 0 && loading.servo_speed == 0 && !loading.ends.duration)

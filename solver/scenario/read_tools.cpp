@@ -158,6 +158,12 @@ std::optional<Vector> read_direction(TableReader& table, const ToolShape& shape)
   return Vector{given[0] / length, given[1] / length, given[2] / length};
 }
 
+/// A key that is misspelled is the cause of another one that is missing.
+void refuse_other_keys(TableReader& table) {
+  for (const char* key : {"direction", "velocity", "speed", "force", "stress", "servo_speed"}) table.value(key);
+  table.finish();
+}
+
 /// Reads what one tool does; `is_punch`: it is a punch of the container.
 ToolDrive read_drive(TableReader table, std::size_t tool, const ToolShape& shape, bool is_punch) {
   ToolDrive drive{.tool = tool};
@@ -168,9 +174,11 @@ ToolDrive read_drive(TableReader table, std::size_t tool, const ToolShape& shape
   if (given != 1)
     table.fail("speed",
                fmt::format("found {} of the keys speed, velocity, force and stress, allowed: one of them", given));
-  if (!direction && !table.has("velocity"))
+  if (!direction && !table.has("velocity")) {
+    refuse_other_keys(table);
     table.fail("velocity",
                "missing, allowed: a vector, or 'speed' or 'force' with a 'direction'; this tool has no axis or normal");
+  }
   if (table.has("velocity")) drive.velocity = table.vector3("velocity", any_speed);
   if (table.has("speed")) {
     const double speed = table.number("speed", any_speed);
@@ -218,6 +226,7 @@ std::vector<ToolParameters> read_tools(TableReader& root, const std::string& sce
   std::set<std::string> names;
   for (TableReader& table : root.tables("tools")) {
     tools.push_back(read_tool(table));
+    tools.back().places = table.places();
     if (auto* stl = std::get_if<StlShape>(&tools.back().shape))
       stl->file = (std::filesystem::path(scenario_file).parent_path() / stl->file).lexically_normal().string();
     const std::string& name = tools.back().name;

@@ -68,6 +68,7 @@ struct ToolParameters {
   ToolShape shape;
   double friction = 0;                      ///< Coulomb's mu between grains and the tool
   std::optional<BondParameters> adhesion{}; ///< bonds of grains to the tool; none: nothing sticks to it
+  KeyPlaces places{};
   KeyPlaces adhesion_places{};
 };
 

@@ -222,6 +222,20 @@ TEST_CASE("An unknown key is answered with the nearest known one, or with all") 
         "case.toml:2:1: unknown key 'stage.0.q'");
 }
 
+TEST_CASE("A key that a reader only looked for is known, but must still be read") {
+  const auto look = [](TableReader& table) {
+    CHECK_FALSE(table.has("direction"));
+    table.finish();
+  };
+  CHECK(mistake("directon = 1", look) == "case.toml:1:1: unknown key 'directon' (did you mean 'direction'?)");
+  CHECK_THAT(mistake("direction = 1",
+                     [](TableReader& table) {
+                       CHECK(table.has("direction"));
+                       table.finish();
+                     }),
+             Catch::Contains("unknown key 'direction'"));
+}
+
 TEST_CASE("Of several unknown keys the first in the file is reported") {
   CHECK_THAT(mistake("zebra = 1\nant = 2", [](auto& t) { t.finish(); }),
              Catch::StartsWith("case.toml:1:1: unknown key 'zebra'"));

@@ -240,6 +240,31 @@ TEST_CASE("a study's powder has the keys of the files that it includes, and its 
   CHECK(studies.figure("").powder.empty());
 }
 
+TEST_CASE("a powder of a file that is included twice counts where it is included last") {
+  const Studies studies;
+  write_text(studies.path("ten.toml"), "[powder]\nelement_size = 1\ncount = 10\n");
+  write_text(studies.path("twenty.toml"), "include = [\"ten.toml\"]\n[powder]\ncount = 20\n");
+  CHECK(studies.figure("include = [\"twenty.toml\", \"ten.toml\"]\n").powder ==
+        studies.figure("include = [\"ten.toml\"]\n").powder);
+  CHECK(studies.figure("include = [\"ten.toml\", \"twenty.toml\"]\n").powder ==
+        studies.figure("include = [\"twenty.toml\"]\n").powder);
+}
+
+TEST_CASE("an included file may have a heading, must exist and must not include the file that includes it") {
+  const Studies studies;
+  write_text(studies.path("whole.toml"), "title = \"another\"\nquestion = \"?\"\n[powder]\nelement_size = 1\n");
+  const Figure figure = studies.figure("include = [\"whole.toml\"]\n");
+  CHECK(figure.title != "another");
+  CHECK(figure.element_size == 1);
+  CHECK_THROWS_WITH(studies.figure("include = [\"none.toml\"]\n"),
+                    Contains("study.toml:") && Contains("key 'include': found 'none.toml', but there is no such file"));
+  CHECK_THROWS_WITH(studies.figure("include = [\"study.toml\"]\n"), Contains("'study.toml', which includes this file"));
+  write_text(studies.path("a.toml"), "include = [\"b.toml\"]\n");
+  write_text(studies.path("b.toml"), "include = [\"a.toml\"]\n");
+  CHECK_THROWS_WITH(studies.figure("include = [\"a.toml\"]\n"),
+                    Contains("b.toml:1") && Contains("'a.toml', which includes this file"));
+}
+
 TEST_CASE("a powder without the size of its elements is refused where it stands") {
   const Studies studies;
   write_text(studies.path("grains.toml"), "[powder]\nseed = 1\n");

@@ -574,6 +574,15 @@ TEST_CASE("postproc diametral refuses wrong plates, axes and wide flats, and tel
     CHECK(outcome.one_error_line("postproc"));
     CHECK_THAT(outcome.messages, Catch::Contains(expected));
   }
+  RunContents oblique = run;
+  for (const std::string tool : {"left", "right"}) {
+    std::vector<double>& u = oblique.numbers["/history/tools/" + tool + "/displacement"];
+    for (std::size_t i = 0; i + 2 < u.size(); i += 3) u[i + 1] = 0.1 * u[i];
+  }
+  write_run(folder / "oblique.h5", oblique);
+  const Outcome obliquely = postproc(fmt::format("diametral {}", folder / "oblique.h5"));
+  CHECK(obliquely.exit_code == 2);
+  CHECK_THAT(obliquely.messages, Catch::Contains("the plates approach each other obliquely"));
   // A snapshot at the peak in which the bond in the middle is broken, and none is pressed.
   run.snapshots = {"0000", "0001"};
   run.numbers["/snapshots/0001/time"] = {40e-6};

@@ -699,19 +699,91 @@ wall)");
   CHECK(further.exit_code == 0);
   const schema::FileReader file(folder / "branch.h5", schema::FileKind::run);
   CHECK(file.has(schema::run::history_tools_work, "pin"));
-  CHECK_THAT(branch(replaced(with_pin, "centre = [0.3, 0.3, 1]", "centre = [0.3, 0.3, 0.3]")).messages,
+  const auto refusal = [&](const std::string& text) {
+    const Outcome outcome = branch(text);
+    CHECK(outcome.exit_code == 2);
+    return outcome.messages;
+  };
+  CHECK_THAT(refusal(replaced(with_pin, "centre = [0.3, 0.3, 1]", "centre = [0.3, 0.3, 0.3]")),
              Catch::Contains("tool 'pin'") && Catch::Contains("inside grains"));
-  const Outcome bad = branch(replaced(unloading, "radius = 0.29", "radius = 0.3"));
-  CHECK(bad.exit_code == 2);
-  CHECK_THAT(bad.messages, Catch::Contains("tools differ"));
-  const Outcome sticky = branch(replaced(unloading, "friction = 0.2\n", R"(friction = 0.2
+  CHECK_THAT(refusal(replaced(unloading, "radius = 0.29", "radius = 0.3")),
+             Catch::Contains("branch.toml:") && Catch::Contains("key 'tools.0.type'") && Catch::Contains("'die'"));
+  const std::size_t pin = with_pin.find("[[tools]]\nname = \"pin\""), after_pin = with_pin.find("[container]");
+  const std::string pin_first = with_pin.substr(0, with_pin.find("[[tools]]")) + with_pin.substr(pin, after_pin - pin) +
+                                unloading.substr(unloading.find("[[tools]]"));
+  CHECK_THAT(refusal(pin_first), Catch::Contains("key 'tools.0.name': found 'pin', allowed: 'die'"));
+  CHECK_THAT(refusal(replaced(unloading, "upper = \"upper\"",
+                              "upper = \"top\"\n[[tools]]\nname = \"top\"\n"
+                              "type = \"plane\"\nface = \"+z\"")),
+             Catch::Contains("[container] differs"));
+  CHECK_THAT(refusal(replaced(unloading, "friction = 0.2\n", R"(friction = 0.2
 [tools.adhesion]
 tensile_strength = 5
 shear_strength = 4
 fracture_energy = 0.01
-)"));
-  CHECK(sticky.exit_code == 2);
-  CHECK_THAT(sticky.messages, Catch::Contains("tools differ"));
+)")),
+             Catch::Contains("key 'tools.1.adhesion'"));
+}
+
+TEST_CASE("a branch and a resumed run have the STL surface of the run before, wherever its file is") {
+  const Folder folder;
+  const std::string text = material_text + R"([[tools]]
+name = "slab"
+type = "stl"
+file = "slab.stl"
+scale = 1000.0
+friction = 0.1
+[[stages]]
+name = "hold"
+type = "tools"
+duration = 2e-6
+)";
+  write_text(folder / "slab.stl", slab_stl({0, 0, -0.4}, {1, 1, -0.1}));
+  prepare(folder, 3, text);
+  const auto run = [&](const std::string& options) {
+    return mpfem_command(fmt::format("run {} --quiet {}", folder / "scenario.toml", options));
+  };
+  std::filesystem::create_directory(folder / "out");
+  const Outcome first = run(fmt::format("-o {}", folder / "out/run.h5"));
+  INFO(first.messages);
+  REQUIRE(first.exit_code == 0);
+  const std::string branch =
+      fmt::format("-o {} --from {}", folder / "branch.h5", folder / "out/run.hold.checkpoint.h5");
+  const Outcome same = run(branch);
+  INFO(same.messages);
+  CHECK(same.exit_code == 0);
+  const std::string again = fmt::format("-o {}", folder / "again.h5");
+  REQUIRE(run(again + " --time-limit 1e-9").exit_code == 5);
+  write_text(folder / "slab.stl", slab_stl({0, 0, -0.4}, {1, 1, -0.2}));
+  std::filesystem::remove(folder / "branch.h5");
+  for (const std::string& options : {branch, again + " --resume"}) {
+    const Outcome changed = run(options);
+    CHECK(changed.exit_code == 2);
+    CHECK_THAT(changed.messages, Catch::Contains("tool 'slab': its STL file is another one"));
+  }
+}
+
+TEST_CASE("in stages that move walls all tools are in place") {
+  const Folder folder;
+  prepare(folder, 3, scenario_text);
+  REQUIRE(mpfem_command(fmt::format("run {} -o {} --quiet", folder / "scenario.toml", folder / "run.h5")).exit_code ==
+          0);
+  const auto branch = [&](double z) {
+    write_text(folder / "branch.toml", scenario_text + fmt::format(R"([[tools]]
+name = "ball"
+type = "sphere"
+centre = [0.3, 0.3, {}]
+radius = 0.2
+)",
+                                                                   z));
+    return mpfem_command(fmt::format("run {} -o {} --quiet --from {} --set stages.0.relative_density=0.63",
+                                     folder / "branch.toml", folder / "branch.h5",
+                                     folder / "run.compaction.checkpoint.h5"));
+  };
+  CHECK(branch(9).exit_code == 0);
+  const Outcome inside = branch(0.3);
+  CHECK(inside.exit_code == 2);
+  CHECK_THAT(inside.messages, Catch::Contains("tool 'ball' would stand") && Catch::Contains("inside grains"));
 }
 
 TEST_CASE("mistakes in tools are refused with the key and what is allowed") {
@@ -728,9 +800,13 @@ TEST_CASE("mistakes in tools are refused with the key and what is allowed") {
   CHECK_THAT(refusal("upper = \"upper\"", "upper = \"lower\""), Catch::Contains("normal is [0, 0, -1]"));
   CHECK_THAT(refusal("watch = \"upper\"", "watch = \"uper\""), Catch::Contains("one of die, lower, upper, plate"));
   CHECK_THAT(refusal("drive.plate.speed = 10000", "drive.plate.velocity = [1, 2]"), Catch::Contains("velocity"));
+  CHECK_THAT(refusal("away = [\"plate\"]\nforce = 0\nwatch = \"upper\"\ndrive.upper.speed = -10000",
+                     "away = [\"plate\"]\nforce = 0\nwatch = \"plate\"\ndrive.upper.speed = -10000"),
+             Catch::Contains("key 'stages.2.watch': found 'plate', which is away"));
   const auto driven_so = [&](const std::string& keys) {
     return refusal("drive.plate.speed = 10000", "drive.plate = { " + keys + " }");
   };
+  CHECK_THAT(driven_so("speed = 1, directon = [1, 0, 0]"), Catch::Contains("did you mean 'direction'?"));
   CHECK_THAT(driven_so("speed = 1, direction = [1, 0, 0]"), Catch::Contains("moves along its normal"));
   CHECK_THAT(refusal("drive.lower.velocity = [0, 0, 20000]", "drive.lower.speed = 20000\n"
                                                              "drive.die = { speed = 1, direction = [0, 0, 0] }"),
