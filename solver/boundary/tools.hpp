@@ -114,8 +114,8 @@ public:
   void write(Writer& to) const {
     for (const Tool& tool : tools_) Tool::for_each_field(tool, to);
   }
-  /// Reads the first `saved` tools. Those after them are new: they are away until a stage places them. Throws InputError
-  /// if the triangles of an STL file are not those that were saved.
+  /// Reads the first `saved` tools. Those after them are new: they are away until a stage places them. Throws
+  /// InputError if the triangles of an STL file are not those that were saved.
   template <class Reader>
   void read(Reader& from, std::size_t saved) {
     for (std::size_t tool = 0; tool < size(); ++tool) {
