@@ -157,7 +157,12 @@ std::array<double, 3> read_watched_direction(TableReader& table, const StageCont
   return *direction;
 }
 
-ToolEnds read_tool_ends(TableReader& table, const StageContext& context, std::span<const ToolDrive> drives) {
+bool is_away(const ToolLoading& loading, std::size_t tool) {
+  return std::find(loading.away.begin(), loading.away.end(), tool) != loading.away.end();
+}
+
+/// `loading`: with the drives and withdrawn tools of the stage.
+ToolEnds read_tool_ends(TableReader& table, const StageContext& context, const ToolLoading& loading) {
   ToolEnds ends;
   ends.relative_density = table.optional_number("relative_density", target_density);
   ends.height = table.optional_number("height", positive_length);
@@ -180,7 +185,10 @@ ToolEnds read_tool_ends(TableReader& table, const StageContext& context, std::sp
   if (!watches && table.has("watch")) table.fail("watch", "is used only with 'force' or 'force_drop'");
   if (!watches) return ends;
   ends.watched = tool_named(table, "watch", table.string("watch"), context.tools);
-  ends.watched_direction = read_watched_direction(table, context, ends.watched, drives);
+  if (is_away(loading, ends.watched))
+    table.fail("watch", fmt::format("found '{}', which is away in this stage, allowed: a tool that is in place",
+                                    context.tools[ends.watched].name));
+  ends.watched_direction = read_watched_direction(table, context, ends.watched, loading.drives);
   return ends;
 }
 
@@ -191,7 +199,7 @@ StageType read_tool_loading(TableReader& table, const StageContext& context) {
   for (const std::string& name : table.strings_or("away", {}))
     loading.away.push_back(tool_named(table, "away", name, context.tools));
   for (const ToolDrive& drive : loading.drives) {
-    if (std::find(loading.away.begin(), loading.away.end(), drive.tool) != loading.away.end())
+    if (is_away(loading, drive.tool))
       table.fail("away", fmt::format("found '{}', which the stage also drives; allowed: a tool that it does not drive",
                                      context.tools[drive.tool].name));
     const auto& v = drive.velocity;
@@ -199,11 +207,7 @@ StageType read_tool_loading(TableReader& table, const StageContext& context) {
     loading.servo_speed = std::max(loading.servo_speed, drive.servo_speed);
   }
   loading.ramp_fraction = read_ramp_fraction(table);
-  loading.ends = read_tool_ends(table, context, loading.drives);
-  const bool watches = loading.ends.force || loading.ends.force_drop;
-  if (watches && std::find(loading.away.begin(), loading.away.end(), loading.ends.watched) != loading.away.end())
-    table.fail("watch", fmt::format("found '{}', which is away in this stage, allowed: a tool that is in place",
-                                    context.tools[loading.ends.watched].name));
+  loading.ends = read_tool_ends(table, context, loading);
   if (loading.speed == 0 && loading.ends.travel)
     table.fail("travel", "is used only if a tool is driven at a speed or velocity");
   if (loading.speed == 0 && loading.servo_speed == 0 && !loading.ends.duration)
