@@ -158,12 +158,6 @@ std::optional<Vector> read_direction(TableReader& table, const ToolShape& shape)
   return Vector{given[0] / length, given[1] / length, given[2] / length};
 }
 
-/// A key that is misspelled is the cause of another one that is missing.
-void refuse_other_keys(TableReader& table) {
-  for (const char* key : {"direction", "velocity", "speed", "force", "stress", "servo_speed"}) table.value(key);
-  table.finish();
-}
-
 /// Reads what one tool does; `is_punch`: it is a punch of the container.
 ToolDrive read_drive(TableReader table, std::size_t tool, const ToolShape& shape, bool is_punch) {
   ToolDrive drive{.tool = tool};
@@ -174,11 +168,6 @@ ToolDrive read_drive(TableReader table, std::size_t tool, const ToolShape& shape
   if (given != 1)
     table.fail("speed",
                fmt::format("found {} of the keys speed, velocity, force and stress, allowed: one of them", given));
-  if (!direction && !table.has("velocity")) {
-    refuse_other_keys(table);
-    table.fail("velocity",
-               "missing, allowed: a vector, or 'speed' or 'force' with a 'direction'; this tool has no axis or normal");
-  }
   if (table.has("velocity")) drive.velocity = table.vector3("velocity", any_speed);
   if (table.has("speed")) {
     const double speed = table.number("speed", any_speed);
@@ -195,7 +184,10 @@ ToolDrive read_drive(TableReader table, std::size_t tool, const ToolShape& shape
     drive.servo_speed = table.number("servo_speed", positive_speed);
   else if (table.has("servo_speed"))
     table.fail("servo_speed", "is used only with 'force' or 'stress'");
-  table.finish();
+  table.finish(); // first: a misspelled key is the cause of one that is missing
+  if (!direction && !table.has("velocity"))
+    table.fail("velocity",
+               "missing, allowed: a vector, or 'speed' or 'force' with a 'direction'; this tool has no axis or normal");
   return drive;
 }
 
