@@ -65,11 +65,8 @@ BodySurface body_of(const StlShape& shape) {
 
 /// Identifies the triangles of a surface.
 std::uint64_t hash_of(const TriangleMesh& mesh) {
-  std::uint64_t hash = 0;
-  for (const Vector3<double>& v : mesh.vertex)
-    hash = hash_values(std::span<const double>(std::array{v.x, v.y, v.z}), hash);
-  for (const auto& triangle : mesh.triangle) hash = hash_values(std::span<const std::int32_t>(triangle), hash);
-  return hash;
+  static_assert(sizeof(Vector3<double>) == 3 * sizeof(double)); // no padding
+  return hash_bytes(std::as_bytes(std::span(mesh.triangle)), hash_bytes(std::as_bytes(std::span(mesh.vertex))));
 }
 
 } // namespace
