@@ -396,7 +396,8 @@ void Simulation::change_walls(const Axes& withdrawn) {
 /// In stages of other types all tools are in place.
 void Simulation::change_tools() {
   const auto* loading = std::get_if<ToolLoading>(&scenario_->stages[static_cast<std::size_t>(state_.stage)].type);
-  const std::vector<std::size_t> away = loading != nullptr ? loading->away : std::vector<std::size_t>{};
+  std::span<const std::size_t> away;
+  if (loading != nullptr) away = loading->away;
   energies_.external_work -= tools_.set_away(away, model_, bounds_, state_.last_step, *ranks_);
   if (loading != nullptr && container_) box_.set_cell(container_->cell(tools_, box_.cell()));
 }
