@@ -104,13 +104,6 @@ function hertz(approach, factor) { return factor * 4 / 3 / (1 - 0.3^2) * approac
 # the end of its press 0.2 % shorter, transmits more by 0.2 % of -log(t).
 function die_uncertainty(t) { return 1e-4 - 0.002 * log(t) * t }
 
-function uncertainty_of_known(scene, quantity, value,   density) {
-  if (scene == "die-column") return die_uncertainty(value)
-  density = quantity
-  sub(/.*-/, "", density)
-  return scene == "full" ? limit_unsure[density + 0] : taken_as * value
-}
-
 END {
   if (failed) exit 1
   finest = 4
@@ -131,10 +124,17 @@ END {
   known["partial-slip", "shear-force-loading"] = known["partial-slip", "shear-force-unloading"] = 1
   known["partial-slip", "loss"] = 1
   source["partial-slip"] = "Cattaneo and Mindlin"
-  known["die-column", "transmission-0.1"] = through_die["0.3", "0.1"]
-  known["die-column", "transmission-0.3"] = through_die["0.4", "0.3"]
+  die["transmission-0.1"] = through_die["0.3", "0.1"]
+  die["transmission-0.3"] = through_die["0.4", "0.3"]
+  for (q in die) {
+    known["die-column", q] = die[q]
+    known_unsure["die-column", q] = die_uncertainty(die[q])
+  }
   source["die-column"] = "axisymmetric finite elements"
-  for (d in limit) known["full", "mean-stress-" d] = limit[d]
+  for (d in limit) {
+    known["full", "mean-stress-" d] = limit[d]
+    known_unsure["full", "mean-stress-" d] = limit_unsure[d]
+  }
   source["full"] = "one grain"
   print "scene,quantity,reference,uncertainty,source,extrapolated,uncertainty_of_extrapolation"
   for (i = 1; i <= quantities; ++i) {
@@ -143,8 +143,8 @@ END {
     tends = extrapolate(key) ? sprintf("%.6g,%.2g", best, uncertainty) : ","
     if ((part[1], part[2]) in known) {
       value = known[part[1], part[2]]
-      printf "%s,%s,%.6g,%.2g,%s,%s\n", part[1], part[2], value, uncertainty_of_known(part[1], part[2], value), \
-             source[part[1]], tends
+      unsure = (part[1], part[2]) in known_unsure ? known_unsure[part[1], part[2]] : taken_as * value
+      printf "%s,%s,%.6g,%.2g,%s,%s\n", part[1], part[2], value, unsure, source[part[1]], tends
     } else if (tends != ",")
       printf "%s,%s,%.6g,%.2g,%s,%s\n", part[1], part[2], best, uncertainty, "extrapolated", tends
   }
