@@ -282,8 +282,8 @@ void run_bench(const BenchOptions& options, const Communicator& ranks) {
   simulation.evaluate_forces();
   result.scene = describe(simulation, scenario, options);
   result.output = measure_output(simulation, scenario);
+  result.memory = peak_memory(); // before the arrays of the triad, which may be larger than the packing
   if (ranks.alone()) measure_alone(simulation, team, result, say);
-  result.memory = peak_memory();
   fmt::print("{}", options.json ? json_text(result) : table_text(result));
 }
 
