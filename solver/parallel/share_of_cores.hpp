@@ -1,11 +1,24 @@
 #pragma once
 
+#include <span>
+#include <string>
+#include <vector>
+
 #include "solver/parallel/communicator.hpp"
 
 namespace mpfem {
 
-/// Collective. Number of cores that a rank has for its threads. A core that several ranks on the same machine may use
-/// is shared equally among them. At least 1.
+/// Where the threads of a rank may run.
+struct RankPlace {
+  std::string machine;    ///< machine_id()
+  std::vector<int> cores; ///< their numbers on that machine, ascending
+};
+
+/// Number of cores that the rank at `own` has for its threads. A core that several of `all` ranks may use, `own` among
+/// them, is shared equally among them. At least 1.
+int share_of_cores(const RankPlace& own, std::span<const RankPlace> all);
+
+/// Collective. The same for this rank and all others.
 int share_of_cores(const Communicator& ranks);
 
 } // namespace mpfem

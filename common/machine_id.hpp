@@ -1,0 +1,11 @@
+#pragma once
+
+#include <string>
+
+namespace mpfem {
+
+/// Names the machine on which this process runs, until it is started anew: the same for all its processes, another one
+/// for every other machine. Not for files: it says nothing to a reader.
+std::string machine_id();
+
+} // namespace mpfem
