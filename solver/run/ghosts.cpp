@@ -117,43 +117,55 @@ Ghosts::Partner& Ghosts::partner(int rank) {
   return *partners_.insert(place, std::move(fresh));
 }
 
-void Ghosts::choose(std::vector<Index> grains, Model& model) {
-  if (ranks_->alone()) return;
+/// The grains of other ranks among `grains`, ascending, each once.
+std::vector<Index> Ghosts::of_other_ranks(std::vector<Index> grains, const Model& model) {
   std::erase_if(grains, [&](Index g) { return model.ownership.owns(g); });
   std::sort(grains.begin(), grains.end());
   grains.erase(std::unique(grains.begin(), grains.end()), grains.end());
-  ghosts_ = std::move(grains);
-  if (known_.empty()) known_.assign(at(model.grains), 0);
-  for (Partner& p : partners_) p.sent_grains.clear(), p.ghosts.clear();
+  return grains;
+}
 
-  // 1. Each rank names the grains whose surfaces it needs, and those whose surfaces it already has.
+/// Each rank names grains, and their owners answer with arrays of their surfaces. visit(grain, take) is called for each
+/// of `grains` with take(values), which sets values from the answer; give(rank, grain, message) appends them there.
+template <class Give, class Visitor>
+void Ghosts::ask_owners(std::span<const Index> grains, const Model& model, const Give& give, const Visitor& visit) {
   std::vector<Bytes> wanted(static_cast<std::size_t>(ranks_->size()));
-  for (const Index g : ghosts_) {
-    const int owner = model.ownership.owner[at(g)];
-    append(wanted[at(owner)], g);
-    append(wanted[at(owner)], std::int32_t{known_[at(g)]});
-    partner(owner).ghosts.push_back(g);
-  }
-  // 2. Their owners answer.
+  for (const Index g : grains) append(wanted[at(model.ownership.owner[at(g)])], g);
   const std::vector<Bytes> asked = ranks_->exchange(wanted);
   std::vector<Bytes> answer(asked.size());
   for (std::size_t rank = 0; rank < asked.size(); ++rank)
-    for (MessageReader reader(asked[rank]); !reader.done();) {
-      const auto g = reader.take<Index>();
-      partner(static_cast<int>(rank)).sent_grains.push_back(g);
-      if (reader.take<std::int32_t>() == 0) for_each_fixed_part(model, g, appended_to(answer[rank]));
-      for_each_moving_part(model, g, velocities_, appended_to(answer[rank]));
-    }
+    for (MessageReader reader(asked[rank]); !reader.done();)
+      give(static_cast<int>(rank), reader.take<Index>(), answer[rank]);
   const std::vector<Bytes> surfaces = ranks_->exchange(answer);
-  for (const Partner& p : partners_) {
-    MessageReader reader(surfaces[at(p.rank)]);
-    for (const Index g : p.ghosts) {
-      if (known_[at(g)] == 0) for_each_fixed_part(model, g, [&](auto part) { reader.take(part); });
-      for_each_moving_part(model, g, velocities_, [&](auto part) { reader.take(part); });
-      known_[at(g)] = 1;
-      update_surface(model, g);
-    }
-  }
+  std::vector<MessageReader> readers(surfaces.begin(), surfaces.end());
+  for (const Index g : grains) visit(g, [&](auto values) { readers[at(model.ownership.owner[at(g)])].take(values); });
+}
+
+void Ghosts::learn(std::vector<Index> grains, Model& model) {
+  if (known_.empty()) known_.assign(at(model.grains), 0);
+  grains = of_other_ranks(std::move(grains), model);
+  std::erase_if(grains, [&](Index g) { return known_[at(g)] != 0; });
+  ask_owners(
+      grains, model, [&](int, Index g, Bytes& message) { for_each_fixed_part(model, g, appended_to(message)); },
+      [&](Index g, const auto& take) { for_each_fixed_part(model, g, take), known_[at(g)] = 1; });
+}
+
+void Ghosts::choose(std::vector<Index> grains, Model& model) {
+  if (ranks_->alone()) return;
+  ghosts_ = of_other_ranks(std::move(grains), model);
+  learn(ghosts_, model);
+  for (Partner& p : partners_) p.sent_grains.clear(), p.ghosts.clear();
+  for (const Index g : ghosts_) partner(model.ownership.owner[at(g)]).ghosts.push_back(g);
+  ask_owners(
+      ghosts_, model,
+      [&](int rank, Index g, Bytes& message) {
+        partner(rank).sent_grains.push_back(g);
+        for_each_moving_part(model, g, velocities_, appended_to(message));
+      },
+      [&](Index g, const auto& take) {
+        for_each_moving_part(model, g, velocities_, take);
+        update_surface(model, g);
+      });
 }
 
 void Ghosts::share_pairs(Model& model, Contact& contact) {
@@ -168,8 +180,13 @@ void Ghosts::share_pairs(Model& model, Contact& contact) {
     seconds.push_back(second);
   }
   std::vector<PairOfOther> pairs;
+  std::vector<Index> firsts;
   for (const Bytes& bytes : ranks_->exchange(given))
-    for (MessageReader reader(bytes); !reader.done();) pairs.push_back(take_pair(reader));
+    for (MessageReader reader(bytes); !reader.done();) {
+      pairs.push_back(take_pair(reader));
+      firsts.push_back(pairs.back().first);
+    }
+  learn(std::move(firsts), model); // the stable step of the second grain depends on the areas of the first one's nodes
   add_pairs(model, joined(std::move(pairs), model.grains), contact);
   choose(std::move(seconds), model);
 

@@ -26,7 +26,8 @@ public:
   /// Makes ghosts of the grains that belong to other ranks, and sets their current surfaces in the model.
   void choose(std::vector<std::int32_t> grains, Model& model);
   /// Sends pairs whose second grain belongs to another rank to that rank, and receives such pairs. Before the call
-  /// `contact` has only own pairs. After it the ghosts are the second grains of own pairs.
+  /// `contact` has only own pairs. After it the ghosts are the second grains of own pairs, and the fixed data of the
+  /// first grains of received pairs are known.
   void share_pairs(Model& model, Contact& contact);
 
   // ---- in a step
@@ -57,6 +58,11 @@ private:
     bool has_pairs() const { return !sent_pairs.empty() || !pairs.empty(); }
   };
   Partner& partner(int rank);
+  static std::vector<std::int32_t> of_other_ranks(std::vector<std::int32_t> grains, const Model& model);
+  template <class Give, class Visitor>
+  void ask_owners(std::span<const std::int32_t> grains, const Model& model, const Give& give, const Visitor& visit);
+  /// Collective. Sets in the model what never changes of grains of other ranks: facets and areas of nodes.
+  void learn(std::vector<std::int32_t> grains, Model& model);
   void find_border(const Model& model);
   Communicator::Transfer start(bool (Partner::*concerns)() const);
 
