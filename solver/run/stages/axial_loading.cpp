@@ -123,7 +123,8 @@ double TriaxialCompressionControl::wanted_stress(const ObservedSample& seen, std
 
 void TriaxialCompressionControl::drive(const ObservedSample& seen) {
   for (std::size_t axis = 0; axis < 2; ++axis)
-    state_.speed[axis] = servo_.hold(lateral_[axis], quality_, seen, axis, wanted_stress(seen, axis));
+    state_.speed[axis] = servo_.hold(lateral_[axis], quality_, wanted_stress(seen, axis), seen.stress[axis], seen.step,
+                                     seen.rate_factor);
   AxialLoading::drive(seen);
 }
 

@@ -23,7 +23,7 @@ protected:
   HeldWalls(const StageLabel& label, const StageStart& start, const LoadingEnds& ends, double servo_speed)
       : WallLoading(label, start, ends), servo_(start, servo_speed) {}
   void hold(const ObservedSample& seen, std::size_t axis, double wanted) {
-    state_.speed[axis] = servo_.hold(axes_[axis], quality_, seen, axis, wanted);
+    state_.speed[axis] = servo_.hold(axes_[axis], quality_, wanted, seen.stress[axis], seen.step, seen.rate_factor);
   }
 
   StressServo servo_;

@@ -31,24 +31,24 @@ StressServo::StressServo(const StageStart& start, double largest_speed)
   slow_gain_ = 1.0 / (servo_mass * density * start.cell.longest());
 }
 
-double StressServo::hold(ServoState& s, HoldQuality& quality, const ObservedSample& seen, std::size_t axis,
-                         double wanted) const {
-  const double error = wanted - seen.stress[axis], limit = largest_speed_ * std::max(1.0, seen.rate_factor);
+double StressServo::hold(ServoState& s, HoldQuality& quality, double wanted, double stress, double step,
+                         double rate_factor) const {
+  const double error = wanted - stress, limit = largest_speed_ * std::max(1.0, rate_factor);
   // Both masses of the wall, tau/P and 1/I, must be such that steps resolve them on the spring of a wall in full
   // contact, whose nodes at edges count twice: explicit steps are stable up to spring dt^2/mass = 4, and at these
   // bounds the sum is 3.
-  const double spring = contact_stiffness_ * seen.step * seen.step;
-  const double delay = std::max({servo_delay * transit_, servo_delay_steps * seen.step, gain_ * spring});
+  const double spring = contact_stiffness_ * step * step;
+  const double delay = std::max({servo_delay * transit_, servo_delay_steps * step, gain_ * spring});
   const double slow_gain = spring > 0 ? std::min(slow_gain_, 0.5 / spring) : slow_gain_;
-  s.fast += (gain_ * error - s.fast) * seen.step / (delay + seen.step);
+  s.fast += (gain_ * error - s.fast) * step / (delay + step);
   // At its limit the wall cannot do more; what it has missed must not be made up for later.
   const double before = s.fast + s.slow;
   if (std::abs(before) < limit || before * error < 0)
-    s.slow = std::clamp(s.slow + slow_gain * error * seen.step, -limit, limit);
-  s.error += (error - s.error) * seen.step / (transit_ + seen.step);
+    s.slow = std::clamp(s.slow + slow_gain * error * step, -limit, limit);
+  s.error += (error - s.error) * step / (transit_ + step);
   quality.largest_error = std::max(quality.largest_error, std::abs(s.error));
-  quality.square += error * error * seen.step;
-  quality.time += seen.step;
+  quality.square += error * error * step;
+  quality.time += step;
   quality.largest_stress = std::max(quality.largest_stress, std::abs(wanted));
   return std::clamp(s.fast + s.slow, -limit, limit);
 }

@@ -44,9 +44,10 @@ class StressServo {
 public:
   /// `largest_speed` in mm/s.
   StressServo(const StageStart& start, double largest_speed);
-  /// mm/s inwards of both walls of an axis that is to be held at `wanted` (MPa).
-  double hold(ServoState& state, HoldQuality& quality, const ObservedSample& seen, std::size_t axis,
-              double wanted) const;
+  /// mm/s inwards of both walls of an axis, or of a tool along its direction, that is to be held at `wanted` and has
+  /// `stress` (MPa). `step` in s; `rate_factor`: current speed over the stage's own.
+  double hold(ServoState& state, HoldQuality& quality, double wanted, double stress, double step,
+              double rate_factor) const;
 
 private:
   double largest_speed_;

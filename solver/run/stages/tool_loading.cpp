@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "common/errors.hpp"
+#include "solver/run/stages/held_stress.hpp"
 
 namespace mpfem {
 
@@ -128,13 +129,10 @@ void ToolLoadingControl::set_velocities(const StageObservation& observation, dou
     if (!drive.holds_push()) continue;
     // The law of held walls, whose stress is a force over the section.
     const double area = start_.cell.area(2);
-    ObservedSample as_wall;
-    as_wall.step = observation.step;
-    as_wall.rate_factor = 1;
-    as_wall.stress[2] = push_along(drive.direction, observation.tools->load(drive.tool)) / area;
-    HoldQuality quality;
-    const double target = drive.stress ? *drive.stress : *drive.force / area;
-    const double speed = StressServo(start_, drive.servo_speed).hold(servo_[i], quality, as_wall, 2, target);
+    const double wanted = drive.stress ? *drive.stress : *drive.force / area;
+    const double stress = push_along(drive.direction, observation.tools->load(drive.tool)) / area;
+    const double speed =
+        StressServo(start_, drive.servo_speed).hold(servo_[i], quality_, wanted, stress, observation.step, 1);
     for (std::size_t axis = 0; axis < 3; ++axis) velocity_[drive.tool][axis] = speed * drive.direction[axis];
   }
 }
@@ -219,7 +217,7 @@ double ToolLoadingControl::fraction_done(double /*time*/, double /*mean_stress*/
 
 StageResult ToolLoadingControl::result(const StageObservation& last) const {
   const ToolEnds& ends = stage_.ends;
-  StageResult result;
+  StageResult result = with_hold_quality({}, quality_);
   switch (state_.ended_by) {
   case ToolEnd::none:
     result.ended_by = "not ended";
@@ -252,12 +250,14 @@ void ToolLoadingControl::write(FieldWriter& to) const {
   State::for_each_field(state_, to);
   to("tools.part", part_.speed);
   for (const ServoState& servo : servo_) ServoState::for_each_field(servo, to);
+  HoldQuality::for_each_field(quality_, to);
 }
 
 void ToolLoadingControl::read(FieldReader& from) {
   State::for_each_field(state_, from);
   from("tools.part", part_.speed);
   for (ServoState& servo : servo_) ServoState::for_each_field(servo, from);
+  HoldQuality::for_each_field(quality_, from);
 }
 
 } // namespace mpfem

@@ -78,6 +78,7 @@ private:
   State state_;
   DrivenSpeed part_;                            ///< of the full speed
   std::vector<ServoState> servo_;               ///< [drives]
+  HoldQuality quality_;                         ///< of all drives that hold a push
   std::vector<std::array<double, 3>> velocity_; ///< mm/s, [tools up to the last one that moves]
 };
 

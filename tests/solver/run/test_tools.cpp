@@ -163,6 +163,12 @@ TEST_CASE("a tool that holds a force comes to rest where the grains carry it") {
   CHECK(within(simulation.tools()[1].force[2], force, 0.02));
   CHECK(within(-simulation.tools()[0].force[2], force, 0.02));
   CHECK(simulation.tools()[1].moved[2] < -1e-4); // it closed its gap of 1e-4 mm first
+  // Over the section of the box, 1 mm^2. At first all of it was missing.
+  const StageResult result = simulation.stage_result();
+  CHECK(within(result.hold_stress, force, rounding));
+  CHECK(result.hold_error > 0.02 * force);
+  CHECK(result.hold_error <= force);
+  CHECK(result.hold_root_mean_square > 0);
 }
 
 TEST_CASE("rounded jaws that hold a force across their axes bear it on opposite sides of a ball") {
