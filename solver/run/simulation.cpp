@@ -399,7 +399,7 @@ void Simulation::change_tools() {
   std::span<const std::size_t> away;
   if (loading != nullptr) away = loading->away;
   energies_.external_work -= tools_.set_away(away, model_, bounds_, state_.last_step, *ranks_);
-  if (loading != nullptr && container_) box_.set_cell(container_->cell(tools_, box_.cell()));
+  if (container_) box_.set_cell(container_->cell(tools_, box_.cell()));
 }
 
 void Simulation::return_walls(std::size_t axis) {

@@ -1,5 +1,6 @@
 // The container that tools form: dies of planes, of triangles and round ones, the heights of punches, and refusals.
 
+#include <algorithm>
 #include <cmath>
 #include <string>
 
@@ -77,8 +78,10 @@ struct Press {
   Folder folder;
   Outcome outcome;
 
-  Press(const std::string& die, const std::string& end, const LooseTriangles& triangles = {}) {
-    prepare(folder, 4, material_text + punches + die + pressing_to(end));
+  /// `later`: the stages that follow.
+  Press(const std::string& die, const std::string& end, const LooseTriangles& triangles = {},
+        const std::string& later = "") {
+    prepare(folder, 4, material_text + punches + die + pressing_to(end) + later);
     write_text(folder / "die.stl", text_stl(triangles));
     outcome = mpfem_command(fmt::format("run {} -o {} --quiet", folder / "scenario.toml", folder / "run.h5"));
   }
@@ -151,6 +154,29 @@ TEST_CASE("a stage may end when the punches are a height apart") {
   const Press none("", "height = 0.3");
   CHECK(none.outcome.exit_code == 2);
   CHECK_THAT(none.outcome.messages, Catch::Contains("'stages.0.height'") && Catch::Contains("[container]"));
+}
+
+TEST_CASE("the cell reaches from punch to punch again once a punch that was away is back") {
+  const Press press(four_planes, "relative_density = 0.65", {}, R"([[stages]]
+name = "release"
+type = "tools"
+away = ["upper"]
+duration = 2e-6
+[[stages]]
+name = "rest"
+type = "hold"
+duration = 1e-7
+)");
+  INFO(press.outcome.messages);
+  REQUIRE(press.outcome.exit_code == 0);
+  const schema::FileReader file = press.file();
+  const auto stage = file.read(schema::run::history_stage);
+  const auto upper = file.read(schema::run::history_tools_displacement, "upper"),
+             lower = file.read(schema::run::history_tools_displacement, "lower");
+  const auto pressed = static_cast<std::size_t>(std::ranges::find(stage, 1) - stage.begin()) - 1;
+  // The grains have sprung back by more than a tenth of a per cent: the punch returns above where it left.
+  REQUIRE(upper.back() > upper[3 * pressed + 2] + 1e-3 * 0.42);
+  CHECK(within(file.read(schema::run::history_box_lengths).back(), 0.42 + upper.back() - lower.back(), 1e-9));
 }
 
 TEST_CASE("walls of a container that are no die are refused with what was expected") {
