@@ -201,9 +201,12 @@ void ArrayReader::take_candidates(Contact& contact) {
   candidates.pair_point_offset = std::move(points.offset);
   points_ = std::move(points.first);
   for_each_point_array(contact, [&](const auto& dataset, auto& array) { array = read_own(dataset, points_); });
+  require(std::ranges::all_of(candidates.point_node, [&](Index n) { return n >= 0 && n < model_.nodes(); }));
+  require(std::ranges::all_of(contact.point_facet, [&](Index f) { return f >= -1 && f < model_.facets(); }));
   Parts facets = read_parts(check::contact_point_facet_offset, points_);
   candidates.point_facet_offset = std::move(facets.offset);
   candidates.point_facet = read_own(check::contact_candidate_facet, facets.first);
+  require(std::ranges::all_of(candidates.point_facet, [&](Index f) { return f >= 0 && f < model_.facets(); }));
   index_pairs(candidates, model_.grains);
   contact.force.resize(contact.point_facet.size());
   contact.active.assign(candidates.pair_first.size(), 0);
@@ -289,6 +292,7 @@ void ArrayReader::take_by_surface(const SurfaceDatasets& datasets, std::size_t s
 void ArrayReader::take_grips(Grips& grips) const {
   const Rows first = nodes_by_grain(check::grip_node);
   const auto node = read_own(check::grip_node, first), side = read_own(check::grip_side, first);
+  require(std::ranges::all_of(side, [](auto s) { return s == 0 || s == 1; }));
   const auto reference = read_own(check::grip_reference, first);
   for (std::size_t i = 0; i < node.size(); ++i)
     grips.node.push_back({node[i], side[i], {reference[3 * i], reference[3 * i + 1], reference[3 * i + 2]}});

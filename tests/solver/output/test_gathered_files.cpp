@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <map>
 #include <string>
@@ -430,6 +431,42 @@ TEST_CASE("each rank reads the data of its own grains from a checkpoint, and not
     }
     CHECK(gripped == part.grips.node.size());
     CHECK(part.grips.offset.back() == static_cast<Index>(gripped));
+  }
+}
+
+TEST_CASE("a checkpoint that names nodes, facets or sides that do not exist is damaged") {
+  if (!test_ranks().is_root()) return;
+  Scene scene;
+  scene.simulation.advance();
+  const Communicator alone;
+  const Index nodes = scene.simulation.model().nodes(), facets = scene.simulation.model().facets();
+  const std::vector<std::function<void(RankState&)>> changes{
+      [](RankState&) {},
+      [=](RankState& part) { part.contact.candidates.point_node.back() = nodes; },
+      [](RankState& part) { part.contact.candidates.point_node.front() = -1; },
+      [=](RankState& part) { part.contact.candidates.point_facet.back() = facets; },
+      [](RankState& part) { part.contact.candidates.point_facet.front() = -1; },
+      [=](RankState& part) { part.contact.point_facet.back() = facets; },
+      [](RankState& part) { part.contact.point_facet.front() = -2; },
+      [](RankState& part) { part.grips.node.back().side = 2; }};
+  for (std::size_t change = 0; change < changes.size(); ++change) {
+    CAPTURE(change);
+    const Folder folder;
+    RankState part = part_of(scene.simulation, alone);
+    changes[change](part);
+    write_checkpoint(
+        folder / "f.h5",
+        {part.model, part.contact, part.wall_friction, part.tools, part.grips, part.steps, fields_of(scene.simulation)},
+        some_record(), "scenario");
+    const CheckpointReader reader(folder / "f.h5");
+    RankState read = fresh_part(scene, 0, 1);
+    const auto take = [&] {
+      reader.take_arrays(read.model, read.contact, read.wall_friction, read.tools, read.steps, &read.grips, bond);
+    };
+    if (change == 0)
+      CHECK_NOTHROW(take());
+    else
+      CHECK_THROWS_AS(take(), InputError);
   }
 }
 
