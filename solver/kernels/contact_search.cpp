@@ -6,6 +6,9 @@
 #include <limits>
 #include <utility>
 
+#include <fmt/format.h>
+
+#include "common/errors.hpp"
 #include "common/index.hpp"
 #include "solver/physics/gap.hpp"
 
@@ -287,6 +290,13 @@ ContactCandidates find_contact_candidates(const SurfaceView& surface, double mar
   });
 
   // Joined in the grains' order, so that the result does not depend on which thread found what.
+  const auto offset_of = [](const std::vector<std::int32_t>& list) {
+    if (list.size() > std::numeric_limits<std::int32_t>::max())
+      throw SimulationError(fmt::format("contact search: found more than {} candidate facets in one process, allowed: "
+                                        "fewer; use more processes (docs/cluster.md) or a coarser mesh",
+                                        std::numeric_limits<std::int32_t>::max()));
+    return static_cast<std::int32_t>(list.size());
+  };
   ContactCandidates result;
   result.pair_point_offset.push_back(0);
   result.point_facet_offset.push_back(0);
@@ -297,13 +307,13 @@ ContactCandidates find_contact_candidates(const SurfaceView& surface, double mar
       for (std::size_t i = 0; i < pair.points.size(); ++i) {
         const auto [node, facet] = pair.points[i];
         if (i == 0 || pair.points[i - 1].first != node) {
-          if (i > 0) result.point_facet_offset.push_back(static_cast<std::int32_t>(result.point_facet.size()));
+          if (i > 0) result.point_facet_offset.push_back(offset_of(result.point_facet));
           result.point_node.push_back(node);
         }
         result.point_facet.push_back(facet);
       }
-      result.point_facet_offset.push_back(static_cast<std::int32_t>(result.point_facet.size()));
-      result.pair_point_offset.push_back(static_cast<std::int32_t>(result.point_node.size()));
+      result.point_facet_offset.push_back(offset_of(result.point_facet));
+      result.pair_point_offset.push_back(offset_of(result.point_node));
     }
   index_pairs(result, static_cast<int>(surface.node_offset.size()) - 1);
   return result;
