@@ -55,12 +55,12 @@ void add_threads(CLI::App& command, Arguments& arguments) {
              "Threads of each process (default: all cores available to it)");
 }
 
-void add_common(CLI::App& command, Arguments& arguments) {
+void add_common(CLI::App& command, Arguments& arguments, const std::string& quiet) {
   command.add_option("scenario", arguments.scenario, "Scenario file (TOML)")->required();
   command.add_option("--set", arguments.assignments, "Override a value: KEY=VALUE, e.g. stages.0.wall_speed=2000")
       ->take_all();
   add_threads(command, arguments);
-  command.add_flag("--quiet", arguments.run.quiet, "No progress");
+  command.add_flag("--quiet", arguments.run.quiet, quiet);
 }
 
 CLI::App* add_bond(CLI::App& app, BondProgrammeOptions& options) {
@@ -149,12 +149,12 @@ CLI::App* add_run(CLI::App& app, Arguments& arguments) {
                                             "Examples:\n"
                                             "  mpfem run compaction.toml -o run.h5 --resume\n"
                                             "  mpfem run compaction.toml -o rough.h5 --set contact.friction=0.3");
-  add_common(*run, arguments);
+  add_common(*run, arguments, "No progress");
   run->add_option("-o,--output", arguments.run.output, "Run file to write (HDF5)")->required();
   run->add_flag("--resume", arguments.run.resume, "Continue from the run's checkpoint if there is one");
   run->add_option("--from", arguments.from, "Start from the state in this checkpoint")->check(CLI::ExistingFile);
   add_number(*run, "--time-limit", arguments.run.time_limit, Range::between(1e-9, 1e9), "s",
-             "Stop after this wall-clock time; --resume continues");
+             "Stop after this wall-clock time of steps; reading the packing comes before. --resume continues");
   return run;
 }
 
@@ -164,7 +164,7 @@ CLI::App* add_check(CLI::App& app, Arguments& arguments) {
                                   "Examples:\n"
                                   "  mpfem check compaction.toml\n"
                                   "  mpfem check unloading.toml --from run.D0.850.checkpoint.h5");
-  add_common(*check, arguments);
+  add_common(*check, arguments, "Print warnings only; the exit code tells whether the run would start");
   check->add_option("--from", arguments.from, "Check a branch that starts from this checkpoint")
       ->check(CLI::ExistingFile);
   return check;
@@ -201,7 +201,8 @@ int run_command(int argc, char** argv, const Communicator& ranks) {
   if (!arguments.from.empty()) arguments.run.from = arguments.from;
   arguments.run.scenario_file = arguments.scenario;
   if (run->parsed()) run_scenario(scenario, arguments.run, ranks);
-  if (check->parsed()) check_scenario(scenario, arguments.run.threads, arguments.run.from, ranks);
+  if (check->parsed())
+    check_scenario(scenario, {arguments.run.from, arguments.run.threads, arguments.run.quiet}, ranks);
   return 0;
 }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 
 #include <fmt/format.h>
@@ -137,18 +138,15 @@ void print_step(const StepEstimate::State& step) {
 }
 
 void print_bonds(const Scenario& scenario, const Simulation& simulation) {
-  const Model& model = simulation.model();
-  const auto warnings = check_bonds(model, scenario, simulation.ranks());
   if (scenario.bond) {
     const BondResolution r =
-        bond_resolution(model, *scenario.bond, scenario.contact, BondPartner::grain, simulation.ranks());
+        bond_resolution(simulation.model(), *scenario.bond, scenario.contact, BondPartner::grain, simulation.ranks());
     fmt::print(
         "bonds          cohesive zone {:.3g} mm, {:.2g} elements of {:.3g} mm; fracture energy {:g} N/mm, needed "
         "for stable softening {:.3g} N/mm, for any softening more than {:.3g} N/mm\n",
         r.cohesive_zone, r.cohesive_zone / r.element_size, r.element_size, scenario.bond->fracture_energy,
         r.steep_fracture_energy, r.smallest_fracture_energy);
   }
-  for (const std::string& warning : warnings) fmt::print("warning        {}\n", warning);
   if (const std::string text = earlier_bonds_text(simulation.contact()); !text.empty())
     fmt::print("               {}\n", text);
 }
@@ -176,27 +174,30 @@ void print_stages(const Scenario& scenario, Simulation& simulation, int threads)
 
 } // namespace
 
-void check_scenario(const Scenario& scenario, int threads, const std::optional<std::string>& from,
-                    const Communicator& ranks) {
+void check_scenario(const Scenario& scenario, const CheckOptions& options, const Communicator& ranks) {
   Needs needs;
-  std::string scarce;
+  std::vector<std::string> warnings;
   root_does(ranks, [&] {
     needs = needs_of(read_packing_counts(scenario.packing_file), scenario);
-    scarce = check_needs(scenario.packing_file, needs, {available_memory(), std::numeric_limits<double>::infinity()});
+    const std::string scarce =
+        check_needs(scenario.packing_file, needs, {available_memory(), std::numeric_limits<double>::infinity()});
+    if (!scarce.empty()) warnings.push_back(scarce);
   });
-  ThreadTeam team(threads);
+  ThreadTeam team(options.threads);
   Simulation simulation(build_model(read_packing(scenario.packing_file, ranks), scenario, scenario.packing_file, ranks),
-                        scenario, team, from.has_value(), ranks);
-  if (from) begin_branch(*from, simulation, ranks);
+                        scenario, team, options.from.has_value(), ranks);
+  if (options.from) begin_branch(*options.from, simulation, ranks);
+  std::ranges::copy(check_bonds(simulation.model(), scenario, ranks), std::back_inserter(warnings));
   const StepEstimate::State& step = simulation.step_estimate().state();
-  print_model(scenario, simulation, needs);
-  if (!scarce.empty()) fmt::print("warning        {}\n", scarce);
+  check_programme(scenario, 0, simulation.stage_run().state().start, simulation.model(), step.stable_step);
+  if (!options.quiet) print_model(scenario, simulation, needs);
+  for (const std::string& warning : warnings) fmt::print("warning        {}\n", warning);
+  if (options.quiet) return;
   print_step(step);
   if (const std::string text = mass_scaling_text(scenario, simulation.model()); !text.empty())
     fmt::print("masses         {}\n", text);
   print_bonds(scenario, simulation);
-  check_programme(scenario, 0, simulation.stage_run().state().start, simulation.model(), step.stable_step);
-  print_stages(scenario, simulation, threads);
+  print_stages(scenario, simulation, options.threads);
 }
 
 } // namespace mpfem

@@ -9,9 +9,14 @@
 
 namespace mpfem {
 
+struct CheckOptions {
+  std::optional<std::string> from; ///< checkpoint in which a branch begins
+  int threads = 1;
+  bool quiet = false; ///< print warnings only
+};
+
 /// Collective. Prints what a run would do: grains, tets, memory, stages, steps, estimated time from steps measured
-/// here; if `from` names a checkpoint, for a branch that begins there. Throws InputError if the run would be refused.
-void check_scenario(const Scenario& scenario, int threads, const std::optional<std::string>& from,
-                    const Communicator& ranks = Communicator());
+/// here. Throws InputError if the run would be refused.
+void check_scenario(const Scenario& scenario, const CheckOptions& options, const Communicator& ranks = Communicator());
 
 } // namespace mpfem

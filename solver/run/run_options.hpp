@@ -14,7 +14,7 @@ struct RunOptions {
   std::optional<std::string> from; ///< begin the first stage from this checkpoint's state
   int threads = 1;
   bool quiet = false;
-  double time_limit = 0; ///< s of wall-clock time, 0 none
+  double time_limit = 0; ///< s of wall-clock time from the first step on, 0 none
 };
 
 } // namespace mpfem
