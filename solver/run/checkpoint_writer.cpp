@@ -28,9 +28,9 @@ CheckpointReason CheckpointWriter::write_due() {
   const bool stage_end = simulation_.stage_complete();
   const CheckpointReason due = reason();
   const std::vector<double> passed = records_.pass_checkpoint_densities();
-  for (const double density : passed) records_.save_checkpoint(density_checkpoint_path(options_.output, density));
   if (!stage_end && due == CheckpointReason::none && passed.empty()) return due;
   const auto start = Profile::Clock::now();
+  for (const double density : passed) records_.save_checkpoint(density_checkpoint_path(options_.output, density));
   if (stage_end) save_stage_checkpoint();
   // Last: it counts as done the stages and densities whose checkpoints are on disk by now.
   replace_rolling_checkpoint(simulation_.ranks(), options_.output,

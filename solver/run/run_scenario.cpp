@@ -29,9 +29,9 @@ namespace {
 Model load_model(const Scenario& scenario, const RunOptions& options, const Communicator& ranks, const Owners& owners) {
   const std::string checkpoint = checkpoint_path(options.output);
   stop_before_first_step(ranks, checkpoint);
-  auto packing = read_packing(scenario.packing_file, ranks, owners);
+  const MeshedPacking packing = read_packing(scenario.packing_file, ranks, owners);
   stop_before_first_step(ranks, checkpoint);
-  Model model = build_model(std::move(packing), scenario, scenario.packing_file, ranks);
+  Model model = build_model(packing, scenario, scenario.packing_file, ranks);
   stop_before_first_step(ranks, checkpoint);
   return model;
 }
