@@ -1,6 +1,6 @@
 #pragma once
-// Laws of bonds as files hold them: four numbers a law, strengths (MPa), fracture energy (N/mm) and softening (0
-// exponential, 1 energy).
+// Laws of bonds as files hold them, six numbers a law: tensile and shear strength (MPa), fracture energy (N/mm),
+// softening (0 exponential, 1 energy), stiffness (MPa/mm, 0 if it follows the penalty) and its ratio to that penalty.
 
 #include <span>
 #include <vector>
@@ -12,7 +12,7 @@ namespace mpfem {
 /// One law after another.
 std::vector<double> flatten(std::span<const BondLaw> laws);
 
-/// The reverse; the stiffness stays unset. Whether bonds resist sliding is the same for a whole run, not stored.
+/// The reverse. Whether bonds resist sliding is the same for a whole run, not stored.
 std::vector<BondLaw> unflatten_bond_laws(std::span<const double> values, bool normal_only);
 
 } // namespace mpfem

@@ -56,8 +56,8 @@ struct CheckpointState {
 };
 
 /// Collective; what does not belong to grains is taken from the first rank. The file is written under another name and
-/// renamed; it does not depend on the number of ranks. Throws StorageError on the first rank, at a point where the
-/// others may wait for it (gathered_file.hpp).
+/// renamed; it does not depend on the number of ranks. Throws StorageError on all ranks if the first cannot write
+/// (gathered_file.hpp).
 void write_checkpoint(const std::string& path, const CheckpointState& state, const RunRecord& record,
                       const std::string& scenario_text, const Communicator& ranks = Communicator());
 

@@ -31,7 +31,7 @@ struct SnapshotState {
 };
 
 /// Collective. Writes a snapshot to its own file, which does not depend on the number of ranks. Throws StorageError on
-/// the first rank, at a point where the others may wait for it (gathered_file.hpp).
+/// all ranks if the first cannot write (gathered_file.hpp).
 void write_snapshot_file(const std::string& path, const SnapshotState& state,
                          const Communicator& ranks = Communicator());
 

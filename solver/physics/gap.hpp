@@ -54,7 +54,6 @@ inline ClosestPoint<S> closest_point_on_triangle(const Vector3<S>& p, const Vect
 // point, not normalised: the facet's own normal in its interior, the interpolated nodal normal on edges and corners.
 
 /// Outward direction (mm^2) in a facet's interior; `x` are its corners (mm).
-
 template <class S>
 inline Vector3<S> facet_direction(const Vector3<S> (&x)[3]) {
   return cross(x[1] - x[0], x[2] - x[0]);

@@ -1,6 +1,8 @@
 #pragma once
 // Bounds of the stable time step of central differences, and bulk viscosity, which uses the same length.
 
+#include <algorithm>
+
 #include "solver/physics/elasticity.hpp"
 #include "solver/physics/kinematics.hpp"
 

@@ -13,7 +13,8 @@ namespace mpfem {
 /// Collective. Sums over all bonds.
 BondSums total_bonds(const Simulation& simulation, ThreadTeam& team);
 
-/// Collective. One row of the history, between evaluate_forces() and advance(). `sums` [grains], of the last pass.
+/// Collective. One row of the history, between evaluate_forces() and advance(). `sums`: of all grains, at the last
+/// evaluation.
 HistoryRow observe_row(const Simulation& simulation, const ForceSums& sums, ThreadTeam& team);
 
 /// What the tools bear, after evaluate_forces().

@@ -1,6 +1,7 @@
 #pragma once
 // When the stable step is estimated again, and which grain sets it.
 
+#include <cstdint>
 #include <span>
 #include <utility>
 #include <vector>
