@@ -19,7 +19,7 @@
 #include <cstdint>
 
 #include "solver/physics/bond.hpp"
-#include "solver/physics/tensor.hpp"
+#include "solver/physics/gap.hpp"
 
 namespace mpfem {
 
@@ -76,7 +76,7 @@ struct BondPull {
 /// Pull of a bond that holds in all directions. `x` are the corners of its facet, mm; `gap` as of pull_along.
 inline BondPull pull_of_bond(const BondLaw& law, PointBond& bond, const Vector3<double>& node,
                              const Vector3<double> (&x)[3], double gap) {
-  const Vector3<double> attachment = x[0] + bond.weight1 * (x[1] - x[0]) + bond.weight2 * (x[2] - x[0]);
+  const Vector3<double> attachment = facet_point(x, bond.weight1, bond.weight2);
   return {pull_along(law, bond, node - attachment, gap), bond.weight1, bond.weight2};
 }
 
@@ -84,13 +84,11 @@ inline BondPull pull_of_bond(const BondLaw& law, PointBond& bond, const Vector3<
 /// the node and the point of the facet's plane beneath it. `x` are the corners of that facet, mm.
 inline BondPull pull_of_normal_bond(const BondLaw& law, PointBond& bond, const Vector3<double>& node,
                                     const Vector3<double> (&x)[3]) {
-  const Vector3<double> e1 = x[1] - x[0], e2 = x[2] - x[0], area = cross(e1, e2), r = node - x[0];
-  const double square = dot(area, area);
-  const double height = dot(r, area) / square; // in units of |area|
-  const double weight1 = dot(cross(r, e2), area) / square, weight2 = dot(cross(e1, r), area) / square;
-  const double open = std::max(height, 0.0) * std::sqrt(square);
+  const PlaneFoot foot = foot_on_plane(node, x);
+  const double height = std::max(foot.height, 0.0); // in units of |area|
+  const double open = height * norm(foot.area);
   update_bond(law, bond, open, open);
-  return {-(bond.remaining * std::max(height, 0.0)) * area, weight1, weight2};
+  return {-(bond.remaining * height) * foot.area, foot.weight1, foot.weight2};
 }
 
 } // namespace mpfem

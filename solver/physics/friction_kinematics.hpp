@@ -54,20 +54,13 @@ struct FrictionStep {
   bool on_closest = true; ///< the anchor is on the closest facet
 };
 
-/// The point of a facet with these weights, mm.
-inline Vector3<double> facet_point(const Vector3<double> (&corner)[3], double weight1, double weight2) {
-  return corner[0] + weight1 * (corner[1] - corner[0]) + weight2 * (corner[2] - corner[0]);
-}
-
 /// Anchors a point on the plane of a facet, beneath or above `place` (mm).
 inline void anchor_at(PointFriction& point, std::int32_t facet, const Vector3<double> (&corner)[3],
                       const Vector3<double>& place) {
-  const Vector3<double> e1 = corner[1] - corner[0], e2 = corner[2] - corner[0], area = cross(e1, e2),
-                        r = place - corner[0];
-  const double square = dot(area, area);
+  const PlaneFoot foot = foot_on_plane(place, corner);
   point.facet = facet;
-  point.weight1 = dot(cross(r, e2), area) / square;
-  point.weight2 = dot(cross(e1, r), area) / square;
+  point.weight1 = foot.weight1;
+  point.weight2 = foot.weight2;
 }
 
 /// The part of `vector` perpendicular to `direction`.

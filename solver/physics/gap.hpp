@@ -12,6 +12,27 @@
 
 namespace mpfem {
 
+/// A point of a facet's plane by shape functions: (1 - weight1 - weight2) x0 + weight1 x1 + weight2 x2 with the corners
+/// `x`, or a field there with its values `x` at the corners.
+template <class S>
+inline Vector3<S> facet_point(const Vector3<S> (&x)[3], const S& weight1, const S& weight2) {
+  return x[0] + weight1 * (x[1] - x[0]) + weight2 * (x[2] - x[0]);
+}
+
+/// The foot of a point on the plane of a facet. Its weights are outside [0, 1] where it lies outside the facet.
+struct PlaneFoot {
+  double weight1, weight2; ///< shape functions of the facet's second and third node
+  double height;           ///< of the point above the plane, in units of |area|
+  Vector3<double> area;    ///< mm^2, outward, twice the facet's
+};
+
+/// Projects `point` (mm) onto the plane of the triangle with corners `x` (mm).
+inline PlaneFoot foot_on_plane(const Vector3<double>& point, const Vector3<double> (&x)[3]) {
+  const Vector3<double> e1 = x[1] - x[0], e2 = x[2] - x[0], area = cross(e1, e2), r = point - x[0];
+  const double square = dot(area, area);
+  return {dot(cross(r, e2), area) / square, dot(cross(e1, r), area) / square, dot(r, area) / square, area};
+}
+
 /// Closest point of a triangle x0 x1 x2: (1 - weight1 - weight2) x0 + weight1 x1 + weight2 x2.
 template <class S>
 struct ClosestPoint {
@@ -26,7 +47,7 @@ struct ClosestPoint {
 template <class S>
 inline ClosestPoint<S> closest_point_on_triangle(const Vector3<S>& p, const Vector3<S> (&x)[3]) {
   const auto result = [&x](const S& weight1, const S& weight2, bool inside = false) {
-    return ClosestPoint<S>{x[0] + weight1 * (x[1] - x[0]) + weight2 * (x[2] - x[0]), weight1, weight2, inside};
+    return ClosestPoint<S>{facet_point(x, weight1, weight2), weight1, weight2, inside};
   };
   const Vector3<S> ab = x[1] - x[0], ac = x[2] - x[0], ap = p - x[0];
   const S d1 = dot(ab, ap), d2 = dot(ac, ap);
@@ -60,8 +81,7 @@ inline Vector3<S> facet_direction(const Vector3<S> (&x)[3]) {
 }
 /// Outward direction on an edge or corner; `nodal_normal` are the unit normals of the facet's nodes.
 inline Vector3<double> edge_direction(const ClosestPoint<double>& closest, const Vector3<double> (&nodal_normal)[3]) {
-  return nodal_normal[0] + closest.weight1 * (nodal_normal[1] - nodal_normal[0]) +
-         closest.weight2 * (nodal_normal[2] - nodal_normal[0]);
+  return facet_point(nodal_normal, closest.weight1, closest.weight2);
 }
 
 } // namespace mpfem
