@@ -17,10 +17,8 @@ BondResolution bond_resolution(const Model& model, const BondParameters& bond, c
   });
   const double youngs = softest->moduli.youngs(), poissons = youngs / (2 * softest->moduli.shear) - 1;
   const double reduced = youngs / ((partner == BondPartner::grain ? 2 : 1) * (1 - poissons * poissons));
-  const double strength =
-      bond.normal_only ? bond.tensile_strength : std::max(bond.tensile_strength, bond.shear_strength);
   // Two grains' penalties act as their harmonic mean, at least the softest's; a tool's is that of the grain.
-  const BondLaw law = law_of_bonds(bond, contact);
+  BondLaw law = law_of_bonds(bond, contact);
   double stiffness = std::numeric_limits<double>::infinity(), finest = model.refinement.empty() ? 1.0 : 0.0;
   for (const std::int32_t grain : model.own()) {
     const auto g = static_cast<std::size_t>(grain);
@@ -31,14 +29,15 @@ BondResolution bond_resolution(const Model& model, const BondParameters& bond, c
       if (!model.refinement.empty()) finest = std::max(finest, model.refinement[n]);
     }
   }
-  stiffness = -ranks.largest(-stiffness);
+  law.stiffness = -ranks.largest(-stiffness);
   finest = ranks.largest(finest);
   BondResolution result;
   // Where grains are locally refined, bonds are taken to be where the elements are smallest.
   result.element_size = *std::max_element(model.element_size.begin(), model.element_size.end()) / finest;
   result.cohesive_zone = 0.34 * 2 * reduced * bond.fracture_energy / (bond.tensile_strength * bond.tensile_strength);
-  result.smallest_fracture_energy = 0.5 * strength * strength / stiffness;
-  result.steep_fracture_energy = strength * strength * result.element_size / youngs + result.smallest_fracture_energy;
+  result.smallest_fracture_energy = smallest_fracture_energy(law);
+  const double strength = governing_strength(law);
+  result.steep_fracture_energy = strength * strength * result.element_size / youngs + energy_before_damage(law);
   return result;
 }
 
@@ -80,12 +79,12 @@ void check(const Model& model, const ContactParameters& contact, const BondsOfSc
               *stiffness, allowed));
   const BondResolution r = bond_resolution(model, bonds.bond, contact, bonds.partner, ranks);
   const double energy = bonds.bond.fracture_energy;
-  if (!(energy > 1.01 * r.smallest_fracture_energy))
+  if (!(energy > r.smallest_fracture_energy))
     bonds.refuse(
         "fracture_energy",
         fmt::format("found {:g} N/mm, allowed: > {:.3g} N/mm, which is 1.01 strength^2/(2 K) with the stiffness K of "
                     "these bonds; raise the fracture energy or the stiffness, or lower the strength",
-                    energy, 1.01 * r.smallest_fracture_energy));
+                    energy, r.smallest_fracture_energy));
   if (energy < r.steep_fracture_energy)
     warnings.push_back(
         fmt::format("{} soften more steeply than elements of {:.3g} mm can unload: fracture_energy "

@@ -12,7 +12,7 @@ namespace mpfem {
 struct BondResolution {
   double element_size = 0;             ///< h, mm
   double cohesive_zone = 0;            ///< mm, length over which the traction falls to half the strength
-  double smallest_fracture_energy = 0; ///< N/mm; below it the law has no softening branch at all
+  double smallest_fracture_energy = 0; ///< N/mm; up to it the law has no softening branch (solver/physics/bond.hpp)
   double steep_fracture_energy = 0;    ///< N/mm; below it softening is steeper than the element beneath can unload
 };
 

@@ -7,6 +7,7 @@
 // area under the curve is exactly G^c, whatever the size of a step. Unloading goes to the origin. Closing is resisted
 // by the contact's own penalty, which is not damaged. The bond's K may differ from that penalty.
 
+#include <algorithm>
 #include <cmath>
 
 namespace mpfem {
@@ -22,7 +23,7 @@ struct BondLaw {
   double stiffness = 0;        ///< K, MPa/mm; 0 if it follows the penalty of the contact point
   double tensile_strength = 0; ///< t_n^m, MPa
   double shear_strength = 0;   ///< t_s^m = t_t^m, MPa (Table 1 has one value for both directions)
-  double fracture_energy = 0;  ///< G^c, N/mm; must exceed t^2/(2 K) of the larger strength
+  double fracture_energy = 0;  ///< G^c, N/mm; must exceed smallest_fracture_energy()
   SofteningLaw softening = SofteningLaw::exponential;
   bool normal_only = false; ///< no traction against sliding (for comparison with theories of adhesion)
   double penalty_ratio = 1; ///< K over the penalty of the contact point, if K follows that penalty
@@ -33,6 +34,23 @@ struct BondLaw {
 inline BondLaw law_at_point(BondLaw law, double penalty) {
   if (law.stiffness == 0) law.stiffness = law.penalty_ratio * penalty;
   return law;
+}
+
+/// The largest strength (MPa) in the directions in which the law holds.
+inline double governing_strength(const BondLaw& law) {
+  return law.normal_only ? law.tensile_strength : std::max(law.tensile_strength, law.shear_strength);
+}
+
+/// t^2/(2 K), N/mm: the area under the branch before damage, for the governing strength. `law` with its K set.
+inline double energy_before_damage(const BondLaw& law) {
+  const double strength = governing_strength(law);
+  return 0.5 * strength * strength / law.stiffness;
+}
+
+/// The fracture energy (N/mm) that a law must exceed: a little more than the energy before damage, or nothing is left
+/// for the softening.
+inline double smallest_fracture_energy(const BondLaw& law) {
+  return 1.01 * energy_before_damage(law);
 }
 
 /// What a bond remembers.

@@ -94,18 +94,16 @@ BondedPointLaw read_bonded_point_law(const TomlDocument& document) {
   const BondParameters bond = read_bond(table);
   root.finish();
   if (bond.stiffness_factor) table.fail("stiffness_factor", "is used only with a mesh; allowed: 'stiffness' (MPa/mm)");
-  const double stiffness = bond.stiffness.value_or(penalty);
-  const double strength =
-      bond.normal_only ? bond.tensile_strength : std::max(bond.tensile_strength, bond.shear_strength);
-  // As in a run: a little more than the energy up to damage, or nothing is left for the softening.
-  const double smallest = 1.01 * 0.5 * strength * strength / stiffness;
-  if (!(bond.fracture_energy > smallest))
+  const BondLaw law{.stiffness = bond.stiffness.value_or(penalty),
+                    .tensile_strength = bond.tensile_strength,
+                    .shear_strength = bond.shear_strength,
+                    .fracture_energy = bond.fracture_energy,
+                    .softening = bond.softening,
+                    .normal_only = bond.normal_only};
+  if (const double smallest = smallest_fracture_energy(law); !(law.fracture_energy > smallest)) // as in a run
     table.fail("fracture_energy", fmt::format("found {:g} N/mm, allowed: > {:.3g} N/mm (1.01 strength^2/(2 stiffness))",
-                                              bond.fracture_energy, smallest));
-  return {
-      {stiffness, bond.tensile_strength, bond.shear_strength, bond.fracture_energy, bond.softening, bond.normal_only},
-      penalty,
-      bond.rebond_on_contact};
+                                              law.fracture_energy, smallest));
+  return {law, penalty, bond.rebond_on_contact};
 }
 
 std::vector<WayPoint> read_bond_programme(CsvReader reader, int increments) {
