@@ -6,8 +6,8 @@
 
 #include <Eigen/Eigenvalues>
 
-#include "solver/kernels/rows.hpp"
 #include "solver/model/aligned.hpp"
+#include "solver/model/rows.hpp"
 #include "solver/physics/kinematics.hpp"
 
 namespace mpfem {

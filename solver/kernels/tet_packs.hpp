@@ -4,8 +4,8 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "solver/kernels/rows.hpp"
 #include "solver/model/model.hpp"
+#include "solver/model/rows.hpp"
 #include "solver/physics/tet4.hpp"
 
 namespace mpfem {

@@ -1,6 +1,5 @@
 #pragma once
-// Nodal normals and tributary areas of a grain's surface, once, while a model is built. During a run the kernels
-// compute them (solver/kernels/surface.hpp).
+// Nodal normals and tributary areas of a grain's surface, computed in packs: while a model is built and in every step.
 
 #include "solver/model/model.hpp"
 
