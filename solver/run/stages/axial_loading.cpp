@@ -10,15 +10,6 @@
 
 namespace mpfem {
 
-namespace {
-
-/// Strain at which a loading is expected to end if its ends do not determine it.
-constexpr double expected_strain = 0.05;
-/// Strain and density count as reached when they are this near: walls arrive up to rounding.
-constexpr double arrived = 1e-9;
-
-} // namespace
-
 AxialLoading::AxialLoading(const AxialDrive& stage, const StageLabel& label, const StageStart& start)
     : WallLoading(label, start, stage.ends), wall_speed_(stage.wall_speed),
       transit_(wave_transit(start.sample, start.cell)) {
@@ -62,9 +53,8 @@ void AxialLoading::drive(const ObservedSample& seen) {
   // A travel that is known ends at rest, by constant deceleration.
   double left = std::numeric_limits<double>::infinity(); // mm, of each wall's travel
   const auto stop_at = [&](double length) {
-    const double stopping = 0.5 * full_speed * ramp_;
     left = std::min(left, std::max(0.5 * axial_.sign * (seen.length[2] - length), 0.0));
-    if (stopping > 0) part = std::min(part, std::clamp(std::sqrt(left / stopping), slowest_approach, 1.0));
+    part = std::min(part, slowed_to_rest(left, full_speed, ramp_));
   };
   if (ends_.axial_strain) stop_at(start_length_[2] * std::exp(-*ends_.axial_strain));
   if (ends_.relative_density) stop_at(start_.sample.solid_volume / (seen.area[2] * *ends_.relative_density));

@@ -2,6 +2,7 @@
 // The z walls are driven; the x and y walls are away (unconfined), at rest (die) or held at a force or stress
 // (triaxial).
 
+#include "solver/run/stages/driven_speed.hpp"
 #include "solver/run/stages/stress_servo.hpp"
 #include "solver/run/stages/wall_loading.hpp"
 

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "common/errors.hpp"
+#include "solver/run/stages/isotropic_unloading.hpp"
 
 namespace mpfem {
 
@@ -105,8 +106,7 @@ LoadingEnd StressCyclesControl::find_end(const ObservedSample& /*seen*/) const {
 }
 
 double StressCyclesControl::find_fraction_done(const ObservedSample& seen) const {
-  const double change = target() - cycles_.leg_start;
-  const double leg = change != 0 ? std::clamp((seen.mean_stress - cycles_.leg_start) / change, 0.0, 1.0) : 1.0;
+  const double leg = fraction_of_way(cycles_.leg_start, seen.mean_stress, target());
   return (static_cast<double>(cycles_.legs) + leg) / (2 * static_cast<double>(stage_.cycles));
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 // All six walls together: to a mean stress, or in cycles between two.
 
+#include "solver/run/stages/driven_speed.hpp"
 #include "solver/run/stages/wall_loading.hpp"
 
 namespace mpfem {

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "common/errors.hpp"
+#include "solver/run/stages/driven_speed.hpp"
 
 namespace mpfem {
 
@@ -44,10 +45,10 @@ double IsotropicUnloadingControl::speed(double time) const {
   if (!(change > 0)) return 0; // nothing to unload
   const double ramp = stage_.ramp_fraction * expected_duration_;
   const double s = ramp > 0 ? std::min(time / ramp, 1.0) : 1.0;
-  // The walls cover the last fifth of the stress ever more slowly, so that the packing is nearly at rest at the end.
+  // The walls slow down near the end, so that the packing is then nearly at rest.
   const double left = (mean_stress_ - stage_.mean_stress) / change;
   return stage_.wall_speed * (3 - 2 * s) * s * s *
-         std::clamp(5 * left, slowest_unloading(stage_.mean_stress, start_stress_), 1.0);
+         slowed_near_target(left, slowest_unloading(stage_.mean_stress, start_stress_));
 }
 
 void IsotropicUnloadingControl::move(Cell& cell, double time, double clock_step, double /*step*/) const {

@@ -5,6 +5,14 @@
 
 namespace mpfem {
 
+/// Part of the wall speed that an unloading keeps to its end (stresses in MPa). A packing under little stress is soft,
+/// and takes long to lose it.
+double slowest_unloading(double target, double start);
+
+/// MPa above its target at which an unloading by `change` (MPa) has arrived: single grains that still touch a wall keep
+/// a little stress for long.
+double unloading_tolerance(double target, double change);
+
 /// The walls slow down as the mean stress approaches its target.
 class IsotropicUnloadingControl final : public StageControl {
 public:

@@ -94,18 +94,8 @@ public:
 /// The control of a stage. Throws InputError where its target cannot be reached from the start by this type of stage.
 std::unique_ptr<StageControl> make_stage_control(const Stage& stage, const StageStart& start);
 
-/// Part of the wall speed that an unloading keeps to its end (stresses in MPa). A packing under little stress is soft,
-/// and takes long to lose it.
-double slowest_unloading(double target, double start);
-
-/// MPa above its target at which an unloading by `change` (MPa) has arrived: single grains that still touch a wall keep
-/// a little stress for long.
-double unloading_tolerance(double target, double change);
-
 /// Fraction of a target by which a stage may begin beyond it: the stage before ended there.
 inline constexpr double already_there = 0.01;
-/// Fraction of the wall speed at which a target is reached.
-inline constexpr double slowest_approach = 0.05;
 /// Relative change of the cell's lengths at which an isotropic change of stress is expected to end.
 inline constexpr double expected_isotropic_strain = 0.03;
 

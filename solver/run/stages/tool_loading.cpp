@@ -13,13 +13,6 @@ namespace mpfem {
 
 namespace {
 
-/// Part of the cell's length along z over which a stage is expected to last if its ends do not determine it.
-constexpr double expected_strain = 0.05;
-/// Travel and density count as reached when they are this near: tools arrive up to rounding.
-constexpr double arrived = 1e-9;
-/// No stage may last longer than this many times the expected time.
-constexpr double longest_time = 50;
-
 /// N, push of a tool on the grains along a unit direction: the reverse of the grains' force on it.
 double push_along(const std::array<double, 3>& direction, const ToolLoad& load) {
   return -(load.force.x * direction[0] + load.force.y * direction[1] + load.force.z * direction[2]);
@@ -104,7 +97,6 @@ void ToolLoadingControl::begin(const Seen& seen) {
 /// Part of the full speed that is wanted now; `left` (mm) to travel, of the fastest tool.
 double ToolLoadingControl::wanted_speed(const Seen& seen, double& left) const {
   const ToolEnds& ends = stage_.ends;
-  double part = 1;
   left = std::numeric_limits<double>::infinity();
   if (ends.travel) left = std::min(left, std::max(*ends.travel - state_.travelled, 0.0));
   if (ends.relative_density && closing_speed() != 0) {
@@ -112,8 +104,7 @@ double ToolLoadingControl::wanted_speed(const Seen& seen, double& left) const {
     left = std::min(left, std::max((seen.height - height) / closing_speed(), 0.0) * stage_.speed);
   }
   // A travel that is known ends at rest, by constant deceleration.
-  const double stopping = 0.5 * stage_.speed * ramp_;
-  if (stopping > 0 && std::isfinite(left)) part = std::clamp(std::sqrt(left / stopping), slowest_approach, 1.0);
+  double part = slowed_to_rest(left, stage_.speed, ramp_);
   const auto slow_near = [&](const std::optional<double>& target, double start, double now) {
     if (target && *target != start) part = std::min(part, slowed_near_target((*target - now) / (*target - start)));
   };
@@ -198,14 +189,14 @@ ToolEnd ToolLoadingControl::find_end(const Seen& seen) const {
 
 double ToolLoadingControl::find_fraction_done(const Seen& seen) const {
   const ToolEnds& ends = stage_.ends;
-  const auto part = [](double start, double now, double end) {
-    return end != start ? std::clamp((now - start) / (end - start), 0.0, 1.0) : 1.0;
-  };
   double done = 0;
+  const auto consider = [&](double start, double now, double end) {
+    done = std::max(done, fraction_of_way(start, now, end));
+  };
   if (ends.travel) done = std::max(done, state_.travelled / *ends.travel);
-  if (ends.relative_density) done = std::max(done, part(state_.start_density, seen.density, *ends.relative_density));
-  if (ends.axial_stress) done = std::max(done, part(state_.start_stress, seen.axial_stress, *ends.axial_stress));
-  if (ends.force) done = std::max(done, part(state_.start_push, seen.push, *ends.force));
+  if (ends.relative_density) consider(state_.start_density, seen.density, *ends.relative_density);
+  if (ends.axial_stress) consider(state_.start_stress, seen.axial_stress, *ends.axial_stress);
+  if (ends.force) consider(state_.start_push, seen.push, *ends.force);
   if (ends.duration) done = std::max(done, seen.time / *ends.duration);
   if (done == 0) done = seen.time / expected_duration_;
   return std::clamp(done, 0.0, 1.0);

@@ -4,9 +4,9 @@
 
 #include <vector>
 
+#include "solver/run/stages/driven_speed.hpp"
 #include "solver/run/stages/stage_control.hpp"
 #include "solver/run/stages/stress_servo.hpp"
-#include "solver/run/stages/wall_loading.hpp"
 
 namespace mpfem {
 

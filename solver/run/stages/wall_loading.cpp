@@ -6,26 +6,16 @@
 #include <fmt/format.h>
 
 #include "common/errors.hpp"
+#include "solver/run/stages/driven_speed.hpp"
 
 namespace mpfem {
 
 namespace {
 
-/// No axis may strain further, and no loading last longer (as a multiple of the expected time).
-constexpr double largest_strain = 0.5, longest_time = 50;
+constexpr double largest_strain = 0.5;             // no axis may strain further
 constexpr std::int64_t steps_between_damages = 20; // all bonds are visited
 
 } // namespace
-
-double DrivenSpeed::approach(double wanted, double full_speed, double ramp, double step) {
-  const double change = ramp > 0 ? full_speed * step / ramp : 2 * full_speed;
-  speed += std::clamp(wanted - speed, -change, change);
-  return speed;
-}
-
-double slowed_near_target(double left) {
-  return std::clamp(5 * left, slowest_approach, 1.0);
-}
 
 WallLoading::WallLoading(const StageLabel& label, const StageStart& start, const LoadingEnds& ends)
     : name_(label.name), start_(start), ends_(ends), start_length_(start.cell.lengths()) {}
@@ -99,16 +89,15 @@ LoadingEnd WallLoading::common_end(const ObservedSample& seen) const {
 }
 
 double WallLoading::find_fraction_done(const ObservedSample& seen) const {
-  const auto part = [](double start, double now, double end) {
-    return end != start ? std::clamp((now - start) / (end - start), 0.0, 1.0) : 1.0;
-  };
   const LoadingState& s = state_;
   double done = 0;
   if (ends_.axial_strain) done = std::max(done, std::abs(seen.strain[2] / *ends_.axial_strain));
-  if (ends_.mean_stress) done = std::max(done, part(s.start_mean_stress, seen.mean_stress, *ends_.mean_stress));
-  if (ends_.axial_stress) done = std::max(done, part(s.start_stress[2], seen.stress[2], *ends_.axial_stress));
-  if (ends_.dissipation_ratio)
-    done = std::max(done, part(1, s.dissipation / s.start_dissipation, *ends_.dissipation_ratio));
+  const auto consider = [&](double start, double now, double end) {
+    done = std::max(done, fraction_of_way(start, now, end));
+  };
+  if (ends_.mean_stress) consider(s.start_mean_stress, seen.mean_stress, *ends_.mean_stress);
+  if (ends_.axial_stress) consider(s.start_stress[2], seen.stress[2], *ends_.axial_stress);
+  if (ends_.dissipation_ratio) consider(1, s.dissipation / s.start_dissipation, *ends_.dissipation_ratio);
   if (ends_.duration) done = std::max(done, seen.time / *ends_.duration);
   if (done == 0) done = seen.time / expected_duration_;
   return std::clamp(done, 0.0, 1.0);

@@ -104,14 +104,4 @@ protected:
   LoadingState state_;
 };
 
-/// Walls that are driven at a speed which changes no faster than a ramp allows.
-struct DrivenSpeed {
-  double speed = 0; ///< mm/s inwards
-  /// A step later: nearer to the wanted speed (mm/s), as far as a ramp of `ramp` s to the full speed allows.
-  double approach(double wanted, double full_speed, double ramp, double step);
-};
-
-/// Fraction of the wall speed while a fraction `left` of a stress change remains: the last fifth takes ever longer.
-double slowed_near_target(double left);
-
 } // namespace mpfem
