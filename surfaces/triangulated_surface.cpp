@@ -28,10 +28,6 @@ EdgePairs closed_edges(const TriangleMesh& mesh) {
   return pairs;
 }
 
-std::array<double, 3> array_of(const Vector3<double>& x) {
-  return {x.x, x.y, x.z};
-}
-
 } // namespace
 
 TriangulatedSurface::TriangulatedSurface(const TriangleMesh& mesh, GrainSide side)
@@ -63,12 +59,12 @@ SurfaceGap TriangulatedSurface::grain_gap(const Vector3<double>& x, std::int32_t
 }
 
 SurfaceGap TriangulatedSurface::gap(const std::array<double, 3>& x) const {
-  const Vector3<double> point{x[0], x[1], x[2]};
+  const Vector3<double> point = vector_of(x);
   return grain_gap(point, surroundings(point).block.triangle);
 }
 
 SurfaceGap TriangulatedSurface::gap(const std::array<double, 3>& x, double reach) const {
-  const Vector3<double> point{x[0], x[1], x[2]};
+  const Vector3<double> point = vector_of(x);
   const auto [block, away] = surroundings(point);
   // The distances of two points differ by no more than the points are apart.
   double least = sign_ * block.distance - away;
@@ -80,7 +76,7 @@ SurfaceGap TriangulatedSurface::gap(const std::array<double, 3>& x, double reach
 SurfaceGap TriangulatedSurface::gap_of_sphere(const std::array<double, 3>& x, double radius) const {
   const SurfaceGap closest = gap(x, radius);
   if (closest.distance >= radius || closest.distance <= touching_) return closest; // apart, or its centre is outside
-  const Vector3<double> centre{x[0], x[1], x[2]};
+  const Vector3<double> centre = vector_of(x);
   // Overlaps over the largest one: powers of small numbers would underflow.
   const double largest = radius - closest.distance;
   double sum = 0;
@@ -100,10 +96,10 @@ SurfaceGap TriangulatedSurface::gap_of_sphere(const std::array<double, 3>& x, do
 
 /// Distance (mm) of a point from the box around the triangles; 0 inside.
 double TriangulatedSurface::outside_bounds(const Vector3<double>& x) const {
-  const auto beyond = [&](std::size_t axis, double value) {
-    return std::max({bounds_.low[axis] - value, value - bounds_.high[axis], 0.0});
+  const auto beyond = [&](std::size_t axis) {
+    return std::max({bounds_.low[axis] - x[axis], x[axis] - bounds_.high[axis], 0.0});
   };
-  return norm(Vector3<double>{beyond(0, x.x), beyond(1, x.y), beyond(2, x.z)});
+  return norm(Vector3<double>{beyond(0), beyond(1), beyond(2)});
 }
 
 bool TriangulatedSurface::may_touch(const Bounds& bounds) const {

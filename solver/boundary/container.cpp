@@ -12,8 +12,7 @@ namespace {
 
 /// Position (mm) of a plane across an axis.
 double position_of_plane(const Tool& tool, std::size_t axis) {
-  const Vector3<double>& point = std::get<OrientedPlane>(tool.surface).point;
-  return (axis == 0 ? point.x : axis == 1 ? point.y : point.z) + tool.moved[axis];
+  return std::get<OrientedPlane>(tool.surface).point[axis] + tool.moved[axis];
 }
 
 CrossSection section_of_bore(const CylinderSurface& bore) {
@@ -62,14 +61,11 @@ Cell Container::cell(const Tools& tools, const Cell& last) const {
 }
 
 std::array<double, 6> Container::face_forces(const Tools& tools) const {
-  const auto along = [](const Vector3<double>& force, std::size_t axis) {
-    return axis == 0 ? force.x : axis == 1 ? force.y : force.z;
-  };
   std::array<double, 6> force{};
   for (std::size_t side = 0; side < 4; ++side) {
     const ToolLoad& load = tools.load(parts_.wall[side]);
     const double outwards = side % 2 == 0 ? -1 : 1;
-    force[side] = die_ ? load.normal_force / perimeter_over_width_[side / 2] : outwards * along(load.force, side / 2);
+    force[side] = die_ ? load.normal_force / perimeter_over_width_[side / 2] : outwards * load.force[side / 2];
   }
   force[4] = -tools.load(parts_.lower).force.z;
   force[5] = tools.load(parts_.upper).force.z;

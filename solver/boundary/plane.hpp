@@ -11,7 +11,7 @@ namespace mpfem {
 struct AxisNormal {
   std::size_t axis;
   double sign; ///< 1 or -1
-  Vector3<double> vector() const { return {axis == 0 ? sign : 0.0, axis == 1 ? sign : 0.0, axis == 2 ? sign : 0.0}; }
+  Vector3<double> vector() const { return along_axis(axis, sign); }
   void push(Model& model, std::size_t node, double force) const { model.push_contact_point(node, axis, sign * force); }
 };
 

@@ -43,14 +43,9 @@ struct AxialPosition {
   }
 };
 
-/// `along` times the unit vector of a coordinate axis.
-inline Vector3<double> along_axis(std::size_t axis, double along) {
-  return {axis == 0 ? along : 0.0, axis == 1 ? along : 0.0, axis == 2 ? along : 0.0};
-}
-
-/// The coordinates (mm) of a point that gives them one by one.
+/// The place (mm) of a point that gives its coordinates one by one.
 template <class Point>
-Vector3<double> vector_of(const Point& point) {
+Vector3<double> place_of(const Point& point) {
   return {point(0), point(1), point(2)};
 }
 
@@ -58,11 +53,10 @@ Vector3<double> vector_of(const Point& point) {
 struct DistanceRange {
   double nearest, farthest;
   DistanceRange(const Bounds& bounds, const Vector3<double>& reference, std::size_t axis) {
-    const double centre[3] = {reference.x, reference.y, reference.z};
     double near = 0, far = 0;
     for (std::size_t i = 0; i < 3; ++i) {
       if (i == axis) continue;
-      const double low = bounds.low[i] - centre[i], high = bounds.high[i] - centre[i];
+      const double low = bounds.low[i] - reference[i], high = bounds.high[i] - reference[i];
       const double closest = std::max({low, -high, 0.0}), widest = std::max(-low, high);
       near += closest * closest;
       far += widest * widest;
@@ -86,7 +80,7 @@ struct OrientedPlane {
   }
   template <class Point>
   RigidGap<FreeNormal> gap(const Point& x) const {
-    return {dot(normal, vector_of(x) - point), {normal}};
+    return {dot(normal, place_of(x) - point), {normal}};
   }
 };
 
@@ -102,14 +96,14 @@ struct CylinderSurface {
   double rounding;        ///< mm
 
   bool may_touch(const Bounds& b) const {
-    const double middle = axis == 0 ? centre.x : axis == 1 ? centre.y : centre.z;
+    const double middle = centre[axis];
     if (b.low[axis] > middle + half_length || b.high[axis] < middle - half_length) return false;
     const DistanceRange range(b, centre, axis);
     return inside ? range.farthest > radius : range.nearest < radius;
   }
   template <class Point>
   RigidGap<FreeNormal> gap(const Point& x) const {
-    const AxialPosition p(vector_of(x) - centre, axis);
+    const AxialPosition p(place_of(x) - centre, axis);
     const double sign = inside ? -1.0 : 1.0; // of the way out of the material along the radius
     // How far beyond the rectangle's straight edges, drawn in by the rounding.
     const double across = sign * (p.radius - radius) + rounding;
@@ -137,7 +131,7 @@ struct SphereSurface {
   }
   template <class Point>
   RigidGap<FreeNormal> gap(const Point& x) const {
-    const Vector3<double> from_centre = vector_of(x) - centre;
+    const Vector3<double> from_centre = place_of(x) - centre;
     const double distance = std::sqrt(dot(from_centre, from_centre));
     const double sign = inside ? -1.0 : 1.0, inverse = distance > 0 ? sign / distance : 0.0;
     return {sign * (distance - radius), {inverse * from_centre}};
@@ -164,7 +158,7 @@ struct ConeSurface {
   }
   template <class Point>
   RigidGap<FreeNormal> gap(const Point& x) const {
-    const AxialPosition p(vector_of(x) - apex, axis);
+    const AxialPosition p(place_of(x) - apex, axis);
     const double sign = inside ? 1.0 : -1.0;
     return {sign * (direction * p.along * sine - p.radius * cosine),
             {sign * (along_axis(axis, direction * sine) - cosine * p.radial)}};
@@ -195,9 +189,8 @@ struct Shifted {
   Vector3<double> by;
 
   bool may_touch(const Bounds& bounds) const {
-    const double shift[3] = {by.x, by.y, by.z};
     Bounds local = bounds;
-    for (std::size_t axis = 0; axis < 3; ++axis) local.low[axis] -= shift[axis], local.high[axis] -= shift[axis];
+    for (std::size_t axis = 0; axis < 3; ++axis) local.low[axis] -= by[axis], local.high[axis] -= by[axis];
     return surface.may_touch(local);
   }
   template <class Point>

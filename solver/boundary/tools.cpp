@@ -13,14 +13,6 @@ namespace mpfem {
 
 namespace {
 
-Vector3<double> vector_of(const std::array<double, 3>& v) {
-  return {v[0], v[1], v[2]};
-}
-
-std::array<double, 3> array_of(const Vector3<double>& v) {
-  return {v.x, v.y, v.z};
-}
-
 /// Calls visit(surface) with a tool's surface where it stands now.
 template <class Visitor>
 auto with_surface(const Tool& tool, Visitor&& visit) {
@@ -261,8 +253,7 @@ void Tools::return_tool(Tool& tool, const Model& model, const Communicator& rank
         fmt::format("tool '{}' would stand {:.4g} mm inside grains, allowed: a place where it touches none; move it, "
                     "or let the grains move out of its way first",
                     tool.name, deepest));
-  const std::array<double, 3> normal = array_of(plane->normal);
-  for (std::size_t axis = 0; axis < 3; ++axis) tool.moved[axis] -= deepest * normal[axis];
+  for (std::size_t axis = 0; axis < 3; ++axis) tool.moved[axis] -= deepest * plane->normal[axis];
 }
 
 std::optional<std::pair<std::string, double>> Tools::behind(const Model& model, std::size_t node) const {

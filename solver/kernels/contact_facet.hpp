@@ -12,12 +12,6 @@
 
 namespace mpfem {
 
-/// The first three numbers of a node's row.
-inline Vector3<double> vector_of(const LazyArray<double>& rows, std::int32_t node) {
-  const double* r = rows.data() + 4 * at(node);
-  return {r[0], r[1], r[2]};
-}
-
 /// A facet with the current positions of its nodes, mm.
 struct Facet {
   std::int32_t node[3];
@@ -29,7 +23,7 @@ inline Facet facet_geometry(const Model& model, std::int32_t facet) {
   Facet result;
   for (int c = 0; c < 3; ++c) {
     const std::int32_t node = result.node[c] = model.facet[3 * at(facet) + static_cast<std::size_t>(c)];
-    result.x[c] = vector_of(model.position, node);
+    result.x[c] = model.point(at(node));
   }
   return result;
 }
@@ -39,8 +33,8 @@ inline Facet facet_geometry(const Model& model, std::int32_t facet) {
 inline bool is_outside(const Model& model, const Vector3<double>& offset, const ClosestPoint<double>& closest,
                        const Facet& facet) {
   if (closest.inside) return dot(offset, facet_direction(facet.x)) >= 0;
-  const Vector3<double> normal[3] = {vector_of(model.normal, facet.node[0]), vector_of(model.normal, facet.node[1]),
-                                     vector_of(model.normal, facet.node[2])};
+  const Vector3<double> normal[3] = {model.normal_of(at(facet.node[0])), model.normal_of(at(facet.node[1])),
+                                     model.normal_of(at(facet.node[2]))};
   return dot(offset, edge_direction(closest, normal)) >= 0;
 }
 

@@ -14,11 +14,6 @@ namespace mpfem {
 
 namespace {
 
-/// Adds a force to its node's contact point.
-void add_to_node(Model& model, const ContactForce& record) {
-  for (std::size_t axis = 0; axis < 3; ++axis) model.push_contact_point(at(record.node), axis, record.force[axis]);
-}
-
 /// What the points of one ordered pair of grains share in one evaluation.
 struct PairOfGrains {
   std::size_t grain, other;
@@ -112,7 +107,7 @@ private:
       record = make_record(penalty_force(pushed, offset), closest.weight1, closest.weight2, std::abs(pushed), node,
                            geometry);
     }
-    add_to_node(model_, record);
+    model_.push_contact_point(at(node), vector_of(record.force));
     sums.energy += penalty_energy(k, distance);
     sums.penetration = std::max(sums.penetration, distance / model_.element_size[pair.grain]);
   }
@@ -185,7 +180,7 @@ private:
         law.normal_only ? pull_of_normal_bond(law, bond, x, facet.x) : pull_of_bond(law, bond, x, facet.x, gap);
     ContactForce& record = contact_.bond_force[at(pair.first_point + pair.pulling++)];
     record = make_record(k * pull.pull, pull.weight1, pull.weight2, bond.remaining * k, node, facet);
-    add_to_node(model_, record);
+    model_.push_contact_point(at(node), vector_of(record.force));
     return penalty_left_by_bond(law, bond, penalty);
   }
 
@@ -211,8 +206,8 @@ private:
   Vector3<double> motion(std::int32_t point, const ClosestPoint<double>& closest, const Facet& facet) const {
     if (contact_.point_friction[at(point)].exists()) return {0, 0, 0};
     const std::size_t node = at(contact_.candidates.point_node[at(point)]);
-    const Vector3<double> v[3] = {vector_of(model_.velocity, facet.node[0]), vector_of(model_.velocity, facet.node[1]),
-                                  vector_of(model_.velocity, facet.node[2])};
+    const Vector3<double> v[3] = {model_.velocity_of(at(facet.node[0])), model_.velocity_of(at(facet.node[1])),
+                                  model_.velocity_of(at(facet.node[2]))};
     return contact_.last_step * (model_.contact_velocity(node) - facet_point(v, closest.weight1, closest.weight2));
   }
 

@@ -206,14 +206,11 @@ void near_points(const SurfaceView& surface, std::int32_t first, std::int32_t se
     const Box around = facet_box(surface, f).grown(safe(margin));
     if (!around.meets(own) || !around.meets(grid.region)) continue;
     Vector3<double> x[3];
-    for (std::size_t c = 0; c < 3; ++c) {
-      const double* r = node_row(surface, surface.facet[3 * at(f) + c]);
-      x[c] = {r[0], r[1], r[2]};
-    }
+    for (std::size_t c = 0; c < 3; ++c) x[c] = vector_of(node_row(surface, surface.facet[3 * at(f) + c]));
     grid.in(around, [&](std::int32_t n) {
-      const double* r = node_row(surface, n);
-      if (!around.contains(r)) return;
-      const Vector3<double> p{r[0], r[1], r[2]};
+      const double* row = node_row(surface, n);
+      if (!around.contains(row)) return;
+      const Vector3<double> p = vector_of(row);
       if (norm(p - closest_point_on_triangle(p, x).point) <= margin) found.emplace_back(n, f);
     });
   }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "solver/kernels/contact_facet.hpp"
 #include "solver/model/normals.hpp"
 
 namespace mpfem {
@@ -26,15 +27,8 @@ Bounds update_surface(Model& model, int grain) {
 double surface_area(const Model& model, int grain) {
   const auto g = static_cast<std::size_t>(grain);
   double area = 0;
-  for (std::int32_t f = model.facet_offset[g]; f < model.facet_offset[g + 1]; ++f) {
-    Vector3<double> x[3];
-    for (int c = 0; c < 3; ++c) {
-      const double* row =
-          &model.position[4 * static_cast<std::size_t>(model.facet[static_cast<std::size_t>(3 * f + c)])];
-      x[c] = {row[0], row[1], row[2]};
-    }
-    area += 0.5 * norm(cross(x[1] - x[0], x[2] - x[0]));
-  }
+  for (std::int32_t f = model.facet_offset[g]; f < model.facet_offset[g + 1]; ++f)
+    area += 0.5 * norm(facet_direction(facet_geometry(model, f).x));
   return area;
 }
 

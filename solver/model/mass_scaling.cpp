@@ -6,15 +6,6 @@
 
 namespace mpfem {
 
-namespace {
-
-Vector3<double> position(const Model& model, std::int32_t node) {
-  const double* x = &model.position[4 * static_cast<std::size_t>(node)];
-  return {x[0], x[1], x[2]};
-}
-
-} // namespace
-
 void scale_masses(Model& model, double step, bool lighten, const Communicator& ranks) {
   const std::vector<double> own_mass = model.mass;
   model.mass_factor = LazyArray<double>(static_cast<std::size_t>(model.nodes()), model.pages());
@@ -40,9 +31,8 @@ void scale_masses(Model& model, double step, bool lighten, const Communicator& r
         node += first;
         contact = std::max(contact, contact_rate(node));
       }
-      const auto x0 = position(model, corner[0]);
-      const auto geometry = tet_geometry(position(model, corner[1]) - x0, position(model, corner[2]) - x0,
-                                         position(model, corner[3]) - x0);
+      const auto x = [&](std::size_t c) { return model.point(static_cast<std::size_t>(corner[c])); };
+      const auto geometry = tet_geometry(x(1) - x(0), x(2) - x(0), x(3) - x(0));
       const double factor =
           (largest_frequency_squared(material.moduli, material.density, geometry) + contact) / largest_rate;
       for (const std::int32_t node : corner) {

@@ -108,6 +108,9 @@ struct Model {
   double local_stiffness(std::size_t node) const {
     return refinement.empty() || uniform_penalty ? 1.0 : refinement[node];
   }
+  Vector3<double> point(std::size_t node) const { return vector_of(&position[4 * node]); }       ///< mm
+  Vector3<double> velocity_of(std::size_t node) const { return vector_of(&velocity[4 * node]); } ///< mm/s
+  Vector3<double> normal_of(std::size_t node) const { return vector_of(&normal[4 * node]); }     ///< of a surface node
   /// Where the gap of a surface node is measured, mm.
   double contact_coordinate(std::size_t node, std::size_t axis) const {
     const double x = position[4 * node + axis];
@@ -119,13 +122,11 @@ struct Model {
   }
   /// mm/s, of a surface node's contact point.
   Vector3<double> contact_velocity(std::size_t node) const {
-    const auto row = [this](std::size_t n) {
-      return Vector3<double>{velocity[4 * n], velocity[4 * n + 1], velocity[4 * n + 2]};
-    };
-    if (inner_node.empty()) return row(node);
-    return row(node) + inward[node] * (row(static_cast<std::size_t>(inner_node[node])) - row(node));
+    const Vector3<double> v = velocity_of(node);
+    if (inner_node.empty()) return v;
+    return v + inward[node] * (velocity_of(static_cast<std::size_t>(inner_node[node])) - v);
   }
-  /// Adds a force on a surface node's contact point, N.
+  /// Adds a force on a surface node's contact point, N: along an axis, or a vector.
   void push_contact_point(std::size_t node, std::size_t axis, double f) {
     if (inner_node.empty()) {
       force[4 * node + axis] += f;
@@ -133,6 +134,9 @@ struct Model {
     }
     force[4 * node + axis] += (1 - inward[node]) * f;
     force[4 * static_cast<std::size_t>(inner_node[node]) + axis] += inward[node] * f;
+  }
+  void push_contact_point(std::size_t node, const Vector3<double>& f) {
+    for (std::size_t axis = 0; axis < 3; ++axis) push_contact_point(node, axis, f[axis]);
   }
   double total_reference_volume() const;
   SurfaceView surface() const;
@@ -159,8 +163,7 @@ struct PackedMesh {
   std::int32_t end_tet() const { return first_tet + tets(); }
   /// Node of the file, mm.
   Vector3<double> point(std::int32_t file_node) const {
-    const double* x = &node[3 * static_cast<std::size_t>(file_node - first_node)];
-    return {x[0], x[1], x[2]};
+    return vector_of(&node[3 * static_cast<std::size_t>(file_node - first_node)]);
   }
   /// The four nodes of a tet of the file.
   std::span<const std::int32_t, 4> corners(std::int32_t file_tet) const {

@@ -53,9 +53,7 @@ std::vector<Index> spatial_order(const Model& model, const Communicator& ranks) 
     const auto first = at(model.node_offset[at(g)]), count = at(model.surface_node_count[at(g)]);
     Vector3<double> centre{0, 0, 0};
     for (std::size_t n = first; n < first + count; ++n)
-      centre =
-          centre + (1.0 / static_cast<double>(count)) *
-                       Vector3<double>{model.position[4 * n], model.position[4 * n + 1], model.position[4 * n + 2]};
+      centre = centre + (1.0 / static_cast<double>(count)) * model.point(n);
     key[at(g)] = morton_key(centre, {0, 0, 0}, size);
   }
   share_of_grains(ranks, model.ownership, std::span(key));

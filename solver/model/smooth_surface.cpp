@@ -20,14 +20,6 @@ constexpr double largest_share = 0.25;
 /// it keeps its place.
 constexpr double least_cosine = 0.5;
 
-Vector3<double> position(const Model& model, std::size_t node) {
-  return {model.position[4 * node], model.position[4 * node + 1], model.position[4 * node + 2]};
-}
-
-Vector3<double> normal(const Model& model, std::size_t node) {
-  return {model.normal[4 * node], model.normal[4 * node + 1], model.normal[4 * node + 2]};
-}
-
 /// Height of the smooth surface above the facets around each surface node of a grain, averaged by area, mm.
 std::vector<double> heights(const Model& model, std::size_t grain) {
   const auto first = static_cast<std::size_t>(model.node_offset[grain]);
@@ -38,12 +30,12 @@ std::vector<double> heights(const Model& model, std::size_t grain) {
     Vector3<double> x[3];
     for (std::size_t c = 0; c < 3; ++c) {
       node[c] = static_cast<std::size_t>(model.facet[f + c]);
-      x[c] = position(model, node[c]);
+      x[c] = model.point(node[c]);
     }
     double of_facet = 0;
     for (std::size_t i = 0; i < 3; ++i) {
       const std::size_t j = (i + 1) % 3;
-      of_facet += dot(normal(model, node[j]) - normal(model, node[i]), x[j] - x[i]) / 24.0;
+      of_facet += dot(model.normal_of(node[j]) - model.normal_of(node[i]), x[j] - x[i]) / 24.0;
     }
     const double third = norm(cross(x[1] - x[0], x[2] - x[0])) / 6.0; // of its area: the share of a node
     for (const std::size_t n : node) height[n - first] += third * of_facet / model.reference_area[n];
@@ -59,7 +51,7 @@ bool is_sphere_of_that_volume(const Model& model, std::size_t grain, const Vecto
   if (!(std::abs(model.reference_volume[grain] - sphere) <= same_volume * sphere)) return false; // nor NaN
   const auto first = static_cast<std::size_t>(model.node_offset[grain]);
   for (std::size_t n = first; n < first + static_cast<std::size_t>(model.surface_node_count[grain]); ++n)
-    if (!(std::abs(norm(position(model, n) - center) - radius) <= round * radius)) return false;
+    if (!(std::abs(norm(model.point(n) - center) - radius) <= round * radius)) return false;
   return true;
 }
 
@@ -75,15 +67,15 @@ void place_contact_points(Model& model, std::size_t grain, const std::vector<dou
       for (const std::int32_t b : corner) {
         if (static_cast<std::size_t>(a) >= count || a == b) continue;
         const std::size_t n = first + static_cast<std::size_t>(a), inner = first + static_cast<std::size_t>(b);
-        const Vector3<double> edge = position(model, n) - position(model, inner);
-        const double along = dot(edge, normal(model, n)) / norm(edge);
+        const Vector3<double> edge = model.point(n) - model.point(inner);
+        const double along = dot(edge, model.normal_of(n)) / norm(edge);
         if (along > cosine[n - first])
           cosine[n - first] = along, model.inner_node[n] = static_cast<std::int32_t>(inner);
       }
   }
   for (std::size_t n = first; n < first + count; ++n) {
     if (cosine[n - first] < least_cosine) continue;
-    const double edge = norm(position(model, n) - position(model, static_cast<std::size_t>(model.inner_node[n])));
+    const double edge = norm(model.point(n) - model.point(static_cast<std::size_t>(model.inner_node[n])));
     model.inward[n] = std::clamp(height[n - first] / (cosine[n - first] * edge), 0.0, largest_share);
   }
 }
@@ -96,8 +88,8 @@ std::vector<char> smooth_grains(const Model& model, const MeshedPacking& packing
   if (surface != ContactSurface::automatic || packing.sphere_radius.empty()) return smooth;
   for (const std::int32_t grain : model.own()) {
     const auto g = static_cast<std::size_t>(grain);
-    const double* center = &packing.sphere_center[3 * g];
-    smooth[g] = is_sphere_of_that_volume(model, g, {center[0], center[1], center[2]}, packing.sphere_radius[g]) ? 1 : 0;
+    const Vector3<double> center = vector_of(&packing.sphere_center[3 * g]);
+    smooth[g] = is_sphere_of_that_volume(model, g, center, packing.sphere_radius[g]) ? 1 : 0;
   }
   share_of_grains(ranks, model.ownership, std::span(smooth));
   return smooth;
@@ -124,7 +116,7 @@ double max_contact_offset(const Model& model) {
   for (const std::int32_t g : model.own())
     for (auto n = static_cast<std::size_t>(model.node_offset[static_cast<std::size_t>(g)]);
          n < static_cast<std::size_t>(model.node_offset[static_cast<std::size_t>(g) + 1]); ++n)
-      if (model.inward[n] > 0) largest = std::max(largest, norm(position(model, n) - model.contact_point(n)));
+      if (model.inward[n] > 0) largest = std::max(largest, norm(model.point(n) - model.contact_point(n)));
   return largest;
 }
 

@@ -1,6 +1,9 @@
 #pragma once
 // Vectors and second-order tensors whose components are plain doubles or packs.
 
+#include <array>
+#include <cstddef>
+
 #include "solver/physics/pack.hpp"
 
 namespace mpfem {
@@ -9,11 +12,27 @@ namespace mpfem {
 template <class S>
 struct Vector3 {
   S x, y, z;
+  const S& operator[](std::size_t axis) const { return axis == 0 ? x : axis == 1 ? y : z; }
   friend Vector3 operator+(const Vector3& a, const Vector3& b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
   friend Vector3 operator-(const Vector3& a, const Vector3& b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
   friend Vector3 operator*(const S& a, const Vector3& b) { return {a * b.x, a * b.y, a * b.z}; }
   Vector3 operator-() const { return {-x, -y, -z}; }
 };
+
+/// The vector whose three components lie at `components`.
+inline Vector3<double> vector_of(const double* components) {
+  return {components[0], components[1], components[2]};
+}
+inline Vector3<double> vector_of(const std::array<double, 3>& components) {
+  return vector_of(components.data());
+}
+inline std::array<double, 3> array_of(const Vector3<double>& v) {
+  return {v.x, v.y, v.z};
+}
+/// `along` times the unit vector of a coordinate axis.
+inline Vector3<double> along_axis(std::size_t axis, double along) {
+  return {axis == 0 ? along : 0.0, axis == 1 ? along : 0.0, axis == 2 ? along : 0.0};
+}
 
 template <class S>
 S dot(const Vector3<S>& a, const Vector3<S>& b) {

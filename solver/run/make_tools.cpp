@@ -12,10 +12,6 @@ namespace mpfem {
 
 namespace {
 
-Vector3<double> vector_of(const std::array<double, 3>& v) {
-  return {v[0], v[1], v[2]};
-}
-
 OrientedPlane plane_of(const PlaneShape& shape, const std::array<double, 3>& low, const std::array<double, 3>& high) {
   const std::array<double, 3> direction = *direction_of(shape);
   std::array<double, 3> point = shape.point;

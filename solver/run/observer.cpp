@@ -183,7 +183,6 @@ HistoryRow observe_row(const Simulation& simulation, const ForceSums& sums, Thre
 }
 
 std::vector<ToolRow> observe_tools(const Tools& tools) {
-  const auto array_of = [](const Vector3<double>& v) { return std::array<double, 3>{v.x, v.y, v.z}; };
   std::vector<ToolRow> rows;
   for (std::size_t i = 0; i < tools.size(); ++i) {
     const ToolLoad& load = tools.load(i);

@@ -35,10 +35,7 @@ Model random_heap(int grains, unsigned seed) {
 
 std::set<Combination> by_brute_force(const SurfaceView& s, double margin) {
   std::set<Combination> found;
-  const auto point = [&s](std::int32_t n) {
-    const double* x = s.position.data() + 4 * static_cast<std::size_t>(n);
-    return Vector3<double>{x[0], x[1], x[2]};
-  };
+  const auto point = [&s](std::int32_t n) { return vector_of(&s.position[4 * static_cast<std::size_t>(n)]); };
   const std::size_t grains = s.node_offset.size() - 1;
   for (std::size_t a = 0; a < grains; ++a)
     for (std::size_t b = 0; b < grains; ++b)

@@ -18,15 +18,11 @@ namespace {
 
 /// Rows of the unit normals and tributary areas of all surface nodes, from one facet after another.
 std::vector<double> plain_normals(const Model& model) {
-  const auto point = [&](std::size_t n) {
-    return Vector3<double>{model.position[4 * n], model.position[4 * n + 1], model.position[4 * n + 2]};
-  };
+  const auto point = [&](std::int32_t node) { return model.point(static_cast<std::size_t>(node)); };
   std::vector<Vector3<double>> area(model.normal.size() / 4, {0, 0, 0});
   for (std::size_t f = 0; f < model.facet.size(); f += 3) {
     const std::int32_t* node = &model.facet[f];
-    const Vector3<double> x = point(static_cast<std::size_t>(node[0]));
-    const Vector3<double> of_facet =
-        cross(point(static_cast<std::size_t>(node[1])) - x, point(static_cast<std::size_t>(node[2])) - x);
+    const Vector3<double> of_facet = cross(point(node[1]) - point(node[0]), point(node[2]) - point(node[0]));
     for (std::size_t c = 0; c < 3; ++c) {
       Vector3<double>& sum = area[static_cast<std::size_t>(node[c])];
       sum = sum + (1.0 / 6.0) * of_facet;

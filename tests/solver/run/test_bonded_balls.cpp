@@ -21,10 +21,7 @@ TEST_CASE("bonds follow the material when one ball is sheared by a radius agains
     // Every open bond is as long as from its node to the material point of the facet where it formed.
     const Model& model = simulation.model();
     const Contact& contact = simulation.contact();
-    const auto at = [&](std::int32_t node) {
-      const double* x = &model.position[4 * static_cast<std::size_t>(node)];
-      return Vector3<double>{x[0], x[1], x[2]};
-    };
+    const auto at = [&](std::int32_t node) { return model.point(static_cast<std::size_t>(node)); };
     simulation.evaluate_forces();
     int open = 0;
     for (std::size_t p = 0; p < contact.bond.size(); ++p) {
