@@ -39,19 +39,6 @@ Vector3<double> reference_of(const ToolSurface& surface) {
 
 } // namespace
 
-void ToolLoad::add(const ToolLoad& other) {
-  force = force + other.force;
-  moment = moment + other.moment;
-  normal_force += other.normal_force;
-  energy += other.energy;
-  friction_energy += other.friction_energy;
-  friction_dissipation += other.friction_dissipation;
-  adhesion_energy += other.adhesion_energy;
-  adhesion_dissipation += other.adhesion_dissipation;
-  bonded_area += other.bonded_area;
-  penetration = std::max(penetration, other.penetration);
-}
-
 Tools::Tools(std::vector<Tool> tools, int grains) : grains_(grains), tools_(std::move(tools)) {
   of_grain_.resize(tools_.size() * static_cast<std::size_t>(grains_));
   anchors_.resize(of_grain_.size());
@@ -134,7 +121,7 @@ double Tools::take_loads(const Communicator& ranks, const Ownership& ownership) 
 
 ToolLoad Tools::total() const {
   ToolLoad sum;
-  for (const ToolLoad& load : load_) sum.add(load);
+  for (const ToolLoad& load : load_) add_terms(sum, load);
   return sum;
 }
 

@@ -39,7 +39,6 @@ struct ToolLoad {
     visit.sum(s.adhesion_energy), visit.sum(s.adhesion_dissipation), visit.sum(s.bonded_area);
     visit.largest(s.penetration);
   }
-  void add(const ToolLoad& other);
   /// Whether the tool exerts a force on any node.
   bool acts() const { return penetration > 0 || adhesion_energy > 0; }
 };

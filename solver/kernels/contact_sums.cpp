@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "common/index.hpp"
+#include "solver/parallel/totals.hpp"
 #include "solver/physics/penalty.hpp"
 
 namespace mpfem {
@@ -99,7 +100,7 @@ HalfContact half_contact(const Model& model, const Contact& contact, std::int32_
   for (const ContactForce& point : touching) half.pair.area += 0.5 * model.normal[4 * at(point.node) + 3];
   if (!contact.has_friction()) return half;
   for (std::int32_t i = candidates.pair_point_offset[p]; i < candidates.pair_point_offset[p + 1]; ++i)
-    half.pair.friction.add({contact.point_friction[at(i)].stored, contact.point_friction[at(i)].dissipated});
+    add_terms(half.pair.friction, {contact.point_friction[at(i)].stored, contact.point_friction[at(i)].dissipated});
   return half;
 }
 
@@ -138,8 +139,8 @@ void add_half(HalfContact& both, const HalfContact& half) {
   const double sign = half.pair.first == both.pair.first ? 1.0 : -1.0;
   for (int axis = 0; axis < 3; ++axis) both.pair.force[axis] += sign * half.pair.force[axis];
   both.pair.area += half.pair.area;
-  both.pair.bonds.add(half.pair.bonds);
-  both.pair.friction.add(half.pair.friction);
+  add_terms(both.pair.bonds, half.pair.bonds);
+  add_terms(both.pair.friction, half.pair.friction);
   both.shown = both.shown || half.shown;
 }
 

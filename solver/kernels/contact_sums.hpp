@@ -26,14 +26,6 @@ struct BondSums {
     visit.sum(s.stored), visit.sum(s.dissipated);
     visit.sum(s.bonded_area), visit.sum(s.formed_area), visit.sum(s.damaged_area), visit.count(s.bonds);
   }
-  void add(const BondSums& other) {
-    stored += other.stored;
-    dissipated += other.dissipated;
-    bonded_area += other.bonded_area;
-    formed_area += other.formed_area;
-    damaged_area += other.damaged_area;
-    bonds += other.bonds;
-  }
 };
 /// Sums over the bonds of one ordered pair: those of the first grain's nodes to the second grain.
 BondSums bond_sums(const Model& model, const Contact& contact, std::int32_t pair);
@@ -43,7 +35,10 @@ struct FrictionSums {
   double stored = 0;     ///< mJ
   double dissipated = 0; ///< mJ, so far
 
-  void add(const FrictionSums& other) { stored += other.stored, dissipated += other.dissipated; }
+  template <class Self, class Visitor>
+  static void for_each_term(Self& s, Visitor&& visit) {
+    visit.sum(s.stored), visit.sum(s.dissipated);
+  }
 };
 
 /// mJ that damage has dissipated at one point of a pair's contact so far; `point` as in contact.bond.

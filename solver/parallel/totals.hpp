@@ -3,6 +3,7 @@
 // of a few kilobytes, whatever the number of grains, brings the ranks' sums together.
 
 #include <algorithm>
+#include <array>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -80,6 +81,28 @@ private:
   std::vector<ExactSum> sum_;
   std::vector<double> largest_;
 };
+
+/// Adds the terms of `other` to those of `sums`, one by one in plain doubles.
+template <class Sums>
+void add_terms(Sums& sums, const Sums& other) {
+  struct Reading {
+    double* next;
+    void sum(double term) { *next++ = term; }
+    void count(std::int64_t number) { sum(static_cast<double>(number)); }
+    void largest(double value) { sum(value); }
+    void every(bool holds) { sum(holds ? 1 : 0); }
+  };
+  struct Adding {
+    const double* next;
+    void sum(double& total) { total += *next++; }
+    void count(std::int64_t& total) { total += static_cast<std::int64_t>(*next++); }
+    void largest(double& total) { total = std::max(total, *next++); }
+    void every(bool& all) { all = *next++ != 0 && all; }
+  };
+  std::array<double, sizeof(Sums)> term; // room for all: each term is at least one byte of Sums
+  Sums::for_each_term(other, Reading{term.data()});
+  Sums::for_each_term(sums, Adding{term.data()});
+}
 
 /// Collective. The total over all grains. `of_grain` ([grains]) is set for own grains.
 template <class Sums>

@@ -134,7 +134,7 @@ BondSums total_bonds(const Simulation& simulation, ThreadTeam& team) {
   return total_of_grains(simulation, team, [&](std::int32_t g) {
     BondSums sums;
     for (std::int32_t pair = candidates.outgoing_offset[at(g)]; pair < candidates.outgoing_offset[at(g) + 1]; ++pair)
-      sums.add(bond_sums(simulation.model(), contact, pair));
+      add_terms(sums, bond_sums(simulation.model(), contact, pair));
     return sums;
   });
 }

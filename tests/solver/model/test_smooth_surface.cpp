@@ -8,6 +8,7 @@
 #include <catch2/catch.hpp>
 
 #include "common/errors.hpp"
+#include "solver/parallel/totals.hpp"
 #include "tests/support/bonded_pair.hpp"
 #include "tests/support/meshes.hpp"
 #include "tests/support/tolerances.hpp"
@@ -91,6 +92,6 @@ TEST_CASE("bonds of contact points behind the surface keep the ledger and take t
   CHECK(record.worst_residual < 2e-3); // as with nodes themselves (test_bonded_balls.cpp)
   BondSums sums;
   for (std::size_t pair = 0; pair < simulation.contact().candidates.pair_first.size(); ++pair)
-    sums.add(bond_sums(simulation.model(), simulation.contact(), static_cast<std::int32_t>(pair)));
+    add_terms(sums, bond_sums(simulation.model(), simulation.contact(), static_cast<std::int32_t>(pair)));
   CHECK(within(sums.dissipated, 0.5 * fracture_energy * sums.formed_area, accumulated_rounding));
 }

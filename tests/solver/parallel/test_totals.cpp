@@ -69,3 +69,14 @@ TEST_CASE("Totals of several quantities stay separate, and show that a rank has 
   Totals<Load> failed;
   CHECK(failed.combine(test_ranks(), test_ranks().rank() == test_ranks().size() - 1));
 }
+
+TEST_CASE("The terms of one thing are added to those of another, each in its way") {
+  Load sum{.force = 1, .penetration = 0.5, .bonds = 2, .admissible = true};
+  add_terms(sum, {.force = 3, .penetration = 0.25, .bonds = 4, .admissible = true});
+  CHECK(sum.force == 4);
+  CHECK(sum.penetration == 0.5);
+  CHECK(sum.bonds == 6);
+  CHECK(sum.admissible);
+  add_terms(sum, {.admissible = false});
+  CHECK_FALSE(sum.admissible);
+}

@@ -12,6 +12,7 @@
 
 #include "results-schema/file.hpp"
 #include "solver/kernels/contact_facet.hpp"
+#include "solver/parallel/totals.hpp"
 #include "tests/support/bonded_pair.hpp"
 #include "tests/support/small_runs.hpp"
 #include "tests/support/tolerances.hpp"
@@ -229,7 +230,8 @@ TEST_CASE("balls dragged over each other keep momentum and angular momentum, and
     CHECK(record.last[1].friction_dissipation > 0.05 * record.last[1].external_work);
     // Nothing is forgotten of nodes that have left the other ball behind them.
     FrictionSums of_pair;
-    for (const PairContact& pair : pair_contacts(simulation.model(), simulation.contact())) of_pair.add(pair.friction);
+    for (const PairContact& pair : pair_contacts(simulation.model(), simulation.contact()))
+      add_terms(of_pair, pair.friction);
     CHECK(within(of_pair.stored, record.last[1].friction_energy, 1e-9));
     CHECK(within(of_pair.dissipated, record.last[1].friction_dissipation, 1e-9));
     // The forces of contact alone.
