@@ -7,7 +7,7 @@
 #include "common/csv_reader.hpp"
 #include "common/table_reader.hpp"
 #include "refusal.hpp"
-#include "solver/run/bond_programme.hpp"
+#include "solver/run/read_bond_programme.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace mpfem;
