@@ -62,7 +62,7 @@ void raise_near_coarser_grains(const Model& model, const Contact& contact, int g
       for (std::int32_t f = candidates.point_facet_offset[at(p)]; f < candidates.point_facet_offset[at(p) + 1]; ++f)
         for (std::size_t corner = 0; corner < 3; ++corner) {
           const std::size_t touched = at(model.facet[3 * at(candidates.point_facet[at(f)]) + corner]);
-          rate[touched] = std::max(rate[touched], 2.0 * k * model.inverse_mass[touched]);
+          rate[touched] = std::max(rate[touched], expected_contact_rate(k, model.inverse_mass[touched]));
         }
     }
   }
@@ -92,10 +92,10 @@ void raise_to_expected_rate(const Model& model, const Contact& contact, int grai
   const std::int32_t first = model.node_offset[g];
   const double contrast = stiffness_contrast(model, contact, grain);
   for (std::int32_t node = first; node < first + model.surface_node_count[g]; ++node) {
-    // A node with stiffness K/2 A and, by symmetry, a facet's share of the same size; against a wall K A alone.
     const double penalty = model.penalty_stiffness[g] * model.local_stiffness(at(node));
-    const double expected = contrast * raised_by_bonds(contact, penalty) * 2.0 * penalty *
-                            model.reference_area[at(node)] * model.inverse_mass[at(node)];
+    const double raised = contrast * raised_by_bonds(contact, penalty) * penalty;
+    const double expected =
+        expected_contact_rate(raised * model.reference_area[at(node)], model.inverse_mass[at(node)]);
     rate[at(node)] = std::max(rate[at(node)], expected);
   }
   raise_near_coarser_grains(model, contact, grain, rate);

@@ -3,52 +3,64 @@
 
 #include "solver/model/model.hpp"
 #include "solver/parallel/grain_values.hpp"
+#include "solver/physics/penalty.hpp"
 
 namespace mpfem {
 
-void scale_masses(Model& model, double step, bool lighten, const Communicator& ranks) {
-  const std::vector<double> own_mass = model.mass;
-  model.mass_factor = LazyArray<double>(static_cast<std::size_t>(model.nodes()), model.pages());
-  for (const std::int32_t grain : model.own()) {
-    const auto g = static_cast<std::size_t>(grain);
-    std::fill(model.mass_factor.data() + model.node_offset[g], model.mass_factor.data() + model.node_offset[g + 1],
-              lighten ? 0.0 : 1.0);
-    const std::int32_t first = model.node_offset[g], surface_end = first + model.surface_node_count[g];
-    const Material& material = model.material_of(grain);
-    const double damping = model.viscosity.linear * material.moduli.dilatational() / material.moduli.bulk;
-    const double largest_rate = std::pow(2.0 * damped_step_factor(damping) / step, 2);
-    // What contact usually adds to the frequency squared, as in raise_to_expected_rate.
-    const auto contact_rate = [&](std::int32_t node) {
-      const auto n = static_cast<std::size_t>(node);
-      return node < surface_end ? 2.0 * model.penalty_stiffness[g] * model.local_stiffness(n) *
-                                      model.reference_area[n] * model.inverse_mass[n]
-                                : 0.0;
-    };
-    for (std::int32_t tet = 0; tet < model.tet_offset[g + 1] - model.tet_offset[g]; ++tet) {
-      std::array<std::int32_t, 4> corner = model.nodes_of_tet(grain, tet);
-      double contact = 0;
-      for (std::int32_t& node : corner) {
-        node += first;
-        contact = std::max(contact, contact_rate(node));
-      }
-      const auto x = [&](std::size_t c) { return model.point(static_cast<std::size_t>(corner[c])); };
-      const auto geometry = tet_geometry(x(1) - x(0), x(2) - x(0), x(3) - x(0));
-      const double factor =
-          (largest_frequency_squared(material.moduli, material.density, geometry) + contact) / largest_rate;
-      for (const std::int32_t node : corner) {
-        double& largest = model.mass_factor[static_cast<std::size_t>(node)];
-        largest = std::max(largest, factor);
-      }
+namespace {
+
+/// 1/s^2, the frequency squared that a step (s) of central differences allows with the grain's linear bulk viscosity.
+double allowed_frequency_squared(const Model& model, const Material& material, double step) {
+  const double damping = model.viscosity.linear * material.moduli.dilatational() / material.moduli.bulk;
+  return std::pow(2.0 * damped_step_factor(damping) / step, 2);
+}
+
+/// 1/s^2, what contact usually adds to the frequency squared of a node; nothing inside the grain.
+double usual_contact_rate(const Model& model, std::size_t grain, std::int32_t node) {
+  if (node >= model.node_offset[grain] + model.surface_node_count[grain]) return 0;
+  const auto n = static_cast<std::size_t>(node);
+  const double penalty = model.penalty_stiffness[grain] * model.local_stiffness(n);
+  return expected_contact_rate(penalty * model.reference_area[n], model.inverse_mass[n]);
+}
+
+/// Sets mass_factor of a grain's nodes to the largest factor that one of their tets requires, at least `least`.
+void set_mass_factors(Model& model, int grain, double step, double least) {
+  const auto g = static_cast<std::size_t>(grain);
+  const std::int32_t first = model.node_offset[g];
+  std::fill(model.mass_factor.data() + first, model.mass_factor.data() + model.node_offset[g + 1], least);
+  const Material& material = model.material_of(grain);
+  const double allowed = allowed_frequency_squared(model, material, step);
+  for (std::int32_t tet = 0; tet < model.tet_offset[g + 1] - model.tet_offset[g]; ++tet) {
+    std::array<std::int32_t, 4> corner = model.nodes_of_tet(grain, tet);
+    double contact = 0;
+    for (std::int32_t& node : corner) {
+      node += first;
+      contact = std::max(contact, usual_contact_rate(model, g, node));
     }
-    double mass = 0;
-    for (std::int32_t node = first; node < model.node_offset[g + 1]; ++node) {
-      const auto n = static_cast<std::size_t>(node);
-      mass += model.mass_factor[n] / model.inverse_mass[n];
-      model.inverse_mass[n] /= model.mass_factor[n];
+    const auto x = [&](std::size_t c) { return model.point(static_cast<std::size_t>(corner[c])); };
+    const auto geometry = tet_geometry(x(1) - x(0), x(2) - x(0), x(3) - x(0));
+    const double factor = (largest_frequency_squared(material.moduli, material.density, geometry) + contact) / allowed;
+    for (const std::int32_t node : corner) {
+      double& largest = model.mass_factor[static_cast<std::size_t>(node)];
+      largest = std::max(largest, factor);
     }
-    model.mass[g] = mass;
   }
-  share_of_grains(ranks, model.ownership, std::span(model.mass));
+}
+
+/// Multiplies the masses of a grain's nodes by their factors.
+void apply_mass_factors(Model& model, int grain) {
+  const auto g = static_cast<std::size_t>(grain);
+  double mass = 0;
+  for (std::int32_t node = model.node_offset[g]; node < model.node_offset[g + 1]; ++node) {
+    const auto n = static_cast<std::size_t>(node);
+    mass += model.mass_factor[n] / model.inverse_mass[n];
+    model.inverse_mass[n] /= model.mass_factor[n];
+  }
+  model.mass[g] = mass;
+}
+
+/// Sets added_mass and largest_added_mass. `own_mass` [grains], tonne, before scaling.
+void set_added_mass(Model& model, const std::vector<double>& own_mass) {
   model.largest_added_mass = -1;
   double added = 0, total = 0;
   for (std::size_t g = 0; g < own_mass.size(); ++g) {
@@ -57,6 +69,19 @@ void scale_masses(Model& model, double step, bool lighten, const Communicator& r
     model.largest_added_mass = std::max(model.largest_added_mass, model.mass[g] / own_mass[g] - 1.0);
   }
   model.added_mass = added / total;
+}
+
+} // namespace
+
+void scale_masses(Model& model, double step, bool lighten, const Communicator& ranks) {
+  const std::vector<double> own_mass = model.mass;
+  model.mass_factor = LazyArray<double>(static_cast<std::size_t>(model.nodes()), model.pages());
+  for (const std::int32_t grain : model.own()) {
+    set_mass_factors(model, grain, step, lighten ? 0.0 : 1.0);
+    apply_mass_factors(model, grain);
+  }
+  share_of_grains(ranks, model.ownership, std::span(model.mass));
+  set_added_mass(model, own_mass);
 }
 
 } // namespace mpfem

@@ -75,56 +75,71 @@ double StepEstimate::bound_since_spectrum(const Model& model, int grain, double 
   return found * grain_steps_.growth[g] + contact;
 }
 
-void StepEstimate::renew(Model& model, const Contact& contact, const Boundaries& boundaries,
-                         std::span<const Bounds> bounds, ThreadTeam& team, bool anew) {
-  const bool whole_grains = numerics_.step_estimate == StepEstimateMethod::grain;
-  anew = anew || ++state_.estimates_since_spectrum >= estimates_between_spectra;
-  // |tr e| <= sqrt(3) |e|
-  const double rate = std::sqrt(3.0) * state_.strain_rate;
+/// Whether the frequencies of whole grains are to be found in this estimate. `rate`: volumetric, 1/s.
+bool StepEstimate::spectra_are_due(const Model& model, double rate) {
+  if (++state_.estimates_since_spectrum >= estimates_between_spectra) return true;
   // In an impact quadratic viscosity grows within one estimate.
-  anew = anew || (rate > 2 * state_.spectrum_rate && largest_quadratic_damping(model, rate) > 0.01);
-  if (anew) state_.estimates_since_spectrum = 0, state_.spectrum_rate = rate;
+  return rate > 2 * state_.spectrum_rate && largest_quadratic_damping(model, rate) > 0.01;
+}
 
-  std::vector<double> steps(of_tets_.size());
-  std::vector<char> fresh(steps.size(), whole_grains && !anew ? 0 : 1);
-  team.for_each(static_cast<int>(model.own().size()), [&](int item, int) {
-    const std::int32_t grain = model.own()[static_cast<std::size_t>(item)];
-    const auto g = static_cast<std::size_t>(grain);
-    contact_stiffness_rate(model, contact, grain, stiffness_rate_);
-    boundaries.box.add_stiffness_rate(model, bounds[g], grain, stiffness_rate_);
-    boundaries.tools.add_stiffness_rate(model, bounds[g], grain, stiffness_rate_);
-    raise_to_expected_rate(model, contact, grain, stiffness_rate_);
-    of_tets_[g] = mpfem::stable_step(model, grain, stiffness_rate_, rate);
-    steps[g] = of_tets_[g].step;
-    if (!whole_grains) return;
-    if (anew) {
-      steps[g] = renew_grain(model, grain, rate);
-      return;
-    }
-    const double then = 4.0 / (grain_steps_.whole[g] * grain_steps_.whole[g]);
-    grain_steps_.growth[g] *= of_tets_[g].growth;
-    const double now = bound_since_spectrum(model, grain, then);
-    steps[g] = std::max(of_tets_[g].step, 2.0 / std::sqrt(now));
-    fresh[g] = now < growth_worth_a_spectrum * then ? 1 : 0;
-  });
-  share_of_grains(*ranks_, model.ownership, std::span(steps));
-  share_of_grains(*ranks_, model.ownership, std::span(fresh));
-  share_of_grains(*ranks_, model.ownership, std::span(of_tets_));
-  // The grain that sets the step must set it by its computed frequency, not by a bound on it.
+/// What contact, walls and tools add to the frequencies of a grain's nodes.
+void StepEstimate::set_stiffness_rate(const Model& model, const Contact& contact, const Boundaries& boundaries,
+                                      const Bounds& bounds, int grain) {
+  contact_stiffness_rate(model, contact, grain, stiffness_rate_);
+  boundaries.box.add_stiffness_rate(model, bounds, grain, stiffness_rate_);
+  boundaries.tools.add_stiffness_rate(model, bounds, grain, stiffness_rate_);
+  raise_to_expected_rate(model, contact, grain, stiffness_rate_);
+}
+
+/// The step of a grain whose tets have just been estimated.
+StepEstimate::GrainStep StepEstimate::step_of_grain(const Model& model, int grain, double rate, bool anew) {
+  const auto g = static_cast<std::size_t>(grain);
+  if (numerics_.step_estimate != StepEstimateMethod::grain) return {of_tets_[g].step, true};
+  if (anew) return {renew_grain(model, grain, rate), true};
+  const double then = 4.0 / (grain_steps_.whole[g] * grain_steps_.whole[g]);
+  grain_steps_.growth[g] *= of_tets_[g].growth;
+  const double now = bound_since_spectrum(model, grain, then);
+  return {std::max(of_tets_[g].step, 2.0 / std::sqrt(now)), now < growth_worth_a_spectrum * then};
+}
+
+/// Collective. The grain with the shortest step: it must set the step by its computed frequency, not by a bound on it.
+/// `steps` [grains].
+std::size_t StepEstimate::compute_shortest(const Model& model, double rate, std::span<GrainStep> steps) {
   using Candidate = std::pair<double, std::size_t>; // step and grain
   std::vector<Candidate> candidates;
-  for (std::size_t grain = 0; grain < steps.size(); ++grain) candidates.emplace_back(steps[grain], grain);
+  for (std::size_t grain = 0; grain < steps.size(); ++grain) candidates.emplace_back(steps[grain].step, grain);
   std::priority_queue<Candidate, std::vector<Candidate>, std::greater<>> shortest({}, std::move(candidates));
-  while (!fresh[shortest.top().second]) {
+  while (!steps[shortest.top().second].computed) {
     const std::size_t grain = shortest.top().second;
     shortest.pop();
     const bool own = model.ownership.owns(static_cast<std::int32_t>(grain));
-    steps[grain] = ranks_->largest(own ? renew_grain(model, static_cast<int>(grain), rate) : 0.0); // from its owner
-    fresh[grain] = 1;
-    shortest.emplace(steps[grain], grain);
+    const double of_owner = own ? renew_grain(model, static_cast<int>(grain), rate) : 0.0;
+    steps[grain] = {ranks_->largest(of_owner), true};
+    shortest.emplace(steps[grain].step, grain);
   }
-  const std::size_t g = shortest.top().second;
-  state_.stable_step = numerics_.time_step_factor * steps[g];
+  return shortest.top().second;
+}
+
+void StepEstimate::renew(Model& model, const Contact& contact, const Boundaries& boundaries,
+                         std::span<const Bounds> bounds, ThreadTeam& team, bool anew) {
+  // |tr e| <= sqrt(3) |e|
+  const double rate = std::sqrt(3.0) * state_.strain_rate;
+  anew = anew || spectra_are_due(model, rate);
+  if (anew) state_.estimates_since_spectrum = 0, state_.spectrum_rate = rate;
+
+  std::vector<GrainStep> steps(of_tets_.size());
+  team.for_each(static_cast<int>(model.own().size()), [&](int item, int) {
+    const std::int32_t grain = model.own()[static_cast<std::size_t>(item)];
+    const auto g = static_cast<std::size_t>(grain);
+    set_stiffness_rate(model, contact, boundaries, bounds[g], grain);
+    of_tets_[g] = mpfem::stable_step(model, grain, stiffness_rate_, rate);
+    steps[g] = step_of_grain(model, grain, rate, anew);
+  });
+  share_of_grains(*ranks_, model.ownership, std::span(steps));
+  share_of_grains(*ranks_, model.ownership, std::span(of_tets_));
+
+  const std::size_t g = compute_shortest(model, rate, steps);
+  state_.stable_step = numerics_.time_step_factor * steps[g].step;
   state_.controlled_by_contact = of_tets_[g].step < 0.95 * of_tets_[g].step_no_contact;
   state_.steps_since_estimate = 0;
   state_.strain_since_estimate = 0;

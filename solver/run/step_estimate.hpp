@@ -66,8 +66,18 @@ public:
   void restore(GrainSteps grain_steps) { grain_steps_ = std::move(grain_steps); }
 
 private:
+  /// The step of a grain, s, and whether it is set by a computed frequency, not by a bound on what has grown since.
+  struct GrainStep {
+    double step;
+    bool computed;
+  };
+  bool spectra_are_due(const Model& model, double rate);
+  void set_stiffness_rate(const Model& model, const Contact& contact, const Boundaries& boundaries,
+                          const Bounds& bounds, int grain);
+  GrainStep step_of_grain(const Model& model, int grain, double rate, bool anew);
   double renew_grain(const Model& model, int grain, double rate);
   double bound_since_spectrum(const Model& model, int grain, double found) const;
+  std::size_t compute_shortest(const Model& model, double rate, std::span<GrainStep> steps);
 
   const Communicator* ranks_;
   NumericsParameters numerics_;
