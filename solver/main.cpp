@@ -20,6 +20,7 @@
 #include "solver/run/check_scenario.hpp"
 #include "solver/run/interrupt.hpp"
 #include "solver/run/run_scenario.hpp"
+#include "solver/scenario/read_scenario.hpp"
 
 namespace {
 

@@ -7,8 +7,8 @@
 #include "common/csv_reader.hpp"
 #include "common/one_line.hpp"
 #include "common/table_reader.hpp"
-#include "solver/scenario/bond_parameters.hpp"
 #include "solver/scenario/ranges.hpp"
+#include "solver/scenario/read_bond.hpp"
 
 namespace mpfem {
 

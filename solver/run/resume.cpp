@@ -10,6 +10,7 @@
 #include "common/table_reader.hpp"
 #include "solver/output/other_scenario.hpp"
 #include "solver/parallel/agree.hpp"
+#include "solver/scenario/read_scenario.hpp"
 
 namespace mpfem {
 

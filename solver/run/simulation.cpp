@@ -418,7 +418,7 @@ void Simulation::grip_faces() {
   grips_ = {};
   const GripMotion* grip = stage_run_->control().grips();
   if (!grip) return;
-  grips_ = grip_nodes(model_, box_.cell(), static_cast<std::size_t>(grip->axis), grip->depth, grip->lateral_fixed);
+  grips_ = grip_nodes(model_, box_.cell(), grip->axis, grip->depth, grip->lateral_fixed);
   std::array<double, 2> holds{};
   for (const GrippedNode& node : grips_.node) holds[static_cast<std::size_t>(node.side)] = 1;
   for (double& side : holds) side = ranks_->largest(side);
@@ -484,7 +484,7 @@ Grips* Simulation::prepare_grips() {
   grips_ = {};
   const GripMotion* grip = stage_run_ ? stage_run_->control().grips() : nullptr;
   if (!grip) return nullptr;
-  grips_.axis = static_cast<std::size_t>(grip->axis);
+  grips_.axis = grip->axis;
   grips_.lateral_fixed = grip->lateral_fixed;
   return &grips_;
 }

@@ -7,8 +7,6 @@
 
 namespace mpfem {
 
-class TableReader;
-
 /// Cohesive bonds that form where grains touch each other or a tool (paper Eqs. 2-7, Table 1).
 struct BondParameters {
   double tensile_strength = 0; ///< MPa
@@ -21,8 +19,5 @@ struct BondParameters {
   std::optional<double> stiffness_factor{}; ///< K h/E
   bool operator==(const BondParameters&) const = default;
 };
-
-/// Reads the keys of such a table. Throws InputError.
-BondParameters read_bond(TableReader table);
 
 } // namespace mpfem

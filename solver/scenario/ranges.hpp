@@ -3,11 +3,7 @@
 // limits, those apply. They also keep finite whatever is computed from several values: squares, ratios, the stable
 // step.
 
-#include <string>
-#include <string_view>
-#include <vector>
-
-#include "common/table_reader.hpp"
+#include "common/range.hpp"
 
 namespace mpfem {
 
@@ -32,9 +28,5 @@ inline constexpr Range friction_or_zero = Range::between(0, 2); // mu; above 2, 
 inline constexpr Range strain_or_zero = Range::between(0, 1e3);
 /// Largest grain number that a scenario may name.
 inline constexpr double most_grains = 1e9;
-
-/// Refuses keys of `all` that are given but do not belong to the choice made ("law = 'elastic'").
-void refuse_foreign_keys(const TableReader& table, const std::vector<std::string>& all,
-                         const std::vector<std::string>& meaningful, std::string_view choice);
 
 } // namespace mpfem

@@ -1,5 +1,5 @@
-#include "common/table_reader.hpp"
-#include "solver/scenario/bond_parameters.hpp"
+#include "solver/scenario/read_bond.hpp"
+
 #include "solver/scenario/ranges.hpp"
 
 namespace mpfem {

@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "solver/scenario/common_keys.hpp"
 #include "solver/scenario/ranges.hpp"
 
 namespace mpfem {

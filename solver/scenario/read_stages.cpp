@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "solver/scenario/common_keys.hpp"
 #include "solver/scenario/ranges.hpp"
 #include "solver/scenario/read_tools.hpp"
 
@@ -128,16 +129,16 @@ StageType read_hold(TableReader& table) {
 
 StageType read_grip(TableReader& table) {
   GripMotion grip;
-  const std::string axis = table.choice_or("axis", "z", {"x", "y", "z"});
-  grip.axis = axis[0] - 'x';
+  grip.axis = read_axis(table);
   grip.depth = table.number("grip_depth", positive_length);
   grip.lateral_fixed = table.choice_or("lateral", "fixed", {"fixed", "free"}) == "fixed";
   grip.displacement = table.number_or("displacement", 0, any_length);
   grip.sliding = table.vector3_or("sliding", {0, 0, 0}, any_length);
   const bool slides = grip.sliding != std::array<double, 3>{};
   if (slides && !grip.lateral_fixed) table.fail("sliding", "cannot be used with lateral = 'free'");
-  if (grip.sliding[static_cast<std::size_t>(grip.axis)] != 0)
-    table.fail("sliding", fmt::format("found a component along the axis {}, allowed: across it only", axis));
+  if (grip.sliding[grip.axis] != 0)
+    table.fail("sliding",
+               fmt::format("found a component along the axis {}, allowed: across it only", "xyz"[grip.axis]));
   if (grip.displacement == 0 && !slides)
     table.fail("displacement", "missing or 0, allowed: a number < 0 (together) or > 0 (apart), or 'sliding'");
   grip.speed = table.number("speed", positive_speed);
@@ -295,17 +296,6 @@ std::optional<QuasiStatic> read_quasi_static(TableReader& stage, double speed, d
   return q;
 }
 
-/// The name becomes part of file names, so it must be a plain word.
-void check_stage_name(const TableReader& table, const std::string& name) {
-  const bool plain = std::all_of(name.begin(), name.end(), [](char c) {
-    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '-' || c == '_';
-  });
-  constexpr std::size_t longest = 64;
-  if (name.empty() || name.size() > longest || !plain)
-    table.fail("name", fmt::format("found '{}', allowed: 1 … {} letters (a … z), digits, '-' and '_'",
-                                   name.size() > longest ? "a longer text" : name, longest));
-}
-
 Stage read_stage(TableReader table, std::size_t number, const StageContext& context) {
   std::vector<std::string> types, all_keys;
   for (const StageKeyword& keyword : stage_keywords()) {
@@ -315,7 +305,8 @@ Stage read_stage(TableReader table, std::size_t number, const StageContext& cont
   const std::string type = table.choice("type", types);
   Stage stage;
   stage.name = table.string_or("name", fmt::format("{}-{}", type, number));
-  check_stage_name(table, stage.name);
+  constexpr std::size_t longest_name = 64;
+  check_name(table, stage.name, longest_name);
   const auto keyword = std::find_if(stage_keywords().begin(), stage_keywords().end(),
                                     [&](const StageKeyword& known) { return known.name == type; });
   refuse_foreign_keys(table, all_keys, keyword->keys, fmt::format("type = '{}'", type));

@@ -8,17 +8,15 @@
 
 #include <fmt/format.h>
 
+#include "solver/scenario/common_keys.hpp"
 #include "solver/scenario/ranges.hpp"
+#include "solver/scenario/read_bond.hpp"
 
 namespace mpfem {
 
 namespace {
 
 using Vector = std::array<double, 3>;
-
-std::size_t read_axis(TableReader& table) {
-  return static_cast<std::size_t>(table.choice_or("axis", "z", {"x", "y", "z"})[0] - 'x');
-}
 
 bool read_inside(TableReader& table, const char* usual) {
   return table.choice_or("grains", usual, {"inside", "outside"}) == "inside";
@@ -98,27 +96,15 @@ struct ShapeKeyword {
   ToolShape (*read)(TableReader&);
 };
 
-/// In the order of ToolShape.
 const std::vector<ShapeKeyword>& shape_keywords() {
   static const std::vector<ShapeKeyword> keywords = {
-      {"plane", {"face", "point", "normal"}, read_plane},
-      {"cylinder", {"axis", "centre", "radius", "grains", "extent", "rounding"}, read_cylinder},
-      {"sphere", {"centre", "radius", "grains"}, read_sphere},
-      {"cone", {"axis", "opens", "apex", "half_angle", "grains"}, read_cone},
-      {"stl", {"file", "scale", "grains", "low_corner"}, read_stl_shape},
+      {shape_name(PlaneShape{}), {"face", "point", "normal"}, read_plane},
+      {shape_name(CylinderShape{}), {"axis", "centre", "radius", "grains", "extent", "rounding"}, read_cylinder},
+      {shape_name(SphereShape{}), {"centre", "radius", "grains"}, read_sphere},
+      {shape_name(ConeShape{}), {"axis", "opens", "apex", "half_angle", "grains"}, read_cone},
+      {shape_name(StlShape{}), {"file", "scale", "grains", "low_corner"}, read_stl_shape},
   };
   return keywords;
-}
-
-/// The name becomes part of dataset names.
-void check_tool_name(const TableReader& table, const std::string& name) {
-  constexpr std::size_t longest = 32;
-  const bool plain = std::all_of(name.begin(), name.end(), [](char c) {
-    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '-' || c == '_';
-  });
-  if (name.empty() || name.size() > longest || !plain)
-    table.fail("name", fmt::format("found '{}', allowed: 1 … {} letters (a … z), digits, '-' and '_'",
-                                   name.size() > longest ? "a longer text" : name, longest));
 }
 
 ToolParameters read_tool(TableReader& table) {
@@ -129,7 +115,8 @@ ToolParameters read_tool(TableReader& table) {
   }
   ToolParameters tool;
   tool.name = table.string("name");
-  check_tool_name(table, tool.name);
+  constexpr std::size_t longest_name = 32;
+  check_name(table, tool.name, longest_name);
   const std::string type = table.choice("type", types);
   const auto keyword = std::find_if(shape_keywords().begin(), shape_keywords().end(),
                                     [&](const ShapeKeyword& known) { return known.name == type; });
@@ -192,26 +179,6 @@ ToolDrive read_drive(TableReader table, std::size_t tool, const ToolShape& shape
 }
 
 } // namespace
-
-const char* shape_name(const ToolShape& shape) {
-  return shape_keywords()[shape.index()].name.c_str(); // in the order of the variant
-}
-
-std::optional<std::array<double, 3>> direction_of(const ToolShape& shape) {
-  Vector direction{};
-  if (const auto* plane = std::get_if<PlaneShape>(&shape)) {
-    const Vector& n = plane->normal;
-    const double length = std::hypot(n[0], n[1], n[2]);
-    return Vector{n[0] / length, n[1] / length, n[2] / length};
-  }
-  if (const auto* cylinder = std::get_if<CylinderShape>(&shape))
-    direction[cylinder->axis] = 1;
-  else if (const auto* cone = std::get_if<ConeShape>(&shape))
-    direction[cone->axis] = 1;
-  else
-    return std::nullopt;
-  return direction;
-}
 
 std::vector<ToolParameters> read_tools(TableReader& root, const std::string& scenario_file) {
   std::vector<ToolParameters> tools;

@@ -1,6 +1,5 @@
 #pragma once
-// A scenario as plain structs, units beside every field. Only scenario.cpp and read_*.cpp know the keywords of the TOML
-// file.
+// A scenario as plain structs, units beside every field. Only read_*.cpp know the keywords of the TOML file.
 
 #include <algorithm>
 #include <array>
@@ -15,9 +14,6 @@
 #include "solver/scenario/tools.hpp"
 
 namespace mpfem {
-
-class TableReader;
-class TomlDocument;
 
 /// Flow stress as a function of the equivalent plastic strain.
 enum class HardeningLaw {
@@ -160,8 +156,5 @@ struct Scenario {
   bool has_friction() const;
   bool has_gravity() const { return gravity != std::array<double, 3>{}; }
 };
-
-/// Reads a scenario. Throws InputError with file, line and column for any mistake.
-Scenario read_scenario(const TomlDocument& document);
 
 } // namespace mpfem

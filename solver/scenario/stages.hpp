@@ -2,6 +2,7 @@
 // Stages of a scenario as plain structs, one for each type. Only read_stages.cpp knows the keywords of the TOML file.
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -101,7 +102,7 @@ struct Rest {
 
 /// The nodes near two opposite faces of the box are gripped and moved along the box's axis. Walls take no part.
 struct GripMotion {
-  int axis = 2;                    ///< 0 x, 1 y, 2 z
+  std::size_t axis = 2;            ///< 0 x, 1 y, 2 z
   double depth = 0;                ///< mm: nodes this close to a face of the box when the stage begins are gripped
   bool lateral_fixed = true;       ///< gripped nodes do not move across the axis
   double displacement = 0;         ///< mm, change of the distance between both grips; positive apart

@@ -4,7 +4,7 @@
 #include "common/table_reader.hpp"
 #include "common/toml_difference.hpp"
 #include "refusal.hpp"
-#include "solver/scenario/scenario.hpp"
+#include "solver/scenario/read_scenario.hpp"
 
 namespace {
 

@@ -1,8 +1,8 @@
 // Scenario files: TOML text -> read_scenario.
 
-#include "solver/scenario/scenario.hpp"
 #include "common/table_reader.hpp"
 #include "refusal.hpp"
+#include "solver/scenario/read_scenario.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace mpfem;

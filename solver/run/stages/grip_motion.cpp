@@ -10,10 +10,9 @@ namespace mpfem {
 
 GripMotionControl::GripMotionControl(const GripMotion& stage, const StageLabel& label, const StageStart& start)
     : TimedStage(start), stage_(stage) {
-  const auto axis = static_cast<std::size_t>(stage.axis);
-  const double length = start.cell.length(axis);
-  motion_.end_scale[axis] = 1.0 + stage.displacement / length;
-  if (!(motion_.end_scale[axis] > 0))
+  const double length = start.cell.length(stage.axis);
+  motion_.end_scale[stage.axis] = 1.0 + stage.displacement / length;
+  if (!(motion_.end_scale[stage.axis] > 0))
     throw InputError(fmt::format("{}stage '{}': key 'displacement': found {:g} mm, allowed: > {:g} mm, the distance "
                                  "of the grips",
                                  label.places.prefix("displacement"), label.name, stage.displacement, -length));

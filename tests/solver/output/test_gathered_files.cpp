@@ -19,6 +19,7 @@
 #include "solver/output/checkpoint.hpp"
 #include "solver/output/run_file.hpp"
 #include "solver/run/simulation.hpp"
+#include "solver/scenario/read_scenario.hpp"
 #include "tests/solver/parallel/test_ranks.hpp"
 #include "tests/support/folder.hpp"
 #include "tests/support/material_text.hpp"

@@ -8,7 +8,7 @@
 #include "common/index.hpp"
 #include "common/table_reader.hpp"
 #include "solver/run/balance.hpp"
-#include "solver/scenario/scenario.hpp"
+#include "solver/scenario/read_scenario.hpp"
 #include "tests/solver/parallel/test_ranks.hpp"
 #include "tests/support/material_text.hpp"
 #include "tests/support/packing_file.hpp"

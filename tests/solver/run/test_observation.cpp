@@ -12,6 +12,7 @@
 #include "results-schema/file.hpp"
 #include "solver/model/model.hpp"
 #include "solver/run/simulation.hpp"
+#include "solver/scenario/read_scenario.hpp"
 #include "tests/support/small_runs.hpp"
 #include "tests/support/tolerances.hpp"
 

@@ -10,6 +10,7 @@
 #include "common/errors.hpp"
 #include "common/table_reader.hpp"
 #include "solver/run/simulation.hpp"
+#include "solver/scenario/read_scenario.hpp"
 #include "tests/support/material_text.hpp"
 #include "tests/support/packing_file.hpp"
 

@@ -17,6 +17,7 @@
 #include "results-schema/file.hpp"
 #include "solver/output/tool_geometry.hpp"
 #include "solver/run/make_tools.hpp"
+#include "solver/scenario/read_scenario.hpp"
 #include "tests/support/bonded_pair.hpp"
 #include "tests/support/die_column.hpp"
 #include "tests/support/driven_tools.hpp"
