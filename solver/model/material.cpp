@@ -3,10 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include <fmt/format.h>
-
-#include "common/errors.hpp"
-
 namespace mpfem {
 
 namespace {
@@ -21,9 +17,6 @@ FlowLaw make_flow_law(const MaterialParameters& p) {
   case HardeningLaw::total_strain:
     return TotalStrainLaw{h.coefficient, h.exponent, p.youngs_modulus};
   case HardeningLaw::table: {
-    if (h.table_plastic_strain.size() > static_cast<std::size_t>(TableLaw::max_points))
-      throw InputError(fmt::format("material.hardening: the table has {} points, allowed: at most {}",
-                                   h.table_plastic_strain.size(), TableLaw::max_points));
     TableLaw law;
     law.points = static_cast<int>(h.table_plastic_strain.size());
     std::copy(h.table_plastic_strain.begin(), h.table_plastic_strain.end(), law.strain.begin());

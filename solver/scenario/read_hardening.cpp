@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "solver/physics/hardening.hpp"
 #include "solver/scenario/common_keys.hpp"
 #include "solver/scenario/ranges.hpp"
 
@@ -11,17 +12,14 @@ namespace mpfem {
 
 namespace {
 
-constexpr std::size_t largest_hardening_table = 64; // TableLaw::max_points
-
 void check_hardening_table(const TableReader& table, const HardeningParameters& hardening,
                            const MaterialParameters& material) {
   const double shear_modulus = material.youngs_modulus / (2 * (1 + material.poissons_ratio));
   const auto& strain = hardening.table_plastic_strain;
   const auto& stress = hardening.table_flow_stress;
   if (strain.empty()) table.fail("plastic_strain", "found an empty array, allowed: at least one value");
-  if (strain.size() > largest_hardening_table)
-    table.fail("plastic_strain",
-               fmt::format("found {} values, allowed: 1 … {}", strain.size(), largest_hardening_table));
+  if (strain.size() > static_cast<std::size_t>(TableLaw::max_points))
+    table.fail("plastic_strain", fmt::format("found {} values, allowed: 1 … {}", strain.size(), TableLaw::max_points));
   if (stress.size() != strain.size())
     table.fail("flow_stress",
                fmt::format("found {} values, allowed: {}, as many as plastic_strain", stress.size(), strain.size()));

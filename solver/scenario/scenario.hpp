@@ -29,7 +29,7 @@ struct HardeningParameters {
   double yield_stress = 0;                  ///< sigma_y, MPa (power)
   double coefficient = 0;                   ///< k (power) or n (total_strain), MPa
   double exponent = 1;                      ///< m (power) or p (total_strain), dimensionless, in (0, 1]
-  std::vector<double> table_plastic_strain; ///< table: increasing, first value 0
+  std::vector<double> table_plastic_strain; ///< table: increasing, first value 0; at most TableLaw::max_points
   std::vector<double> table_flow_stress;    ///< table: MPa, positive
   bool operator==(const HardeningParameters&) const = default;
 };
