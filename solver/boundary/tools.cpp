@@ -225,7 +225,7 @@ void Tools::refuse_triangles(std::size_t tool) const {
                   tools_[tool].name));
 }
 
-void Tools::return_tool(Tool& tool, const Model& model, const Communicator& ranks) const {
+void Tools::return_tool(Tool& tool, const Model& model, const Communicator& ranks) {
   double deepest = 0;
   with_surface(tool, [&](const auto& surface) {
     for (const std::int32_t grain : model.own())

@@ -142,7 +142,7 @@ private:
   double remove_forces_on_grain(Model& model, std::size_t tool, const Bounds& bounds, double last_step, int grain);
   double remove_forces_on_all_grains(Model& model, std::size_t tool, std::span<const Bounds> bounds, double last_step,
                                      const Communicator& ranks);
-  void return_tool(Tool& tool, const Model& model, const Communicator& ranks) const;
+  void return_tool(Tool& tool, const Model& model, const Communicator& ranks);
 
   int grains_ = 0;
   std::vector<Tool> tools_;
