@@ -74,8 +74,8 @@ public:
     Transfer(Transfer&&) noexcept;
     Transfer& operator=(Transfer&&) noexcept;
     ~Transfer();
-    /// Waits until all messages have been sent and received. Returns the number of bytes of each incoming one.
-    std::vector<std::size_t> finish();
+    /// Waits until all messages have been sent and received.
+    void finish();
 
   private:
     friend class Communicator;

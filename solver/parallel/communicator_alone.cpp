@@ -11,9 +11,7 @@ Communicator::Transfer::Transfer() = default;
 Communicator::Transfer::Transfer(Transfer&&) noexcept = default;
 Communicator::Transfer& Communicator::Transfer::operator=(Transfer&&) noexcept = default;
 Communicator::Transfer::~Transfer() = default;
-std::vector<std::size_t> Communicator::Transfer::finish() {
-  return {};
-}
+void Communicator::Transfer::finish() {}
 
 Communicator::Communicator() = default;
 Communicator::Communicator(Communicator&&) noexcept = default;

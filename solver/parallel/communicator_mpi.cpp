@@ -73,26 +73,17 @@ extern "C" void combine_numbers(void* own, void* all, int* messages, MPI_Datatyp
 } // namespace
 
 struct Communicator::Transfer::State {
-  std::vector<MPI_Request> request; ///< incoming first
-  std::size_t incoming = 0;
+  std::vector<MPI_Request> request;
 };
 Communicator::Transfer::Transfer() = default;
 Communicator::Transfer::Transfer(Transfer&&) noexcept = default;
 Communicator::Transfer& Communicator::Transfer::operator=(Transfer&&) noexcept = default;
 Communicator::Transfer::~Transfer() = default;
 
-std::vector<std::size_t> Communicator::Transfer::finish() {
-  if (!state_) return {};
-  std::vector<MPI_Status> status(state_->request.size());
-  MPI_Waitall(static_cast<int>(state_->request.size()), state_->request.data(), status.data());
-  std::vector<std::size_t> bytes;
-  for (std::size_t i = 0; i < state_->incoming; ++i) {
-    int count = 0;
-    MPI_Get_count(&status[i], MPI_BYTE, &count);
-    bytes.push_back(static_cast<std::size_t>(count));
-  }
+void Communicator::Transfer::finish() {
+  if (!state_) return;
+  MPI_Waitall(static_cast<int>(state_->request.size()), state_->request.data(), MPI_STATUSES_IGNORE);
   state_.reset();
-  return bytes;
 }
 
 Communicator::Communicator() = default;
@@ -212,7 +203,6 @@ Communicator::Transfer Communicator::start(const std::vector<Outgoing>& out, con
   Transfer transfer;
   if (out.empty() && in.empty()) return transfer;
   transfer.state_ = std::make_unique<Transfer::State>();
-  transfer.state_->incoming = in.size();
   auto& request = transfer.state_->request;
   constexpr int tag = 1; // send() and receive() have 0
   for (const Incoming& message : in)

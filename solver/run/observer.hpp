@@ -1,7 +1,6 @@
 #pragma once
 // All observed quantities of a time level.
 
-#include <span>
 #include <vector>
 
 #include "solver/kernels/thread_team.hpp"
