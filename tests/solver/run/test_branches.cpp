@@ -28,7 +28,9 @@ TEST_CASE("a compaction leaves checkpoints at densities, from which branches beg
   const std::string from = folder / "run.D0.610.checkpoint.h5";
   CHECK(schema::validate(from).empty());
   // The rest of the way is the same, apart from the walls' start and end, and the vibration that follows in eight
-  // grains.
+  // grains. In ten cases near this one (speeds of 3600 to 4400 mm/s, three or four cells), the stress at the end was
+  // 0.93 to 1.10 of that of the whole run, with a standard deviation of 0.055; the dissipation 0.95 to 0.98, 0.009. The
+  // bounds are three standard deviations from the means, 1.00 and 0.97.
   write_text(folder / "rest.toml", slow);
   REQUIRE(mpfem_command(fmt::format("run {} -o {} --from {} --quiet", folder / "rest.toml", folder / "rest.h5", from))
               .exit_code == 0);
@@ -36,9 +38,9 @@ TEST_CASE("a compaction leaves checkpoints at densities, from which branches beg
   const auto density = rest.read(schema::run::history_relative_density);
   CHECK(density.front() == Approx(0.61).epsilon(1e-3)); // the step in which it was passed
   CHECK(rest.read(schema::run::history_mean_stress).back() ==
-        Approx(whole.read(schema::run::history_mean_stress).back()).epsilon(0.1));
+        Approx(whole.read(schema::run::history_mean_stress).back()).epsilon(0.17));
   CHECK(rest.read(schema::run::history_plastic_dissipation).back() ==
-        Approx(whole.read(schema::run::history_plastic_dissipation).back()).epsilon(0.05));
+        Approx(whole.read(schema::run::history_plastic_dissipation).back()).epsilon(0.06));
 }
 
 TEST_CASE("a branch continues from the checkpoint at which it began, and not from another") {
@@ -61,7 +63,7 @@ TEST_CASE("a branch continues from the checkpoint at which it began, and not fro
   CHECK_THAT(other.messages, Catch::Contains("did not begin at") && Catch::Contains("run.D0.610"));
   const Outcome same = branch("0.500", "");
   REQUIRE(same.exit_code == 0);
-  CHECK(first_density() == Approx(0.5).epsilon(1e-2));
+  CHECK(first_density() == Approx(0.5).epsilon(1e-3));
   // What a step took counts the branch's own steps, also where a part of it was resumed.
   const schema::FileReader file(folder / "branch.h5");
   const auto step = file.read(schema::run::history_step);
@@ -76,7 +78,7 @@ TEST_CASE("a branch continues from the checkpoint at which it began, and not fro
   // A complete branch is complete for its own beginning only.
   CHECK_THAT(branch("0.500", "").messages, Catch::Contains("already complete"));
   CHECK(branch("0.610", "--quiet").exit_code == 0);
-  CHECK(first_density() == Approx(0.61).epsilon(1e-2));
+  CHECK(first_density() == Approx(0.61).epsilon(1e-3));
 }
 
 TEST_CASE("a branch may begin with grips that would hold no node of the initial packing") {

@@ -160,7 +160,7 @@ TEST_CASE("a compaction takes the number of steps that check predicts") {
 }
 
 #if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__) // which need more memory
-TEST_CASE("a run needs at most the predicted memory, within 15 %") {
+TEST_CASE("the memory of a run is predicted within 15 %") {
   const Folder folder;
   const MeshedPacking packing = eight_grains(16);
   write_packing(folder / "packing.h5", packing, std::vector<double>(8, 0.1));
