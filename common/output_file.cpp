@@ -80,6 +80,19 @@ void check_output_path(std::string_view option, const std::string& path, OutputK
         fmt::format("{} {}: the folder does not exist, allowed: a file in an existing folder", option, one_line(path)));
 }
 
+bool same_file(const std::string& a, const std::string& b) {
+  if (a.empty() || b.empty()) return false;
+  std::error_code ignored;
+  if (std::filesystem::exists(a, ignored)) return std::filesystem::equivalent(a, b, ignored);
+  return std::filesystem::weakly_canonical(a, ignored) == std::filesystem::weakly_canonical(b, ignored);
+}
+
+void refuse_overwriting(std::string_view option, const std::string& output, const std::string& input) {
+  if (same_file(output, input))
+    throw InputError(fmt::format("{} {}: would overwrite the input {}, allowed: another file", option, one_line(output),
+                                 one_line(input)));
+}
+
 std::string output_target(const std::string& path) {
   std::filesystem::path target = path;
   std::error_code error;

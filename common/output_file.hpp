@@ -17,6 +17,12 @@ void refuse_special_file(std::string_view option, const std::string& path, Outpu
 /// The same, and the folder must exist. To be called before hours of work. An empty path is refused.
 void check_output_path(std::string_view option, const std::string& path, OutputKind kind);
 
+/// Whether two paths lead to the same file, which need not exist yet. A device, a FIFO and an empty path are none.
+bool same_file(const std::string& a, const std::string& b);
+
+/// Refuses an output that would replace what is read. `option` begins the message ("--output"). Throws InputError.
+void refuse_overwriting(std::string_view option, const std::string& output, const std::string& input);
+
 /// Where an output is written: the path itself or, if that is a symbolic link, the target of the link.
 std::string output_target(const std::string& path);
 

@@ -43,13 +43,19 @@ struct Arguments {
   bool quiet = false;
 };
 
-/// Checked before hours of work, not after them.
-void check_output(const Arguments& arguments, OutputKind kind) {
-  check_output_path("--output", arguments.output, kind);
-  std::error_code ignored;
-  if (std::filesystem::equivalent(arguments.output, arguments.input, ignored))
-    throw InputError(
-        fmt::format("--output {}: found the input itself, allowed: another file", shown_path(arguments.output)));
+/// Refuses each output that would replace one of these inputs. What is not given is empty.
+void refuse_overwriting_any(const Arguments& arguments, const std::vector<std::string>& inputs) {
+  for (const auto& [option, output] : {std::pair("--output", arguments.output), std::pair("--sizes", arguments.sizes),
+                                       std::pair("--target", arguments.target)})
+    for (const std::string& input : inputs) refuse_overwriting(option, output, input);
+}
+
+/// Checked before hours of work, not after them. `kind`: of --output, which only `quality` may lack.
+void check_outputs(const Arguments& arguments, OutputKind kind, bool of_quality) {
+  if (!of_quality || !arguments.output.empty()) check_output_path("--output", arguments.output, kind);
+  if (!arguments.sizes.empty()) check_output_path("--sizes", arguments.sizes, OutputKind::text);
+  if (!arguments.target.empty()) check_output_path("--target", arguments.target, OutputKind::text);
+  refuse_overwriting_any(arguments, {arguments.input, arguments.description, arguments.surface});
 }
 
 /// The description, overridden by the command line.
@@ -68,6 +74,7 @@ PackingDescription description_of(const Arguments& arguments) {
 
 void spheres(const Arguments& arguments) {
   const PackingDescription description = description_of(arguments);
+  refuse_overwriting_any(arguments, description.files);
   const DrawnSizes sizes = draw_sizes(description);
   Progress progress("pack-gen", arguments.quiet);
   const auto packed = [&] {
@@ -234,6 +241,7 @@ void quality(const Arguments& arguments) {
   if (!arguments.description.empty()) {
     const TomlDocument document = TomlDocument::from_file(arguments.description);
     description = read_packing_description(document);
+    refuse_overwriting_any(arguments, description->files);
     if (!arguments.target.empty()) write_file(arguments.target, target_csv(document));
   }
   if (!arguments.sizes.empty()) write_file(arguments.sizes, sizes_csv(file.packing));
@@ -435,11 +443,8 @@ int body(int argc, char** argv) {
   const CLI::App* hemispheres_command = add_hemispheres(app, arguments);
 
   if (const auto done = parse_command_line(app, "pack-gen", argc, argv)) return *done;
-  if (!quality_command->parsed() || !arguments.output.empty())
-    check_output(arguments,
-                 export_command->parsed() || quality_command->parsed() ? OutputKind::text : OutputKind::binary);
-  for (const auto& [option, path] : {std::pair("--sizes", &arguments.sizes), std::pair("--target", &arguments.target)})
-    if (!path->empty()) check_output_path(option, *path, OutputKind::text);
+  const bool of_quality = quality_command->parsed();
+  check_outputs(arguments, export_command->parsed() || of_quality ? OutputKind::text : OutputKind::binary, of_quality);
   if (spheres_command->parsed()) spheres(arguments);
   if (settle_command->parsed()) settle_spheres(arguments);
   if (mesh_command->parsed()) mesh(arguments);

@@ -15,12 +15,20 @@ namespace {
 // Far within this range no volume overflows or underflows.
 constexpr Range length = Range::between(1e-12, 1e9); // mm
 
+/// A file that a description names, relative to its folder; appended to `files`.
+std::string named_file(TableReader& table, const char* key, const std::string& description_file,
+                       std::vector<std::string>& files) {
+  files.push_back((std::filesystem::path(description_file).parent_path() / table.string(key)).string());
+  return files.back();
+}
+
 /// Sizes, and for a table their cumulative fractions, from the keys themselves or from a CSV file.
 struct Columns {
   std::vector<double> values, cumulative;
 };
 
-Columns read_columns(TableReader& table, const std::string& description_file, bool with_cumulative) {
+Columns read_columns(TableReader& table, const std::string& description_file, bool with_cumulative,
+                     std::vector<std::string>& files) {
   if (!table.has("file")) {
     Columns columns{table.numbers("values", length), {}};
     if (with_cumulative) columns.cumulative = table.numbers("cumulative", Range::between(0, 1));
@@ -28,10 +36,10 @@ Columns read_columns(TableReader& table, const std::string& description_file, bo
   }
   for (const char* key : {"values", "cumulative"})
     if (table.has(key)) table.fail(key, "cannot be used with key 'file', allowed: one of the two");
-  const auto path = std::filesystem::path(description_file).parent_path() / table.string("file");
+  const std::string path = named_file(table, "file", description_file, files);
   std::vector<CsvColumn> names = {{"size", length}};
   if (with_cumulative) names.push_back({"cumulative", Range::between(0, 1)});
-  const auto rows = read_csv(CsvReader::from_file(path.string()), names);
+  const auto rows = read_csv(CsvReader::from_file(path), names);
   Columns columns;
   for (const auto& row : rows) {
     columns.values.push_back(row[0]);
@@ -40,7 +48,8 @@ Columns read_columns(TableReader& table, const std::string& description_file, bo
   return columns;
 }
 
-std::unique_ptr<SizeDistribution> read_distribution(TableReader table, const std::string& description_file) {
+std::unique_ptr<SizeDistribution> read_distribution(TableReader table, const std::string& description_file,
+                                                    std::vector<std::string>& files) {
   const std::string kind = table.choice("kind", {"table", "log_normal", "list"});
   const double to_diameter = table.choice("measure", {"diameter", "radius"}) == "radius" ? 2 : 1;
   std::unique_ptr<SizeDistribution> distribution;
@@ -55,7 +64,7 @@ std::unique_ptr<SizeDistribution> read_distribution(TableReader table, const std
       const double largest = to_diameter * table.number("largest", length);
       distribution = log_normal_distribution(median, deviation, weight(), smallest, largest);
     } else {
-      Columns columns = read_columns(table, description_file, kind == "table");
+      Columns columns = read_columns(table, description_file, kind == "table", files);
       for (double& value : columns.values) value *= to_diameter;
       distribution = kind == "table" ? table_distribution(columns.values, columns.cumulative, weight())
                                      : list_distribution(columns.values);
@@ -71,7 +80,8 @@ std::unique_ptr<SizeDistribution> read_distribution(TableReader table, const std
 
 /// A box of three edge lengths, a cylinder of a diameter and a height, or a surface from a file; the keys of the others
 /// are refused.
-PackingContainer read_container(TableReader& root, const std::string& description_file, bool without_box) {
+PackingContainer read_container(TableReader& root, const std::string& description_file, bool without_box,
+                                std::vector<std::string>& files) {
   const std::string shape = root.choice_or("container", "box", {"box", "cylinder", "surface"});
   const auto refuse = [&](std::initializer_list<const char*> keys, const char* allowed) {
     for (const char* key : keys)
@@ -88,9 +98,9 @@ PackingContainer read_container(TableReader& root, const std::string& descriptio
     refuse({"box"}, shape == "cylinder" ? "diameter and height" : "surface_file and surface_scale");
   if (shape == "surface") {
     refuse({"diameter", "height"}, "surface_file and surface_scale");
-    const auto path = std::filesystem::path(description_file).parent_path() / root.string("surface_file");
+    const std::string path = named_file(root, "surface_file", description_file, files);
     // No default: STL files do not state their unit.
-    const PlacedSurface placed = read_surface(path.string(), root.number("surface_scale", Range::between(1e-9, 1e9)));
+    const PlacedSurface placed = read_surface(path, root.number("surface_scale", Range::between(1e-9, 1e9)));
     return {placed.lengths, ContainerShape::surface, placed.container};
   }
   refuse({"surface_file", "surface_scale"}, "diameter and height");
@@ -106,11 +116,11 @@ PackingDescription read_packing_description(const TomlDocument& document, bool w
   description.text = document.text();
   description.count = static_cast<int>(root.integer("count", Range::between(1, 1e7)));
   description.relative_density = root.number("relative_density", Range::between(1e-9, 0.74));
-  description.container = read_container(root, document.name(), without_box);
+  description.container = read_container(root, document.name(), without_box, description.files);
   description.smallest_gap = root.number("smallest_gap", length);
   description.seed = static_cast<std::uint64_t>(root.integer_or("seed", 1, Range::non_negative()));
   description.size_scale_tolerance = root.number_or("size_scale_tolerance", 0.01, Range::between(0, 1e6));
-  description.distribution = read_distribution(root.table("size_distribution"), document.name());
+  description.distribution = read_distribution(root.table("size_distribution"), document.name(), description.files);
   description.places = root.places();
   root.finish();
   return description;

@@ -13,7 +13,7 @@ Command::Command(CLI::App& app, const std::string& name, const std::string& help
 void Command::run_if_given() const {
   if (!options_->parsed()) return;
   for (const std::string* input : inputs_)
-    for (const OutputFile& output : outputs_) refuse_overwriting(*output.path, *input);
+    for (const OutputFile& output : outputs_) refuse_overwriting(output.option, *output.path, *input);
   check_outputs();
   execute();
 }

@@ -85,8 +85,8 @@ public:
         ->required()
         ->delimiter(',');
     add_output("--data", data_, "CSV file to write: one row per density");
-    options().add_option("--reference", reference_,
-                         "CSV file with relative_density, mean_stress_MPa: the run is compared with it in --data");
+    add_input("--reference", reference_,
+              "CSV file with relative_density, mean_stress_MPa: the run is compared with it in --data");
   }
 
 private:

@@ -59,6 +59,15 @@ struct FigureCommands::State {
       write_file(output, text);
   }
 
+  /// Refuses outputs that cannot be written, or that would overwrite what an option names.
+  void check_output() const {
+    if (output.empty()) return;
+    std::vector<std::string> inputs{figure, packing, description, run, beside};
+    inputs.insert(inputs.end(), files.begin(), files.end());
+    for (const std::string& input : inputs) refuse_overwriting("--output", output, input);
+    check_output_path("--output", output, OutputKind::text);
+  }
+
   Figure read() const { return read_figure(figure, programmes); }
   std::string folder(const Figure& f) const { return fmt::format("{}/{}", results, f.name); }
 
@@ -217,7 +226,7 @@ FigureCommands::~FigureCommands() = default;
 void FigureCommands::run() const {
   for (const auto& [command, action] : state_->commands) {
     if (!command->parsed()) continue;
-    if (!state_->output.empty()) check_output_path("--output", state_->output, OutputKind::text);
+    state_->check_output();
     action();
   }
 }

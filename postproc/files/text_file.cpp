@@ -1,19 +1,8 @@
 #include "postproc/files/text_file.hpp"
 
-#include <filesystem>
-
 #include <fmt/format.h>
 
-#include "common/errors.hpp"
-#include "common/one_line.hpp"
-
 namespace mpfem {
-
-void refuse_overwriting(const std::string& output, const std::string& input) {
-  std::error_code ignored; // where one does not exist, they are not the same
-  if (!output.empty() && !input.empty() && std::filesystem::equivalent(output, input, ignored))
-    throw InputError(fmt::format("{}: is the input; allowed: another file for the output", one_line(output)));
-}
 
 std::string csv_text(const std::vector<const Column*>& columns) {
   std::string text;

@@ -9,9 +9,6 @@
 
 namespace mpfem {
 
-/// Throws InputError where `output` is the same file as `input`, which would be overwritten.
-void refuse_overwriting(const std::string& output, const std::string& input);
-
 /// CSV with the heading "name [unit],…"; all columns must have the same number of values.
 std::string csv_text(const std::vector<const Column*>& columns);
 /// The same for columns that are given by value.

@@ -1,10 +1,7 @@
 #include "solver/run/bond_programme.hpp"
 
-#include <filesystem>
-
 #include <fmt/format.h>
 
-#include "common/errors.hpp"
 #include "common/one_line.hpp"
 #include "common/output_file.hpp"
 #include "common/table_reader.hpp"
@@ -13,24 +10,14 @@
 
 namespace mpfem {
 
-namespace {
-
-void refuse_overwriting(const std::string& output, const std::string& input) {
-  std::error_code ignored; // if a file does not exist, they differ
-  if (std::filesystem::equivalent(output, input, ignored))
-    throw InputError(fmt::format("{}: is an input; allowed: another --output", shown_path(output)));
-}
-
-} // namespace
-
 void run_bond_programme(const BondProgrammeOptions& options) {
   TomlDocument document = TomlDocument::from_file(options.law);
   for (const std::string& assignment : options.assignments) document.set(assignment);
   const BondedPointLaw law = read_bonded_point_law(document);
   const std::vector<WayPoint> programme = read_bond_programme(options.programme, options.increments);
   check_output_path("--output", options.output, OutputKind::text);
-  refuse_overwriting(options.output, options.law);
-  refuse_overwriting(options.output, options.programme);
+  refuse_overwriting("--output", options.output, options.law);
+  refuse_overwriting("--output", options.output, options.programme);
 
   BondTable table(options.output, law);
   for (std::size_t i = 0; i < programme.size(); ++i) table.walk_to(programme[i], i + 1);

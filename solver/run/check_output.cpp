@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <fstream>
+#include <variant>
 #include <vector>
 
 #include <fmt/format.h>
@@ -15,22 +16,20 @@ namespace mpfem {
 
 namespace {
 
-bool same_file(const std::string& a, const std::string& b) {
-  std::error_code ignored;
-  return std::filesystem::equivalent(a, b, ignored) ||
-         std::filesystem::weakly_canonical(a, ignored) == std::filesystem::weakly_canonical(b, ignored);
+std::vector<std::string> inputs_of(const Scenario& scenario, const RunOptions& options) {
+  std::vector<std::string> inputs{options.scenario_file, scenario.packing_file};
+  for (const ToolParameters& tool : scenario.tools)
+    if (const auto* stl = std::get_if<StlShape>(&tool.shape)) inputs.push_back(stl->file);
+  if (options.from) inputs.push_back(*options.from);
+  return inputs;
 }
 
-/// Refuses to begin at a checkpoint (`from`) whose name is that of one of the run's own checkpoints.
-void check_from(const std::string& from, const Scenario& scenario, const std::string& output) {
-  std::vector<std::string> written{checkpoint_path(output), previous_checkpoint_path(output)};
-  for (const Stage& stage : scenario.stages) written.push_back(stage_checkpoint_path(output, stage.name));
+std::vector<std::string> checkpoints_of(const Scenario& scenario, const std::string& output) {
+  std::vector<std::string> checkpoints{checkpoint_path(output), previous_checkpoint_path(output)};
+  for (const Stage& stage : scenario.stages) checkpoints.push_back(stage_checkpoint_path(output, stage.name));
   for (const double density : scenario.output.checkpoint_relative_densities)
-    written.push_back(density_checkpoint_path(output, density));
-  for (const std::string& path : written)
-    if (same_file(path, from))
-      throw InputError(fmt::format(
-          "--from {}: this run would write its own checkpoint there; allowed: another --output", one_line(from)));
+    checkpoints.push_back(density_checkpoint_path(output, density));
+  return checkpoints;
 }
 
 /// Writes a partial file under the name that the run file's will have, and removes it.
@@ -47,16 +46,10 @@ void try_to_write(const std::string& output) {
 void check_output(const Scenario& scenario, const RunOptions& options) {
   const std::string& output = options.output;
   check_output_path("--output", output, OutputKind::binary);
-  const auto refuse = [&](const std::string& file, const std::string& what) {
-    if (same_file(output, file))
-      throw InputError(
-          fmt::format("--output {}: would overwrite {} of this run; choose another name", one_line(output), what));
-  };
-  refuse(scenario.packing_file, "the packing");
-  refuse(options.scenario_file, "the scenario");
-  if (options.from) {
-    refuse(*options.from, "the checkpoint to start from");
-    check_from(*options.from, scenario, output);
+  for (const std::string& input : inputs_of(scenario, options)) {
+    refuse_overwriting("--output", output, input);
+    for (const std::string& checkpoint : checkpoints_of(scenario, output))
+      refuse_overwriting(fmt::format("--output {}: its checkpoint", one_line(output)), checkpoint, input);
   }
   try_to_write(output);
 }

@@ -69,6 +69,30 @@ TEST_CASE("A folder, a socket, no name and a missing folder are refused as outpu
   }
 }
 
+TEST_CASE("An output that is an input is refused, by another path or a link too, before it exists or after") {
+  const Folder folder;
+  test::write_text(folder / "in", "read");
+  fs::create_symlink("in", folder / "link");
+  fs::create_directory(folder / "sub");
+  const auto refusal_of = [&](const std::string& output, const std::string& input) {
+    return input_error([&] { refuse_overwriting("--data", output, input); });
+  };
+  CHECK(refusal_of(folder / "in", folder / "in") ==
+        "--data " + (folder / "in") + ": would overwrite the input " + (folder / "in") + ", allowed: another file");
+  for (const std::string same : {"link", "sub/../in"}) {
+    CHECK_FALSE(refusal_of(folder / same, folder / "in").empty());
+    CHECK_FALSE(refusal_of(folder / "in", folder / same).empty());
+  }
+  CHECK_FALSE(refusal_of(folder / "sub/../new", folder / "new").empty());
+  test::write_text(folder / "copy", "read");
+  for (const auto& [output, input] : {std::pair<std::string, std::string>{folder / "copy", folder / "in"},
+                                      {folder / "new", folder / "in"},
+                                      {folder / "in", folder / "new"},
+                                      {"", ""},
+                                      {"/dev/null", "/dev/null"}})
+    CHECK_NOTHROW(refuse_overwriting("--data", output, input));
+}
+
 TEST_CASE("A FIFO or a character device is an output of text only") {
   const Folder folder;
   const std::string fifo = folder / "fifo";

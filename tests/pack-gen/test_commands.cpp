@@ -292,7 +292,7 @@ TEST_CASE("pack-gen refuses what it cannot use with one line and exit code 2, an
   }
   // Sizes and outputs of the command line.
   for (const auto& [arguments, expected] : std::vector<std::pair<std::string, std::string>>{
-           {fmt::format("spheres {} -o {}", folder / "pack.toml", folder / "pack.toml"), "the input itself"},
+           {fmt::format("spheres {} -o {}", folder / "pack.toml", folder / "pack.toml"), "would overwrite the input"},
            {fmt::format("mesh {} --size 0.1 -o {}", folder / "s.h5", folder / "no/p.h5"), "does not exist"},
            {fmt::format("export {} -o {}", folder / "s.h5", folder / ""), "a folder"}}) {
     const Outcome outcome = pack_gen(arguments);
@@ -304,6 +304,36 @@ TEST_CASE("pack-gen refuses what it cannot use with one line and exit code 2, an
   CHECK(pack_gen("--help").exit_code == 0);
   CHECK(pack_gen("mesh --help").exit_code == 0);
   CHECK(pack_gen("").exit_code == 2);
+}
+
+TEST_CASE("no output of pack-gen replaces a file that it reads") {
+  const Folder folder;
+  write_text(folder / "sizes.csv", "0.1,0\n0.2,1\n");
+  const std::string named = replaced(description, "values = [0.1, 0.2]\ncumulative = [0, 1]", "file = \"sizes.csv\"");
+  write_text(folder / "pack.toml", named);
+  REQUIRE(pack_gen(fmt::format("spheres {} -o {}", folder / "pack.toml", folder / "s.h5")).exit_code == 0);
+  REQUIRE(pack_gen(fmt::format("mesh {} --size 0.08 -o {}", folder / "s.h5", folder / "p.h5")).exit_code == 0);
+  const std::string quality = fmt::format("quality {} --description {}", folder / "p.h5", folder / "pack.toml");
+  REQUIRE(pack_gen(fmt::format("{} --sizes {} --target {}", quality, folder / "a.csv", folder / "b.csv")).exit_code ==
+          0);
+  for (const auto& [arguments, input] :
+       {std::pair{fmt::format("spheres {} -o {}", folder / "pack.toml", folder / "sizes.csv"), "sizes.csv"},
+        {fmt::format("import {} --container surface --surface {} --scale 1 -o {}", folder / "sizes.csv",
+                     folder / "pack.toml", folder / "pack.toml"),
+         "pack.toml"},
+        {fmt::format("{} -o {}", quality, folder / "pack.toml"), "pack.toml"},
+        {fmt::format("{} --sizes {}", quality, folder / "p.h5"), "p.h5"},
+        {fmt::format("{} --sizes {}", quality, folder / "pack.toml"), "pack.toml"},
+        {fmt::format("{} --target {}", quality, folder / "p.h5"), "p.h5"},
+        {fmt::format("{} --target {}", quality, folder / "sizes.csv"), "sizes.csv"}}) {
+    const std::string before = read_text(folder / input);
+    const Outcome outcome = pack_gen(arguments);
+    INFO(arguments << ": " << outcome.messages);
+    CHECK(outcome.exit_code == 2);
+    CHECK(outcome.one_error_line("pack-gen"));
+    CHECK_THAT(outcome.messages, Catch::Contains("would overwrite the input " + (folder / input)));
+    CHECK(read_text(folder / input) == before);
+  }
 }
 
 TEST_CASE("a file with overlapping spheres is not meshed: the spheres and the overlap are named") {

@@ -348,7 +348,7 @@ TEST_CASE("missing bonds, contacts and snapshots are refused with one line and e
            {"contact " + run + " --view " + picture, "allowed: --pair FIRST,SECOND"},
            {"contact " + run + " --data " + picture, "allowed: --pair FIRST,SECOND"},
            {"contact " + run + " --pair 0,1 -o " + (folder / "x.csv"), "allowed: .json"},
-           {"contact " + run + " --pair 0,1 --view " + run, "is the input"},
+           {"contact " + run + " --pair 0,1 --view " + run, "would overwrite the input"},
            {"section " + plain + " --field damage -o " + picture, "the run has no bonds"},
            {"section " + plain + " --field damage --data " + picture, "the run has no bonds"},
            {"section " + run + " --field damag -o " + picture, "grain, damage"}}) {

@@ -341,7 +341,7 @@ TEST_CASE("postproc fit writes a list of fits with ranges, and the curves") {
             "did you mean 'porosity'?"},
            {command + "linear --z porosity", "--z cannot be used"},
            {command + "cubic", "allowed: linear"},
-           {command + "linear -o " + (folder / "p.csv"), "is the input"}}) {
+           {command + "linear -o " + (folder / "p.csv"), "would overwrite the input"}}) {
     const Outcome refused = postproc(arguments);
     INFO(arguments << ": " << refused.messages);
     CHECK(refused.exit_code == 2);

@@ -673,7 +673,7 @@ TEST_CASE("metric commands refuse what they cannot use with one line and exit co
            {"contact " + run + " --stage 0", "--history"},
            {"contact --history " + run + " --pair 0,1", "allowed: one of them"},
            {"elastic-recovery " + (folder / "absent.h5"), "no such file"},
-           {"strength " + run + " -o " + run, "is the input"}}) {
+           {"strength " + run + " -o " + run, "would overwrite the input"}}) {
     const Outcome outcome = postproc(arguments);
     INFO(arguments << ": " << outcome.messages);
     CHECK(outcome.exit_code == 2);

@@ -175,7 +175,10 @@ TEST_CASE("postproc refuses what it cannot use with one line and exit code 2") {
            {"section --packing " + run + " -o " + (folder / "x.png"), "allowed: a packing file"},
            {"section " + run + " --view 5,6,5,6 -o " + (folder / "x.png"), "--view: no grain is cut"},
            {"section " + run, "-o, --data or both"},
-           {"summary " + run + " -o " + run, "is the input"},
+           {"summary " + run + " -o " + run, "would overwrite the input"},
+           {fmt::format("stress-at-densities {0} --densities 0.8 --reference {1} --data {1}", run, folder / "text.h5"),
+            "would overwrite the input"},
+           {fmt::format("powder {0} -o {0}", folder / "text.h5"), "would overwrite the input"},
            {"vtk -o " + (folder / "x"), "either RUN.h5 or --packing"}}) {
     const Outcome outcome = postproc(arguments);
     INFO(arguments << ": " << outcome.messages);

@@ -233,7 +233,9 @@ TEST_CASE("the programme and the law are not overwritten, and a result goes to a
   };
   for (const std::string name : {"law.toml", "programme.csv"}) {
     const std::string before = read_text(folder / name);
-    CHECK(to(folder / name).exit_code == 2);
+    const Outcome refused = to(folder / name);
+    CHECK(refused.exit_code == 2);
+    CHECK_THAT(refused.messages, Catch::Contains("would overwrite the input"));
     CHECK(read_text(folder / name) == before);
   }
   CHECK(to(folder / "no-such-folder/result.csv").exit_code == 2);

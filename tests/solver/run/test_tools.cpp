@@ -732,9 +732,10 @@ fracture_energy = 0.01
              Catch::Contains("key 'tools.1.adhesion'"));
 }
 
-TEST_CASE("a branch and a resumed run have the STL surface of the run before, wherever its file is") {
-  const Folder folder;
-  const std::string text = material_text + R"([[tools]]
+namespace {
+
+/// A slab from an STL file beside the scenario, which stands still.
+const std::string slab_text = material_text + R"([[tools]]
 name = "slab"
 type = "stl"
 file = "slab.stl"
@@ -745,8 +746,13 @@ name = "hold"
 type = "tools"
 duration = 2e-6
 )";
+
+} // namespace
+
+TEST_CASE("a branch and a resumed run have the STL surface of the run before, wherever its file is") {
+  const Folder folder;
   write_text(folder / "slab.stl", slab_stl({0, 0, -0.4}, {1, 1, -0.1}));
-  prepare(folder, 3, text);
+  prepare(folder, 3, slab_text);
   const auto run = [&](const std::string& options) {
     return mpfem_command(fmt::format("run {} --quiet {}", folder / "scenario.toml", options));
   };
@@ -767,6 +773,24 @@ duration = 2e-6
     const Outcome changed = run(options);
     CHECK(changed.exit_code == 2);
     CHECK_THAT(changed.messages, Catch::Contains("tool 'slab': its STL file is another one"));
+  }
+}
+
+TEST_CASE("a run does not replace the STL file of a tool, nor write a checkpoint over what it reads") {
+  const Folder folder;
+  prepare(folder, 3, slab_text);
+  for (const std::string name : {"slab.stl", "run.checkpoint.h5"}) {
+    std::filesystem::remove(folder / "slab.stl");
+    write_text(folder / name, slab_stl({0, 0, -0.4}, {1, 1, -0.1}));
+    const std::string output = name == "slab.stl" ? folder / name : folder / "run.h5",
+                      before = read_text(folder / name);
+    const Outcome refused = mpfem_command(
+        fmt::format("run {} --quiet -o {} --set tools.0.file={}", folder / "scenario.toml", output, name));
+    INFO(refused.messages);
+    CHECK(refused.exit_code == 2);
+    CHECK(refused.one_error_line("mpfem"));
+    CHECK_THAT(refused.messages, Catch::Contains("would overwrite the input"));
+    CHECK(read_text(folder / name) == before);
   }
 }
 
