@@ -33,14 +33,14 @@ StageCurve stage_curve(const HistoryTable& history, const StageRows& rows, const
   c.relative_density = cut("relative_density");
   c.plastic_dissipation = cut("plastic_dissipation");
   c.damage_dissipation = cut("damage_dissipation");
-  const auto x = cut("box_lengths_0"), y = cut("box_lengths_1"), z = cut("box_lengths_2");
+  const auto z = cut("box_lengths_2");
   std::vector<double> wall[6];
   for (int side = 0; side < 6; ++side) wall[side] = cut(fmt::format("wall_stress_{}", side).c_str());
   for (std::size_t row = 0; row < c.rows(); ++row) {
     c.axial_stress.push_back(0.5 * (wall[4][row] + wall[5][row]));
     c.lateral_stress.push_back(0.25 * (wall[0][row] + wall[1][row] + wall[2][row] + wall[3][row]));
   }
-  const auto force = [&](std::size_t row) { return c.axial_stress[row] * x[row] * y[row]; };
+  const auto force = [&](std::size_t row) { return c.axial_stress[row] * history.section(rows.first + row); };
   c.axial_work.push_back(0);
   for (std::size_t row = 1; row < c.rows(); ++row)
     c.axial_work.push_back(c.axial_work.back() + 0.5 * (force(row - 1) + force(row)) * (z[row - 1] - z[row]));
@@ -48,8 +48,9 @@ StageCurve stage_curve(const HistoryTable& history, const StageRows& rows, const
   if (c.rows() < 2) return c;
   const double largest = *std::max_element(c.axial_stress.begin(), c.axial_stress.end());
   c.unconfined = median({c.lateral_stress.begin() + 1, c.lateral_stress.end()}) < 0.01 * largest;
-  if (c.unconfined && x[0] * y[0] > 0)
-    for (std::size_t row = 0; row < c.rows(); ++row) c.axial_stress[row] = force(row) / (x[0] * y[0]);
+  const double face = history.section(rows.first);
+  if (c.unconfined && face > 0)
+    for (std::size_t row = 0; row < c.rows(); ++row) c.axial_stress[row] = force(row) / face;
   return c;
 }
 

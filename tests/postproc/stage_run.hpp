@@ -55,11 +55,15 @@ inline RunContents run_of(const std::vector<Row>& rows, const std::string& scena
 }
 
 /// The history as a curve of its stage `number`, by way of a run file.
-inline StageCurve curve_of(const Folder& folder, const std::vector<Row>& rows, int number = 0) {
-  write_run(folder / "curve.h5", run_of(rows));
+inline StageCurve curve_of(const Folder& folder, const RunContents& run, int number = 0) {
+  write_run(folder / "curve.h5", run);
   const schema::FileReader file(folder / "curve.h5");
   const HistoryTable history(file);
   return stage_curve(history, stage_by_number(stages_of(history, {}), number, "curve.h5"), "curve.h5");
+}
+
+inline StageCurve curve_of(const Folder& folder, const std::vector<Row>& rows, int number = 0) {
+  return curve_of(folder, run_of(rows), number);
 }
 
 /// Normally distributed numbers, the same in every run of the tests.

@@ -1,6 +1,7 @@
 // Unload-reload moduli, offset yield and true stress, on curves with known results.
 
 #include <cmath>
+#include <numbers>
 
 #include <catch2/catch.hpp>
 
@@ -47,6 +48,27 @@ TEST_CASE("a loop's modulus is elastic where the loading yields from its start")
   CHECK(m.window.first_row == 40);
   CHECK(m.window.last_row == 120);
   CHECK(within(modulus(curve, {.strain_range = {{0.001, 0.009}}}).value, 500, straight)); // the secant
+}
+
+TEST_CASE("the axial work in a round container is that of the walls' force, which acts on pi/4 of the block's face") {
+  const Folder folder;
+  for (const double lateral_stress : {0.0, 5.0}) { // unconfined, and not
+    std::vector<Row> rows = along({{0, 10}, {0.01, 10}, {0.02, 10}}, 40);
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+      rows[i].stage = i <= 40 ? 0 : 1;
+      rows[i].lateral_stress = lateral_stress;
+      rows[i].lateral_strain = i <= 40 ? -0.1 : -0.2;
+    }
+    RunContents run = run_of(rows);
+    run.numbers["/history/section_share"].assign(rows.size(), std::numbers::pi / 4);
+    const StageCurve curve = curve_of(folder, run, 1);
+    REQUIRE(curve.first_row == 40);
+    const double face = std::numbers::pi / 4 * std::exp(2 * 0.2), first_face = std::numbers::pi / 4 * std::exp(2 * 0.1);
+    const double step = std::exp(-rows[50].axial_strain) - std::exp(-rows[60].axial_strain);
+    CHECK(within(curve.axial_work[20] - curve.axial_work[10], 10 * face * step, straight));
+    CHECK(curve.unconfined == (lateral_stress == 0));
+    CHECK(within(curve.axial_stress[20], curve.unconfined ? 10 * face / first_face : 10, straight));
+  }
 }
 
 TEST_CASE("a loop with hysteresis has the mean slope of its branches, and the area between them") {
