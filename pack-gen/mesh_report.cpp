@@ -54,8 +54,9 @@ SphereGap smallest_facet_gap(const SpherePacking& packing, const PackingMesh& me
     int first, second;
   };
   std::vector<Pair> pairs;
+  // A pair that is farther apart than the gap to a wall is not the nearest.
   const double largest = n > 0 ? *std::max_element(reach.begin(), reach.end()) : 0;
-  for_each_pair_within(packing.center, packing.box, 2 * largest + std::min(smallest.gap, largest), [&](int i, int j) {
+  for_each_pair_within(packing.center, packing.box, 2 * largest + smallest.gap, [&](int i, int j) {
     const auto a = static_cast<std::size_t>(i), b = static_cast<std::size_t>(j);
     pairs.push_back({(vector(packing.center[b]) - vector(packing.center[a])).norm() - reach[a] - reach[b], i, j});
   });

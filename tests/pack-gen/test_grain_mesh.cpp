@@ -99,6 +99,15 @@ TEST_CASE("the proven facet gap is below every distance of sampled surface point
   CHECK(proven > sampled - 0.002); // the grid's own error: (edge/4)^2 over the sphere's radius and the like
 }
 
+TEST_CASE("the proven facet gap is that of the nearest grains, though all are farther apart than their size") {
+  const SpherePacking packing{.box = {20, 20, 20}, .center = {{3.9, 10, 10}, {8.1, 10, 10}}, .radius = {0.5, 0.5}};
+  const SphereGap gap = smallest_facet_gap(packing, mesh_packing(packing, {.nominal_size = 0.3}));
+  CHECK(gap.first == 0);
+  CHECK(gap.second == 1);
+  CHECK(gap.gap < 3.2); // between the spheres; 3.4 to the nearest wall. Nodes lie outside the spheres, which
+  CHECK(gap.gap > 3.0); // the volume of so coarse a mesh needs by a few per cent of the radius
+}
+
 TEST_CASE("the distance of convex hulls is proven from below and reached from above") {
   std::mt19937 random(5);
   std::normal_distribution<double> normal;
