@@ -1,0 +1,145 @@
+// Plots of a figure's file, and what other commands make: pictures and scripts.
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "postproc/figure/read_specs.hpp"
+#include "postproc/fits/fit.hpp"
+
+namespace mpfem {
+
+namespace {
+
+AxisSpec read_axis(TableReader reader, const Words& words) {
+  Texts t(reader, words);
+  AxisSpec axis;
+  axis.label = t.optional("label");
+  axis.format = t.optional("format");
+  axis.ticks = t.optional("ticks");
+  axis.low = t.number("low");
+  axis.high = t.number("high");
+  axis.logarithmic = reader.boolean_or("logarithmic", false);
+  reader.finish();
+  return axis;
+}
+
+SeriesSpec read_series(Texts& t) {
+  TableReader& r = t.reader();
+  SeriesSpec s;
+  s.place = Place(r, "");
+  s.fit = t.optional("fit");
+  if (auto model = r.optional_table("model")) {
+    s.fit_model = model->choice("name", fit_models());
+    for (const std::string& key : model->keys())
+      if (key != "name") s.model.emplace_back(key, model->number(key));
+  }
+  if (s.fit.empty() && s.fit_model.empty()) {
+    s.table = t.required("table");
+    s.x = t.required("x");
+    s.y = t.required("y");
+    s.error = t.optional("error");
+    s.group = t.optional("group");
+    s.colour_by = t.optional("colour_by");
+    s.where = t.filters("where");
+    s.spread = r.boolean_or("spread", false);
+    s.fixed_x = t.number("fixed_x");
+    s.fixed_group = t.number("fixed_group");
+  } else {
+    s.from = t.number("from");
+    s.to = t.number("to");
+    s.at = t.number("at");
+    s.x = t.optional("along", "x");
+  }
+  s.x_scale = r.number_or("x_scale", 1);
+  s.y_scale = r.number_or("y_scale", 1);
+  const bool of_fit = s.table.empty();
+  s.style = r.choice_or("style", of_fit ? "lines" : "points", {"points", "lines", "linespoints"});
+  s.colour = t.integer("colour", 1, Range::between(1, 8));
+  s.point = t.integer("point", 0, Range::between(0, 15));
+  s.width = r.number_or("width", 0, Range::non_negative());
+  s.size = r.number_or("size", 1.5, Range::positive());
+  s.dash = t.optional("dash", "solid");
+  if (s.dash != "solid" && s.dash != "dashed" && s.dash != "dotted" && s.dash != "long")
+    r.fail("dash", fmt::format("found '{}', allowed: 'solid', 'dashed', 'dotted', 'long'", s.dash));
+  s.title = t.optional("title");
+  return s;
+}
+
+InsetSpec read_inset(TableReader inset, const Words& words) {
+  InsetSpec spec;
+  spec.x = read_axis(inset.table("x"), words);
+  spec.y = read_axis(inset.table("y"), words);
+  const auto place = inset.numbers("place", Range::between(0, 1));
+  if (place.size() != 4) inset.fail("place", "allowed: four numbers, left, bottom, width, height");
+  std::copy(place.begin(), place.end(), spec.place.begin());
+  Texts inside(inset, words);
+  spec.where = inside.filters("where");
+  inset.finish();
+  return spec;
+}
+
+/// The words of the plot's `for_each` and of the series' own are both filled in.
+std::vector<SeriesSpec> read_all_series(Texts& plot) {
+  std::vector<SeriesSpec> list;
+  for (TableReader& series : plot.reader().tables("series"))
+    for_each(series, [&](Texts& s) {
+      Words words = plot.words();
+      words.insert(s.words().begin(), s.words().end());
+      Texts both(s.reader(), words);
+      list.push_back(read_series(both));
+    });
+  return list;
+}
+
+/// A picture needs a run, a script may have one: `read_run` reads it accordingly.
+CommandSpec read_command(Texts& t, std::string (*read_run)(Texts&)) {
+  CommandSpec spec;
+  spec.place = Place(t.reader(), "command");
+  spec.name = t.required("name");
+  spec.run = read_run(t);
+  spec.command = t.required("command");
+  spec.caption = t.optional("caption");
+  spec.series = t.list("series");
+  spec.where = t.filters("where");
+  return spec;
+}
+
+} // namespace
+
+PlotSpec read_plot(Texts& t) {
+  TableReader& r = t.reader();
+  PlotSpec plot;
+  plot.place = Place(r, "name");
+  plot.name = t.name("name");
+  plot.title = t.optional("title");
+  plot.key = t.optional("key", "left top");
+  plot.key_title = t.optional("key_title");
+  plot.caption = t.optional("caption");
+  plot.x = read_axis(r.table("x"), t.words());
+  plot.y = read_axis(r.table("y"), t.words());
+  if (auto z = r.optional_table("z")) {
+    plot.z = read_axis(*z, t.words());
+    plot.surface = true;
+  }
+  plot.series = read_all_series(t);
+  for (TableReader& line : r.tables("lines")) {
+    Texts words(line, t.words());
+    plot.lines.push_back({words.number("y"), words.number("x"), words.number("slope"), words.optional("title")});
+    line.finish();
+  }
+  if (auto inset = r.optional_table("inset")) plot.inset = read_inset(*inset, t.words());
+  return plot;
+}
+
+PictureSpec read_picture(Texts& t) {
+  return {read_command(t, [](Texts& texts) { return texts.required("run"); })};
+}
+
+ScriptSpec read_script(Texts& t) {
+  ScriptSpec spec{read_command(t, [](Texts& texts) { return texts.optional("run"); }), {}};
+  spec.needs = t.list("needs");
+  return spec;
+}
+
+} // namespace mpfem
