@@ -203,4 +203,14 @@ double Crossing::half_spacing(std::span<const double> column) const {
   return fraction > 0 ? 0.5 * std::abs(column[row + 1] - column[row]) : 0.0;
 }
 
+std::optional<Crossing> first_crossing(std::span<const double> column, std::size_t first, std::size_t last,
+                                       double value) {
+  for (std::size_t row = first; row < last; ++row) {
+    const auto [low, high] = std::minmax(column[row], column[row + 1]);
+    if (low < high && low <= value && value <= high)
+      return Crossing{row, (value - column[row]) / (column[row + 1] - column[row])};
+  }
+  return {};
+}
+
 } // namespace mpfem

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstddef>
+#include <optional>
 #include <span>
 #include <utility>
 #include <vector>
@@ -96,5 +97,10 @@ struct Crossing {
   /// Half of that column's change between the two rows, as the uncertainty of the interpolation.
   double half_spacing(std::span<const double> column) const;
 };
+
+/// Where a column first reaches `value`, from either side, between two of its rows `first` … `last`; empty where it
+/// does not.
+std::optional<Crossing> first_crossing(std::span<const double> column, std::size_t first, std::size_t last,
+                                       double value);
 
 } // namespace mpfem

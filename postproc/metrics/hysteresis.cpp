@@ -7,6 +7,7 @@
 
 #include "common/errors.hpp"
 #include "common/one_line.hpp"
+#include "postproc/fits/statistics.hpp"
 #include "postproc/run_data/uncertainty.hpp"
 #include "postproc/run_data/windows.hpp"
 
@@ -42,15 +43,6 @@ std::vector<TurningPoint> turning_points(std::span<const double> p) {
   return points;
 }
 
-/// Where the stress first passes `stress` between two rows, rising or falling.
-Crossing crossing(std::span<const double> p, std::size_t begin, std::size_t end, double stress) {
-  for (std::size_t row = begin; row < end; ++row) {
-    const double change = p[row + 1] - p[row];
-    if (change != 0 && (stress - p[row]) * (stress - p[row + 1]) <= 0) return {row, (stress - p[row]) / change};
-  }
-  return {end, 0};
-}
-
 double area_with_stride(std::span<const double> p, std::span<const double> strain, CycleRows c, std::size_t stride) {
   const double base = 0.5 * (p[c.begin] + p[c.end]);
   double area = 0;
@@ -82,7 +74,8 @@ struct Curves {
 /// `low`, `high`: the stresses that all cycles reach, MPa.
 CycleResult cycle_result(const Curves& curve, CycleRows c, double low, double high) {
   const auto& p = curve.mean_stress;
-  const Crossing at_high = crossing(p, c.begin, c.top, high), at_low = crossing(p, c.top, c.end, low);
+  const Crossing at_high = first_crossing(p, c.begin, c.top, high).value_or(Crossing{c.top, 0}),
+                 at_low = first_crossing(p, c.top, c.end, low).value_or(Crossing{c.end, 0});
   CycleResult r;
   r.rows = c;
   r.lowest_stress = std::min(p[c.begin], p[c.end]);

@@ -140,14 +140,6 @@ Reading at_peak(const Test& test, const Peak& peak, bool falls, const StrengthRu
   return reading;
 }
 
-/// Where `strain` first reaches `target`; empty where it does not.
-std::optional<Crossing> reach(const std::vector<double>& strain, double target) {
-  for (std::size_t row = 0; row + 1 < strain.size(); ++row)
-    if (strain[row + 1] >= target && strain[row] < target)
-      return Crossing{row, (target - strain[row]) / (strain[row + 1] - strain[row])};
-  return {};
-}
-
 /// q at the strain of the rule, for a test without a peak by then.
 Reading at_given_strain(const Test& test, const StrengthRule& rule) {
   const StageCurve& c = test.curve;
@@ -155,7 +147,8 @@ Reading at_given_strain(const Test& test, const StrengthRule& rule) {
   constexpr double rounding = 1e-6;
   const double last_strain = c.axial_strain.back();
   const bool ends_there = std::abs(last_strain - rule.at_strain) <= rounding * rule.at_strain;
-  const auto crossing = reach(c.axial_strain, ends_there ? std::min(last_strain, rule.at_strain) : rule.at_strain);
+  const auto crossing = first_crossing(c.axial_strain, 0, c.rows() - 1,
+                                       ends_there ? std::min(last_strain, rule.at_strain) : rule.at_strain);
   if (!crossing)
     throw InputError(fmt::format("{}: stage {}: q has no peak (a fall of {:g} %) and the axial strain ends at {:.4g}; "
                                  "allowed: a run to {:g}, or --at-strain",

@@ -9,6 +9,7 @@
 
 #include "common/errors.hpp"
 #include "common/one_line.hpp"
+#include "postproc/fits/statistics.hpp"
 #include "postproc/metrics/janssen.hpp"
 #include "postproc/metrics/round_die.hpp"
 #include "postproc/metrics/tablet_shape.hpp"
@@ -175,11 +176,7 @@ void add_peak(Tablet& tablet) {
 
 /// Where the upper punch's force first falls to `force_gone` of its peak in the unloading; empty where it does not.
 std::optional<Crossing> punch_leaves(const Tablet& tablet) {
-  const double target = force_gone * tablet.peak.value;
-  for (std::size_t row = tablet.unload->first; row < tablet.unload->last; ++row)
-    if (tablet.upper[row] > target && tablet.upper[row + 1] <= target)
-      return Crossing{row, (tablet.upper[row] - target) / (tablet.upper[row] - tablet.upper[row + 1])};
-  return {};
+  return first_crossing(tablet.upper, tablet.unload->first, tablet.unload->last, force_gone * tablet.peak.value);
 }
 
 void add_unloading(Tablet& tablet) {

@@ -8,18 +8,6 @@
 
 namespace mpfem {
 
-namespace {
-
-/// Where a strain is first reached, clamped to the curve.
-Crossing at_strain(const std::vector<double>& strain, double target) {
-  std::size_t row = 0;
-  while (row + 2 < strain.size() && strain[row + 1] < target) ++row;
-  const double step = strain[row + 1] - strain[row];
-  return {row, step > 0 ? std::clamp((target - strain[row]) / step, 0.0, 1.0) : 0.0};
-}
-
-} // namespace
-
 std::vector<double> cross_section_growth(const HistoryTable& history, const StageRows& stage) {
   if (!history.has("mass_spread_0")) return {};
   const auto &x = history["mass_spread_0"], &y = history["mass_spread_1"];
@@ -41,7 +29,9 @@ void add_true_stress(Measurement& m, const HistoryTable& history, const StageRow
   const std::vector<double> growth = cross_section_growth(history, stage);
   if (growth.empty()) return;
   const StageCurve c = stage_curve(history, stage, "");
-  const double at_strength = at_strain(c.axial_strain, m.details["axial_strain_at_strength"].get<double>()).of(growth);
+  const auto place =
+      first_crossing(c.axial_strain, 0, c.rows() - 1, m.details["axial_strain_at_strength"].get<double>());
+  const double at_strength = place.value_or(Crossing{}).of(growth);
   std::vector<double> stress = smoothed(c.axial_stress);
   for (std::size_t row = 0; row < stress.size(); ++row) stress[row] /= growth[row];
   const auto largest = static_cast<std::size_t>(std::max_element(stress.begin(), stress.end()) - stress.begin());

@@ -39,6 +39,21 @@ TEST_CASE("a line through points on a line is that line, by both methods") {
   }
 }
 
+TEST_CASE("a value is first crossed while a column rises or falls, also at a row, and only between the rows given") {
+  const std::vector<double> column = {0, 0, 2, 6, 6, 3, 1, 4};
+  const auto at = [&](std::size_t first, std::size_t last, double value) {
+    const auto found = first_crossing(column, first, last, value);
+    return found ? static_cast<double>(found->row) + found->fraction : -1;
+  };
+  CHECK(at(0, 7, 3) == 2.25);
+  CHECK(at(0, 7, 6) == 3);
+  CHECK(at(0, 7, 0) == 1); // where it leaves that value
+  CHECK(at(3, 7, 2) == 5.5);
+  CHECK(at(3, 5, 2) == -1);
+  CHECK(at(0, 7, 7) == -1);
+  CHECK(at(3, 4, 6) == -1); // nothing changes
+}
+
 TEST_CASE("a quarter of outliers hardly moves Theil and Sen's slope") {
   Noise noise(1);
   std::vector<double> x, y;
