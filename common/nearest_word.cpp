@@ -2,6 +2,9 @@
 
 #include <algorithm>
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
 namespace mpfem {
 
 std::size_t edit_distance(std::string_view a, std::string_view b) {
@@ -35,6 +38,11 @@ std::optional<std::string> nearest_word(std::string_view word, const std::vector
     }
   }
   return nearest;
+}
+
+std::string suggestion(std::string_view word, const std::vector<std::string>& known) {
+  if (const auto near = nearest_word(word, known)) return fmt::format("; did you mean '{}'?", *near);
+  return known.empty() ? "" : fmt::format("; allowed: {}", fmt::join(known, ", "));
 }
 
 } // namespace mpfem

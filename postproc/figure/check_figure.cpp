@@ -3,7 +3,6 @@
 #include <algorithm>
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include "common/nearest_word.hpp"
 
@@ -26,10 +25,7 @@ void check_column(const Figure& figure, const std::string& table, const std::str
   if (!spec.row.empty()) names.emplace_back("name");
   for (const ColumnSpec& c : spec.columns) names.push_back(c.name);
   if (std::find(names.begin(), names.end(), column) != names.end()) return;
-  const auto near = nearest_word(column, names);
-  place.fail(fmt::format("table '{}' has no column '{}'{}", table, column,
-                         near ? fmt::format("; did you mean '{}'?", *near)
-                              : fmt::format("; allowed: {}", fmt::join(names, ", "))));
+  place.fail(fmt::format("table '{}' has no column '{}'{}", table, column, suggestion(column, names)));
 }
 
 } // namespace

@@ -3,7 +3,6 @@
 #include <algorithm>
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include "common/errors.hpp"
 #include "common/nearest_word.hpp"
@@ -20,11 +19,7 @@ const Item& by_name(const std::vector<Item>& items, const std::string& name, con
     if (item.name == name) return item;
     names.push_back(item.name);
   }
-  const auto near = nearest_word(name, names);
-  place.fail(fmt::format("there is no {} '{}'{}", kind, name,
-                         near            ? fmt::format("; did you mean '{}'?", *near)
-                         : names.empty() ? ""
-                                         : fmt::format("; allowed: {}", fmt::join(names, ", "))));
+  place.fail(fmt::format("there is no {} '{}'{}", kind, name, suggestion(name, names)));
 }
 
 } // namespace

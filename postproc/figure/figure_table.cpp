@@ -7,7 +7,6 @@
 #include <functional>
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 
 #include "common/errors.hpp"
@@ -48,10 +47,7 @@ Value value_of_key(const Json& metric, const std::string& key, const std::string
     if (value != metric.end() && value->is_null()) return {};
     std::vector<std::string> keys;
     for (const auto& [name, entry] : metric.items()) keys.push_back(name);
-    const auto near = nearest_word(key, keys);
-    place.fail(fmt::format("{} has no key '{}'; {}", one_line(path), key,
-                           near ? fmt::format("did you mean '{}'?", *near)
-                                : fmt::format("allowed: {}", fmt::join(keys, ", "))));
+    place.fail(fmt::format("{} has no key '{}'{}", one_line(path), key, suggestion(key, keys)));
   }
   if (found->is_null()) return {};
   if (found->is_number()) return {found->dump(), found->get<double>()};
@@ -148,10 +144,7 @@ std::function<double(const HistoryRow&)> curve_column(const HistoryTable& histor
     if (column.name == name) return [name](const HistoryRow& r) { return r(name.c_str()); };
     names.push_back(column.name);
   }
-  const auto near = nearest_word(name, names);
-  place.fail(fmt::format("the history has no column '{}'; {}", name,
-                         near ? fmt::format("did you mean '{}'?", *near)
-                              : fmt::format("allowed: {}", fmt::join(names, ", "))));
+  place.fail(fmt::format("the history has no column '{}'{}", name, suggestion(name, names)));
 }
 
 /// Path of the JSON file of the metric that a column names.

@@ -42,9 +42,7 @@ std::string programme_path(TableReader& r, const std::string& name, const filesy
     for (const auto& entry : filesystem::directory_iterator(programmes, ignored))
       if (entry.path().extension() == ".toml") known.push_back(entry.path().stem().string());
     std::sort(known.begin(), known.end());
-    const auto near = nearest_word(name, known);
-    r.fail("programme", fmt::format("found '{}', but there is no {}{}", name, path.string(),
-                                    near ? fmt::format("; did you mean '{}'?", *near) : ""));
+    r.fail("programme", fmt::format("found '{}', but there is no {}{}", name, path.string(), suggestion(name, known)));
   }
   return path.string();
 }

@@ -26,10 +26,7 @@ std::vector<std::string> cells_of(const std::string& line) {
 }
 
 std::string no_column(const TextTable& table, const std::string& name) {
-  const auto near = nearest_word(name, table.names);
-  return fmt::format("{} has no column '{}'; {}", one_line(table.path), one_line(name),
-                     near ? fmt::format("did you mean '{}'?", *near)
-                          : fmt::format("allowed: {}", fmt::join(table.names, ", ")));
+  return fmt::format("{} has no column '{}'{}", one_line(table.path), one_line(name), suggestion(name, table.names));
 }
 
 std::string line_of(const std::vector<std::string>& cells, const std::string& path) {

@@ -118,10 +118,7 @@ const Quantity& known(const Quantities& quantities, const std::string& name, con
   if (found != quantities.end()) return found->second;
   std::vector<std::string> names;
   for (const auto& [key, value] : quantities) names.push_back(key);
-  const auto near = nearest_word(name, names);
-  place.fail(fmt::format("there is no quantity '{}' here or above; {}", name,
-                         near ? fmt::format("did you mean '{}'?", *near)
-                              : fmt::format("allowed: {}", fmt::join(names, ", "))));
+  place.fail(fmt::format("there is no quantity '{}' here or above{}", name, suggestion(name, names)));
 }
 
 Quantity of_others(const QuantitySpec& q, const Quantities& quantities) {

@@ -6,7 +6,6 @@
 #include <set>
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include "common/errors.hpp"
 #include "common/nearest_word.hpp"
@@ -251,10 +250,7 @@ const std::vector<Model>& models() {
 const Model& model_by_name(const std::string& name) {
   for (const Model& model : models())
     if (model.name == name) return model;
-  const auto near = nearest_word(name, fit_models());
-  throw InputError(fmt::format("--model: found '{}'; {}", one_line(name),
-                               near ? fmt::format("did you mean '{}'?", *near)
-                                    : fmt::format("allowed: {}", fmt::join(fit_models(), ", "))));
+  throw InputError(fmt::format("--model: found '{}'{}", one_line(name), suggestion(name, fit_models())));
 }
 
 /// Throws InputError where the points are too few for the model.

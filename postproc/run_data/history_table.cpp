@@ -3,7 +3,6 @@
 #include <algorithm>
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include "common/errors.hpp"
 #include "common/nearest_word.hpp"
@@ -85,10 +84,7 @@ const Column& HistoryTable::column(std::string_view name) const {
   if (found != columns_.end()) return *found;
   std::vector<std::string> names;
   for (const Column& c : columns_) names.push_back(c.name);
-  const auto near = nearest_word(name, names);
-  throw InputError(fmt::format("{}: no column '{}'; {}", path_, one_line(name),
-                               near ? fmt::format("did you mean '{}'?", *near)
-                                    : fmt::format("allowed: {}", fmt::join(names, ", "))));
+  throw InputError(fmt::format("{}: no column '{}'{}", path_, one_line(name), suggestion(name, names)));
 }
 
 std::vector<const Column*> HistoryTable::select(const std::vector<std::string>& names) const {

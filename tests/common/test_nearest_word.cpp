@@ -43,6 +43,12 @@ TEST_CASE("The first of equally near words wins, and nothing is proposed where n
   CHECK(nearest_word("box", {}) == std::nullopt);
 }
 
+TEST_CASE("A suggestion names the nearest word, otherwise all known ones") {
+  CHECK(suggestion("nmae", {"name", "until"}) == "; did you mean 'name'?");
+  CHECK(suggestion("radius", {"name", "until"}) == "; allowed: name, until");
+  CHECK(suggestion("radius", {}).empty());
+}
+
 TEST_CASE("Words of absurd length are not compared") {
   const std::string long_word(100'000, 'a');
   CHECK(nearest_word(long_word, {long_word}) == std::nullopt);
