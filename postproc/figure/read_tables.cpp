@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "common/csv_reader.hpp"
 #include "postproc/figure/read_specs.hpp"
 #include "postproc/fits/fit.hpp"
 
@@ -12,14 +13,14 @@ namespace mpfem {
 
 namespace {
 
-struct Heading {
-  std::string name, unit;
-};
-
-Heading heading_of(const std::string& title) {
-  const std::size_t bracket = title.find(" [");
-  if (bracket == std::string::npos) return {title, "1"};
-  return {title.substr(0, bracket), title.substr(bracket + 2, title.find(']') - bracket - 2)};
+/// A column with the name and unit of a heading "NAME [UNIT]"; without a unit it is 1.
+ColumnSpec column_of(const std::string& title) {
+  const CsvHeading heading = csv_heading(title);
+  ColumnSpec column;
+  column.title = title;
+  column.name = heading.name;
+  column.unit = heading.unit.empty() ? "1" : heading.unit;
+  return column;
 }
 
 /// Place of the first such character outside of braces.
@@ -51,11 +52,7 @@ ColumnSpec read_column(const std::string& text, bool curves, const Place& place)
   const std::size_t equals = text.find(" = ");
   if (equals == std::string::npos)
     place.fail(fmt::format("found '{}', allowed: 'NAME [UNIT] = SOURCE' or the name of a list in [columns]", text));
-  ColumnSpec column;
-  column.title = text.substr(0, equals);
-  const Heading heading = heading_of(column.title);
-  column.name = heading.name;
-  column.unit = heading.unit;
+  ColumnSpec column = column_of(text.substr(0, equals));
   std::string source = text.substr(equals + 3);
   if (const std::size_t over = source.find(" over "); curves && over != std::string::npos) {
     if (!read_metric_key(source.substr(over + 6), column))
@@ -121,14 +118,7 @@ TableSpec read_table_of_file(Texts& t, const std::filesystem::path& folder) {
   spec.file = t.required("file");
   spec.beside = std::filesystem::exists(folder / spec.file);
   if (spec.beside) spec.file = (folder / spec.file).lexically_normal().string();
-  for (const std::string& text : t.list("columns")) {
-    const Heading heading = heading_of(text);
-    ColumnSpec column;
-    column.title = text;
-    column.name = heading.name;
-    column.unit = heading.unit;
-    spec.columns.push_back(column);
-  }
+  for (const std::string& text : t.list("columns")) spec.columns.push_back(column_of(text));
   return spec;
 }
 
