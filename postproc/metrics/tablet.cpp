@@ -37,15 +37,15 @@ struct Tablet {
   const schema::FileReader& file;
   const HistoryTable& history;
   TabletRule rule;
-  std::vector<double> upper, lower;          ///< N, axial force of the punches, compression positive
-  std::vector<double> die_normal, die_axial; ///< N, normal force and friction of the die
-  StageRows press;
-  std::optional<StageRows> hold, unload, eject;
-  RowRange loaded;                               ///< pressing and holding
+  std::vector<double> upper{}, lower{};          ///< N, axial force of the punches, compression positive
+  std::vector<double> die_normal{}, die_axial{}; ///< N, normal force and friction of the die
+  StageRows press{};
+  std::optional<StageRows> hold{}, unload{}, eject{};
+  RowRange loaded{};                             ///< pressing and holding
   double diameter = 0;                           ///< mm, of the die
-  Reading peak;                                  ///< of the upper punch
+  Reading peak{};                                ///< of the upper punch
   double smallest_height = 0, height_in_die = 0; ///< mm; height_in_die: when the upper punch has left
-  TabletMeasurement result;
+  TabletMeasurement result{};
 
   double height(std::size_t row) const { return history["box_lengths_2"][row]; }
   void note(const std::string& text) { result.measurement.notes.push_back(text); }
@@ -346,7 +346,7 @@ void fill_measurement(Tablet& tablet) {
 
 TabletMeasurement measure_tablet(const schema::FileReader& file, const TabletRule& rule) {
   const HistoryTable history(file);
-  Tablet tablet{file, history, rule, {}, {}, {}, {}, {}, {}, {}, {}, {}, 0, {}, 0, 0, {}};
+  Tablet tablet{.file = file, .history = history, .rule = rule};
   read_tools(tablet);
   read_stages(tablet);
   refuse_other_than_round_dies(tablet.file, false);
