@@ -33,21 +33,18 @@ double size_distance(const SpherePacking& packing, const SizeDistribution& targe
 
 } // namespace
 
-std::string quality_json(const SpherePacking& packing, const std::optional<MeshReport>& mesh,
-                         const PackingDescription* description) {
+std::string quality_json(const SpherePacking& packing, const MeshReport& mesh, const PackingDescription* description) {
   std::string text = "{\n";
   const auto add = [&](const char* name, auto value) { text += fmt::format("  \"{}\": {},\n", name, value); };
-  if (mesh) {
-    add("nodes", mesh->nodes);
-    add("tets", mesh->tets);
-    add("tets_per_grain", static_cast<double>(mesh->tets) / static_cast<double>(mesh->grains));
-    add("nominal_size_mm", mesh->nominal_size);
-    add("largest_volume_error", mesh->largest_volume_error);
-    add("smallest_quality", mesh->smallest_quality);
-    add("median_quality", mesh->median_quality);
-    add("smallest_facet_gap_mm", mesh->facet_gap.gap);
-    add("smallest_step_s", mesh->smallest_step);
-  }
+  add("nodes", mesh.nodes);
+  add("tets", mesh.tets);
+  add("tets_per_grain", static_cast<double>(mesh.tets) / static_cast<double>(mesh.grains));
+  add("nominal_size_mm", mesh.nominal_size);
+  add("largest_volume_error", mesh.largest_volume_error);
+  add("smallest_quality", mesh.smallest_quality);
+  add("median_quality", mesh.median_quality);
+  add("smallest_facet_gap_mm", mesh.facet_gap.gap);
+  add("smallest_step_s", mesh.smallest_step);
   if (description != nullptr) add("size_distance", size_distance(packing, *description->distribution));
   add("grains", packing.radius.size());
   add("relative_density", relative_density(packing));

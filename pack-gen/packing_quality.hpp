@@ -1,7 +1,6 @@
 #pragma once
 // Properties of a packing, as numbers by name and as tables: for `pack-gen quality -o`.
 
-#include <optional>
 #include <string>
 
 #include "pack-gen/mesh_report.hpp"
@@ -9,12 +8,11 @@
 
 namespace mpfem {
 
-/// JSON of grains, relative_density, smallest_gap_mm (between spheres and to the walls) and, where they are given, the
-/// mesh's nodes, tets, tets_per_grain, smallest_quality, smallest_facet_gap_mm …, and size_distance, the largest
-/// distance between the cumulative curve of the spheres (at each sphere's middle, (i + 1/2)/n) and that of the
+/// JSON of grains, relative_density, smallest_gap_mm (between spheres and to the walls), the mesh's nodes, tets,
+/// tets_per_grain, smallest_quality, smallest_facet_gap_mm … and, where a description is given, size_distance, the
+/// largest distance between the cumulative curve of the spheres (at each sphere's middle, (i + 1/2)/n) and that of the
 /// description.
-std::string quality_json(const SpherePacking& packing, const std::optional<MeshReport>& mesh,
-                         const PackingDescription* description);
+std::string quality_json(const SpherePacking& packing, const MeshReport& mesh, const PackingDescription* description);
 
 /// CSV of diameter (mm) and cumulative fraction by number at each sphere's middle, ascending.
 std::string sizes_csv(const SpherePacking& packing);

@@ -175,16 +175,4 @@ double size_scale(const std::vector<double>& diameter, double relative_density, 
   return std::cbrt(relative_density * box_volume / total_sphere_volume(diameter));
 }
 
-double kolmogorov_distance(std::vector<double> diameter, const SizeDistribution& distribution) {
-  std::sort(diameter.begin(), diameter.end());
-  const auto n = static_cast<double>(diameter.size());
-  double distance = 0;
-  for (std::size_t i = 0; i < diameter.size(); ++i) {
-    const double target = distribution.cumulative_number(diameter[i]);
-    distance = std::max(
-        {distance, std::abs(target - static_cast<double>(i) / n), std::abs(target - static_cast<double>(i + 1) / n)});
-  }
-  return distance;
-}
-
 } // namespace mpfem

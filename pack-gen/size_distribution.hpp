@@ -46,7 +46,4 @@ double total_sphere_volume(const std::vector<double>& diameter);
 /// Uniform factor on the diameters that makes their volume `relative_density` times `box_volume` (mm^3).
 double size_scale(const std::vector<double>& diameter, double relative_density, double box_volume);
 
-/// Largest distance between the sample's empirical number-cumulative curve and the distribution (Kolmogorov).
-double kolmogorov_distance(std::vector<double> diameter, const SizeDistribution& distribution);
-
 } // namespace mpfem

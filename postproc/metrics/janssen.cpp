@@ -4,20 +4,11 @@
 
 namespace mpfem {
 
-double axial_stress_in_die(const DieSlice& slice, double z) {
-  return slice.lower_stress * std::pow(slice.upper_stress / slice.lower_stress, z / slice.height);
-}
-
 double mean_axial_stress_in_die(const DieSlice& slice) {
   // log1p of the small difference keeps the mean accurate for nearly equal stresses.
   const double difference = slice.upper_stress - slice.lower_stress;
   const double logarithm = std::log1p(difference / slice.lower_stress);
   return logarithm != 0 ? difference / logarithm : slice.lower_stress;
-}
-
-double wall_friction_at(const DieSlice& slice, double radial_stress, double z) {
-  return slice.diameter * axial_stress_in_die(slice, z) * std::log(slice.upper_stress / slice.lower_stress) /
-         (4 * slice.height * radial_stress);
 }
 
 double wall_friction(const DieSlice& slice, double mean_radial_stress) {

@@ -13,18 +13,13 @@ struct DieSlice {
   double diameter = 0, height = 0;           ///< mm
 };
 
-/// Axial stress (MPa) at a height z (mm) above the lower punch: sigma_B (sigma_T / sigma_B)^(z/H).
-double axial_stress_in_die(const DieSlice& slice, double z);
-
-/// Mean of that stress over the height, MPa: (sigma_T - sigma_B) / ln(sigma_T / sigma_B).
+/// Mean over the height of the axial stress sigma_B (sigma_T / sigma_B)^(z/H), MPa:
+/// (sigma_T - sigma_B) / ln(sigma_T / sigma_B).
 double mean_axial_stress_in_die(const DieSlice& slice);
 
-/// Coefficient of wall friction from the radial stress (MPa) at one height z:
-/// mu = D sigma_z(z) ln(sigma_T / sigma_B) / (4 H sigma_r(z)). All stresses > 0.
-double wall_friction_at(const DieSlice& slice, double radial_stress, double z);
-
-/// The same from the mean radial stress (MPa) over the height, mu = D (sigma_T - sigma_B) / (4 H sigma_r): the
-/// equilibrium of the whole tablet, which needs no exponential.
+/// Coefficient of wall friction from the mean radial stress (MPa) over the height,
+/// mu = D (sigma_T - sigma_B) / (4 H sigma_r): the equilibrium of the whole tablet, which needs no exponential. All
+/// stresses > 0.
 double wall_friction(const DieSlice& slice, double mean_radial_stress);
 
 } // namespace mpfem

@@ -12,6 +12,23 @@
 
 using namespace mpfem;
 
+namespace {
+
+/// Largest distance between the sample's empirical number-cumulative curve and the distribution (Kolmogorov).
+double kolmogorov_distance(std::vector<double> diameter, const SizeDistribution& distribution) {
+  std::sort(diameter.begin(), diameter.end());
+  const auto n = static_cast<double>(diameter.size());
+  double distance = 0;
+  for (std::size_t i = 0; i < diameter.size(); ++i) {
+    const double target = distribution.cumulative_number(diameter[i]);
+    distance = std::max(
+        {distance, std::abs(target - static_cast<double>(i) / n), std::abs(target - static_cast<double>(i + 1) / n)});
+  }
+  return distance;
+}
+
+} // namespace
+
 TEST_CASE("a table by number is piecewise linear, and its inverse is its inverse") {
   const auto table = table_distribution({0.1, 0.2, 0.4}, {0, 0.5, 1}, SizeWeight::number);
   CHECK(table->cumulative_number(0.15) == Approx(0.25));

@@ -128,15 +128,11 @@ TEST_CASE("Janssen's slices give back the wall friction that was put in") {
     for (const double height : {0.3, 1.0, 4.0}) {
       const double diameter = 2, ratio = 0.45, upper = 120;
       const DieSlice slice{upper, upper * std::exp(-4 * friction * ratio * height / diameter), diameter, height};
-      for (const double z : {0.0, 0.3 * height, height}) {
-        const double axial = slice.lower_stress * std::exp(4 * friction * ratio * z / diameter);
-        CHECK(within(axial_stress_in_die(slice, z), axial, 1e-12));
-        CHECK(within(wall_friction_at(slice, ratio * axial, z), friction, 1e-12));
-      }
+      const auto axial = [&](double z) { return slice.lower_stress * std::exp(4 * friction * ratio * z / diameter); };
       // The mean over the height, summed in many slices.
       double sum = 0;
       constexpr int slices = 2000;
-      for (int i = 0; i < slices; ++i) sum += axial_stress_in_die(slice, height * (i + 0.5) / slices) / slices;
+      for (int i = 0; i < slices; ++i) sum += axial(height * (i + 0.5) / slices) / slices;
       CHECK(within(mean_axial_stress_in_die(slice), sum, 1e-6));
       CHECK(within(wall_friction(slice, ratio * sum), friction, 1e-6));
     }
