@@ -10,19 +10,15 @@ namespace mpfem {
 
 namespace {
 
-std::string joined(const std::string& first, const std::string& second) {
-  return first.empty() || second.empty() ? first + second : first + " " + second;
-}
-
 template <class Parse>
 CLI::Validator validator(const Range& range, const std::string& unit, const char* kind, Parse parse) {
-  const std::string limits = joined(range.text(), unit);
-  return {[range, limits, kind, parse](std::string& text) {
+  return {[range, unit, kind, parse](std::string& text) {
             const auto value = parse(text);
             if (value && range.contains(static_cast<double>(*value))) return std::string();
-            return fmt::format("found '{}', allowed: {}", shortened(text, 40), joined(kind, limits));
+            return fmt::format("found '{}', allowed: {}", shortened(text, 40), allowed_number(kind, range, unit));
           },
-          range.low == whole_numbers.low ? std::string() : limits}; // the help does not print the limits of the type
+          // The help does not print the limits of the type.
+          range.low == whole_numbers.low ? std::string() : allowed_number("", range, unit)};
 }
 
 } // namespace

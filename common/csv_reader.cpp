@@ -33,11 +33,6 @@ std::string_view without_comment(std::string_view line) {
   return line;
 }
 
-std::string expected_number(const Range& range, std::string_view kind) {
-  const std::string limits = range.text();
-  return limits.empty() ? std::string(kind) : fmt::format("{} {}", kind, limits);
-}
-
 } // namespace
 
 CsvReader::CsvReader(std::string text, std::string name) : text_(std::move(text)), name_(std::move(name)) {}
@@ -89,7 +84,7 @@ double CsvReader::number(const CsvRow& row, std::size_t cell, std::string_view c
   const auto value = finite_number(row.cells[cell]);
   if (!value || !range.contains(*value))
     fail(row, fmt::format("column {}: found '{}', allowed: {}", shortened(column), shortened(row.cells[cell]),
-                          expected_number(range, "a number")));
+                          allowed_number("a number", range)));
   return *value;
 }
 
@@ -97,7 +92,7 @@ long long CsvReader::integer(const CsvRow& row, std::size_t cell, std::string_vi
   const auto value = whole_number(row.cells[cell]);
   if (!value || !range.contains(static_cast<double>(*value)))
     fail(row, fmt::format("column {}: found '{}', allowed: {}", shortened(column), shortened(row.cells[cell]),
-                          expected_number(range, "a whole number")));
+                          allowed_number("a whole number", range)));
   return *value;
 }
 

@@ -36,4 +36,12 @@ std::string Range::text() const {
   return has_low ? above : has_high ? below : "";
 }
 
+std::string allowed_number(std::string_view kind, const Range& range, std::string_view unit) {
+  const std::string limits = range.text();
+  std::string text(kind);
+  for (const std::string_view part : {std::string_view(limits), unit})
+    if (!part.empty()) text.append(text.empty() ? "" : " ").append(part);
+  return text;
+}
+
 } // namespace mpfem

@@ -3,6 +3,7 @@
 
 #include <limits>
 #include <string>
+#include <string_view>
 
 namespace mpfem {
 
@@ -20,5 +21,8 @@ struct Range {
   bool contains(double value) const;
   std::string text() const; ///< "> 0", "0 … 1", …; empty if every number is allowed
 };
+
+/// "a number 0 … 1 mm": what a message says is allowed. Each part may be empty.
+std::string allowed_number(std::string_view kind, const Range& range, std::string_view unit = "");
 
 } // namespace mpfem

@@ -72,11 +72,6 @@ std::string wrong_type(const toml::node& node, std::string_view expected) {
   return fmt::format("found {}, allowed: {}", found_text(node), expected);
 }
 
-std::string or_any(const Range& range, std::string_view kind) {
-  const std::string limits = range.text();
-  return limits.empty() ? std::string(kind) : fmt::format("{} {}", kind, limits);
-}
-
 std::string quoted_list(const std::vector<std::string>& words) {
   return fmt::format("'{}'", fmt::join(words, "', '"));
 }
@@ -257,14 +252,14 @@ void TableReader::fail(std::string_view key, const std::string& message) const {
 
 double TableReader::read_number(const toml::node& node, std::string_view key, const Range& range) const {
   const std::optional<double> value = node.is_number() ? node.value<double>() : std::nullopt;
-  if (!value) fail_at(node.source(), key, wrong_type(node, or_any(range, "a number")));
-  if (!std::isfinite(*value)) fail_at(node.source(), key, wrong_type(node, or_any(range, "a finite number")));
+  if (!value) fail_at(node.source(), key, wrong_type(node, allowed_number("a number", range)));
+  if (!std::isfinite(*value)) fail_at(node.source(), key, wrong_type(node, allowed_number("a finite number", range)));
   if (!range.contains(*value)) fail_at(node.source(), key, fmt::format("found {}, allowed: {}", *value, range.text()));
   return *value;
 }
 
 std::int64_t TableReader::read_integer(const toml::node& node, std::string_view key, const Range& range) const {
-  if (!node.is_integer()) fail_at(node.source(), key, wrong_type(node, or_any(range, "an integer")));
+  if (!node.is_integer()) fail_at(node.source(), key, wrong_type(node, allowed_number("an integer", range)));
   const std::int64_t value = node.as_integer()->get();
   if (!range.contains(static_cast<double>(value)))
     fail_at(node.source(), key, fmt::format("found {}, allowed: {}", value, range.text()));
@@ -313,7 +308,7 @@ std::array<double, 3> TableReader::read_vector3(const toml::node& node, std::str
 // Public readers: required, with a fallback, optional.
 
 double TableReader::number(std::string_view key, Range range) {
-  return read_number(require(key, or_any(range, "a number")), key, range);
+  return read_number(require(key, allowed_number("a number", range)), key, range);
 }
 
 double TableReader::number_or(std::string_view key, double fallback, Range range) {
@@ -327,7 +322,7 @@ std::optional<double> TableReader::optional_number(std::string_view key, Range r
 }
 
 std::int64_t TableReader::integer(std::string_view key, Range range) {
-  return read_integer(require(key, or_any(range, "an integer")), key, range);
+  return read_integer(require(key, allowed_number("an integer", range)), key, range);
 }
 
 std::int64_t TableReader::integer_or(std::string_view key, std::int64_t fallback, Range range) {
