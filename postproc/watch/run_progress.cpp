@@ -12,6 +12,7 @@
 
 #include "common/errors.hpp"
 #include "common/one_line.hpp"
+#include "common/run_stem.hpp"
 #include "common/table_reader.hpp"
 #include "postproc/run_data/history_table.hpp"
 #include "results-schema/file.hpp"
@@ -22,11 +23,6 @@ namespace {
 
 namespace check = schema::checkpoint;
 namespace run = schema::run;
-
-/// File names as in solver/run/checkpoints.cpp and solver/output/run_lock.cpp.
-std::string beside(const std::string& run_file, const std::string& ending) {
-  return (run_file.ends_with(".h5") ? run_file.substr(0, run_file.size() - 3) : run_file) + ending;
-}
 
 /// When a file was last written (s, system clock); empty where there is none.
 std::optional<double> time_written(const std::string& path) {
@@ -159,9 +155,10 @@ std::optional<double> seconds_per_stage(const RunProgress& now, const std::strin
 
 /// Empty where no file of the run holds a state yet. Throws InputError where one cannot be read.
 std::optional<RunProgress> newest_state(const std::string& run_file) {
-  const std::string rolling = beside(run_file, ".checkpoint.h5"),
-                    previous = beside(run_file, ".checkpoint.previous.h5");
-  const auto finished = time_written(run_file), lock = time_written(beside(run_file, ".lock"));
+  // File names as in solver/run/checkpoints.cpp and solver/output/run_lock.cpp.
+  const std::string rolling = run_stem(run_file) + ".checkpoint.h5",
+                    previous = run_stem(run_file) + ".checkpoint.previous.h5";
+  const auto finished = time_written(run_file), lock = time_written(run_stem(run_file) + ".lock");
   // Between two renames only the previous checkpoint exists.
   const std::string checkpoint = time_written(rolling) ? rolling : previous;
   const auto saved = time_written(checkpoint);
@@ -176,7 +173,7 @@ std::optional<RunProgress> newest_state(const std::string& run_file) {
   } else if (!lock) {
     return {};
   }
-  progress.at_work = at_work(beside(run_file, ".lock"));
+  progress.at_work = at_work(run_stem(run_file) + ".lock");
   return progress;
 }
 

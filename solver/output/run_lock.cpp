@@ -11,6 +11,7 @@
 
 #include "common/errors.hpp"
 #include "common/one_line.hpp"
+#include "common/run_stem.hpp"
 
 namespace mpfem {
 
@@ -27,7 +28,7 @@ bool stands(int file, const std::string& path) {
 } // namespace
 
 std::string lock_path(const std::string& run_file) {
-  return (run_file.ends_with(".h5") ? run_file.substr(0, run_file.size() - 3) : run_file) + ".lock";
+  return run_stem(run_file) + ".lock";
 }
 
 RunLock::RunLock(const std::string& run_file) : path_(lock_path(run_file)) {

@@ -7,6 +7,7 @@
 
 #include "common/errors.hpp"
 #include "common/one_line.hpp"
+#include "common/run_stem.hpp"
 #include "solver/parallel/root.hpp"
 
 namespace mpfem {
@@ -15,13 +16,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::string stem(const std::string& run_file) {
-  return run_file.ends_with(".h5") ? run_file.substr(0, run_file.size() - 3) : run_file;
-}
-
 /// Where a new rolling checkpoint is written before it is known to be good.
 std::string next_checkpoint_path(const std::string& run_file) {
-  return stem(run_file) + ".checkpoint.next.h5";
+  return run_stem(run_file) + ".checkpoint.next.h5";
 }
 
 /// Rounding does not decide whether a density is reached.
@@ -65,23 +62,23 @@ void verify_written(const std::string& path, const std::string& rolling) {
 } // namespace
 
 std::string checkpoint_path(const std::string& run_file) {
-  return stem(run_file) + ".checkpoint.h5";
+  return run_stem(run_file) + ".checkpoint.h5";
 }
 
 std::string previous_checkpoint_path(const std::string& run_file) {
-  return stem(run_file) + ".checkpoint.previous.h5";
+  return run_stem(run_file) + ".checkpoint.previous.h5";
 }
 
 std::string stage_checkpoint_path(const std::string& run_file, const std::string& stage) {
-  return fmt::format("{}.{}.checkpoint.h5", stem(run_file), stage);
+  return fmt::format("{}.{}.checkpoint.h5", run_stem(run_file), stage);
 }
 
 std::string density_checkpoint_path(const std::string& run_file, double relative_density) {
-  return fmt::format("{}.D{:.3f}.checkpoint.h5", stem(run_file), relative_density);
+  return fmt::format("{}.D{:.3f}.checkpoint.h5", run_stem(run_file), relative_density);
 }
 
 std::string parts_folder(const std::string& run_file) {
-  return stem(run_file) + ".parts";
+  return run_stem(run_file) + ".parts";
 }
 
 std::string snapshot_name(std::size_t number) {
