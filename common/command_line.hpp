@@ -8,6 +8,7 @@
 
 #include <CLI/CLI.hpp>
 
+#include "common/physical_ranges.hpp"
 #include "common/range.hpp"
 
 namespace mpfem {
@@ -48,14 +49,6 @@ constexpr Range whole_numbers = Range::between(-2147483647.0, 2147483647.0);
 constexpr Range thread_numbers = Range::between(1, 1024);
 /// Seeds of random numbers. Larger whole numbers are not exact in all programs that read them.
 constexpr Range seed_numbers = Range::between(0, 9007199254740991.0);
-/// Lengths, mm.
-constexpr Range lengths = Range::between(1e-12, 1e9);
-/// Moduli and stresses, MPa.
-constexpr Range moduli = Range::between(1e-9, 1e12);
-/// Densities, tonne/mm^3.
-constexpr Range densities = Range::between(1e-18, 1e3);
-/// Any coordinate, strain, angle…
-constexpr Range coordinates = Range::between(-1e9, 1e9);
 
 /// Parses the command line. Returns the exit code if nothing is left to do because help or version was printed. Throws
 /// InputError for a mistake; its message ends with the command that prints the help.

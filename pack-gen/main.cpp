@@ -260,13 +260,13 @@ void add_quality_outputs(CLI::App& command, Arguments& arguments) {
 }
 
 void add_material(CLI::App& command, StepMaterial& material) {
-  add_number(command, "--youngs-modulus", material.youngs_modulus, moduli, "MPa",
+  add_number(command, "--youngs-modulus", material.youngs_modulus, positive_modulus, "MPa",
              "Of the grains' material, for the critical time step")
       ->capture_default_str();
   add_number(command, "--poissons-ratio", material.poissons_ratio, Range::between(-0.99, 0.499), "",
              "Of the grains' material, for the critical time step")
       ->capture_default_str();
-  add_number(command, "--density", material.density, densities, "tonne/mm^3",
+  add_number(command, "--density", material.density, positive_density, "tonne/mm^3",
              "Of the grains' material, for the critical time step")
       ->capture_default_str();
 }
@@ -295,11 +295,10 @@ void add_container(CLI::App& command, Arguments& arguments, const std::string& o
       .add_option("--container", arguments.container,
                   "box, cylinder (along z) or surface (a closed one from an STL file) (default: " + otherwise + ")")
       ->check(CLI::IsMember({"box", "cylinder", "surface"}));
-  add_number(command, "--diameter", arguments.diameter, lengths, "mm", "Diameter of the cylinder");
-  add_number(command, "--height", arguments.height, lengths, "mm", "Height of the cylinder");
+  add_number(command, "--diameter", arguments.diameter, positive_length, "mm", "Diameter of the cylinder");
+  add_number(command, "--height", arguments.height, positive_length, "mm", "Height of the cylinder");
   command.add_option("--surface", arguments.surface, "STL file of the surface; its lowest corner becomes the origin");
-  add_number(command, "--scale", arguments.scale, Range::between(1e-9, 1e9), "mm",
-             "Length of one unit of the STL file");
+  add_number(command, "--scale", arguments.scale, length_of_unit, "mm", "Length of one unit of the STL file");
 }
 
 /// A command that reads a file, described by `input`.
@@ -347,7 +346,7 @@ CLI::App* add_mesh(CLI::App& app, Arguments& arguments) {
       add_command(app, arguments, "mesh",
                   "Mesh every sphere.\nExample: pack-gen mesh spheres.h5 --size 0.03 -o packing.h5", "Spheres (HDF5)");
   add_output(*command, arguments);
-  add_number(*command, "--size", arguments.size, lengths, "mm", "Nominal element size")->required();
+  add_number(*command, "--size", arguments.size, positive_length, "mm", "Nominal element size")->required();
   add_number(*command, "--seed", arguments.seed, seed_numbers, "", "Seed of the meshes' orientations (default: 1)");
   command->add_flag("!--no-optimise", arguments.optimise, "Do not optimise meshes for a larger time step");
   add_threads(*command, arguments);
@@ -364,14 +363,14 @@ CLI::App* add_import(CLI::App& app, Arguments& arguments) {
                                   "1.2 -o spheres.h5",
                                   "Spheres (CSV)");
   add_output(*command, arguments);
-  add_number(*command, "--size", arguments.size, lengths, "mm", "Nominal element size (default: not meshed)");
+  add_number(*command, "--size", arguments.size, positive_length, "mm", "Nominal element size (default: not meshed)");
   add_threads(*command, arguments);
-  add_number(*command, "--box", arguments.box, lengths, "mm",
+  add_number(*command, "--box", arguments.box, positive_length, "mm",
              "Edge lengths X,Y,Z of the box, which begins at the origin (default: the smallest box around the spheres)")
       ->delimiter(',')
       ->expected(3);
   add_container(*command, arguments, "box");
-  add_number(*command, "--bottom-center", arguments.bottom_center, coordinates, "mm",
+  add_number(*command, "--bottom-center", arguments.bottom_center, any_length, "mm",
              "X,Y,Z of the centre of the cylinder's bottom in the table's coordinates (default: D/2,D/2,0)")
       ->delimiter(',')
       ->expected(3);
@@ -404,7 +403,7 @@ CLI::App* add_hemispheres(CLI::App& app, Arguments& arguments) {
       "Mesh two hemispheres tip to tip, finely where they will touch.\n"
       "Example: pack-gen hemispheres --radius 0.1 --size 0.012 --contact-size 0.0005 --contact-radius 0.01 -o pair.h5");
   const auto length = [&](const char* name, double& value, const char* help, bool required) {
-    CLI::Option* option = add_number(*command, name, value, lengths, "mm", help);
+    CLI::Option* option = add_number(*command, name, value, positive_length, "mm", help);
     if (required) option->required();
   };
   HemisphereRequest& pair = arguments.hemispheres;

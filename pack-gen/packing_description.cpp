@@ -6,14 +6,12 @@
 #include <fmt/format.h>
 
 #include "common/errors.hpp"
+#include "common/physical_ranges.hpp"
 #include "pack-gen/csv_table.hpp"
 
 namespace mpfem {
 
 namespace {
-
-// Far within this range no volume overflows or underflows.
-constexpr Range length = Range::between(1e-12, 1e9); // mm
 
 /// A file that a description names, relative to its folder; appended to `files`.
 std::string named_file(TableReader& table, const char* key, const std::string& description_file,
@@ -30,14 +28,14 @@ struct Columns {
 Columns read_columns(TableReader& table, const std::string& description_file, bool with_cumulative,
                      std::vector<std::string>& files) {
   if (!table.has("file")) {
-    Columns columns{table.numbers("values", length), {}};
+    Columns columns{table.numbers("values", positive_length), {}};
     if (with_cumulative) columns.cumulative = table.numbers("cumulative", Range::between(0, 1));
     return columns;
   }
   for (const char* key : {"values", "cumulative"})
     if (table.has(key)) table.fail(key, "cannot be used with key 'file', allowed: one of the two");
   const std::string path = named_file(table, "file", description_file, files);
-  std::vector<CsvColumn> names = {{"size", length}};
+  std::vector<CsvColumn> names = {{"size", positive_length}};
   if (with_cumulative) names.push_back({"cumulative", Range::between(0, 1)});
   const auto rows = read_csv(CsvReader::from_file(path), names);
   Columns columns;
@@ -58,10 +56,10 @@ std::unique_ptr<SizeDistribution> read_distribution(TableReader table, const std
   };
   try {
     if (kind == "log_normal") {
-      const double median = to_diameter * table.number("median", length);
+      const double median = to_diameter * table.number("median", positive_length);
       const double deviation = table.number("log_deviation", Range::between(1e-6, 10));
-      const double smallest = to_diameter * table.number("smallest", length);
-      const double largest = to_diameter * table.number("largest", length);
+      const double smallest = to_diameter * table.number("smallest", positive_length);
+      const double largest = to_diameter * table.number("largest", positive_length);
       distribution = log_normal_distribution(median, deviation, weight(), smallest, largest);
     } else {
       Columns columns = read_columns(table, description_file, kind == "table", files);
@@ -90,7 +88,7 @@ PackingContainer read_container(TableReader& root, const std::string& descriptio
   if (shape == "box") {
     refuse({"diameter", "height"}, "box, or container = \"cylinder\"");
     refuse({"surface_file", "surface_scale"}, "box, or container = \"surface\"");
-    return {root.vector3("box", length), ContainerShape::box};
+    return {root.vector3("box", positive_length), ContainerShape::box};
   }
   if (without_box)
     root.value("box");
@@ -100,11 +98,11 @@ PackingContainer read_container(TableReader& root, const std::string& descriptio
     refuse({"diameter", "height"}, "surface_file and surface_scale");
     const std::string path = named_file(root, "surface_file", description_file, files);
     // No default: STL files do not state their unit.
-    const PlacedSurface placed = read_surface(path, root.number("surface_scale", Range::between(1e-9, 1e9)));
+    const PlacedSurface placed = read_surface(path, root.number("surface_scale", length_of_unit));
     return {placed.lengths, ContainerShape::surface, placed.container};
   }
   refuse({"surface_file", "surface_scale"}, "diameter and height");
-  const double diameter = root.number("diameter", length), height = root.number("height", length);
+  const double diameter = root.number("diameter", positive_length), height = root.number("height", positive_length);
   return {{diameter, diameter, height}, ContainerShape::cylinder};
 }
 
@@ -117,7 +115,7 @@ PackingDescription read_packing_description(const TomlDocument& document, bool w
   description.count = static_cast<int>(root.integer("count", Range::between(1, 1e7)));
   description.relative_density = root.number("relative_density", Range::between(1e-9, 0.74));
   description.container = read_container(root, document.name(), without_box, description.files);
-  description.smallest_gap = root.number("smallest_gap", length);
+  description.smallest_gap = root.number("smallest_gap", positive_length);
   description.seed = static_cast<std::uint64_t>(root.integer_or("seed", 1, Range::non_negative()));
   description.size_scale_tolerance = root.number_or("size_scale_tolerance", 0.01, Range::between(0, 1e6));
   description.distribution = read_distribution(root.table("size_distribution"), document.name(), description.files);

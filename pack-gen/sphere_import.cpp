@@ -9,6 +9,7 @@
 
 #include "common/errors.hpp"
 #include "common/one_line.hpp"
+#include "common/physical_ranges.hpp"
 #include "pack-gen/csv_table.hpp"
 #include "pack-gen/sphere_tree.hpp"
 
@@ -44,9 +45,8 @@ namespace {
 /// Spheres as the table has them, in no container.
 SpherePacking read_table(CsvReader table) {
   SpherePacking packing;
-  constexpr Range coordinate = Range::between(-1e9, 1e9), radius = Range::between(1e-12, 1e9); // mm
-  for (const auto& row :
-       read_csv(std::move(table), {{"x", coordinate}, {"y", coordinate}, {"z", coordinate}, {"radius", radius}})) {
+  for (const auto& row : read_csv(
+           std::move(table), {{"x", any_length}, {"y", any_length}, {"z", any_length}, {"radius", positive_length}})) {
     packing.center.push_back({row[0], row[1], row[2]});
     packing.radius.push_back(row[3]);
   }

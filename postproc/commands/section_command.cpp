@@ -40,7 +40,7 @@ public:
 private:
   void add_plane_options() {
     add_axis(options(), axis_, "Axis that the plane is normal to");
-    add_number(options(), "--position", position_, coordinates, "",
+    add_number(options(), "--position", position_, any_length, "",
                "Where on the axis, mm, or with --relative as a fraction of the box")
         ->capture_default_str();
     options().add_flag("--relative", relative_, "Take --position as a fraction of the box (0 … 1)");
@@ -57,7 +57,7 @@ private:
         ->delimiter(',')
         ->expected(2);
     add_number(
-        options(), "--view", view_, coordinates, "mm",
+        options(), "--view", view_, any_length, "mm",
         "Part of the plane to show: low,high of its first and of its second coordinate (default: the box, or what "
         "is drawn of tools around it)")
         ->delimiter(',')

@@ -57,7 +57,7 @@ public:
         ->delimiter(',')
         ->expected(2);
     options().add_flag("--need-window", need_window_, "Fail if no window meets the rule");
-    add_number(options(), "--youngs-modulus", youngs_modulus_, moduli, "MPa",
+    add_number(options(), "--youngs-modulus", youngs_modulus_, positive_modulus, "MPa",
                "Young's modulus of the grains (default: the scenario's)");
   }
 
@@ -191,7 +191,7 @@ public:
             "the lateral force was kept.\n"
             "Example: postproc triaxial run.h5 --lateral-stress 8 -o triaxial.json",
             "the last triaxial_compression") {
-    add_number(options(), "--lateral-stress", lateral_stress_, moduli, "MPa",
+    add_number(options(), "--lateral-stress", lateral_stress_, positive_modulus, "MPa",
                "Lateral stress at the beginning of the stage")
         ->required();
   }
@@ -215,9 +215,9 @@ public:
                            "Example: postproc energy run.h5 --packing packing.h5 -o energy.json",
                            "as for elastic-recovery",
                            "File to write, .json, or CSV with any other ending (default: CSV on standard output)") {
-    add_number(options(), "--youngs-modulus", scale_.youngs_modulus, moduli, "MPa",
+    add_number(options(), "--youngs-modulus", scale_.youngs_modulus, positive_modulus, "MPa",
                "Young's modulus of the grains (default: the scenario's)");
-    add_number(options(), "--mean-radius", scale_.mean_radius, lengths, "mm",
+    add_number(options(), "--mean-radius", scale_.mean_radius, positive_length, "mm",
                "Mean radius of the grains (default: from --packing, else from a snapshot)");
     add_input("--packing", packing_, "Packing file (HDF5) to take the mean radius from");
   }

@@ -29,7 +29,7 @@ public:
     options().add_option("--die", rule_.tools.die, "Name of the die")->capture_default_str();
     add_snapshot(options(), rule_.snapshot);
     add_number(
-        options(), "--face-distance", rule_.face_distance, lengths, "mm",
+        options(), "--face-distance", rule_.face_distance, positive_length, "mm",
         "Nodes within this distance of punches and die count as the tablet's faces and band (default: a twentieth "
         "of the mean grain's diameter)");
   }
@@ -58,7 +58,7 @@ public:
             "the stage named press, else the first") {
     add_number(options(), "--r-squared", rule_.r_squared, Range::between(0, 1), "", "Smallest R^2 of the window")
         ->capture_default_str();
-    add_number(options(), "--bulk-modulus", bulk_modulus_, moduli, "MPa",
+    add_number(options(), "--bulk-modulus", bulk_modulus_, positive_modulus, "MPa",
                "Bulk modulus K of the solid; P_y is then also given without elastic compression, from D / (1 + P/K)");
   }
 
@@ -98,13 +98,13 @@ public:
         .add_option("--disc-axis", disc_axis_, "Axis of the disc, along its thickness")
         ->check(CLI::IsMember({"x", "y", "z"}))
         ->capture_default_str();
-    add_number(options(), "--diameter", rule_.diameter, lengths, "mm",
+    add_number(options(), "--diameter", rule_.diameter, positive_length, "mm",
                "Diameter of the disc (default: extent of the grains along the load before the test)");
-    add_number(options(), "--thickness", rule_.thickness, lengths, "mm",
+    add_number(options(), "--thickness", rule_.thickness, positive_length, "mm",
                "Thickness of the disc (default: extent of the grains along its axis before the test)");
     add_number(options(), "--flat-angle", rule_.flat_angle, Range::between(0, largest_flat_angle), "degrees",
                "Angle 2 alpha that a flat spans at the axis (default: from the snapshot nearest to the peak)");
-    add_number(options(), "--face-distance", rule_.face_distance, lengths, "mm",
+    add_number(options(), "--face-distance", rule_.face_distance, positive_length, "mm",
                "Pressed nodes within this distance of the outermost one count as a flat (default: a hundredth of the "
                "diameter)");
     add_output("--data", data_, "CSV file to write: where bonds have broken up to each snapshot of the stage");

@@ -1,8 +1,8 @@
 #pragma once
-// Admissible ranges of a scenario's values. They catch slips of the decimal point or of units; where physics has
-// limits, those apply. They also keep finite whatever is computed from several values: squares, ratios, the stable
-// step.
+// Admissible ranges of a scenario's values, apart from those that all programs share. Where physics has limits, those
+// apply.
 
+#include "common/physical_ranges.hpp"
 #include "common/range.hpp"
 
 namespace mpfem {
@@ -10,16 +10,12 @@ namespace mpfem {
 inline constexpr Range hardening_exponent = Range::between(1e-3, 1);
 inline constexpr Range admissible_poissons_ratio{.low = -1, .high = 0.5, .low_open = true, .high_open = true};
 inline constexpr Range target_density{.low = 0, .high = 1.2, .low_open = true};
-inline constexpr Range positive_density = Range::between(1e-18, 1e3);   // tonne/mm^3
-inline constexpr Range positive_modulus = Range::between(1e-9, 1e12);   // MPa; also strengths and flow stresses
 inline constexpr Range positive_stress = Range::between(1e-12, 1e12);   // MPa
 inline constexpr Range stress_or_zero = Range::between(0, 1e12);        // MPa
 inline constexpr Range any_stress = Range::between(-1e12, 1e12);        // MPa
 inline constexpr Range positive_speed = Range::between(1e-12, 1e12);    // mm/s
 inline constexpr Range any_speed = Range::between(-1e12, 1e12);         // mm/s or rad/s
 inline constexpr Range positive_time = Range::between(1e-15, 1e9);      // s
-inline constexpr Range positive_length = Range::between(1e-12, 1e9);    // mm
-inline constexpr Range any_length = Range::between(-1e9, 1e9);          // mm
 inline constexpr Range rate_or_zero = Range::between(0, 1e15);          // 1/s
 inline constexpr Range stiffness_factors = Range::between(1e-6, 1e4);   // of E/h
 inline constexpr Range positive_stiffness = Range::between(1e-9, 1e18); // MPa/mm

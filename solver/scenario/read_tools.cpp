@@ -84,7 +84,7 @@ ToolShape read_stl_shape(TableReader& table) {
   stl.file = table.string("file");
   if (stl.file.empty() || stl.file.find('\0') != std::string::npos)
     table.fail("file", "found an empty or unusable path, allowed: an STL file");
-  stl.scale = table.number("scale", Range::between(1e-9, 1e9)); // no default: STL files do not state their unit
+  stl.scale = table.number("scale", length_of_unit); // no default: STL files do not state their unit
   stl.inside = read_inside(table, "outside");
   if (table.has("low_corner")) stl.low_corner = table.vector3("low_corner", any_length);
   return stl;

@@ -20,10 +20,10 @@ struct Options {
 Options parsed(std::vector<std::string> words) {
   CLI::App app("example");
   Options options;
-  add_number(app, "--size", options.size, lengths, "mm", "Element size");
+  add_number(app, "--size", options.size, positive_length, "mm", "Element size");
   add_number(app, "--threads", options.threads, thread_numbers, "", "Threads");
   add_number(app, "--seed", options.seed, seed_numbers, "", "Seed");
-  add_number(app, "--box", options.box, lengths, "mm", "Box")->delimiter(',')->expected(3);
+  add_number(app, "--box", options.box, positive_length, "mm", "Box")->delimiter(',')->expected(3);
   words.insert(words.begin(), "example");
   std::vector<char*> pointers;
   for (std::string& word : words) pointers.push_back(word.data());
