@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "common/tet_boundary.hpp"
 #include "solver/physics/elasticity.hpp"
 #include "solver/physics/stable_step.hpp"
 
@@ -61,29 +62,11 @@ double critical_step(const Point& a, const Point& b, const Point& c, const Point
 }
 
 std::vector<Facet> boundary_facets(const std::vector<Tet>& tet) {
-  struct Keyed {
-    Facet key, facet;
-  };
-  static constexpr int corner[4][3] = {{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}};
-  std::vector<Keyed> all;
-  all.reserve(4 * tet.size());
-  for (const Tet& t : tet)
-    for (const auto& c : corner) {
-      const Facet facet{t[static_cast<std::size_t>(c[0])], t[static_cast<std::size_t>(c[1])],
-                        t[static_cast<std::size_t>(c[2])]};
-      Facet key = facet;
-      std::sort(key.begin(), key.end());
-      all.push_back({key, facet});
-    }
-  std::sort(all.begin(), all.end(), [](const Keyed& x, const Keyed& y) { return x.key < y.key; });
-  std::vector<Facet> boundary;
-  for (std::size_t i = 0; i < all.size();) {
-    std::size_t j = i;
-    while (j < all.size() && all[j].key == all[i].key) ++j;
-    if (j - i > 2) throw std::logic_error("three tetrahedra share a facet");
-    if (j - i == 1) boundary.push_back(all[i].facet);
-    i = j;
-  }
+  std::vector<std::int32_t> node;
+  node.reserve(4 * tet.size());
+  for (const Tet& t : tet) node.insert(node.end(), t.begin(), t.end());
+  const auto [boundary, crowded] = tet_boundary(node);
+  if (crowded) throw std::logic_error("three tetrahedra share a facet");
   return boundary;
 }
 

@@ -1,37 +1,22 @@
 #include "postproc/run_data/surface_facets.hpp"
 
-#include <algorithm>
-#include <tuple>
+#include <map>
+
+#include "common/tet_boundary.hpp"
 
 namespace mpfem {
 
 std::vector<SurfaceFacet> surface_facets(const Snapshot& snapshot, const std::vector<std::int32_t>& tets) {
-  struct Candidate {
-    std::array<std::int32_t, 3> sorted;
-    SurfaceFacet facet;
-    auto key() const { return std::tie(facet.grain, sorted); }
-  };
-  // Opposite to each corner; outward where the tet's volume is positive.
-  static constexpr std::size_t corner[4][3] = {{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}};
-  std::vector<Candidate> candidates;
-  candidates.reserve(4 * tets.size());
+  std::map<std::int32_t, std::vector<std::int32_t>> nodes; // of the tets of each grain, four each
   for (const std::int32_t number : tets) {
     const auto t = static_cast<std::size_t>(number);
-    for (const auto& c : corner) {
-      Candidate candidate;
-      candidate.facet.grain = snapshot.tet_grain[t];
-      for (std::size_t k = 0; k < 3; ++k) candidate.facet.node[k] = snapshot.tet[4 * t + c[k]];
-      candidate.sorted = candidate.facet.node;
-      std::sort(candidate.sorted.begin(), candidate.sorted.end());
-      candidates.push_back(candidate);
-    }
+    const auto first = snapshot.tet.begin() + static_cast<std::ptrdiff_t>(4 * t);
+    auto& of_grain = nodes[snapshot.tet_grain[t]];
+    of_grain.insert(of_grain.end(), first, first + 4);
   }
-  std::sort(candidates.begin(), candidates.end(), [](const auto& a, const auto& b) { return a.key() < b.key(); });
   std::vector<SurfaceFacet> facets;
-  for (std::size_t i = 0, end = 0; i < candidates.size(); i = end) {
-    for (end = i + 1; end < candidates.size() && candidates[end].key() == candidates[i].key();) ++end;
-    if (end == i + 1) facets.push_back(candidates[i].facet);
-  }
+  for (const auto& [grain, tet] : nodes)
+    for (const auto& face : tet_boundary(tet).face) facets.push_back({face, grain});
   return facets;
 }
 
