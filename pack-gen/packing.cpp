@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "common/errors.hpp"
+#include "pack-gen/inflated_spheres.hpp"
 #include "pack-gen/neighbours.hpp"
 #include "pack-gen/overlap_minimiser.hpp"
 #include "pack-gen/random.hpp"
@@ -244,17 +245,11 @@ Point random_place(Random& random, const PackingContainer& container, double r) 
 
 SpherePacking pack_spheres(const PackingRequest& request) {
   const std::size_t n = request.radius.size();
-  double mean = 0;
-  for (const double r : request.radius) mean += r / static_cast<double>(n);
   refuse_spheres_beyond_the_box(request);
 
-  // 1. Inflate by half the gap and a margin: overlaps up to the margin then still keep the gap. The walls move inwards
-  //    by half the gap, which together with the inflation leaves the whole gap to them.
-  const double unit = mean + 0.5 * request.smallest_gap, margin = 2e-4;
-  std::vector<double> inflated(n);
-  for (std::size_t i = 0; i < n; ++i) inflated[i] = (request.radius[i] + 0.5 * request.smallest_gap) / unit + margin;
-  const PackingContainer inner =
-      PackingContainer{request.box, request.shape, request.surface}.shrunk(0.5 * request.smallest_gap, unit);
+  // 1. Inflate the spheres, so that small overlaps still keep the gap.
+  const auto [unit, inflated, inner] =
+      inflated_spheres(request.radius, request.smallest_gap, {request.box, request.shape, request.surface});
 
   // 2. Random points.
   Random random(request.seed);
@@ -263,8 +258,7 @@ SpherePacking pack_spheres(const PackingRequest& request) {
 
   // 3. Minimise the overlap.
   OverlapMinimiser minimiser(std::move(start), inflated, inner);
-  const double allowed = 0.9 * margin;
-  bool done = minimiser.minimise(allowed, 20000, [&](double overlap) {
+  bool done = minimiser.minimise(allowed_overlap, 20000, [&](double overlap) {
     if (request.progress) request.progress(fmt::format("minimising the overlap, {:.2g} left", overlap));
   });
   std::vector<Point> best = minimiser.position();

@@ -6,28 +6,12 @@
 #include <fmt/format.h>
 
 #include "common/errors.hpp"
+#include "pack-gen/inflated_spheres.hpp"
 #include "pack-gen/overlap_minimiser.hpp"
 
 namespace mpfem {
 
 namespace {
-
-/// Lengths are in mean inflated radii; spheres are inflated by half of the gap and a margin, as in pack_spheres.
-struct Inflated {
-  double unit = 0;
-  std::vector<double> radius;
-  PackingContainer inner;
-};
-
-constexpr double margin = 2e-4, allowed_overlap = 0.9 * margin;
-
-Inflated inflated(const SpherePacking& packing, double gap) {
-  Inflated result;
-  for (const double r : packing.radius) result.unit += (r + 0.5 * gap) / static_cast<double>(packing.radius.size());
-  for (const double r : packing.radius) result.radius.push_back((r + 0.5 * gap) / result.unit + margin);
-  result.inner = packing.container().shrunk(0.5 * gap, result.unit);
-  return result;
-}
 
 double top_of(const SpherePacking& packing) {
   double top = 0;
@@ -42,11 +26,11 @@ SettledPacking settle(const SpherePacking& packing, const SettleRequest& request
   if (packing.surface && request.fit_height)
     throw InputError("found a container that is a surface, whose height is that of its file; allowed: a box or a "
                      "cylinder for a height fitted to the bed");
-  const Inflated spheres = inflated(packing, gap);
+  const InflatedSpheres spheres = inflated_spheres(packing.radius, gap, packing.container());
   std::vector<Point> start = packing.center;
   for (Point& p : start)
     for (double& x : p) x = (x - 0.5 * gap) / spheres.unit;
-  OverlapMinimiser bed(std::move(start), spheres.radius, spheres.inner);
+  OverlapMinimiser bed(std::move(start), spheres.radius, spheres.container);
   constexpr double at_rest = 1e-4; // share of a weight; more lets spheres balance on one another
   constexpr int most_steps = 200000;
   bool rests = false;
