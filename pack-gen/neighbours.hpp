@@ -14,7 +14,8 @@ struct CellGrid {
   CellGrid(const std::vector<Point>& center, const Point& box, double cell_size) {
     const auto n = static_cast<double>(center.size());
     for (std::size_t k = 0; k < 3; ++k) {
-      // No more cells than spheres along an axis: a tiny cell size must not exhaust the memory.
+      // At most four cells for each sphere along an axis, were the spheres spread evenly over a cube, and 512: a tiny
+      // cell size must not exhaust the memory.
       const double most = std::clamp(std::cbrt(n) * 4, 1.0, 512.0);
       cells[k] = static_cast<int>(std::clamp(std::floor(box[k] / cell_size), 1.0, most));
       inverse_size[k] = cells[k] / box[k];
