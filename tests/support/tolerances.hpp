@@ -1,6 +1,7 @@
 #pragma once
 // Tolerances that many tests of the solver share, each with its reason. All are relative. A tolerance of one test alone
 // stands there, argued for beside it. Catch2's Approx is never used bare: by default it lets errors of 1e-5 pass.
+// tests/architecture/tolerances.sh checks that.
 
 #include <algorithm>
 #include <cmath>
