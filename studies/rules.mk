@@ -24,6 +24,9 @@ export LC_NUMERIC := C
 FORCE:
 .PHONY: FORCE help study
 
+ifeq ($(wildcard $(lastword $(MAKEFILE_LIST))),)
+  $(error $(strip $(MAKEFILE_LIST)): allowed: a path without spaces)
+endif
 # The toolkit's own files: this folder in the source tree, share/mpfem/studies where it is installed.
 toolkit := $(patsubst %/,%,$(dir $(lastword $(MAKEFILE_LIST))))
 studies := $(if $(wildcard $(toolkit)/branches),$(toolkit),$(toolkit)/studies)
@@ -43,6 +46,9 @@ help:
 # -------------------------------------------------------------------------------- settings
 # $(call allowed,NAME,VALUES): fails if NAME has another value.
 allowed = $(if $(filter $($(1)),$(2)),,$(error $(1)=$($(1)): allowed: $(2)))
+# $(call others_than,CHARACTERS,NAME): the characters that the value of NAME, as given, has beside these (as tr knows
+# them).
+others_than = $(shell printf %s '$(subst ','\'',$(value $(2)))' | LC_ALL=C tr -d '$(1)')
 
 #: MESH=NAME        nominal element size: smoke (0.03 mm, small packing), coarse (0.03 mm, the default),
 #:                  intermediate (0.025 mm), medium (0.015 mm), paper (0.0075 mm): those of the paper's Fig. 7;
@@ -61,6 +67,9 @@ RUN ?=
 #: THREADS=N        threads of each such command (default: all cores that it may use). With -jN up to N of them run at
 #:                  once, each with its own memory; a run with MESH=paper needs about 8 GiB
 THREADS ?=
+ifneq ($(call others_than,0-9,THREADS)$(filter 0%,$(THREADS)),)
+  $(error THREADS=$(value THREADS): allowed: a whole number from 1)
+endif
 #: BIN=FOLDER       folder of the executables (default: build/bin, or that of the installation)
 BIN ?= $(if $(wildcard $(toolkit)/../../bin/postproc),$(toolkit)/../../bin,$(source)build/bin)
 
@@ -78,8 +87,8 @@ $(call allowed,SURFACE,facets smooth)
 #:                  and is made by a separate make with SEED
 SEED ?=
 SEEDS ?=
-ifneq ($(shell echo '$(SEED) $(SEEDS)' | tr -d '0-9 '),)
-  $(error SEEDS=$(SEEDS): allowed: whole numbers, e.g. SEEDS='2 3 4')
+ifneq ($(call others_than,0-9 ,SEED)$(call others_than,0-9 ,SEEDS),)
+  $(error SEEDS=$(value SEED)$(value SEEDS): allowed: whole numbers, e.g. SEEDS='2 3 4')
 endif
 ifneq ($(words $(sort $(SEEDS))),$(words $(SEEDS)))
   $(error SEEDS=$(SEEDS): found a seed twice, allowed: once)
@@ -99,12 +108,16 @@ variant := $(subst $(empty) $(empty),,$(variant))
 # -------------------------------------------------------------------------------- which packing
 # A study with a powder of its own has its own packing; all others share that of the figures.
 STUDY ?=
-study_name := $(patsubst %.toml,%,$(notdir $(patsubst %/figure.toml,%.toml,$(STUDY))))
-powder = $(BIN)/postproc powder '$(STUDY)' --programmes $(studies)/branches
-of_powder := $(if $(STUDY),$(shell $(powder) | sed -n '1s/^# element_size = //p'))
+# Other characters mean something to make or to the shell.
+ifneq ($(call others_than,A-Za-z0-9._/+\200-\377-,STUDY),)
+  $(error STUDY=$(value STUDY): allowed: a path of letters, digits, '.', '_', '-', '+' and '/')
+endif
 ifneq ($(and $(filter study,$(MAKECMDGOALS)),$(if $(wildcard $(STUDY)),,missing)),)
   $(error STUDY=$(STUDY): allowed: the file of a study, e.g. make -f $(makefile) study STUDY=my.toml)
 endif
+study_name := $(patsubst %.toml,%,$(notdir $(patsubst %/figure.toml,%.toml,$(STUDY))))
+powder = $(BIN)/postproc powder '$(STUDY)' --programmes $(studies)/branches
+of_powder := $(if $(STUDY),$(shell $(powder) | sed -n '1s/^# element_size = //p'))
 packing_smoke := smoke
 packing := $(or $(packing_$(MESH)),full)
 ifneq ($(of_powder),)
@@ -121,9 +134,13 @@ else
 endif
 mesh := $(packings)/mesh-$(size).h5
 threads := $(if $(THREADS),--threads $(THREADS))
-own_seed = $(shell sed -n 's/^seed *= *\([0-9]*\).*/\1/p' $(description))
-ifneq ($(and $(SEEDS),$(filter $(own_seed),$(SEEDS))),)
-  $(error SEEDS=$(SEEDS): $(own_seed) is the seed of $(description) itself, which always takes part)
+ifneq ($(SEEDS),)
+  # The study's own description is a file only once its packing has been made. Without a seed pack-gen takes 1.
+  own_seed := $(or $(shell $(if $(of_powder),$(powder),cat $(description)) | sed -n 's/^seed *= *\([0-9]*\).*/\1/p'),1)
+  ifneq ($(filter $(own_seed),$(SEEDS)),)
+    $(error SEEDS=$(SEEDS): $(own_seed) is the seed of $(or $(of_powder:%=$(STUDY)),$(description)) itself, which \
+      always takes part)
+  endif
 endif
 
 # -------------------------------------------------------------------------------- stamps

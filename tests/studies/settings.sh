@@ -1,0 +1,44 @@
+#!/usr/bin/env bash
+# settings.sh POSTPROC: make refuses settings that it cannot use, in one line that says what is allowed, before it makes
+# anything. Exit code 1: one is taken or refused otherwise; it is printed.
+set -euo pipefail
+bin=$(dirname "$(realpath "$1")")
+here=$(realpath "$(dirname "${BASH_SOURCE[0]}")/../..")
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+cd "$work"
+cp "$here/studies/examples/own-powder.toml" my.toml
+sed '/^seed/d' my.toml >no-seed.toml
+for name in 'my study' "a\$b" 'a#b' 'a%b' 'a:b' "a'b"; do cp my.toml "$name.toml"; done
+mkdir 'my studies'
+cp -r "$here/studies" 'my studies/'
+
+code=0
+# refused WORDS MAKE-ARGUMENTS: make says WORDS in the line of its error, and leaves no file.
+refused() {
+  local words=$1 message
+  shift
+  if message=$(make "$@" BIN="$bin" 2>&1); then
+    echo "settings.sh: make $* is taken" && code=1
+  elif [[ $(grep -c . <<<"$message") != 1 || $message != *"$words"* || -e out ]]; then
+    echo "settings.sh: make $* says: $message" && code=1
+  fi
+}
+study=(-f "$here/studies/rules.mk" study)
+
+for name in 'my study' "a\$b" 'a#b' 'a%b' 'a:b' "a'b"; do
+  refused "STUDY=$name.toml: allowed: a path of letters" "${study[@]}" STUDY="$name.toml"
+done
+refused "STUDY=none.toml: allowed: the file of a study" "${study[@]}" STUDY=none.toml
+study+=(STUDY=my.toml)
+for threads in x 0 1.5 "'" '2 x'; do
+  refused "THREADS=$threads: allowed: a whole" "${study[@]}" THREADS="$threads"
+done
+for seeds in x "'" '2 x'; do refused "SEEDS=$seeds: allowed: whole" "${study[@]}" SEEDS="$seeds"; done
+refused 'SEEDS=1: 1 is the seed of my.toml itself' "${study[@]}" SEEDS=1
+refused 'SEEDS=2 1: 1 is the seed of no-seed.toml itself' "${study[@]}" STUDY=no-seed.toml SEEDS='2 1'
+study[1]="$work/my studies/studies/rules.mk"
+refused "${study[1]}: allowed: a path without spaces" "${study[@]}"
+study[1]=$here/studies/rules.mk
+make -n "${study[@]}" SEEDS='2 3' THREADS=2 BIN="$bin" >plan 2>&1 || { cat plan && code=1; }
+exit "$code"
