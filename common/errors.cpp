@@ -8,6 +8,9 @@
 #include <new>
 #include <system_error>
 
+#include <fcntl.h>
+#include <unistd.h>
+
 #include <fmt/format.h>
 
 #include "common/one_line.hpp"
@@ -20,6 +23,13 @@ namespace {
 void let_writes_fail() {
   std::signal(SIGXFSZ, SIG_IGN);
   std::signal(SIGPIPE, SIG_IGN);
+}
+
+/// Opens closed standard streams to nowhere. Otherwise the next file that is opened takes the number of one of them, and
+/// messages are written into it.
+void keep_standard_streams_open() {
+  for (int stream = STDIN_FILENO; stream <= STDERR_FILENO; ++stream) // open() takes the lowest number that is free
+    if (fcntl(stream, F_GETFD) < 0 && errno == EBADF && open("/dev/null", O_RDWR) < 0) return;
 }
 
 bool is_of_storage(const std::error_code& code) {
@@ -69,6 +79,7 @@ int report(const char* program, const Failure& failure) {
 }
 
 int run_program(const char* program, int (*body)(int argc, char** argv), int argc, char** argv) {
+  keep_standard_streams_open();
   let_writes_fail();
   try {
     return after_output(program, body(argc, argv));

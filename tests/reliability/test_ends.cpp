@@ -202,3 +202,14 @@ TEST_CASE("a run is doubtful where its energies, penetration, density or step sa
   row.kinetic_energy = 5, row.mean_stress = 0.5; // loose: ratios mean nothing
   CHECK(quality_warnings(std::vector{good, row}).empty());
 }
+
+TEST_CASE("a run whose standard streams are closed writes no message into its files") {
+  const Folder folder;
+  prepare(folder, 3, two_stages);
+  REQUIRE(run_stages(folder, "open.h5").exit_code == 0);
+  std::string loud = stages_command(folder, "closed.h5");
+  loud.erase(loud.find(" --quiet"), 8);
+  CHECK(run_command("( " + loud + " ) <&- >&- 2>&-").exit_code == 0);
+  CHECK(results(folder / "closed.h5") == results(folder / "open.h5"));
+  CHECK(schema::validate(folder / "closed.h5").empty());
+}
