@@ -5,6 +5,8 @@
 #include <sstream>
 #include <string_view>
 
+#include <fmt/format.h>
+
 #include "common/one_line.hpp"
 
 namespace mpfem {
@@ -19,6 +21,8 @@ std::string value_text(const toml::node* node) {
   if (node->is_table()) return "a table";
   if (const toml::array* array = node->as_array())
     return array->size() == 1 ? "an array of 1 element" : "an array of " + std::to_string(array->size()) + " elements";
+  if (const auto number = node->value_exact<double>())
+    return fmt::format("{:#}", *number); // as short as it can be, with a point
   std::ostringstream text;
   node->visit([&](const auto& value) {
     if constexpr (toml::is_value<decltype(value)>) text << value;
