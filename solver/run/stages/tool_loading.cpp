@@ -27,7 +27,7 @@ bool has_passed(double target, double start, double now) {
 
 ToolLoadingControl::ToolLoadingControl(const ToolLoading& stage, const StageLabel& label, const StageStart& start)
     : stage_(stage), name_(label.name), start_(start), transit_(wave_transit(start.sample, start.cell)),
-      servo_(stage.drives.size()) {
+      held_(stage.drives.size()) {
   ToolEnds& ends = stage_.ends;
   if (ends.height) ends.relative_density = start.sample.solid_volume / (start.cell.area(2) * *ends.height);
   double travel = expected_strain * start.cell.length(2);
@@ -113,17 +113,36 @@ double ToolLoadingControl::wanted_speed(const Seen& seen, double& left) const {
   return part;
 }
 
+/// MPa over the section at the beginning of the stage.
+double ToolLoadingControl::wanted_stress(const ToolDrive& drive) const {
+  return drive.stress ? *drive.stress : *drive.force / start_.cell.area(2);
+}
+
+/// A push that was never reached is missing as its servo says.
+HoldQuality ToolLoadingControl::hold_quality() const {
+  HoldQuality quality = quality_;
+  for (std::size_t i = 0; i < stage_.drives.size(); ++i) {
+    if (!stage_.drives[i].holds_push() || held_[i].reached) continue;
+    quality.largest_error = std::max(quality.largest_error, std::abs(held_[i].servo.error));
+    quality.largest_stress = std::max(quality.largest_stress, std::abs(wanted_stress(stage_.drives[i])));
+  }
+  return quality;
+}
+
 void ToolLoadingControl::set_velocities(const StageObservation& observation, double part) {
   for (std::size_t i = 0; i < stage_.drives.size(); ++i) {
     const ToolDrive& drive = stage_.drives[i];
     for (std::size_t axis = 0; axis < 3; ++axis) velocity_[drive.tool][axis] = part * drive.velocity[axis];
     if (!drive.holds_push()) continue;
     // The law of held walls, whose stress is a force over the section.
-    const double area = start_.cell.area(2);
-    const double wanted = drive.stress ? *drive.stress : *drive.force / area;
-    const double stress = push_along(drive.direction, observation.tools->load(drive.tool)) / area;
+    HeldTool& held = held_[i];
+    const double wanted = wanted_stress(drive);
+    const double stress = push_along(drive.direction, observation.tools->load(drive.tool)) / start_.cell.area(2);
+    if (!held.reached && std::abs(stress) >= std::abs(wanted)) held = {{held.servo.fast, held.servo.slow, 0}, true};
+    HoldQuality of_approach;
     const double speed =
-        StressServo(start_, drive.servo_speed).hold(servo_[i], quality_, wanted, stress, observation.step, 1);
+        StressServo(start_, drive.servo_speed)
+            .hold(held.servo, held.reached ? quality_ : of_approach, wanted, stress, observation.step, 1);
     for (std::size_t axis = 0; axis < 3; ++axis) velocity_[drive.tool][axis] = speed * drive.direction[axis];
   }
 }
@@ -208,7 +227,7 @@ double ToolLoadingControl::fraction_done(double /*time*/, double /*mean_stress*/
 
 StageResult ToolLoadingControl::result(const StageObservation& last) const {
   const ToolEnds& ends = stage_.ends;
-  StageResult result = with_hold_quality({}, quality_);
+  StageResult result = with_hold_quality({}, hold_quality());
   switch (state_.ended_by) {
   case ToolEnd::none:
     result.ended_by = "not ended";
@@ -240,14 +259,14 @@ StageResult ToolLoadingControl::result(const StageObservation& last) const {
 void ToolLoadingControl::write(FieldWriter& to) const {
   State::for_each_field(state_, to);
   to("tools.part", part_.speed);
-  for (const ServoState& servo : servo_) ServoState::for_each_field(servo, to);
+  for (const HeldTool& held : held_) HeldTool::for_each_field(held, to);
   HoldQuality::for_each_field(quality_, to);
 }
 
 void ToolLoadingControl::read(FieldReader& from) {
   State::for_each_field(state_, from);
   from("tools.part", part_.speed);
-  for (ServoState& servo : servo_) ServoState::for_each_field(servo, from);
+  for (HeldTool& held : held_) HeldTool::for_each_field(held, from);
   HoldQuality::for_each_field(quality_, from);
 }
 

@@ -76,9 +76,22 @@ private:
   double ramp_ = 0;              ///< s, to full speed
   double expected_duration_ = 0; ///< s
   State state_;
+  /// A drive that holds a push.
+  struct HeldTool {
+    ServoState servo;
+    bool reached = false; ///< the push has been reached; before, the tool closes its gap
+    template <class Self, class Visitor>
+    static void for_each_field(Self& s, Visitor&& visit) {
+      ServoState::for_each_field(s.servo, visit);
+      visit("tools.reached", s.reached);
+    }
+  };
+  double wanted_stress(const ToolDrive& drive) const;
+  HoldQuality hold_quality() const;
+
   DrivenSpeed part_;                            ///< of the full speed
-  std::vector<ServoState> servo_;               ///< [drives]
-  HoldQuality quality_;                         ///< of all drives that hold a push
+  std::vector<HeldTool> held_;                  ///< [drives]
+  HoldQuality quality_;                         ///< of all drives that hold a push, since they reached it
   std::vector<std::array<double, 3>> velocity_; ///< mm/s, [tools up to the last one that moves]
 };
 
