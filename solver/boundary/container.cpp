@@ -44,6 +44,10 @@ Container::Container(const Parts& parts, const Tools& tools) : parts_(parts) {
   }
 }
 
+bool Container::punch_is_away(const Tools& tools) const {
+  return tools[parts_.lower].away || tools[parts_.upper].away;
+}
+
 Cell Container::cell(const Tools& tools, const Cell& last) const {
   Cell cell = last;
   cell.section_share = section_share_;

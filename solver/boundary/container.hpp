@@ -25,6 +25,7 @@ public:
   Container(const Parts& parts, const Tools& tools);
   /// The cell where the tools stand now; if a punch is away, the cell keeps the height of `last`.
   Cell cell(const Tools& tools, const Cell& last) const;
+  bool punch_is_away(const Tools& tools) const;
   /// N of each face, -x, +x, …: the forces on the punches and, at the four lateral faces, the forces on the planes or
   /// that which drives the halves of the die apart.
   std::array<double, 6> face_forces(const Tools& tools) const;

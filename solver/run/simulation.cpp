@@ -398,8 +398,10 @@ void Simulation::change_tools() {
   const auto* loading = std::get_if<ToolLoading>(&scenario_->stages[static_cast<std::size_t>(state_.stage)].type);
   std::span<const std::size_t> away;
   if (loading != nullptr) away = loading->away;
+  const bool punch_was_away = container_ && container_->punch_is_away(tools_);
   energies_.external_work -= tools_.set_away(away, model_, bounds_, state_.last_step, *ranks_);
-  if (container_) box_.set_cell(container_->cell(tools_, box_.cell()));
+  // In other stages the cell may have moved without the tools, as with grips.
+  if (container_ && (loading != nullptr || punch_was_away)) box_.set_cell(container_->cell(tools_, box_.cell()));
 }
 
 void Simulation::return_walls(std::size_t axis) {
