@@ -73,7 +73,7 @@ void merge_points(const ContactCandidates& found, PointRange new_points, const C
       ++new_points.point;
     }
     if (old_node <= new_node) ++old_points.point;
-    candidates.point_facet_offset.push_back(static_cast<std::int32_t>(candidates.point_facet.size()));
+    candidates.point_facet_offset.push_back(offset_after(candidates.point_facet));
   }
 }
 
@@ -93,7 +93,7 @@ BondedCandidates keep_bonded_points(const ContactCandidates& found, const Contac
     if (candidates.point_node.size() == before) continue;
     candidates.pair_first.push_back(pair.first);
     candidates.pair_second.push_back(pair.second);
-    candidates.pair_point_offset.push_back(static_cast<std::int32_t>(candidates.point_node.size()));
+    candidates.pair_point_offset.push_back(offset_after(candidates.point_node));
   }
   index_pairs(candidates, grains);
   return merged;
@@ -162,10 +162,10 @@ struct CandidatesFromOld {
       candidates.point_facet.insert(candidates.point_facet.end(),
                                     from.point_facet.begin() + from.point_facet_offset[at(p)],
                                     from.point_facet.begin() + from.point_facet_offset[at(p) + 1]);
-      candidates.point_facet_offset.push_back(static_cast<std::int32_t>(candidates.point_facet.size()));
+      candidates.point_facet_offset.push_back(offset_after(candidates.point_facet));
       old_point.push_back(keeps_state ? p : -1);
     }
-    candidates.pair_point_offset.push_back(static_cast<std::int32_t>(candidates.point_node.size()));
+    candidates.pair_point_offset.push_back(offset_after(candidates.point_node));
   }
 };
 

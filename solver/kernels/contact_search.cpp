@@ -251,6 +251,15 @@ NearGrains find_near_grains(std::span<const Bounds> bounds, double margin, std::
   return near;
 }
 
+std::int32_t offset_after(const std::vector<std::int32_t>& list) {
+  if (list.size() > std::numeric_limits<std::int32_t>::max())
+    throw SimulationError(
+        fmt::format("contact: found more than {} candidate facets in one process, allowed: fewer; use "
+                    "more processes (docs/cluster.md) or a coarser mesh",
+                    std::numeric_limits<std::int32_t>::max()));
+  return static_cast<std::int32_t>(list.size());
+}
+
 ContactCandidates find_contact_candidates(const SurfaceView& surface, double margin, ThreadTeam& team) {
   const auto grains = static_cast<std::int32_t>(surface.node_offset.size()) - 1;
   std::vector<Bounds> bounds(at(grains));
@@ -287,13 +296,6 @@ ContactCandidates find_contact_candidates(const SurfaceView& surface, double mar
   });
 
   // Joined in the grains' order, so that the result does not depend on which thread found what.
-  const auto offset_of = [](const std::vector<std::int32_t>& list) {
-    if (list.size() > std::numeric_limits<std::int32_t>::max())
-      throw SimulationError(fmt::format("contact search: found more than {} candidate facets in one process, allowed: "
-                                        "fewer; use more processes (docs/cluster.md) or a coarser mesh",
-                                        std::numeric_limits<std::int32_t>::max()));
-    return static_cast<std::int32_t>(list.size());
-  };
   ContactCandidates result;
   result.pair_point_offset.push_back(0);
   result.point_facet_offset.push_back(0);
@@ -304,13 +306,13 @@ ContactCandidates find_contact_candidates(const SurfaceView& surface, double mar
       for (std::size_t i = 0; i < pair.points.size(); ++i) {
         const auto [node, facet] = pair.points[i];
         if (i == 0 || pair.points[i - 1].first != node) {
-          if (i > 0) result.point_facet_offset.push_back(offset_of(result.point_facet));
+          if (i > 0) result.point_facet_offset.push_back(offset_after(result.point_facet));
           result.point_node.push_back(node);
         }
         result.point_facet.push_back(facet);
       }
-      result.point_facet_offset.push_back(offset_of(result.point_facet));
-      result.pair_point_offset.push_back(offset_of(result.point_node));
+      result.point_facet_offset.push_back(offset_after(result.point_facet));
+      result.pair_point_offset.push_back(offset_after(result.point_node));
     }
   index_pairs(result, static_cast<int>(surface.node_offset.size()) - 1);
   return result;
