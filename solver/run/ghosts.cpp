@@ -91,9 +91,10 @@ ContactCandidates joined(std::vector<PairOfOther>&& pairs, int grains) {
     result.pair_second.push_back(pair.second);
     result.point_node.insert(result.point_node.end(), pair.node.begin(), pair.node.end());
     result.point_facet.insert(result.point_facet.end(), pair.facet.begin(), pair.facet.end());
+    offset_after(result.point_facet); // before the sums overflow
     for (const Index facets : pair.facets)
       result.point_facet_offset.push_back(result.point_facet_offset.back() + facets);
-    result.pair_point_offset.push_back(static_cast<Index>(result.point_node.size()));
+    result.pair_point_offset.push_back(offset_after(result.point_node));
   }
   index_pairs(result, grains);
   return result;
@@ -145,6 +146,7 @@ void Ghosts::learn(std::vector<Index> grains, Model& model) {
   if (known_.empty()) known_.assign(at(model.grains), 0);
   grains = of_other_ranks(std::move(grains), model);
   std::erase_if(grains, [&](Index g) { return known_[at(g)] != 0; });
+  if (ranks_->largest(static_cast<double>(grains.size())) == 0) return; // as nearly always, after the first search
   ask_owners(
       grains, model, [&](int, Index g, Bytes& message) { for_each_fixed_part(model, g, appended_to(message)); },
       [&](Index g, const auto& take) { for_each_fixed_part(model, g, take), known_[at(g)] = 1; });

@@ -38,7 +38,7 @@ Contact contact_with_next_grains(const Model& model) {
 } // namespace
 
 // As after a restart, when no search has yet looked at the grains around. The stable step depends on these areas.
-TEST_CASE("A rank knows the areas of the nodes of both grains of every pair") {
+TEST_CASE("A rank knows the areas of the nodes of both grains of every pair", "[.several-ranks]") {
   const Scenario scenario = read_scenario(TomlDocument::from_text(material_text + R"([[stages]]
 name = "hold"
 type = "hold"
