@@ -31,38 +31,31 @@ Eigen::Vector3d vector(const Point& p) {
 
 } // namespace
 
-SphereGap smallest_facet_gap(const SpherePacking& packing, const PackingMesh& mesh, int threads) {
-  const std::size_t n = packing.radius.size();
-  SphereGap smallest{std::numeric_limits<double>::infinity(), -1, -1};
-  std::mutex guard;
+namespace {
 
-  // 1. Walls, and the bounding radius of every grain.
-  std::vector<double> reach(n);
-  for_each_parallel(n, threads, [&](std::size_t i) {
-    const NodeMap node = grain_nodes(mesh, i);
-    reach[i] = std::sqrt((node.colwise() - vector(packing.center[i])).colwise().squaredNorm().maxCoeff());
-    const std::lock_guard lock(guard);
-    for_each_wall_gap(packing.container(), node, [&](double gap, int wall) {
-      if (gap < smallest.gap || (gap == smallest.gap && static_cast<int>(i) < smallest.first))
-        smallest = {gap, static_cast<int>(i), -1 - wall};
-    });
-  });
+/// A pair of grains, with a lower bound of its gap: that of the bounding spheres.
+struct Pair {
+  double bound;
+  int first, second;
+};
 
-  // 2. Pairs, nearest bounding spheres first: once these are farther apart than the smallest gap found, so is the rest.
-  struct Pair {
-    double bound;
-    int first, second;
-  };
+/// Pairs whose bounding spheres (radii `radius`) are at most `gap` apart, and some more, nearest first.
+std::vector<Pair> pairs_within(const SpherePacking& packing, const std::vector<double>& radius, double gap) {
   std::vector<Pair> pairs;
-  // A pair that is farther apart than the gap to a wall is not the nearest.
-  const double largest = n > 0 ? *std::max_element(reach.begin(), reach.end()) : 0;
-  for_each_pair_within(packing.center, packing.box, 2 * largest + smallest.gap, [&](int i, int j) {
+  const double largest = *std::max_element(radius.begin(), radius.end());
+  for_each_pair_within(packing.center, packing.box, 2 * largest + gap, [&](int i, int j) {
     const auto a = static_cast<std::size_t>(i), b = static_cast<std::size_t>(j);
-    pairs.push_back({(vector(packing.center[b]) - vector(packing.center[a])).norm() - reach[a] - reach[b], i, j});
+    pairs.push_back({(vector(packing.center[b]) - vector(packing.center[a])).norm() - radius[a] - radius[b], i, j});
   });
   std::sort(pairs.begin(), pairs.end(), [](const Pair& x, const Pair& y) {
     return std::tie(x.bound, x.first, x.second) < std::tie(y.bound, y.first, y.second);
   });
+  return pairs;
+}
+
+/// Replaces `smallest` by the smallest gap of the pairs if that is smaller.
+void measure_pairs(const SpherePacking& packing, const PackingMesh& mesh, const std::vector<Pair>& pairs, int threads,
+                   SphereGap& smallest) {
   // Blocks of a fixed length, so that the result does not depend on the number of threads.
   constexpr std::size_t block = 64;
   for (std::size_t begin = 0; begin < pairs.size() && pairs[begin].bound < smallest.gap; begin += block) {
@@ -78,7 +71,34 @@ SphereGap smallest_facet_gap(const SpherePacking& packing, const PackingMesh& me
     for (std::size_t m = 0; m < count; ++m)
       if (gap[m] < smallest.gap) smallest = {gap[m], pairs[begin + m].first, pairs[begin + m].second};
   }
-  return smallest;
+}
+
+} // namespace
+
+SphereGap smallest_facet_gap(const SpherePacking& packing, const PackingMesh& mesh, int threads) {
+  const std::size_t n = packing.radius.size();
+  SphereGap smallest{std::numeric_limits<double>::infinity(), -1, -1};
+  if (n == 0) return smallest;
+
+  // 1. Walls, and the bounding radius of every grain.
+  std::mutex guard;
+  std::vector<double> radius(n);
+  for_each_parallel(n, threads, [&](std::size_t i) {
+    const NodeMap node = grain_nodes(mesh, i);
+    radius[i] = std::sqrt((node.colwise() - vector(packing.center[i])).colwise().squaredNorm().maxCoeff());
+    const std::lock_guard lock(guard);
+    for_each_wall_gap(packing.container(), node, [&](double gap, int wall) {
+      if (gap < smallest.gap || (gap == smallest.gap && static_cast<int>(i) < smallest.first))
+        smallest = {gap, static_cast<int>(i), -1 - wall};
+    });
+  });
+
+  // 2. Pairs within a distance that grows until it reaches the smallest gap found: all pairs at once would be too many
+  //    where the walls are far away.
+  for (double within = *std::max_element(radius.begin(), radius.end());; within *= 2) {
+    measure_pairs(packing, mesh, pairs_within(packing, radius, std::min(within, smallest.gap)), threads, smallest);
+    if (smallest.gap <= within) return smallest;
+  }
 }
 
 namespace {
