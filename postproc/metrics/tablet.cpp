@@ -176,7 +176,12 @@ void add_peak(Tablet& tablet) {
 
 /// Where the upper punch's force first falls to `force_gone` of its peak in the unloading; empty where it does not.
 std::optional<Crossing> punch_leaves(const Tablet& tablet) {
-  return first_crossing(tablet.upper, tablet.unload->first, tablet.unload->last, force_gone * tablet.peak.value);
+  const double gone = force_gone * tablet.peak.value;
+  const auto begin = tablet.upper.begin() + static_cast<std::ptrdiff_t>(tablet.unload->first),
+             end = tablet.upper.begin() + static_cast<std::ptrdiff_t>(tablet.unload->last);
+  const auto pressed = std::find_if(begin, end, [&](double force) { return force > gone; });
+  return first_crossing(tablet.upper, static_cast<std::size_t>(pressed - tablet.upper.begin()), tablet.unload->last,
+                        gone);
 }
 
 void add_unloading(Tablet& tablet) {

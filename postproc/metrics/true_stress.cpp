@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "postproc/fits/statistics.hpp"
+#include "postproc/metrics/damage_onset.hpp"
 #include "postproc/run_data/smoothing.hpp"
 #include "postproc/run_data/stage_curve.hpp"
 
@@ -29,9 +29,8 @@ void add_true_stress(Measurement& m, const HistoryTable& history, const StageRow
   const std::vector<double> growth = cross_section_growth(history, stage);
   if (growth.empty()) return;
   const StageCurve c = stage_curve(history, stage, "");
-  const auto place =
-      first_crossing(c.axial_strain, 0, c.rows() - 1, m.details["axial_strain_at_strength"].get<double>());
-  const double at_strength = place.value_or(Crossing{}).of(growth);
+  const auto strain = m.details["axial_strain_at_strength"].get<double>();
+  const double at_strength = at_strain(c.axial_strain, strain, c.rows() - 1).of(growth);
   std::vector<double> stress = smoothed(c.axial_stress);
   for (std::size_t row = 0; row < stress.size(); ++row) stress[row] /= growth[row];
   const auto largest = static_cast<std::size_t>(std::max_element(stress.begin(), stress.end()) - stress.begin());
