@@ -3,8 +3,10 @@
 #include <array>
 #include <chrono>
 #include <fstream>
+#include <set>
 #include <stdexcept>
 #include <string>
+#include <thread>
 
 #include <sys/resource.h>
 
@@ -39,9 +41,15 @@ TEST_CASE("a loop is done by fewer threads where no more can be started") {
   rlimit limited = before;
   limited.rlim_cur = pages * 4096 + (64 << 20); // room for the stacks of eight threads, 8 MiB each
   std::array<int, 1000> calls{};
+  std::array<std::thread::id, 1000> thread{};
   REQUIRE(setrlimit(RLIMIT_AS, &limited) == 0);
-  CHECK_NOTHROW(for_each_parallel(calls.size(), 64, [&](std::size_t i) { ++calls[i]; }));
+  CHECK_NOTHROW(for_each_parallel(calls.size(), 64, [&](std::size_t i) {
+    ++calls[i];
+    thread[i] = std::this_thread::get_id();
+    std::this_thread::sleep_for(std::chrono::microseconds(100)); // every thread that runs gets items
+  }));
   REQUIRE(setrlimit(RLIMIT_AS, &before) == 0);
   for (const int count : calls) REQUIRE(count == 1);
+  CHECK(std::set(thread.begin(), thread.end()).size() < 64);
 }
 #endif

@@ -1,5 +1,11 @@
 // How many threads a rank starts.
 
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <string>
 #include <vector>
 
 #include <catch2/catch.hpp>
@@ -27,6 +33,19 @@ TEST_CASE("Cores that several ranks may use are shared equally, and no rank goes
 }
 
 TEST_CASE("A machine has one name for all its processes") {
-  CHECK(!machine_id().empty());
-  CHECK(machine_id() == machine_id());
+  std::array<int, 2> pipe_end{};
+  REQUIRE(pipe(pipe_end.data()) == 0);
+  const pid_t child = fork();
+  if (child == 0) {
+    const std::string id = machine_id();
+    _exit(write(pipe_end[1], id.data(), id.size()) == static_cast<ssize_t>(id.size()) ? 0 : 1);
+  }
+  int status = -1;
+  REQUIRE(waitpid(child, &status, 0) == child);
+  std::string of_child(256, ' ');
+  of_child.resize(static_cast<std::size_t>(std::max<ssize_t>(read(pipe_end[0], of_child.data(), of_child.size()), 0)));
+  for (const int end : pipe_end) close(end);
+  CHECK(status == 0);
+  CHECK(!of_child.empty());
+  CHECK(machine_id() == of_child);
 }
