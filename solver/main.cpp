@@ -165,7 +165,8 @@ CLI::App* add_check(CLI::App& app, Arguments& arguments) {
                                   "Examples:\n"
                                   "  mpfem check compaction.toml\n"
                                   "  mpfem check unloading.toml --from run.D0.850.checkpoint.h5");
-  add_common(*check, arguments, "Print warnings only; the exit code tells whether the run would start");
+  add_common(*check, arguments,
+             "Print warnings only, and try no step; the exit code tells whether the run would start");
   check->add_option("--from", arguments.from, "Check a branch that starts from this checkpoint")
       ->check(CLI::ExistingFile);
   return check;

@@ -7,12 +7,12 @@
 
 namespace mpfem {
 
-std::string scenario_difference(const std::string& in_checkpoint, const std::string& scenario) {
-  const TomlDocument before = TomlDocument::from_text(in_checkpoint, "checkpoint");
+std::string scenario_difference(const std::string& earlier, const std::string& scenario) {
+  const TomlDocument before = TomlDocument::from_text(earlier, "earlier run");
   const TomlDocument now = TomlDocument::from_text(scenario, "scenario");
   const auto difference = first_difference(before.root(), now.root());
   if (!difference) return {};
-  return fmt::format(": key '{}': {} in the checkpoint, {} in the scenario", difference->key, difference->first,
+  return fmt::format(": key '{}': {} there, {} in the scenario", difference->key, difference->first,
                      difference->second);
 }
 

@@ -11,6 +11,7 @@
 
 #include "common/errors.hpp"
 #include "common/one_line.hpp"
+#include "common/output_file.hpp"
 #include "common/run_stem.hpp"
 
 namespace mpfem {
@@ -31,7 +32,7 @@ std::string lock_path(const std::string& run_file) {
   return run_stem(run_file) + ".lock";
 }
 
-RunLock::RunLock(const std::string& run_file) : path_(lock_path(run_file)) {
+RunLock::RunLock(const std::string& run_file) : path_(lock_path(output_target(run_file))) {
   for (;;) {
     file_ = open(path_.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
     if (file_ < 0) throw StorageError(fmt::format("{}: cannot be written", one_line(path_)));

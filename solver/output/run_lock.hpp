@@ -5,7 +5,7 @@
 
 namespace mpfem {
 
-/// Holds RUN.lock while it lives. The system releases it with the process, however that ends: a lock file that is left
+/// Holds RUN.lock while it lives; for a symbolic link, that of the file to which it leads. The system releases it with the process, however that ends: a lock file that is left
 /// behind blocks nobody. Throws InputError if another process holds it. On file systems without locks nothing is
 /// locked.
 class RunLock {
@@ -20,7 +20,7 @@ private:
   int file_ = -1;
 };
 
-/// Name of the lock of a run file.
+/// Name of the lock of a run file that is no symbolic link.
 std::string lock_path(const std::string& run_file);
 
 } // namespace mpfem

@@ -2,6 +2,8 @@
 
 #include <filesystem>
 #include <fstream>
+#include <optional>
+#include <string_view>
 #include <variant>
 #include <vector>
 
@@ -10,11 +12,16 @@
 #include "common/errors.hpp"
 #include "common/one_line.hpp"
 #include "common/output_file.hpp"
+#include "common/run_stem.hpp"
+#include "common/table_reader.hpp"
 #include "solver/run/checkpoints.hpp"
+#include "solver/scenario/read_scenario.hpp"
 
 namespace mpfem {
 
 namespace {
+
+namespace fs = std::filesystem;
 
 std::vector<std::string> inputs_of(const Scenario& scenario, const RunOptions& options) {
   std::vector<std::string> inputs{options.scenario_file, scenario.packing_file};
@@ -25,11 +32,45 @@ std::vector<std::string> inputs_of(const Scenario& scenario, const RunOptions& o
 }
 
 std::vector<std::string> checkpoints_of(const Scenario& scenario, const std::string& output) {
-  std::vector<std::string> checkpoints{checkpoint_path(output), previous_checkpoint_path(output)};
-  for (const Stage& stage : scenario.stages) checkpoints.push_back(stage_checkpoint_path(output, stage.name));
-  for (const double density : scenario.output.checkpoint_relative_densities)
-    checkpoints.push_back(density_checkpoint_path(output, density));
+  std::vector<std::string> checkpoints = kept_checkpoints(scenario, output);
+  checkpoints.insert(checkpoints.end(), {checkpoint_path(output), previous_checkpoint_path(output)});
   return checkpoints;
+}
+
+/// `text` without `ending`; none if it does not end so.
+std::optional<std::string> without(const std::string& text, std::string_view ending) {
+  if (!text.ends_with(ending)) return std::nullopt;
+  return text.substr(0, text.size() - ending.size());
+}
+
+/// Paths of the checkpoints that the run in this rolling checkpoint keeps, as those of `run_file`. None if it cannot be
+/// read.
+std::vector<std::string> kept_by_run_in(const std::string& rolling, const std::string& run_file) {
+  try {
+    const std::string text = CheckpointReader(rolling).scenario_text();
+    return kept_checkpoints(read_scenario(TomlDocument::from_text(text, rolling)), run_file);
+  } catch (const InputError&) {
+    return {};
+  }
+}
+
+/// Refuses to write over checkpoints of other runs. The checkpoint of RUN.h5 at the end of its stage `press` is called as
+/// the rolling checkpoint of RUN.press.h5, and the files of a run without an ending as those of RUN.h5.
+void refuse_checkpoints_of_other_runs(const Scenario& scenario, const std::string& output) {
+  const auto refuse = [&](const std::string& checkpoint, const std::string& run) {
+    throw InputError(fmt::format("--output {}: {} would be replaced, which belongs to the run {}; allowed: another "
+                                 "--output",
+                                 one_line(output), one_line(checkpoint), one_line(run)));
+  };
+  const std::string rolling = checkpoint_path(output), stem = run_stem(output);
+  for (const std::string& ending : kept_by_run_in(rolling, ""))
+    if (const auto other = without(rolling, ending))
+      if (const std::string run = *other + ".h5"; fs::exists(run) || fs::exists(checkpoint_path(run)))
+        refuse(rolling, run);
+  for (const std::string& kept : kept_checkpoints(scenario, output))
+    if (const std::string run = *without(kept, ".checkpoint.h5") + ".h5"; fs::exists(kept) && fs::exists(run))
+      refuse(kept, run);
+  if (const std::string run = stem == output ? output + ".h5" : stem; fs::is_regular_file(run)) refuse(rolling, run);
 }
 
 /// Writes a partial file under the name that the run file's will have, and removes it.
@@ -38,7 +79,7 @@ void try_to_write(const std::string& output) {
   remove_stale_partial(trial);
   if (!std::ofstream(trial)) throw StorageError(fmt::format("{}: cannot be written", one_line(trial)));
   std::error_code ignored;
-  std::filesystem::remove(trial, ignored);
+  fs::remove(trial, ignored);
 }
 
 } // namespace
@@ -51,6 +92,7 @@ void check_output(const Scenario& scenario, const RunOptions& options) {
     for (const std::string& checkpoint : checkpoints_of(scenario, output))
       refuse_overwriting(fmt::format("--output {}: its checkpoint", one_line(output)), checkpoint, input);
   }
+  refuse_checkpoints_of_other_runs(scenario, output);
   try_to_write(output);
 }
 

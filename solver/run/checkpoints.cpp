@@ -77,6 +77,24 @@ std::string density_checkpoint_path(const std::string& run_file, double relative
   return fmt::format("{}.D{:.3f}.checkpoint.h5", run_stem(run_file), relative_density);
 }
 
+std::vector<std::string> kept_checkpoints(const Scenario& scenario, const std::string& run_file) {
+  std::vector<std::string> paths = of_stages(scenario, run_file, scenario.stages.size());
+  for (const double density : scenario.output.checkpoint_relative_densities)
+    paths.push_back(density_checkpoint_path(run_file, density));
+  return paths;
+}
+
+double size_on_disk(const Scenario& scenario, const std::string& run_file) {
+  std::vector<fs::path> files{run_file, checkpoint_path(run_file), previous_checkpoint_path(run_file)};
+  for (const std::string& path : kept_checkpoints(scenario, run_file)) files.emplace_back(path);
+  std::error_code failed;
+  for (const auto& entry : fs::directory_iterator(parts_folder(run_file), failed)) files.push_back(entry.path());
+  double bytes = 0;
+  for (const fs::path& file : files)
+    if (const auto size = fs::file_size(file, failed); !failed) bytes += static_cast<double>(size);
+  return bytes;
+}
+
 std::string parts_folder(const std::string& run_file) {
   return run_stem(run_file) + ".parts";
 }
@@ -153,10 +171,7 @@ std::vector<std::string> resumable_checkpoints(const Scenario& scenario, const R
     paths.push_back(previous);
 
   std::vector<std::pair<std::int64_t, std::string>> kept; // by step
-  std::vector<std::string> all = of_stages(scenario, run.run_file, scenario.stages.size());
-  for (const double density : scenario.output.checkpoint_relative_densities)
-    all.push_back(density_checkpoint_path(run.run_file, density));
-  for (const std::string& path : all) {
+  for (const std::string& path : kept_checkpoints(scenario, run.run_file)) {
     if (is_checkpoint_of(path, run)) kept.emplace_back(CheckpointReader(path).step(), path);
   }
   std::sort(kept.rbegin(), kept.rend());
@@ -165,10 +180,8 @@ std::vector<std::string> resumable_checkpoints(const Scenario& scenario, const R
 }
 
 void remove_partial_files(const Scenario& scenario, const std::string& run_file) {
-  std::vector<std::string> written{run_file, checkpoint_path(run_file), next_checkpoint_path(run_file)};
-  for (const Stage& stage : scenario.stages) written.push_back(stage_checkpoint_path(run_file, stage.name));
-  for (const double density : scenario.output.checkpoint_relative_densities)
-    written.push_back(density_checkpoint_path(run_file, density));
+  std::vector<std::string> written = kept_checkpoints(scenario, run_file);
+  written.insert(written.end(), {run_file, checkpoint_path(run_file), next_checkpoint_path(run_file)});
   std::error_code ignored;
   for (const std::string& path : written) fs::remove(path + ".partial", ignored);
   fs::remove(next_checkpoint_path(run_file), ignored); // not known to be good

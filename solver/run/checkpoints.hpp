@@ -23,6 +23,10 @@ std::string previous_checkpoint_path(const std::string& run_file);
 std::string stage_checkpoint_path(const std::string& run_file, const std::string& stage);
 /// Path of the checkpoint at a relative density: RUN.D0.850.checkpoint.h5.
 std::string density_checkpoint_path(const std::string& run_file, double relative_density);
+/// Paths of all checkpoints that stay when the run is complete.
+std::vector<std::string> kept_checkpoints(const Scenario& scenario, const std::string& run_file);
+/// Bytes of the files that the run has written so far.
+double size_on_disk(const Scenario& scenario, const std::string& run_file);
 
 /// Folder of a run's snapshots while it is unfinished.
 std::string parts_folder(const std::string& run_file);

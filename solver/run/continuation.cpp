@@ -7,6 +7,7 @@
 #include "common/errors.hpp"
 #include "common/hash.hpp"
 #include "common/one_line.hpp"
+#include "solver/output/other_scenario.hpp"
 #include "solver/output/run_file.hpp"
 #include "solver/parallel/root.hpp"
 #include "solver/run/resume.hpp"
@@ -71,15 +72,14 @@ std::optional<Beginning> Continuation::resume() {
   return std::nullopt;
 }
 
-/// Collective. Whether the output is the finished run of this very scenario and packing, from this beginning (if one is
-/// named), and all its checkpoints exist. Missing ones are added to `lost`.
+/// Collective. Whether the output is this run, finished, and all its checkpoints exist. Missing ones are added to
+/// `lost`. Throws InputError if it is another finished run.
 bool Continuation::found_complete(std::vector<std::string>& lost) const {
   const bool complete = root_finds(ranks_, [&] {
     if (rolling_checkpoint_exists(options_.output) || !fs::exists(options_.output)) return false;
     const RunSummary run = read_run_summary(options_.output);
-    if (run.status != "complete" || run.scenario_text != scenario_.text || run.packing_hash != identity_.packing_hash ||
-        (options_.from && !run.from.empty() && run.from != identity_.from))
-      return false;
+    if (run.status != "complete") return false;
+    refuse_other_run(run);
     lost = missing_checkpoints(promised_checkpoints(scenario_, options_.output, run.first_density, run.largest_density),
                                identity_from(run.from));
     return lost.empty();
@@ -91,6 +91,21 @@ bool Continuation::found_complete(std::vector<std::string>& lost) const {
   }
   lost = root_lists(ranks_, [&] { return lost; });
   return false;
+}
+
+/// Throws InputError unless the complete run in the output is that of this scenario, packing and beginning (if one is
+/// named): with --resume it would be replaced unnoticed.
+void Continuation::refuse_other_run(const RunSummary& run) const {
+  const auto refuse = [this](const std::string& what) {
+    throw InputError(
+        fmt::format("{}: the complete run there {}; allowed: another --output, or no --resume to replace it",
+                    one_line(options_.output), what));
+  };
+  if (run.packing_hash != identity_.packing_hash) refuse("has another packing");
+  if (run.scenario_text != scenario_.text)
+    refuse("has another scenario" + scenario_difference(run.scenario_text, scenario_.text));
+  if (options_.from && !run.from.empty() && run.from != identity_.from)
+    refuse("did not begin at " + one_line(*options_.from));
 }
 
 /// Collective. Restores the best checkpoint. False if there is none; `damage` then says what is wrong with the first

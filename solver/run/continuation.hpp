@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "solver/output/checkpoint.hpp"
+#include "solver/output/run_file.hpp"
 #include "solver/run/checkpoints.hpp"
 #include "solver/run/run_options.hpp"
 #include "solver/run/run_report.hpp"
@@ -31,8 +32,8 @@ public:
   /// `simulation`: before its first step, made with `branch` if options.from is given. `record`: empty.
   Continuation(Simulation& simulation, RunRecord& record, const RunOptions& options, const RunReport& report);
 
-  /// Collective, to be called once, before all others. Throws InputError if a checkpoint belongs to another run or
-  /// another beginning, if it counts on a snapshot that is lost, or if none is intact, on all ranks alike.
+  /// Collective, to be called once, before all others. Throws InputError if the output or a checkpoint belongs to
+  /// another run or another beginning, if it counts on a snapshot that is lost, or if none is intact, on all ranks alike.
   Beginning begin();
 
   // ---- on the first rank alone, as part of root_does() or root_lists()
@@ -46,6 +47,7 @@ public:
 private:
   std::optional<Beginning> resume();
   bool found_complete(std::vector<std::string>& lost) const;
+  void refuse_other_run(const RunSummary& run) const;
   bool restore_best(std::vector<std::string>& lost, std::string& damage);
   bool restore(const std::string& path, std::vector<std::string>& lost);
   std::vector<std::string> missing_written_checkpoints() const;

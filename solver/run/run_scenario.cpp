@@ -56,6 +56,14 @@ void report_beginning(const RunReport& report, const std::vector<std::string>& w
     if (!text.empty()) report.note(text);
 }
 
+/// A warning, if there is one. Space that earlier files of the same run take is free for it.
+void check_disk_space(const Scenario& scenario, const RunOptions& options, const RunReport& report) {
+  const Needs needs{.disk = needs_of(read_packing_counts(scenario.packing_file), scenario).disk};
+  const double available = available_disk_space(options.output) + size_on_disk(scenario, options.output);
+  if (const std::string scarce = check_needs(options.output, needs, {.disk = available}); !scarce.empty())
+    report.warning(scarce);
+}
+
 /// Prepares a simulation where the run begins, and runs it.
 Outcome run_once(const Scenario& scenario, const RunOptions& options, const Communicator& ranks, const Owners& owners) {
   const auto begun = Profile::Clock::now();
@@ -69,6 +77,7 @@ Outcome run_once(const Scenario& scenario, const RunOptions& options, const Comm
   if (beginning == Beginning::must_start_again) return {RunEnd::must_start_again};
   stop_before_first_step(ranks, checkpoint_path(options.output));
   if (beginning == Beginning::complete) return {RunEnd::complete};
+  if (!owners) root_does(ranks, [&] { check_disk_space(scenario, options, report); });
   report_beginning(report, warnings, simulation);
   check_programme(scenario, simulation.state().stage, simulation.stage_run().state().start, simulation.model(),
                   simulation.step_estimate().stable_step());
@@ -88,9 +97,8 @@ void run_scenario(const Scenario& scenario, const RunOptions& given, const Commu
   std::optional<RunLock> lock;
   root_does(ranks, [&] {
     check_output(scenario, options);
-    const std::string scarce =
-        check_needs(options.output, needs_of(read_packing_counts(scenario.packing_file), scenario),
-                    {.memory = available_memory(), .disk = available_disk_space(options.output)});
+    const Needs needs{.memory = needs_of(read_packing_counts(scenario.packing_file), scenario).memory};
+    const std::string scarce = check_needs(options.output, needs, {.memory = available_memory()});
     if (!scarce.empty() && !options.quiet) fmt::print(stderr, "mpfem: warning: {}\n", scarce);
     lock.emplace(options.output);
     remove_partial_files(scenario, options.output);

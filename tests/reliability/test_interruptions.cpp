@@ -2,10 +2,15 @@
 
 #include <filesystem>
 #include <fstream>
+#include <utility>
+#include <vector>
 
 #include <catch2/catch.hpp>
 #include <fmt/format.h>
 
+#include "common/table_reader.hpp"
+#include "solver/run/checkpoints.hpp"
+#include "solver/scenario/read_scenario.hpp"
 #include "tests/reliability/small_runs.hpp"
 #include "tests/support/folder.hpp"
 
@@ -104,6 +109,62 @@ TEST_CASE("a run that was killed while it tidied up is complete, and what was le
   for (const std::string left :
        {"run.parts", "run.h5.partial", "run.checkpoint.next.h5", "run.first.checkpoint.h5.partial"})
     CHECK_FALSE(fs::exists(folder / left));
+}
+
+TEST_CASE("a complete run of another scenario, packing or beginning is not replaced by --resume") {
+  const Folder folder;
+  prepare(folder, 3, two_stages);
+  REQUIRE(run_stages(folder, "run.h5").exit_code == 0);
+  const std::string before = read_text(folder / "run.h5"), checkpoint = folder / "first.h5";
+  fs::copy_file(folder / "run.first.checkpoint.h5", checkpoint);
+  write_packing(folder / "other.h5", eight_grains(4), std::vector<double>(8, 0.1));
+  for (const auto& [options, what] :
+       {std::pair{std::string("--set stages.1.relative_density=0.61"), "key 'stages.1.relative_density': 0.6 there"},
+        std::pair{"--set packing=" + (folder / "other.h5"), "has another packing"},
+        std::pair{"--from " + checkpoint, "did not begin at"}}) {
+    const Outcome refused = run_stages(folder, "run.h5", "--resume " + options);
+    INFO(refused.messages);
+    CHECK(refused.exit_code == 2);
+    CHECK(refused.one_error_line("mpfem"));
+    CHECK_THAT(refused.messages, Catch::Contains(what));
+    CHECK(read_text(folder / "run.h5") == before);
+  }
+}
+
+TEST_CASE("a run does not write over the checkpoints of another run") {
+  const Folder folder;
+  prepare(folder, 3, two_stages);
+  REQUIRE(run_stages(folder, "run.h5").exit_code == 0);
+  const auto refuses = [&](const std::string& output, const std::string& kept) {
+    const std::string before = read_text(folder / kept);
+    for (const std::string options : {"", "--resume"}) {
+      const Outcome outcome = run_stages(folder, output, options);
+      INFO(outcome.messages);
+      CHECK(outcome.exit_code == 2);
+      CHECK(outcome.one_error_line("mpfem"));
+      CHECK_THAT(outcome.messages, Catch::Contains(kept) && Catch::Contains("belongs to the run"));
+      CHECK(read_text(folder / kept) == before);
+    }
+  };
+  refuses("run.first.h5", "run.first.checkpoint.h5");
+  refuses("run.D0.500.h5", "run.D0.500.checkpoint.h5");
+  CHECK(run_stages(folder, "run").exit_code == 2); // its files have the names of those of run.h5
+  // The other way round: the rolling checkpoint of a run that has stopped has the name of a stage's checkpoint.
+  REQUIRE(run_stages(folder, "other.second.h5", "--time-limit 0.001").exit_code == 5);
+  refuses("other.h5", "other.second.checkpoint.h5");
+  CHECK(run_stages(folder, "run.third.h5").exit_code == 0); // no stage of run.h5
+}
+
+TEST_CASE("disk space that a run has already taken is not missing for it") {
+  const Folder folder;
+  prepare(folder, 3, two_stages);
+  REQUIRE(run_stages(folder, "run.h5").exit_code == 0);
+  const Scenario scenario = read_scenario(TomlDocument::from_file(folder / "scenario.toml"));
+  double size = 0;
+  for (const auto& entry : fs::directory_iterator(folder / ""))
+    if (entry.path().filename().string().starts_with("run.")) size += static_cast<double>(fs::file_size(entry));
+  CHECK(size > 0);
+  CHECK(size_on_disk(scenario, folder / "run.h5") == size); // whole numbers
 }
 
 TEST_CASE("a file size limit ends a run with exit code 4, not with a signal, and what was stored stays") {

@@ -100,6 +100,8 @@ TEST_CASE("one process at a time works on a run, and the lock of a killed one st
     CHECK_THAT(second.messages, Catch::Contains("another mpfem is writing") && Catch::Contains("run.lock"));
     CHECK_FALSE(fs::exists(folder / "run.h5"));
     CHECK(mpfem_command(replaced(command, "run.h5", "other.h5")).exit_code == 0);
+    fs::create_symlink(folder / "run.h5", folder / "link.h5");
+    CHECK(mpfem_command(replaced(command, "run.h5", "link.h5")).exit_code == 2);
   }
   CHECK_FALSE(fs::exists(folder / "run.lock"));
   write_text(folder / "run.lock", "");
