@@ -1,5 +1,6 @@
 #include "common/output_file.hpp"
 
+#include <algorithm>
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
@@ -12,6 +13,7 @@
 #include <unistd.h>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "common/errors.hpp"
 #include "common/one_line.hpp"
@@ -58,6 +60,16 @@ bool reaches_disk(const std::string& path) {
   return close(file) == 0 && good;
 }
 
+/// The name under which an output is written until it is complete.
+std::string partial_of(const std::string& path) {
+  return output_target(path) + ".partial";
+}
+
+/// Whether writing `output` would replace or remove `file`.
+bool replaces(const std::string& output, const std::string& file) {
+  return same_file(output, file) || (!output.empty() && same_file(partial_of(output), file));
+}
+
 } // namespace
 
 void refuse_special_file(std::string_view option, const std::string& path, OutputKind kind) {
@@ -80,17 +92,34 @@ void check_output_path(std::string_view option, const std::string& path, OutputK
         fmt::format("{} {}: the folder does not exist, allowed: a file in an existing folder", option, one_line(path)));
 }
 
+void refuse_other_endings(std::string_view option, const std::string& path, const std::vector<std::string>& endings) {
+  const std::string ending = std::filesystem::path(path).extension().string();
+  if (std::find(endings.begin(), endings.end(), ending) != endings.end()) return;
+  throw InputError(fmt::format("{} {}: found {}, allowed: {}", option, one_line(path),
+                               ending.empty() ? "no ending" : fmt::format("the ending '{}'", one_line(ending)),
+                               fmt::join(endings, " or ")));
+}
+
 bool same_file(const std::string& a, const std::string& b) {
   if (a.empty() || b.empty()) return false;
   std::error_code ignored;
   if (std::filesystem::exists(a, ignored)) return std::filesystem::equivalent(a, b, ignored);
-  return std::filesystem::weakly_canonical(a, ignored) == std::filesystem::weakly_canonical(b, ignored);
+  return std::filesystem::weakly_canonical(output_target(a), ignored) ==
+         std::filesystem::weakly_canonical(output_target(b), ignored);
 }
 
 void refuse_overwriting(std::string_view option, const std::string& output, const std::string& input) {
-  if (same_file(output, input))
+  if (replaces(output, input))
     throw InputError(fmt::format("{} {}: would overwrite the input {}, allowed: another file", option, one_line(output),
                                  one_line(input)));
+}
+
+void refuse_shared_names(const std::vector<NamedOutput>& outputs) {
+  for (std::size_t i = 0; i < outputs.size(); ++i)
+    for (std::size_t k = 0; k < i; ++k)
+      if (replaces(outputs[i].path, outputs[k].path) || replaces(outputs[k].path, outputs[i].path))
+        throw InputError(fmt::format("{} {}: would overwrite the output of {}, allowed: another file",
+                                     outputs[i].option, one_line(outputs[i].path), outputs[k].option));
 }
 
 std::string output_target(const std::string& path) {
@@ -108,6 +137,15 @@ std::string output_target(const std::string& path) {
 void remove_stale_partial(const std::string& partial) {
   if (unlink(partial.c_str()) != 0 && errno != ENOENT)
     throw StorageError(fmt::format("{}: cannot be replaced: {}", one_line(partial), std::strerror(errno)));
+}
+
+void try_output(const std::string& path) {
+  const std::string partial = partial_of(path);
+  remove_stale_partial(partial);
+  const int file = open(partial.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+  if (file < 0) throw StorageError(fmt::format("{}: cannot be written: {}", one_line(path), std::strerror(errno)));
+  close(file);
+  remove_stale_partial(partial);
 }
 
 void replace_file(const std::string& partial, const std::string& path) {
@@ -131,7 +169,7 @@ TextFile::TextFile(const std::string& path) : path_(path), target_(path) {
     file_ = open(path.c_str(), O_WRONLY | O_CLOEXEC | O_NOCTTY);
   } else {
     target_ = output_target(path);
-    partial_ = target_ + ".partial";
+    partial_ = partial_of(path);
     remove_stale_partial(partial_);
     file_ = open(partial_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
   }

@@ -3,6 +3,7 @@
 
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace mpfem {
 
@@ -17,11 +18,26 @@ void refuse_special_file(std::string_view option, const std::string& path, Outpu
 /// The same, and the folder must exist. To be called before hours of work. An empty path is refused.
 void check_output_path(std::string_view option, const std::string& path, OutputKind kind);
 
+/// Refuses an output whose name has none of these endings (".png"). Throws InputError.
+void refuse_other_endings(std::string_view option, const std::string& path, const std::vector<std::string>& endings);
+
+/// Writes an empty partial file of an output and removes it. To be called before hours of work. Throws StorageError.
+void try_output(const std::string& path);
+
 /// Whether two paths lead to the same file, which need not exist yet. A device, a FIFO and an empty path are none.
 bool same_file(const std::string& a, const std::string& b);
 
-/// Refuses an output that would replace what is read. `option` begins the message ("--output"). Throws InputError.
+/// Refuses an output that would replace what is read, itself or by its partial file. `option` begins the message
+/// ("--output"). Throws InputError.
 void refuse_overwriting(std::string_view option, const std::string& output, const std::string& input);
+
+/// An output of a program, and the option that names it. An empty path is an output that was not asked for.
+struct NamedOutput {
+  std::string option, path;
+};
+
+/// Refuses two outputs of which one would replace the other. Throws InputError that names both options.
+void refuse_shared_names(const std::vector<NamedOutput>& outputs);
 
 /// Where an output is written: the path itself or, if that is a symbolic link, the target of the link.
 std::string output_target(const std::string& path);

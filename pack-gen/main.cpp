@@ -44,10 +44,13 @@ struct Arguments {
 };
 
 /// Refuses each output that would replace one of these inputs. What is not given is empty.
+std::vector<NamedOutput> outputs_of(const Arguments& arguments) {
+  return {{"--output", arguments.output}, {"--sizes", arguments.sizes}, {"--target", arguments.target}};
+}
+
 void refuse_overwriting_any(const Arguments& arguments, const std::vector<std::string>& inputs) {
-  for (const auto& [option, output] : {std::pair("--output", arguments.output), std::pair("--sizes", arguments.sizes),
-                                       std::pair("--target", arguments.target)})
-    for (const std::string& input : inputs) refuse_overwriting(option, output, input);
+  for (const NamedOutput& output : outputs_of(arguments))
+    for (const std::string& input : inputs) refuse_overwriting(output.option, output.path, input);
 }
 
 /// Checked before hours of work, not after them. `kind`: of --output, which only `quality` may lack.
@@ -57,6 +60,8 @@ void check_outputs(const Arguments& arguments, OutputKind kind, bool of_quality)
   if (!arguments.target.empty()) check_output_path("--target", arguments.target, OutputKind::text);
   refuse_overwriting_any(arguments, {arguments.input, arguments.description, arguments.surface});
 }
+  refuse_shared_names(outputs_of(arguments));
+  if (kind == OutputKind::binary) try_output(arguments.output);
 
 /// The description, overridden by the command line.
 PackingDescription description_of(const Arguments& arguments) {

@@ -12,8 +12,11 @@ Command::Command(CLI::App& app, const std::string& name, const std::string& help
 
 void Command::run_if_given() const {
   if (!options_->parsed()) return;
-  for (const std::string* input : inputs_)
-    for (const OutputFile& output : outputs_) refuse_overwriting(output.option, *output.path, *input);
+  std::vector<NamedOutput> outputs;
+  for (const OutputFile& output : outputs_) outputs.push_back({output.option, *output.path});
+  for (const NamedOutput& output : outputs)
+    for (const std::string* input : inputs_) refuse_overwriting(output.option, output.path, *input);
+  refuse_shared_names(outputs);
   check_outputs();
   execute();
 }
@@ -29,8 +32,11 @@ CLI::Option* Command::add_output(const std::string& name, std::string& path, con
 }
 
 void Command::check_outputs() const {
-  for (const OutputFile& output : outputs_)
-    if (!output.path->empty()) check_output_path(output.option, *output.path, output.kind);
+  for (const OutputFile& output : outputs_) {
+    if (output.path->empty()) continue;
+    check_output_path(output.option, *output.path, output.kind);
+    if (output.kind == OutputKind::binary) refuse_other_endings(output.option, *output.path, {".png"});
+  }
 }
 
 ResultCommand::ResultCommand(CLI::App& app, const std::string& name, const std::string& help,

@@ -30,7 +30,7 @@ protected:
 
   /// An option with an input file; no output of this subcommand may overwrite it.
   CLI::Option* add_input(const std::string& name, std::string& path, const std::string& help);
-  /// An option that names a file to write.
+  /// An option that names a file to write; binary ones are PNG pictures, and end so.
   CLI::Option* add_output(const std::string& name, std::string& path, const std::string& help,
                           OutputKind kind = OutputKind::text);
 

@@ -1,5 +1,7 @@
 // density-map: solid fraction in a die over radius and height.
 
+#include <filesystem>
+
 #include "postproc/commands/command.hpp"
 #include "postproc/commands/commands.hpp"
 #include "postproc/drawing/density_map.hpp"
@@ -31,6 +33,12 @@ public:
 
 private:
   static constexpr Range parts = Range::between(1, 100);
+
+  /// A device or a pipe has no ending.
+  void check_outputs() const override {
+    RunCommand::check_outputs();
+    if (std::filesystem::path(output()).has_extension()) refuse_other_endings("--output", output(), {".csv", ".png"});
+  }
 
   void execute() const override {
     const schema::FileReader run = open_run();

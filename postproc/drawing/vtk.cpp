@@ -266,6 +266,7 @@ std::vector<std::string> write_run_as_vtk(const schema::FileReader& file, const 
   std::vector<std::string> files;
   const auto write = [&](const std::string& name, const std::string& text) {
     files.push_back((std::filesystem::path(folder) / name).string());
+    refuse_overwriting("--output", files.back(), file.path());
     write_file(files.back(), text);
   };
   // If all tools are withdrawn, an empty file is written: without one, ParaView would keep showing the last.

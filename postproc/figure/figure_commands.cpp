@@ -52,6 +52,70 @@ struct FigureCommands::State {
         ->capture_default_str();
   }
 
+  void add_depends(CLI::App& app) {
+    CLI::App& command = add(app, "depends",
+                            "Write the rules by which make produces figures: files, their inputs, settings of runs.\n"
+                            "Example: postproc depends studies/fig12/figure.toml --results out/smoke --mesh smoke",
+                            [this] { depends(); });
+    command.add_option("figures", files, "Figures' files (TOML)")->required();
+    add_common(command);
+    command.add_option("--packing", packing, "The meshed packing")->required();
+    command.add_option("--description", description, "The file that the packing was made from, for metrics");
+    command.add_option("--set", settings, "Setting of every run, unless it has common_settings = false: KEY=VALUE")
+        ->allow_extra_args(false);
+  }
+
+  void add_table(CLI::App& app) {
+    CLI::App& command =
+        add_on_figure(app, "table",
+                      "Make a table of a figure from its runs.\nColumns of curves in addition to those of the "
+                      "history:\n" +
+                          curve_help() +
+                          "Example: postproc table studies/fig12/figure.toml modulus --results out/smoke --mesh smoke "
+                          "-o modulus.csv",
+                      [this] { table(); });
+    command.add_option("name", name, "Name of the table")->required();
+    command.add_option(
+        "--spread", files,
+        "Write mean and deviation over these tables of several packings instead, the table of this packing first");
+  }
+
+  void add_plot(CLI::App& app) {
+    CLI::App& command =
+        add_on_figure(app, "plot",
+                      "Draw a plot of a figure from its tables and fits; the ending of -o chooses PNG or SVG.\n"
+                      "Example: postproc plot studies/fig12/figure.toml modulus --results out/smoke -o "
+                      "modulus.png",
+                      [this] { plot(); });
+    command.add_option("name", name, "Name of the plot")->required();
+    add_number(command, "--packings", packings, Range::between(0, 1e6), "",
+               "Draw the spread over this number of packings");
+    command.get_option("--output")->required()->description("Picture to write (PNG or SVG)");
+  }
+
+  void add_verdicts(CLI::App& app) {
+    add(app, "verdicts",
+        "Write verdicts as Markdown: one mesh figure by figure, or several meshes side by side.\n"
+        "Example: postproc verdicts coarse=studies/results/coarse smoke=studies/results/smoke -o verdicts.md",
+        [this] { verdicts(); })
+        .add_option("folders", files, "MESH=FOLDER: name of a mesh and the folder with a verdict.json for each figure")
+        ->required();
+  }
+
+  void add_report(CLI::App& app) {
+    CLI::App& command =
+        add(app, "report",
+            "Write pictures, verdicts and runs of figures as one HTML page; links are relative to its folder.\n"
+            "Example: postproc report studies/fig12/figure.toml --results out/smoke --mesh smoke --title Moduli "
+            "-o out/smoke/report/index.html",
+            [this] { report(); });
+    command.add_option("figures", files, "Figures' files (TOML)")->required();
+    add_common(command);
+    command.add_option("--title", title, "Title of the page")->required();
+    command.add_option("--beside", beside, "Markdown page whose first table is shown next to the verdicts");
+    command.add_option("--view", run, "Run shown in three dimensions on the page (HDF5)");
+  }
+
   void deliver(const std::string& text) const {
     if (output.empty())
       fmt::print("{}", text);
@@ -59,21 +123,44 @@ struct FigureCommands::State {
       write_file(output, text);
   }
 
+  /// Refuses an output that would overwrite one of these.
+  void refuse_overwriting_any(const std::vector<std::string>& inputs) const {
+    for (const std::string& input : inputs) refuse_overwriting("--output", output, input);
+  }
+
   /// Refuses outputs that cannot be written, or that would overwrite what an option names.
   void check_output() const {
     if (output.empty()) return;
-    std::vector<std::string> inputs{figure, packing, description, run, beside};
-    inputs.insert(inputs.end(), files.begin(), files.end());
-    for (const std::string& input : inputs) refuse_overwriting("--output", output, input);
+    refuse_overwriting_any({figure, packing, description, run, beside});
+    refuse_overwriting_any(files);
     check_output_path("--output", output, OutputKind::text);
   }
 
-  Figure read() const { return read_figure(figure, programmes); }
+  /// Refuses an output that would overwrite the figure's file or what it names: included files and scenarios.
+  Figure read(const std::string& file) const {
+    Figure f = read_figure(file, programmes);
+    refuse_overwriting_any(f.files);
+    for (const RunTemplate& r : f.runs) refuse_overwriting_any({r.programme});
+    return f;
+  }
+
   std::string folder(const Figure& f) const { return fmt::format("{}/{}", results, f.name); }
+
+  /// Refuses an output that would overwrite a table of the figure.
+  void refuse_overwriting_tables(const Figure& f) const {
+    for (const TableSpec& spec : f.tables)
+      refuse_overwriting_any({path_of_table(spec, folder(f)), fmt::format("{}/{}.spread.csv", folder(f), spec.name)});
+  }
+
+  /// Refuses an output that would overwrite a table or the fits of the figure.
+  void refuse_overwriting_data(const Figure& f) const {
+    refuse_overwriting_tables(f);
+    refuse_overwriting_any({folder(f) + "/fits.json"});
+  }
 
   void depends() const {
     std::vector<Figure> figures;
-    for (const std::string& file : files) figures.push_back(read_figure(file, programmes));
+    for (const std::string& file : files) figures.push_back(read(file));
     DependsRequest request{{results, mesh}, packing, description, {}, {}};
     for (const CLI::App* command : program->get_subcommands({})) request.commands.push_back(command->get_name());
     for (const std::string& setting : settings) {
@@ -89,20 +176,21 @@ struct FigureCommands::State {
   }
 
   void powder() const {
-    const Figure f = read();
+    const Figure f = read(figure);
     deliver(f.powder.empty() ? "" : fmt::format("# element_size = {}\n{}", f.element_size, f.powder));
   }
 
   void table() const {
-    const Figure f = read();
+    const Figure f = read(figure);
     const TableSpec& spec = f.table(name, {});
     const TextTable result = files.empty() ? make_table(f, spec, {results, mesh}) : spread_of(spec, files);
-    if (output.empty()) throw InputError("found no -o; allowed: -o with the CSV file to write");
-    write_text_table(output, result);
+    refuse_overwriting_any(result.sources);
+    deliver(csv_text(result));
   }
 
   void fits() const {
-    const Figure f = read();
+    const Figure f = read(figure);
+    refuse_overwriting_tables(f);
     const auto list = make_fits(f, folder(f));
     for (const auto& fit : list)
       if (fit.contains("refused"))
@@ -112,22 +200,23 @@ struct FigureCommands::State {
   }
 
   void plot() const {
-    const Figure f = read();
+    const Figure f = read(figure);
     const auto found = std::find_if(f.plots.begin(), f.plots.end(), [&](const PlotSpec& p) { return p.name == name; });
     if (found == f.plots.end())
       throw InputError(
           fmt::format("{}: found no plot '{}', allowed: the name of one of [[plots]]", f.path, one_line(name)));
-    const std::string format = std::filesystem::path(output).extension() == ".svg" ? "svg" : "png";
-    const std::string partial = output + ".partial";
+    refuse_other_endings("--output", output, {".png", ".svg"});
+    const std::string format = output.ends_with(".svg") ? "svg" : "png";
+    refuse_overwriting_data(f);
     FigureData data(f, folder(f));
-    run_gnuplot(plot_script(*found, data, folder(f), format, partial, packings));
-    std::error_code error;
-    std::filesystem::rename(partial, output, error);
-    if (error) throw StorageError(fmt::format("{}: cannot be written: {}", one_line(output), error.message()));
+    const TemporaryFile picture("");
+    run_gnuplot(plot_script(*found, data, folder(f), format, picture.path(), packings));
+    write_file(output, picture.content());
   }
 
   void verdict() const {
-    const Figure f = read();
+    const Figure f = read(figure);
+    refuse_overwriting_data(f);
     FigureData data(f, folder(f));
     deliver(verdict_text(data, mesh));
   }
@@ -139,6 +228,7 @@ struct FigureCommands::State {
       if (equals == std::string::npos)
         throw InputError(fmt::format("found '{}', allowed: MESH=FOLDER", one_line(text)));
       meshes.push_back({text.substr(0, equals), text.substr(equals + 1)});
+      refuse_overwriting_any(verdict_files(meshes.back().folder));
     }
     deliver(meshes.size() == 1 ? verdicts_of_mesh(meshes.front()) : verdicts_of_meshes(meshes));
   }
@@ -152,10 +242,12 @@ struct FigureCommands::State {
   void report() const {
     std::vector<ReportEntry> entries;
     for (const std::string& file : files) {
-      const Figure f = read_figure(file, programmes);
+      const Figure f = read(file);
       const std::string question = f.source.empty() ? f.question : fmt::format("{} Source: {}.", f.question, f.source);
       entries.push_back({f.name, f.name == f.title ? f.title : fmt::format("{}: {}", f.name, f.title), question, file,
                          runs_of_figure(f, {results, mesh}), captions_of_figure(f, {results, mesh})});
+      refuse_overwriting_any({folder(f) + "/verdict.json"});
+      for (const ReportRun& r : entries.back().runs) refuse_overwriting_any({r.file});
     }
     const std::string page_folder = std::filesystem::path(output).parent_path().string();
     deliver(report_page(entries, {results, title, view_of(run), beside, page_folder}));
@@ -165,60 +257,16 @@ struct FigureCommands::State {
 FigureCommands::FigureCommands(CLI::App& app) : state_(std::make_unique<State>()) {
   State& s = *state_;
   s.program = &app;
-  CLI::App& depends = s.add(app, "depends",
-                            "Write the rules by which make produces figures: files, their inputs, settings of runs.\n"
-                            "Example: postproc depends studies/fig12/figure.toml --results out/smoke --mesh smoke",
-                            [&s] { s.depends(); });
-  depends.add_option("figures", s.files, "Figures' files (TOML)")->required();
-  s.add_common(depends);
-  depends.add_option("--packing", s.packing, "The meshed packing")->required();
-  depends.add_option("--description", s.description, "The file that the packing was made from, for metrics");
-  depends.add_option("--set", s.settings, "Setting of every run, unless it has common_settings = false: KEY=VALUE")
-      ->allow_extra_args(false);
+  s.add_depends(app);
   s.add_on_figure(app, "powder", "Print the packing of a study as input for pack-gen; nothing if the study has none.",
                   [&s] { s.powder(); });
-  CLI::App& table =
-      s.add_on_figure(app, "table",
-                      "Make a table of a figure from its runs.\nColumns of curves in addition to those of the "
-                      "history:\n" +
-                          curve_help() +
-                          "Example: postproc table studies/fig12/figure.toml modulus --results out/smoke --mesh smoke "
-                          "-o modulus.csv",
-                      [&s] { s.table(); });
-  table.add_option("name", s.name, "Name of the table")->required();
-  table.add_option(
-      "--spread", s.files,
-      "Write mean and deviation over these tables of several packings instead, the table of this packing first");
+  s.add_table(app);
   s.add_on_figure(app, "fits", "Make all fits of a figure from its tables, as JSON.", [&s] { s.fits(); });
-  CLI::App& plot =
-      s.add_on_figure(app, "plot",
-                      "Draw a plot of a figure from its tables and fits; the ending of -o chooses PNG or SVG.\n"
-                      "Example: postproc plot studies/fig12/figure.toml modulus --results out/smoke -o "
-                      "modulus.png",
-                      [&s] { s.plot(); });
-  plot.add_option("name", s.name, "Name of the plot")->required();
-  add_number(plot, "--packings", s.packings, Range::between(0, 1e6), "",
-             "Draw the spread over this number of packings");
-  plot.get_option("--output")->required()->description("Picture to write (PNG or SVG)");
+  s.add_plot(app);
   s.add_on_figure(app, "verdict", "Compare the statements of a figure with the results, as JSON.",
                   [&s] { s.verdict(); });
-  s.add(app, "verdicts",
-        "Write verdicts as Markdown: one mesh figure by figure, or several meshes side by side.\n"
-        "Example: postproc verdicts coarse=studies/results/coarse smoke=studies/results/smoke -o verdicts.md",
-        [&s] { s.verdicts(); })
-      .add_option("folders", s.files, "MESH=FOLDER: name of a mesh and the folder with a verdict.json for each figure")
-      ->required();
-  CLI::App& report =
-      s.add(app, "report",
-            "Write pictures, verdicts and runs of figures as one HTML page; links are relative to its folder.\n"
-            "Example: postproc report studies/fig12/figure.toml --results out/smoke --mesh smoke --title Moduli "
-            "-o out/smoke/report/index.html",
-            [&s] { s.report(); });
-  report.add_option("figures", s.files, "Figures' files (TOML)")->required();
-  s.add_common(report);
-  report.add_option("--title", s.title, "Title of the page")->required();
-  report.add_option("--beside", s.beside, "Markdown page whose first table is shown next to the verdicts");
-  report.add_option("--view", s.run, "Run shown in three dimensions on the page (HDF5)");
+  s.add_verdicts(app);
+  s.add_report(app);
 }
 
 FigureCommands::~FigureCommands() = default;

@@ -34,6 +34,12 @@ public:
     return files_.emplace(path, std::move(json)).first->second;
   }
 
+  std::vector<std::string> paths() const {
+    std::vector<std::string> paths;
+    for (const auto& [path, json] : files_) paths.push_back(path);
+    return paths;
+  }
+
 private:
   std::map<std::string, Json> files_;
 };
@@ -91,7 +97,7 @@ double cycles_before(const HistoryTable& h, std::size_t begin, std::size_t row) 
 double mean_wall_force(const HistoryRow& r) {
   const double x = r("box_lengths_0"), y = r("box_lengths_1"), z = r("box_lengths_2");
   return ((r("wall_stress_0") + r("wall_stress_1")) * y * z + (r("wall_stress_2") + r("wall_stress_3")) * z * x +
-          (r("wall_stress_4") + r("wall_stress_5")) * x * y) /
+          (r("wall_stress_4") + r("wall_stress_5")) * r.history.section(r.row)) /
          6;
 }
 
@@ -178,6 +184,7 @@ Value curve_cell(double number, const TableSpec& spec, const ColumnSpec& column)
 
 void add_curve(TextTable& table, const TableSpec& spec, const Words& values, const std::vector<double>& divisors,
                const std::string& path) {
+  table.sources.push_back(path);
   const schema::FileReader file(path, schema::FileKind::run);
   const HistoryTable history(file);
   const auto stages = stages_of(history, scenario_facts(file));
@@ -220,6 +227,7 @@ void add_list(TextTable& table, const Figure& figure, const TableSpec& spec, con
   const std::size_t slash = spec.list.find('/');
   const std::string folder = folder_of(figure, figure.run(spec.list.substr(0, slash), spec.place), row);
   const TextTable list = read_text_table(fmt::format("{}/{}.csv", results.of(folder), spec.list.substr(slash + 1)));
+  table.sources.push_back(list.path);
   for (std::size_t i = 0; i < list.rows.size(); ++i) {
     std::vector<Value> cells;
     for (const ColumnSpec& column : spec.columns)
@@ -309,6 +317,8 @@ TextTable make_table(const Figure& figure, const TableSpec& spec, const ResultsF
     else if (spec.curves.empty())
       add_row(table, figure, spec, results, row, files);
   keep_rows(table, spec);
+  const auto metrics = files.paths();
+  table.sources.insert(table.sources.end(), metrics.begin(), metrics.end());
   return table;
 }
 
@@ -324,6 +334,7 @@ TextTable spread_of(const TableSpec& spec, const std::vector<std::string>& files
     std::vector<double> mean, squares;
   };
   TextTable result;
+  result.path = spec.name;
   result.add_column("name");
   result.add_column("packings");
   std::vector<std::string> order;

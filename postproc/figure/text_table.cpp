@@ -9,7 +9,6 @@
 #include "common/errors.hpp"
 #include "common/nearest_word.hpp"
 #include "common/one_line.hpp"
-#include "postproc/files/text_file.hpp"
 
 namespace mpfem {
 
@@ -103,14 +102,14 @@ TextTable read_text_table(const std::string& path) {
   return table;
 }
 
-void write_text_table(const std::string& path, const TextTable& table) {
-  std::string text = line_of(table.titles, path);
+std::string csv_text(const TextTable& table) {
+  std::string text = line_of(table.titles, table.path);
   for (const auto& row : table.rows) {
     std::vector<std::string> cells;
     for (const Value& value : row) cells.push_back(value.text);
-    text += line_of(cells, path);
+    text += line_of(cells, table.path);
   }
-  write_file(path, text);
+  return text;
 }
 
 } // namespace mpfem

@@ -13,6 +13,7 @@ struct TextTable {
   std::string path;                       ///< for messages
   std::vector<std::string> titles, names; ///< "name [unit]" and "name" of each column
   std::vector<std::vector<Value>> rows;
+  std::vector<std::string> sources; ///< files from which it was made
 
   void add_column(const std::string& title);
   /// Index of a column. Throws InputError that suggests the nearest name.
@@ -30,7 +31,7 @@ std::string path_of_table(const TableSpec& spec, const std::string& folder);
 /// Throws InputError with file and line: no such file, rows and heading of different length.
 TextTable read_text_table(const std::string& path);
 
-/// Throws StorageError; InputError where a text contains a comma or a line break.
-void write_text_table(const std::string& path, const TextTable& table);
+/// As CSV. Throws InputError where a text contains a comma or a line break.
+std::string csv_text(const TextTable& table);
 
 } // namespace mpfem

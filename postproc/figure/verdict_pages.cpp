@@ -45,11 +45,8 @@ std::vector<Statement> read_statements(const filesystem::path& path) {
 
 Verdicts read_verdicts(const std::string& folder) {
   Verdicts verdicts;
-  std::error_code error;
-  for (const auto& entry : filesystem::directory_iterator(folder, error))
-    if (const auto path = entry.path() / "verdict.json"; filesystem::exists(path))
-      verdicts[entry.path().filename().string()] = read_statements(path);
-  if (error) throw InputError(fmt::format("{}: {}", one_line(folder), error.message()));
+  for (const filesystem::path path : verdict_files(folder))
+    verdicts[path.parent_path().filename().string()] = read_statements(path);
   return verdicts;
 }
 
@@ -129,6 +126,15 @@ std::string rows_of_figure(const std::vector<Verdicts>& meshes, const std::strin
 }
 
 } // namespace
+
+std::vector<std::string> verdict_files(const std::string& folder) {
+  std::vector<std::string> files;
+  std::error_code error;
+  for (const auto& entry : filesystem::directory_iterator(folder, error))
+    if (const auto path = entry.path() / "verdict.json"; filesystem::exists(path)) files.push_back(path.string());
+  if (error) throw InputError(fmt::format("{}: {}", one_line(folder), error.message()));
+  return files;
+}
 
 std::string verdicts_of_mesh(const MeshVerdicts& mesh) {
   static constexpr std::array words = {"agrees", "differs", "not judged"};

@@ -11,6 +11,9 @@ struct MeshVerdicts {
   std::string mesh, folder;
 };
 
+/// The verdict.json of each figure in a folder of results. Throws InputError where there is no folder.
+std::vector<std::string> verdict_files(const std::string& folder);
+
 /// A heading and a table for each figure of one mesh. The column of the reference is "paper" for figNN, otherwise
 /// "expected". Throws InputError where a verdict.json is not a list of statements.
 std::string verdicts_of_mesh(const MeshVerdicts& mesh);

@@ -143,6 +143,7 @@ private:
         range = {std::min(range.first, scene.bar->range.first), std::max(range.second, scene.bar->range.second)};
     }
     if (!shown) throw InputError(fmt::format("{}: the run has no snapshots", one_line(path_of_run())));
+      refuse_overwriting("--frames", path, path_of_run());
     if (!request.range && range.second > range.first) request.range = range;
     make_folder(frames_);
     for (int number = 0; number < count; ++number) {

@@ -91,6 +91,50 @@ TEST_CASE("An output that is an input is refused, by another path or a link too,
                                       {"", ""},
                                       {"/dev/null", "/dev/null"}})
     CHECK_NOTHROW(refuse_overwriting("--data", output, input));
+  // Until it is complete, an output has this name.
+  CHECK_FALSE(refusal_of(folder / "in", folder / "in.partial").empty());
+  CHECK_NOTHROW(refuse_overwriting("--data", folder / "in.partial", folder / "in"));
+}
+
+TEST_CASE("Two outputs under one name, or one under the other's partial name, are refused before they exist") {
+  const Folder folder;
+  fs::create_symlink("b", folder / "link");
+  const auto check = [&](const std::string& first, const std::string& second) {
+    refuse_shared_names({{"--output", first}, {"--view", ""}, {"--data", second}});
+  };
+  const auto refusal_of = [&](const std::string& first, const std::string& second) {
+    return input_error([&] { check(first, second); });
+  };
+  CHECK(refusal_of(folder / "a", folder / "a") ==
+        "--data " + (folder / "a") + ": would overwrite the output of --output, allowed: another file");
+  for (const std::string same : {"b", "./b", "b.partial"}) {
+    CHECK_FALSE(refusal_of(folder / same, folder / "link").empty());
+    CHECK_FALSE(refusal_of(folder / "link", folder / same).empty());
+  }
+  CHECK_NOTHROW(check(folder / "a", folder / "b"));
+  CHECK_NOTHROW(check("", ""));
+  CHECK_NOTHROW(check("/dev/null", "/dev/null"));
+}
+
+TEST_CASE("An output with another ending than the allowed ones is refused with both") {
+  const auto refusal_of = [](const std::string& path) {
+    return input_error([&] { refuse_other_endings("--output", path, {".png", ".svg"}); });
+  };
+  CHECK_NOTHROW(refuse_other_endings("--output", "a.b/x.svg", {".png", ".svg"}));
+  CHECK(refusal_of("x.jpg") == "--output x.jpg: found the ending '.jpg', allowed: .png or .svg");
+  CHECK(refusal_of("a.png/x") == "--output a.png/x: found no ending, allowed: .png or .svg");
+}
+
+TEST_CASE("An output is tried without a trace, and one that cannot be written is a StorageError") {
+  const Folder folder;
+  test::write_text(folder / "old", "old");
+  try_output(folder / "old");
+  try_output(folder / "new");
+  CHECK(read_text(folder / "old") == "old");
+  for (const char* name : {"old.partial", "new", "new.partial"}) CHECK_FALSE(fs::exists(folder / name));
+  CHECK_THROWS_AS(try_output(folder / "none/out"), StorageError);
+  fs::create_directory(folder / "old.partial");
+  CHECK_THROWS_AS(try_output(folder / "old"), StorageError);
 }
 
 TEST_CASE("A FIFO or a character device is an output of text only") {

@@ -493,6 +493,97 @@ TEST_CASE("verdicts of meshes stand side by side, counted, and what a mesh did n
   CHECK_THROWS_WITH(verdicts_of_mesh({"coarse", studies.path("nothing")}), Contains("nothing: "));
 }
 
+namespace {
+
+/// Writes a figure "study.toml" of a run "r", its table "t" and its fit, and all files that it needs.
+void write_complete_study(const Studies& studies) {
+  write_text(studies.path("study.toml"), R"(title = "x"
+include = ["more.toml"]
+[[cases]]
+x = [1, 2]
+[[runs]]
+name = "r"
+folder = "r{x}"
+programme = "press"
+[[tables]]
+name = "t"
+columns = ["x [mm] = {x}", "y [MPa] = r/strength.value"]
+[[fits]]
+name = "f"
+table = "t"
+x = "x"
+y = "y"
+model = "linear"
+[[plots]]
+name = "p"
+x = { label = "x" }
+y = { label = "y" }
+series = [{ table = "t", x = "x", y = "y" }]
+)");
+  write_text(studies.path("more.toml"), "");
+  write_text(studies.path("out/r1/strength.json"), R"({"value": 3})");
+  write_text(studies.path("out/r2/strength.json"), R"({"value": 4})");
+  write_text(studies.path("out/study/t.csv"), "x [mm],y [MPa]\n1,3\n2,4\n3,6\n");
+  write_text(studies.path("out/study/fits.json"), "[]");
+  write_text(studies.path("out/study/verdict.json"), "[]");
+}
+
+} // namespace
+
+TEST_CASE("a table without -o goes to standard output") {
+  const Studies studies;
+  write_complete_study(studies);
+  const auto outcome = test::postproc(fmt::format("table {} t --results {} --programmes {}", studies.path("study.toml"),
+                                                  studies.path("out"), studies.path("programmes")));
+  INFO(outcome.messages);
+  CHECK(outcome.exit_code == 0);
+  CHECK(outcome.output == "x [mm],y [MPa]\n1,3\n2,4\n");
+}
+
+TEST_CASE("a plot ends in .png or .svg, and goes where a link leads") {
+  const Studies studies;
+  write_complete_study(studies);
+  const auto plotted = [&](const std::string& name) {
+    return test::postproc(fmt::format("plot {} p --results {} --programmes {} -o {}", studies.path("study.toml"),
+                                      studies.path("out"), studies.path("programmes"), studies.path(name)));
+  };
+  std::filesystem::create_symlink("p.svg", studies.path("link.svg"));
+  const auto drawn = plotted("link.svg");
+  INFO(drawn.messages);
+  CHECK(drawn.exit_code == 0);
+  CHECK(std::filesystem::is_symlink(studies.path("link.svg")));
+  CHECK_THAT(test::read_text(studies.path("p.svg")), Contains("<svg"));
+  const auto refused = plotted("p.jpg");
+  CHECK(refused.exit_code == 2);
+  CHECK_THAT(refused.messages, Contains("p.jpg: found the ending '.jpg', allowed: .png or .svg"));
+}
+
+TEST_CASE("no file from which something of a figure is made is replaced by it") {
+  const Studies studies;
+  write_complete_study(studies);
+  const std::string figure = studies.path("study.toml"), programmes = " --programmes " + studies.path("programmes"),
+                    results = " --results " + studies.path("out") + programmes;
+  for (const auto& [command, name] : {std::pair<std::string, std::string>{"powder " + figure + programmes, "more.toml"},
+                                      {"powder " + figure + programmes, "programmes/press.toml"},
+                                      {"depends " + figure + programmes + " --packing p.h5", "more.toml"},
+                                      {"table " + figure + " t" + results, "out/r2/strength.json"},
+                                      {"fits " + figure + results, "out/study/t.csv"},
+                                      {"verdict " + figure + results, "out/study/t.csv"},
+                                      {"verdict " + figure + results, "out/study/fits.json"},
+                                      {"verdicts mesh=" + studies.path("out"), "out/study/verdict.json"},
+                                      {"report " + figure + " --title x" + results, "out/study/verdict.json"}}) {
+    const std::string before = test::read_text(studies.path(name));
+    const auto outcome = test::postproc(fmt::format("{} -o {}", command, studies.path(name)));
+    INFO(command << ": " << outcome.messages);
+    CHECK(outcome.exit_code == 2);
+    CHECK(outcome.one_error_line("postproc"));
+    CHECK_THAT(outcome.messages, Contains("would overwrite the input"));
+    CHECK(test::read_text(studies.path(name)) == before);
+    // Under another name it is written.
+    CHECK(test::postproc(fmt::format("{} -o {}", command, studies.path("new"))).exit_code == 0);
+  }
+}
+
 TEST_CASE("a report opens with how many statements of each study agree, and says why one differs") {
   const Studies studies;
   write_text(studies.path("out/fig03/verdict.json"),

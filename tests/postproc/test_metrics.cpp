@@ -181,6 +181,9 @@ TEST_CASE("postproc refuses what it cannot use with one line and exit code 2") {
             "would overwrite the input"},
            {fmt::format("powder {0} -o {0}", folder / "text.h5"), "would overwrite the input"},
            {"vtk -o " + (folder / "x"), "either RUN.h5 or --packing"}}) {
+           {fmt::format("section {} -o {}", run, folder / "x.jpg"), "the ending '.jpg', allowed: .png"},
+           {fmt::format("contact {} --pair 0,1 --view {}", run, folder / "x"), "no ending, allowed: .png"},
+           {fmt::format("density-map {} -o {}", run, folder / "x.svg"), "the ending '.svg', allowed: .csv or .png"},
     const Outcome outcome = postproc(arguments);
     INFO(arguments << ": " << outcome.messages);
     CHECK(outcome.exit_code == 2);
@@ -202,6 +205,30 @@ TEST_CASE("postproc refuses what it cannot use with one line and exit code 2") {
 }
 
 TEST_CASE("outputs are files, and text may go to a pipe or standard output too") {
+TEST_CASE("two outputs of one command have two names") {
+  const Folder folder;
+  write_run(folder / "run.h5", small_run());
+  write_text(folder / "points.csv", "a,b\n1,2\n2,3\n3,5\n");
+  const std::string run = folder / "run.h5", one = folder / "one.png", other = folder / "sub/../one.png";
+  std::filesystem::create_directory(folder / "sub");
+  for (const std::string& command :
+       {"section " + run + " -o " + one + " --data " + other,
+        "contact " + run + " --pair 0,1 -o " + other + " --data " + one,
+        "contact " + run + " --pair 0,1 --view " + one + " --data " + other,
+        "hysteresis " + run + " -o " + one + " --cycles " + other, "damage " + run + " -o " + one + " --data " + other,
+        "stress-at-densities " + run + " --densities 0.6 -o " + one + " --data " + other,
+        "diametral " + run + " -o " + one + " --data " + other,
+        "density-map " + run + " -o " + one + " --data " + other,
+        "fit " + (folder / "points.csv") + " --x a --y b --model linear -o " + one + " --curve " + other}) {
+    const Outcome outcome = postproc(command);
+    INFO(command << ": " << outcome.messages);
+    CHECK(outcome.exit_code == 2);
+    CHECK(outcome.one_error_line("postproc"));
+    CHECK_THAT(outcome.messages, Catch::Contains("would overwrite the output of --"));
+    CHECK_FALSE(std::filesystem::exists(one));
+  }
+}
+
   const Folder folder;
   const std::string run = folder / "run.h5", fifo = folder / "fifo";
   write_run(run, small_run());
