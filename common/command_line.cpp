@@ -31,6 +31,10 @@ CLI::Validator whole_number_in(const Range& range, const std::string& unit) {
   return validator(range, unit, "a whole number", whole_number);
 }
 
+CLI::Option* separated_by_commas(CLI::Option* option) {
+  return option->delimiter(',')->allow_extra_args(false);
+}
+
 std::optional<int> parse_command_line(CLI::App& app, const std::string& program, int argc, char** argv) {
   try {
     app.parse(argc, argv);

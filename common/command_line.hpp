@@ -43,6 +43,18 @@ CLI::Option* add_number(CLI::App& command, const std::string& name, Variable& va
       ->check(std::is_integral_v<Number> ? whole_number_in(range, unit) : finite_number_in(range, unit));
 }
 
+/// Makes an option a list in one word, separated by commas: the words after it are no part of the list.
+CLI::Option* separated_by_commas(CLI::Option* option);
+
+/// Adds an option that is such a list of numbers: of `count`, or of any number for 0.
+template <class Number>
+CLI::Option* add_numbers(CLI::App& command, const std::string& name, std::vector<Number>& variable, int count,
+                         const Range& range, const std::string& unit, const std::string& help) {
+  CLI::Option* option = add_number(command, name, variable, range, unit, help);
+  if (count > 0) option->expected(count);
+  return separated_by_commas(option);
+}
+
 /// Largest number that fits in an option's variable, for options without their own limit.
 constexpr Range whole_numbers = Range::between(-2147483647.0, 2147483647.0);
 /// Numbers of threads.

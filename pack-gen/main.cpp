@@ -328,7 +328,9 @@ CLI::App* add_spheres(CLI::App& app, Arguments& arguments) {
   add_output(*command, arguments);
   add_number(*command, "--seed", arguments.seed, seed_numbers, "", "Seed, instead of the one in the description");
   add_container(*command, arguments, "the description's, else a box");
-  command->add_option("--set", arguments.assignments, "Override a value: KEY=VALUE, e.g. count=400")->take_all();
+  command->add_option("--set", arguments.assignments, "Override a value: KEY=VALUE, e.g. count=400")
+      ->take_all()
+      ->allow_extra_args(false);
   return command;
 }
 
@@ -370,15 +372,12 @@ CLI::App* add_import(CLI::App& app, Arguments& arguments) {
   add_output(*command, arguments);
   add_number(*command, "--size", arguments.size, positive_length, "mm", "Nominal element size (default: not meshed)");
   add_threads(*command, arguments);
-  add_number(*command, "--box", arguments.box, positive_length, "mm",
-             "Edge lengths X,Y,Z of the box, which begins at the origin (default: the smallest box around the spheres)")
-      ->delimiter(',')
-      ->expected(3);
+  add_numbers(
+      *command, "--box", arguments.box, 3, positive_length, "mm",
+      "Edge lengths X,Y,Z of the box, which begins at the origin (default: the smallest box around the spheres)");
   add_container(*command, arguments, "box");
-  add_number(*command, "--bottom-center", arguments.bottom_center, any_length, "mm",
-             "X,Y,Z of the centre of the cylinder's bottom in the table's coordinates (default: D/2,D/2,0)")
-      ->delimiter(',')
-      ->expected(3);
+  add_numbers(*command, "--bottom-center", arguments.bottom_center, 3, any_length, "mm",
+              "X,Y,Z of the centre of the cylinder's bottom in the table's coordinates (default: D/2,D/2,0)");
   return command;
 }
 

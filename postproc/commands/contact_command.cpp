@@ -28,9 +28,8 @@ public:
             "File to write, .json or .csv (default: CSV on standard output); with --pair JSON") {
     CLI::App& command = options();
     add_snapshot(command, snapshot_);
-    add_number(command, "--pair", pair_, whole_numbers, "", "Two grains, separated by a comma: their contact in detail")
-        ->delimiter(',')
-        ->expected(2);
+    add_numbers(command, "--pair", pair_, 2, whole_numbers, "",
+                "Two grains, separated by a comma: their contact in detail");
     command.add_flag("--history", history_,
                      "All contacts together through the run: areas, coordination, damage, one row per history row; "
                      "with -o FILE.json at the end of a stage");

@@ -78,7 +78,7 @@ public:
     options().add_option("--x", x_, "Column, without its unit")->required();
     options().add_option("--y", y_, "Column")->required();
     options().add_option("--z", z_, "Column: G^c of pc-gc-surface");
-    options().add_option("--model", models_, "Models, separated by commas")->required()->delimiter(',');
+    separated_by_commas(options().add_option("--model", models_, "Models, separated by commas"))->required();
     options().add_flag("--relative-density", x_is_relative_density_,
                        "x holds relative densities: the porosity P is 1 - x");
     add_output("--curve", curve_, "CSV file to write: the fitted curves at 201 values of x");

@@ -39,9 +39,8 @@ public:
             "Write history columns as CSV.\nExample: postproc curve run.h5 --columns relative_density,mean_stress -o "
             "curve.csv",
             "CSV file to write (default: standard output)") {
-    options()
-        .add_option("--columns", columns_, "Columns, separated by commas (default: all); wall_stress means its six")
-        ->delimiter(',');
+    separated_by_commas(options().add_option("--columns", columns_,
+                                             "Columns, separated by commas (default: all); wall_stress means its six"));
   }
 
 private:

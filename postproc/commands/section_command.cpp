@@ -52,16 +52,12 @@ private:
                     "von_mises, pressure, plastic_strain, grain (for --packing: grain) or, for runs with bonds, "
                     "damage: along the cut boundaries")
         ->capture_default_str();
-    add_number(options(), "--range", range_, Range::between(-1e12, 1e12), "",
-               "low,high of the colour scale (default: from the data; for damage 0,1)")
-        ->delimiter(',')
-        ->expected(2);
-    add_number(
-        options(), "--view", view_, any_length, "mm",
+    add_numbers(options(), "--range", range_, 2, Range::between(-1e12, 1e12), "",
+                "low,high of the colour scale (default: from the data; for damage 0,1)");
+    add_numbers(
+        options(), "--view", view_, 4, any_length, "mm",
         "Part of the plane to show: low,high of its first and of its second coordinate (default: the box, or what "
-        "is drawn of tools around it)")
-        ->delimiter(',')
-        ->expected(4);
+        "is drawn of tools around it)");
     add_drawing(options(), picture_, "", "the relative density", "the elements");
     options().add_flag("!--without-tools", picture_.tools, "Leave out rigid tools");
   }

@@ -52,10 +52,8 @@ public:
               "Largest relative change of slope between the halves of the window");
     add_share("--damage-share", rule_.damage_share, "Largest ratio of damage dissipation to axial work in the window");
     add_share("--stress-fraction", rule_.stress_fraction, "The window ends at this share of the rise to the peak");
-    add_number(options(), "--strain-range", strain_range_, Range::between(-1e3, 1e3), "",
-               "low,high: axial strain since the stage began, instead of the rule")
-        ->delimiter(',')
-        ->expected(2);
+    add_numbers(options(), "--strain-range", strain_range_, 2, Range::between(-1e3, 1e3), "",
+                "low,high: axial strain since the stage began, instead of the rule");
     options().add_flag("--need-window", need_window_, "Fail if no window meets the rule");
     add_number(options(), "--youngs-modulus", youngs_modulus_, positive_modulus, "MPa",
                "Young's modulus of the grains (default: the scenario's)");

@@ -80,10 +80,9 @@ public:
             app, "stress-at-densities",
             "Mean stress of a compaction at given relative densities, interpolated between rows.\n"
             "Example: postproc stress-at-densities run.h5 --densities 0.8,0.92 -o stress.json --data stress.csv") {
-    add_number(options(), "--densities", densities_, relative_densities, "",
-               "Relative densities, separated by commas, ascending")
-        ->required()
-        ->delimiter(',');
+    add_numbers(options(), "--densities", densities_, 0, relative_densities, "",
+                "Relative densities, separated by commas, ascending")
+        ->required();
     add_output("--data", data_, "CSV file to write: one row per density");
     add_input("--reference", reference_,
               "CSV file with relative_density, mean_stress_MPa: the run is compared with it in --data");

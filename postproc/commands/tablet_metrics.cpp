@@ -84,10 +84,8 @@ public:
                            "Example: postproc diametral run.h5 --plates left,right -o strength.json --data crack.csv\n"
                            "Example: postproc diametral run.h5 --diameter 2 --thickness 1 --flat-angle 10",
                            "the last") {
-    options()
-        .add_option("--plates", rule_.plates,
-                    "Names of both plates, separated by a comma (default: the run's only two tools)")
-        ->delimiter(',');
+    separated_by_commas(options().add_option(
+        "--plates", rule_.plates, "Names of both plates, separated by a comma (default: the run's only two tools)"));
     add_number(options(), "--drop", rule_.drop, Range::between(1e-6, 1), "",
                "Relative fall after the largest force that makes it a peak")
         ->capture_default_str();

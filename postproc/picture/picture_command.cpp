@@ -52,15 +52,11 @@ public:
     add_number(options(), "--cut-at", request_.cut_at, Range::between(0, 1), "",
                "Position of the cut, as a fraction of the box")
         ->capture_default_str();
-    add_number(options(), "--camera", camera_, Range::between(-360, 360), "degrees",
-               "Azimuth,elevation of the camera: from the x axis towards y, and above the x-y plane")
-        ->delimiter(',')
-        ->expected(2)
+    add_numbers(options(), "--camera", camera_, 2, Range::between(-360, 360), "degrees",
+                "Azimuth,elevation of the camera: from the x axis towards y, and above the x-y plane")
         ->capture_default_str();
-    add_number(options(), "--range", range_, Range::between(-1e12, 1e12), "",
-               "low,high of the colour scale (default: from the data; for damage 0,1)")
-        ->delimiter(',')
-        ->expected(2);
+    add_numbers(options(), "--range", range_, 2, Range::between(-1e12, 1e12), "",
+                "low,high of the colour scale (default: from the data; for damage 0,1)");
     options().add_option("--size", size_, "WIDTHxHEIGHT in pixels")->capture_default_str();
     options().add_option("--title", request_.title, "Title (default: relative density and mean stress)");
     options().add_flag("--bonds", request_.bonds,
@@ -143,11 +139,11 @@ private:
         range = {std::min(range.first, scene.bar->range.first), std::max(range.second, scene.bar->range.second)};
     }
     if (!shown) throw InputError(fmt::format("{}: the run has no snapshots", one_line(path_of_run())));
-      refuse_overwriting("--frames", path, path_of_run());
     if (!request.range && range.second > range.first) request.range = range;
     make_folder(frames_);
     for (int number = 0; number < count; ++number) {
       const std::string path = fmt::format("{}/{:04}.png", frames_, number);
+      refuse_overwriting("--frames", path, path_of_run());
       draw_scene(path, scene_of(read_state(number), request), *shown, size);
       if (!quiet()) fmt::print("{}\n", path);
     }

@@ -14,7 +14,8 @@ struct Options {
   double size = 0;
   int threads = 1;
   std::optional<std::int64_t> seed;
-  std::vector<double> box;
+  std::vector<double> box, densities;
+  std::string input;
 };
 
 Options parsed(std::vector<std::string> words) {
@@ -23,7 +24,9 @@ Options parsed(std::vector<std::string> words) {
   add_number(app, "--size", options.size, positive_length, "mm", "Element size");
   add_number(app, "--threads", options.threads, thread_numbers, "", "Threads");
   add_number(app, "--seed", options.seed, seed_numbers, "", "Seed");
-  add_number(app, "--box", options.box, positive_length, "mm", "Box")->delimiter(',')->expected(3);
+  add_numbers(app, "--box", options.box, 3, positive_length, "mm", "Box");
+  add_numbers(app, "--densities", options.densities, 0, Range::between(0, 1), "", "Densities");
+  app.add_option("input", options.input, "Input");
   words.insert(words.begin(), "example");
   std::vector<char*> pointers;
   for (std::string& word : words) pointers.push_back(word.data());
@@ -45,6 +48,20 @@ TEST_CASE("Options take numbers within their range") {
   CHECK(options.box == std::vector<double>{1, 2, 3});
 }
 
+TEST_CASE("A list ends at the last of its numbers, and the word after it is another argument") {
+  for (const std::vector<std::string>& words :
+       {std::vector<std::string>{"--box", "1,2,3", "--densities", "0.5,0.6", "7"},
+        {"--densities", "0.5,0.6", "--box", "1,2,3", "7"},
+        {"--densities", "0.5,0.6", "7", "--box", "1", "2", "3"}}) {
+    const Options options = parsed(words);
+    CHECK(options.box == std::vector<double>{1, 2, 3});
+    CHECK(options.densities == std::vector<double>{0.5, 0.6});
+    CHECK(options.input == "7");
+  }
+  CHECK_THAT(refusal({"--box", "1,2"}), Catch::StartsWith("--box"));
+  CHECK_THAT(refusal({"--box", "1,2,3,4"}), Catch::StartsWith("--box"));
+}
+
 TEST_CASE("Options refuse anything but a finite number within their range, in one line") {
   CHECK(refusal({"--size", "0"}) == "--size: found '0', allowed: a number 1e-12 … 1e+09 mm (see example --help)");
   for (const char* text : {"nan", "-nan", "inf", "1e400", "-1", "0", "abc", "1mm", "", " ", "0x1p3"}) {
@@ -61,5 +78,5 @@ TEST_CASE("A long word on the command line is shortened in the message") {
   const std::string endless(100'000, 'x');
   CHECK(refusal({"--size", endless}).size() < 300);
   CHECK(refusal({"--" + endless}).size() < 300);
-  CHECK(refusal({endless}).size() < 300);
+  CHECK(refusal({"input", endless}).size() < 300);
 }
