@@ -119,8 +119,8 @@ Measurement triaxial_test(const HistoryTable& h, const StageRows& stage, double 
 Measurement measure_triaxial_test(const schema::FileReader& file, std::optional<int> number, double lateral_stress) {
   const HistoryTable history(file);
   const auto stages = stages_of(history, scenario_facts(file));
-  return triaxial_test(history, choose_stage(stages, number, {"triaxial_compression"}, file.path()), lateral_stress,
-                       grain_inertia(file, history));
+  return triaxial_test(history, need_stage_of_type(stages, number, {"triaxial_compression"}, file.path()),
+                       lateral_stress, grain_inertia(file, history));
 }
 
 } // namespace mpfem

@@ -111,7 +111,7 @@ Measurement unload_reload_modulus(const StageCurve& c, int number) {
 Measurement measure_unload_reload_modulus(const schema::FileReader& file, std::optional<int> number, int loop) {
   const HistoryTable history(file);
   const auto stages = stages_of(history, scenario_facts(file));
-  const StageRows& chosen = choose_stage(stages, number, {"unconfined_compression"}, file.path());
+  const StageRows& chosen = need_stage_of_type(stages, number, {"unconfined_compression"}, file.path());
   StageRows rows = chosen;
   const auto here = static_cast<std::size_t>(&chosen - stages.data());
   for (std::size_t s = here; s > 0 && stages[s - 1].type == chosen.type; --s) rows.first = stages[s - 1].first;

@@ -101,28 +101,49 @@ StageRows need_stage(const std::vector<StageRows>& stages, std::string_view name
                                fmt::join(names, ", ")));
 }
 
-const StageRows& choose_stage(const std::vector<StageRows>& stages, std::optional<int> number,
-                              const std::vector<std::string>& types, std::string_view path) {
-  if (number) return stage_by_number(stages, *number, path);
+namespace {
+
+/// The last stage of one of these types; null where there is none.
+const StageRows* last_of_type(const std::vector<StageRows>& stages, const std::vector<std::string>& types) {
   const auto found = std::find_if(stages.rbegin(), stages.rend(), [&](const StageRows& stage) {
     return std::find(types.begin(), types.end(), stage.type) != types.end();
   });
-  return found == stages.rend() ? stages.back() : *found;
+  return found == stages.rend() ? nullptr : &*found;
+}
+
+/// Whether a column falls in the stage by more than this share of its value at the beginning.
+bool falls(const std::vector<double>& column, const StageRows& stage, double share) {
+  return column[stage.first] - column[stage.last] > share * std::abs(column[stage.first]);
+}
+
+} // namespace
+
+const StageRows& choose_stage(const std::vector<StageRows>& stages, std::optional<int> number,
+                              const std::vector<std::string>& types, std::string_view path) {
+  if (number) return stage_by_number(stages, *number, path);
+  const StageRows* last = last_of_type(stages, types);
+  return last ? *last : stages.back();
+}
+
+const StageRows& need_stage_of_type(const std::vector<StageRows>& stages, std::optional<int> number,
+                                    const std::vector<std::string>& types, std::string_view path) {
+  if (number) return stage_by_number(stages, *number, path);
+  if (const StageRows* last = last_of_type(stages, types)) return *last;
+  throw InputError(fmt::format("{}: found no stage of type {}, allowed: a run with one, or --stage N", one_line(path),
+                               fmt::join(types, " or ")));
 }
 
 const StageRows& choose_unloading(const std::vector<StageRows>& stages, std::optional<int> number,
                                   const HistoryTable& history, std::string_view path) {
   if (number) return stage_by_number(stages, *number, path);
-  const StageRows& last = choose_stage(stages, {}, {"isotropic_unloading"}, path);
-  if (last.type == "isotropic_unloading") return last;
+  if (const StageRows* last = last_of_type(stages, {"isotropic_unloading"})) return *last;
   const auto &density = history["relative_density"], &stress = history["mean_stress"];
   const auto densest = static_cast<std::size_t>(std::max_element(density.begin(), density.end()) - density.begin());
   for (const StageRows& stage : stages)
-    if (stage.last > densest && density[stage.last] < density[stage.first] && stress[stage.last] < stress[stage.first])
-      return stage;
+    if (stage.last > densest && falls(density, stage, 1e-9) && falls(stress, stage, 0.05)) return stage;
   throw InputError(
       fmt::format("{}: no unloading: in no stage after the densest row do relative density and mean stress "
-                  "fall; allowed: a run that unloads, or --stage N",
+                  "both fall, the stress by more than a twentieth; allowed: a run that unloads, or --stage N",
                   one_line(path)));
 }
 

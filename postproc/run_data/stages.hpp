@@ -62,8 +62,14 @@ StageRows need_stage(const std::vector<StageRows>& stages, std::string_view name
 const StageRows& choose_stage(const std::vector<StageRows>& stages, std::optional<int> number,
                               const std::vector<std::string>& types, std::string_view path);
 
+/// The same, but throws InputError where no stage has one of these types.
+const StageRows& need_stage_of_type(const std::vector<StageRows>& stages, std::optional<int> number,
+                                    const std::vector<std::string>& types, std::string_view path);
+
 /// Stage `number` where given, otherwise the last of type isotropic_unloading, otherwise the first that ends after the
-/// densest row of all and in which density and mean stress both fall. Throws InputError where there is none.
+/// densest row of all and unloads: relative density and mean stress fall by more than shares of 1e-9 and 0.05. While
+/// walls stand still the density changes by rounding only, and while they hold a force the stress by what rings.
+/// Throws InputError where there is none.
 const StageRows& choose_unloading(const std::vector<StageRows>& stages, std::optional<int> number,
                                   const HistoryTable& history, std::string_view path);
 
