@@ -1,5 +1,6 @@
 #include "postproc/figure/words.hpp"
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <vector>
@@ -15,9 +16,22 @@ namespace mpfem {
 
 namespace {
 
+/// The largest number of digits in a row; a format's width and precision are such rows.
+std::size_t most_digits(std::string_view text) {
+  std::size_t most = 0, row = 0;
+  for (const char c : text) {
+    row = c >= '0' && c <= '9' ? row + 1 : 0;
+    most = std::max(most, row);
+  }
+  return most;
+}
+
 std::string number_text(double number, std::string_view format) {
   const bool percent = format.ends_with('%');
   if (percent) format.remove_suffix(1);
+  if (most_digits(format) > 2)
+    throw InputError(
+        fmt::format("found the format '{}', allowed: width and precision of at most two digits", one_line(format)));
   try {
     const std::string pattern = format.empty() ? "{}" : fmt::format("{{:{}}}", format);
     return fmt::format(fmt::runtime(pattern), percent ? 100 * number : number) + (percent ? " %" : "");

@@ -94,6 +94,9 @@ TEST_CASE("names in braces become values, numbers in the format given") {
   CHECK_THROWS_WITH(filled("{densty}", words), Contains("did you mean 'density'?"));
   CHECK_THROWS_WITH(filled("{law:.2f}", words), Contains("which has no format"));
   CHECK_THROWS_WITH(filled("{density:.2q}", words), Contains("found the format '.2q'"));
+  CHECK(filled("{density:12.10f}", words) == "0.7000000000");
+  for (const std::string format : {".999999999f", "999999999", ".100f", "100.2f"}) // these would take all memory
+    CHECK_THROWS_WITH(filled("{density:" + format + "}", words), Contains("'" + format + "', allowed: width"));
 }
 
 TEST_CASE("a mistake in a figure's file is reported with file, line and the nearest word") {
