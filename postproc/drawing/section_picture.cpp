@@ -34,6 +34,22 @@ bool overlaps(const SectionPolygon& polygon, const View& view) {
   return true;
 }
 
+/// The smallest view of all polygons; there is at least one.
+View extent_of(const std::vector<SectionPolygon>& polygons) {
+  View view{polygons.front().corner[0], polygons.front().corner[0]};
+  for (const SectionPolygon& polygon : polygons)
+    for (std::size_t i = 0; i < static_cast<std::size_t>(polygon.corners); ++i)
+      for (std::size_t k = 0; k < 2; ++k) {
+        view.low[k] = std::min(view.low[k], polygon.corner[i][k]);
+        view.high[k] = std::max(view.high[k], polygon.corner[i][k]);
+      }
+  return view;
+}
+
+std::string text_of(const View& view) {
+  return fmt::format("{:g} … {:g}, {:g} … {:g} mm", view.low[0], view.high[0], view.low[1], view.high[1]);
+}
+
 /// The polygons of a section that the view shows.
 struct VisibleSection {
   View view;
@@ -59,12 +75,12 @@ VisibleSection visible_section(const Snapshot& snapshot, const PictureRequest& r
     view = {{extent.low[u], extent.low[v]}, {extent.high[u], extent.high[v]}};
   }
   view = request.view.value_or(view);
+  const View of_all = extent_of(polygons);
   std::erase_if(polygons, [&](const SectionPolygon& polygon) { return !overlaps(polygon, view); });
-  if (polygons.empty())
-    throw InputError(
-        fmt::format("--view: no grain is cut in {:g} … {:g}, {:g} … {:g} mm; the box spans {:g} … {:g}, {:g} … {:g} mm",
-                    view.low[0], view.high[0], view.low[1], view.high[1], low[u], high[u], low[v], high[v]));
-  return {view, std::move(polygons)};
+  if (!polygons.empty()) return {view, std::move(polygons)};
+  throw InputError(
+      fmt::format("{}: no grain is cut in {}, allowed: a --view with some of the cut grains, which lie in {}",
+                  request.view ? "--view" : fmt::format("snapshot {}", snapshot.name), text_of(view), text_of(of_all)));
 }
 
 /// The field of a snapshot that the colours show.

@@ -106,6 +106,24 @@ TEST_CASE("a section's picture is written as PNG, its polygons as CSV") {
   CHECK(sum == Approx(4).epsilon(1e-6));
 }
 
+TEST_CASE("where grains have left the box, the message says where the plane cuts them, and that view shows them") {
+  const Folder folder;
+  RunContents contents = small_run();
+  for (std::size_t axis = 0; axis < 2; ++axis) { // the plane is normal to the third axis
+    contents.numbers["/snapshots/*/box_low"][axis] -= 100;
+    contents.numbers["/snapshots/*/box_high"][axis] -= 100;
+  }
+  write_run(folder / "run.h5", contents);
+  const std::string section = fmt::format("section {} --pixels 100 -o {}", folder / "run.h5", folder / "s.png");
+  const Outcome refused = run_command(fmt::format("'{}' {}", MPFEM_POSTPROC, section));
+  INFO(refused.messages);
+  CHECK(refused.exit_code == 2);
+  CHECK(refused.one_error_line("postproc"));
+  CHECK_THAT(refused.messages, Catch::Contains("snapshot 0000: no grain is cut in -101.5 … ") &&
+                                   Catch::Contains("which lie in -1 … 1, -1 … 1 mm"));
+  CHECK(run_command(fmt::format("'{}' {} --view=-1,1,-1,1", MPFEM_POSTPROC, section)).exit_code == 0);
+}
+
 TEST_CASE("the colour scale gets lighter from end to end") {
   double last = -1;
   for (int i = 0; i <= 50; ++i) {
