@@ -5,6 +5,7 @@
 #include "common/errors.hpp"
 #include "common/one_line.hpp"
 #include "results-schema/file.hpp"
+#include "results-schema/seal.hpp"
 
 namespace mpfem {
 
@@ -21,6 +22,11 @@ Verdict verdict_on(const std::string& path) {
       verdict.text += fmt::format("{}: note: has no checksums (written by an earlier version or another program): "
                                   "damage to its values cannot be detected\n",
                                   name);
+    else if (verdict.valid && schema::check_seal(path) == schema::Seal::absent)
+      verdict.text +=
+          fmt::format("{}: note: has no seal: its end was cut off, or another program copied it; its datasets "
+                      "are complete and match their checksums\n",
+                      name);
   } catch (const InputError& error) { // its message begins with the file's name
     verdict.text += fmt::format("{}\n", error.what());
   }

@@ -181,10 +181,10 @@ TEST_CASE("postproc refuses what it cannot use with one line and exit code 2") {
            {fmt::format("stress-at-densities {0} --densities 0.8 --reference {1} --data {1}", run, folder / "text.h5"),
             "would overwrite the input"},
            {fmt::format("powder {0} -o {0}", folder / "text.h5"), "would overwrite the input"},
-           {"vtk -o " + (folder / "x"), "either RUN.h5 or --packing"}}) {
            {fmt::format("section {} -o {}", run, folder / "x.jpg"), "the ending '.jpg', allowed: .png"},
            {fmt::format("contact {} --pair 0,1 --view {}", run, folder / "x"), "no ending, allowed: .png"},
            {fmt::format("density-map {} -o {}", run, folder / "x.svg"), "the ending '.svg', allowed: .csv or .png"},
+           {"vtk -o " + (folder / "x"), "either RUN.h5 or --packing"}}) {
     const Outcome outcome = postproc(arguments);
     INFO(arguments << ": " << outcome.messages);
     CHECK(outcome.exit_code == 2);
@@ -205,7 +205,6 @@ TEST_CASE("postproc refuses what it cannot use with one line and exit code 2") {
   CHECK(postproc("juggle").exit_code == 2);
 }
 
-TEST_CASE("outputs are files, and text may go to a pipe or standard output too") {
 TEST_CASE("two outputs of one command have two names") {
   const Folder folder;
   write_run(folder / "run.h5", small_run());
@@ -230,6 +229,7 @@ TEST_CASE("two outputs of one command have two names") {
   }
 }
 
+TEST_CASE("outputs are files, and text may go to a pipe or standard output too") {
   const Folder folder;
   const std::string run = folder / "run.h5", fifo = folder / "fifo";
   write_run(run, small_run());
@@ -277,6 +277,19 @@ TEST_CASE("validate says which file has no checksums, and where a checked one is
   const Outcome reading = postproc("summary " + bad);
   CHECK(reading.exit_code == 2);
   CHECK_THAT(reading.messages, Catch::Contains(bad + ": the file is damaged"));
+}
+
+TEST_CASE("validate says that a file has lost its seal though all of its values are there") {
+  const Folder folder;
+  const std::string path = folder / "run.h5";
+  write_run(path, small_run());
+  CHECK_THAT(postproc("validate " + path).output, !Catch::Contains("seal"));
+  const std::string bytes = read_text(path);
+  write_text(path, bytes.substr(0, bytes.size() - 1));
+  const Outcome cut = postproc("validate " + path);
+  CHECK(cut.exit_code == 0);
+  CHECK_THAT(cut.output,
+             Catch::StartsWith(fmt::format("{0}: valid (run, schema 1.0)\n{0}: note: has no seal: ", path)));
 }
 
 TEST_CASE("validate passes a good file and finds a bad one") {
