@@ -203,7 +203,7 @@ void check_container(const Arguments& arguments) {
     refuse("--surface, --scale: found without a surface", "--container surface");
 }
 
-SpherePacking imported(const Arguments& arguments) {
+ImportedSpheres imported(const Arguments& arguments) {
   check_container(arguments);
   const auto point = [](const std::vector<double>& v) { return Point{v[0], v[1], v[2]}; };
   std::optional<Point> box;
@@ -218,8 +218,8 @@ SpherePacking imported(const Arguments& arguments) {
 }
 
 void import(const Arguments& arguments) {
-  const SpherePacking packing = imported(arguments);
-  refuse_overlap(packing, arguments.input);
+  const auto [packing, corner] = imported(arguments);
+  refuse_overlap(packing, arguments.input, corner);
   const PackingOrigin origin{{}, "imported from " + arguments.input, {}, {}};
   if (arguments.size > 0) return write_meshed(arguments, packing, origin);
   write_packing_file(arguments.output, packing, origin);

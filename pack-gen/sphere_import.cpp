@@ -17,15 +17,15 @@ namespace mpfem {
 
 namespace {
 
-std::string body(const SpherePacking& packing, int index) {
+std::string body(const SpherePacking& packing, int index, const Point& corner) {
   if (index < 0) return "the " + wall_name(-1 - index);
   const auto& c = packing.center[static_cast<std::size_t>(index)];
-  return fmt::format("sphere {} at ({:g}, {:g}, {:g})", index, c[0], c[1], c[2]);
+  return fmt::format("sphere {} at ({:g}, {:g}, {:g})", index, c[0] + corner[0], c[1] + corner[1], c[2] + corner[2]);
 }
 
 } // namespace
 
-void refuse_overlap(const SpherePacking& packing, const std::string& name) {
+void refuse_overlap(const SpherePacking& packing, const std::string& name, const Point& corner) {
   // Touching spheres overlap by the rounding of the numbers.
   double largest = 0;
   for (std::size_t i = 0; i < packing.radius.size(); ++i) {
@@ -37,7 +37,7 @@ void refuse_overlap(const SpherePacking& packing, const std::string& name) {
   if (!(gap.gap < -rounding)) gap = smallest_gap_of_pairs(packing.center, packing.radius, -rounding);
   if (gap.gap < -rounding)
     throw InputError(fmt::format("{}: {} and {} overlap by {:.4g} mm; allowed: no overlap", shown_path(name),
-                                 body(packing, gap.first), body(packing, gap.second), -gap.gap));
+                                 body(packing, gap.first, corner), body(packing, gap.second, corner), -gap.gap));
 }
 
 namespace {
@@ -53,51 +53,53 @@ SpherePacking read_table(CsvReader table) {
   return packing;
 }
 
-} // namespace
-
-SpherePacking import_spheres(CsvReader table, const std::optional<Point>& box) {
-  SpherePacking packing = read_table(std::move(table));
-  if (box) {
-    packing.box = *box;
-  } else {
-    for (std::size_t k = 0; k < 3; ++k) {
-      double low = packing.center[0][k] - packing.radius[0], high = packing.center[0][k] + packing.radius[0];
-      for (std::size_t i = 1; i < packing.radius.size(); ++i) {
-        low = std::min(low, packing.center[i][k] - packing.radius[i]);
-        high = std::max(high, packing.center[i][k] + packing.radius[i]);
-      }
-      packing.box[k] = high - low;
-      for (auto& center : packing.center) center[k] -= low;
-    }
-  }
-  return packing;
+/// Moves the spheres so that their box begins at the origin.
+ImportedSpheres moved_to_origin(SpherePacking packing, const Point& corner) {
+  for (Point& center : packing.center)
+    for (std::size_t k = 0; k < 3; ++k) center[k] -= corner[k];
+  return {std::move(packing), corner};
 }
 
-SpherePacking import_spheres(const std::string& path, const std::optional<Point>& box) {
+} // namespace
+
+ImportedSpheres import_spheres(CsvReader table, const std::optional<Point>& box) {
+  SpherePacking packing = read_table(std::move(table));
+  Point corner{};
+  if (box) {
+    packing.box = *box;
+    return {std::move(packing), corner};
+  }
+  for (std::size_t k = 0; k < 3; ++k) {
+    double low = packing.center[0][k] - packing.radius[0], high = packing.center[0][k] + packing.radius[0];
+    for (std::size_t i = 1; i < packing.radius.size(); ++i) {
+      low = std::min(low, packing.center[i][k] - packing.radius[i]);
+      high = std::max(high, packing.center[i][k] + packing.radius[i]);
+    }
+    packing.box[k] = high - low;
+    corner[k] = low;
+  }
+  return moved_to_origin(std::move(packing), corner);
+}
+
+ImportedSpheres import_spheres(const std::string& path, const std::optional<Point>& box) {
   return import_spheres(CsvReader::from_file(path), box);
 }
 
-SpherePacking import_spheres(const std::string& path, const CylinderInTable& cylinder) {
+ImportedSpheres import_spheres(const std::string& path, const CylinderInTable& cylinder) {
   SpherePacking packing = read_table(CsvReader::from_file(path));
   packing.shape = ContainerShape::cylinder;
   packing.box = {cylinder.diameter, cylinder.diameter, cylinder.height};
   const Point& bottom = cylinder.bottom_center;
-  for (Point& center : packing.center) {
-    center[0] += 0.5 * cylinder.diameter - bottom[0];
-    center[1] += 0.5 * cylinder.diameter - bottom[1];
-    center[2] -= bottom[2];
-  }
-  return packing;
+  const double radius = 0.5 * cylinder.diameter;
+  return moved_to_origin(std::move(packing), {bottom[0] - radius, bottom[1] - radius, bottom[2]});
 }
 
-SpherePacking import_spheres(const std::string& path, const PlacedSurface& surface) {
+ImportedSpheres import_spheres(const std::string& path, const PlacedSurface& surface) {
   SpherePacking packing = read_table(CsvReader::from_file(path));
   packing.shape = ContainerShape::surface;
   packing.surface = surface.container;
   packing.box = surface.lengths;
-  for (Point& center : packing.center)
-    for (std::size_t k = 0; k < 3; ++k) center[k] -= surface.corner_in_file[k];
-  return packing;
+  return moved_to_origin(std::move(packing), surface.corner_in_file);
 }
 
 } // namespace mpfem

@@ -179,7 +179,7 @@ TEST_CASE("A table that holds no spheres is refused with file and line") {
     INFO(text.substr(0, 60));
     write_text(folder / "s.csv", text);
     const std::string message =
-        message_of([&] { refuse_overlap(import_spheres(folder / "s.csv", std::nullopt), folder / "s.csv"); });
+        message_of([&] { refuse_overlap(import_spheres(folder / "s.csv", std::nullopt).packing, folder / "s.csv"); });
     CHECK(fault_of_message(message, {"s.csv", name}) == "");
     if (++number % 4 != 0) continue;
     CHECK(fault_of_refusal(MPFEM_PACK_GEN, {"import", folder / "s.csv", "-o", folder / "s.h5"}, {"s.csv", name}) == "");
@@ -215,10 +215,12 @@ TEST_CASE("Spheres that touch are imported with numbers rounded to any digit") {
        {"0.1,0,0,0.1\n0.3,0,0,0.1\n", "0.7,0.1,0.3,0.1\n0.7,0.1,0.6,0.2\n", "0,0,0,0.3\n0.9,0,0,0.6\n"}) {
     INFO(text);
     write_text(folder / "s.csv", text);
-    CHECK(message_of([&] { refuse_overlap(import_spheres(folder / "s.csv", std::nullopt), "s.csv"); }) == "(taken)");
+    CHECK(message_of([&] { refuse_overlap(import_spheres(folder / "s.csv", std::nullopt).packing, "s.csv"); }) ==
+          "(taken)");
   }
   write_text(folder / "s.csv", "0,0,0,1\n1.999999,0,0,1\n");
-  CHECK(message_of([&] { refuse_overlap(import_spheres(folder / "s.csv", std::nullopt), "s.csv"); }) != "(taken)");
+  CHECK(message_of([&] { refuse_overlap(import_spheres(folder / "s.csv", std::nullopt).packing, "s.csv"); }) !=
+        "(taken)");
 }
 
 TEST_CASE("A table of spheres that is no regular file is refused at once") {

@@ -160,7 +160,7 @@ TEST_CASE("spheres about an axis elsewhere are imported with the centre of the b
                            folder / "s.csv", folder / "t.h5"));
   CHECK(outcome.exit_code == 2);
   CHECK(outcome.one_error_line("pack-gen"));
-  CHECK_THAT(outcome.messages, Catch::Contains("sphere 1 at (1.6, 1.6, 0.5) and the round wall overlap by 0.0985"));
+  CHECK_THAT(outcome.messages, Catch::Contains("sphere 1 at (0.6, 0.6, 0.5) and the round wall overlap by 0.0985"));
   CHECK_FALSE(std::filesystem::exists(folder / "t.h5"));
 }
 
