@@ -12,6 +12,7 @@
 // ball's count is fitted.
 
 #include <functional>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -62,12 +63,13 @@ struct MeshRequest {
   std::uint64_t seed = 1;  ///< of the grains' orientations
   int threads = 1;         ///< the mesh does not depend on it
   bool optimise = true;    ///< balls are chosen and their nodes moved for a larger critical step
+  double memory = std::numeric_limits<double>::infinity(); ///< bytes that it may take
   std::function<void(double fraction, const std::string& what)> progress{};
 };
 
 /// Meshes every sphere. Throws InputError when the size is too large for the smallest sphere, when there are more nodes
-/// or tets than 32-bit indices can number, or when no orientation keeps the facets of two grains, or of a grain and a
-/// wall, apart.
+/// or tets than 32-bit indices can number or the memory can hold, or when no orientation keeps the facets of two grains,
+/// or of a grain and a wall, apart.
 PackingMesh mesh_packing(const SpherePacking& packing, const MeshRequest& request);
 
 } // namespace mpfem

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "common/available_cores.hpp"
+#include "common/available_memory.hpp"
 #include "common/command_line.hpp"
 #include "common/errors.hpp"
 #include "common/one_line.hpp"
@@ -43,11 +44,11 @@ struct Arguments {
   bool quiet = false;
 };
 
-/// Refuses each output that would replace one of these inputs. What is not given is empty.
 std::vector<NamedOutput> outputs_of(const Arguments& arguments) {
   return {{"--output", arguments.output}, {"--sizes", arguments.sizes}, {"--target", arguments.target}};
 }
 
+/// Refuses each output that would replace one of these inputs. What is not given is empty.
 void refuse_overwriting_any(const Arguments& arguments, const std::vector<std::string>& inputs) {
   for (const NamedOutput& output : outputs_of(arguments))
     for (const std::string& input : inputs) refuse_overwriting(output.option, output.path, input);
@@ -59,9 +60,9 @@ void check_outputs(const Arguments& arguments, OutputKind kind, bool of_quality)
   if (!arguments.sizes.empty()) check_output_path("--sizes", arguments.sizes, OutputKind::text);
   if (!arguments.target.empty()) check_output_path("--target", arguments.target, OutputKind::text);
   refuse_overwriting_any(arguments, {arguments.input, arguments.description, arguments.surface});
-}
   refuse_shared_names(outputs_of(arguments));
   if (kind == OutputKind::binary) try_output(arguments.output);
+}
 
 /// The description, overridden by the command line.
 PackingDescription description_of(const Arguments& arguments) {
@@ -77,25 +78,30 @@ PackingDescription description_of(const Arguments& arguments) {
   return read_packing_description(document, !arguments.container.empty() && arguments.container != "box");
 }
 
+/// What `make` returns. Its InputErrors, which know no file, name this one.
+template <class Make>
+auto naming_file(const std::string& path, const Make& make) {
+  try {
+    return make();
+  } catch (const InputError& error) {
+    throw InputError(fmt::format("{}: {}", shown_path(path), error.what()));
+  }
+}
+
 void spheres(const Arguments& arguments) {
   const PackingDescription description = description_of(arguments);
   refuse_overwriting_any(arguments, description.files);
   const DrawnSizes sizes = draw_sizes(description);
   Progress progress("pack-gen", arguments.quiet);
-  const auto packed = [&] {
-    try {
-      return pack_spheres({.box = description.container.lengths,
-                           .shape = description.container.shape,
-                           .surface = description.container.surface,
-                           .radius = sizes.radius,
-                           .smallest_gap = description.smallest_gap,
-                           .seed = description.seed,
-                           .progress = [&](const std::string& state) { progress.update(0, state); }});
-    } catch (const InputError& error) { // it knows no file
-      throw InputError(fmt::format("{}: {}", shown_path(arguments.input), error.what()));
-    }
-  };
-  const SpherePacking packing = packed();
+  const SpherePacking packing = naming_file(arguments.input, [&] {
+    return pack_spheres({.box = description.container.lengths,
+                         .shape = description.container.shape,
+                         .surface = description.container.surface,
+                         .radius = sizes.radius,
+                         .smallest_gap = description.smallest_gap,
+                         .seed = description.seed,
+                         .progress = [&](const std::string& state) { progress.update(0, state); }});
+  });
   PackingOrigin origin{static_cast<std::int64_t>(description.seed), description.text, {}, {}};
   tabulate_target(*description.distribution, sizes.scale, origin);
   write_packing_file(arguments.output, packing, origin);
@@ -107,12 +113,15 @@ void spheres(const Arguments& arguments) {
 /// Meshes the spheres and writes the packing. Throws SimulationError if a gap between facets cannot be proven.
 void write_meshed(const Arguments& arguments, const SpherePacking& packing, const PackingOrigin& origin) {
   Progress progress("pack-gen", arguments.quiet);
-  const PackingMesh mesh = mesh_packing(
-      packing, {.nominal_size = arguments.size,
-                .seed = static_cast<std::uint64_t>(arguments.seed.value_or(1)),
-                .threads = arguments.threads,
-                .optimise = arguments.optimise,
-                .progress = [&](double fraction, const std::string& what) { progress.update(fraction, what); }});
+  const PackingMesh mesh = naming_file(arguments.input, [&] {
+    return mesh_packing(
+        packing, {.nominal_size = arguments.size,
+                  .seed = static_cast<std::uint64_t>(arguments.seed.value_or(1)),
+                  .threads = arguments.threads,
+                  .optimise = arguments.optimise,
+                  .memory = available_memory(),
+                  .progress = [&](double fraction, const std::string& what) { progress.update(fraction, what); }});
+  });
   const MeshReport report = report_mesh(packing, mesh, arguments.size, arguments.material, arguments.threads);
   if (!(report.facet_gap.gap > 0))
     throw SimulationError(fmt::format("{}: no positive gap could be proven between the facets of grain {} and {}",
@@ -138,15 +147,11 @@ void settle_spheres(const Arguments& arguments) {
   refuse_overlap(file.packing, arguments.input);
   Progress progress("pack-gen", arguments.quiet);
   const double gap = arguments.gap.value_or(std::max(smallest_gap(file.packing).gap, 0.0));
-  const auto settled = [&] {
-    try {
-      return settle(file.packing, {.smallest_gap = gap,
-                                   .fit_height = arguments.fit_height,
-                                   .progress = [&](const std::string& state) { progress.update(0, state); }});
-    } catch (const InputError& error) { // it knows no file
-      throw InputError(fmt::format("{}: {}", shown_path(arguments.input), error.what()));
-    }
-  }();
+  const auto settled = naming_file(arguments.input, [&] {
+    return settle(file.packing, {.smallest_gap = gap,
+                                 .fit_height = arguments.fit_height,
+                                 .progress = [&](const std::string& state) { progress.update(0, state); }});
+  });
   write_packing_file(arguments.output, settled.packing, file.origin);
   SpherePacking bed = settled.packing;
   bed.box[2] = settled.bed_height + gap;
@@ -244,10 +249,9 @@ void quality(const Arguments& arguments) {
   const MeshReport report = report_of_file(arguments, file.packing);
   std::optional<PackingDescription> description;
   if (!arguments.description.empty()) {
-    const TomlDocument document = TomlDocument::from_file(arguments.description);
-    description = read_packing_description(document);
+    description = read_packing_description(TomlDocument::from_file(arguments.description));
     refuse_overwriting_any(arguments, description->files);
-    if (!arguments.target.empty()) write_file(arguments.target, target_csv(document));
+    if (!arguments.target.empty()) write_file(arguments.target, target_csv(*description));
   }
   if (!arguments.sizes.empty()) write_file(arguments.sizes, sizes_csv(file.packing));
   if (!arguments.output.empty())

@@ -46,11 +46,10 @@ Columns read_columns(TableReader& table, const std::string& description_file, bo
   return columns;
 }
 
-std::unique_ptr<SizeDistribution> read_distribution(TableReader table, const std::string& description_file,
-                                                    std::vector<std::string>& files) {
+/// Reads into `description`: the distribution, the diameters of its table, the files that it names.
+void read_distribution(TableReader table, const std::string& description_file, PackingDescription& description) {
   const std::string kind = table.choice("kind", {"table", "log_normal", "list"});
   const double to_diameter = table.choice("measure", {"diameter", "radius"}) == "radius" ? 2 : 1;
-  std::unique_ptr<SizeDistribution> distribution;
   const auto weight = [&table] {
     return table.choice("weight", {"number", "volume"}) == "volume" ? SizeWeight::volume : SizeWeight::number;
   };
@@ -60,12 +59,13 @@ std::unique_ptr<SizeDistribution> read_distribution(TableReader table, const std
       const double deviation = table.number("log_deviation", Range::between(1e-6, 10));
       const double smallest = to_diameter * table.number("smallest", positive_length);
       const double largest = to_diameter * table.number("largest", positive_length);
-      distribution = log_normal_distribution(median, deviation, weight(), smallest, largest);
+      description.distribution = log_normal_distribution(median, deviation, weight(), smallest, largest);
     } else {
-      Columns columns = read_columns(table, description_file, kind == "table", files);
+      Columns columns = read_columns(table, description_file, kind == "table", description.files);
       for (double& value : columns.values) value *= to_diameter;
-      distribution = kind == "table" ? table_distribution(columns.values, columns.cumulative, weight())
-                                     : list_distribution(columns.values);
+      description.distribution = kind == "table" ? table_distribution(columns.values, columns.cumulative, weight())
+                                                 : list_distribution(columns.values);
+      if (kind == "table") description.table_diameters = columns.values;
     }
   } catch (const InputError& error) {
     const std::string message = error.what();
@@ -73,7 +73,6 @@ std::unique_ptr<SizeDistribution> read_distribution(TableReader table, const std
                                                            : fmt::format("{}: {}", description_file, message));
   }
   table.finish();
-  return distribution;
 }
 
 /// A box of three edge lengths, a cylinder of a diameter and a height, or a surface from a file; the keys of the others
@@ -117,15 +116,28 @@ PackingDescription read_packing_description(const TomlDocument& document, bool w
   description.container = read_container(root, document.name(), without_box, description.files);
   description.smallest_gap = root.number("smallest_gap", positive_length);
   description.seed = static_cast<std::uint64_t>(root.integer_or("seed", 1, Range::non_negative()));
-  description.size_scale_tolerance = root.number_or("size_scale_tolerance", 0.01, Range::between(0, 1e6));
-  description.distribution = read_distribution(root.table("size_distribution"), document.name(), description.files);
+  description.size_scale_tolerance = root.number_or("size_scale_tolerance", 0.01, Range::between(0, 1));
+  read_distribution(root.table("size_distribution"), document.name(), description);
   description.places = root.places();
   root.finish();
   return description;
 }
 
+namespace {
+
+/// Diameters of as many spheres as the description counts.
+std::vector<double> sampled(const PackingDescription& description) {
+  try {
+    return description.distribution->sample(description.count);
+  } catch (const InputError& error) { // it knows no file
+    throw InputError(fmt::format("{}key 'count': {}", description.places.prefix("count"), error.what()));
+  }
+}
+
+} // namespace
+
 DrawnSizes draw_sizes(const PackingDescription& description) {
-  std::vector<double> diameter = description.distribution->sample(description.count);
+  const std::vector<double> diameter = sampled(description);
   const PackingContainer& container = description.container;
   const double volume = container.volume();
   const double scale = size_scale(diameter, description.relative_density, volume);

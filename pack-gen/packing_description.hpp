@@ -21,9 +21,10 @@ struct PackingDescription {
   std::uint64_t seed = 1;
   double size_scale_tolerance = 0; ///< largest distance from 1 of the factor on sizes that fits count to density
   std::unique_ptr<SizeDistribution> distribution;
-  KeyPlaces places;               ///< of its keys
-  std::string text;               ///< the file's text with the assignments
-  std::vector<std::string> files; ///< that it names and that were read: of sizes, of a surface
+  std::vector<double> table_diameters; ///< mm, of a distribution of kind table; empty for others
+  KeyPlaces places;                    ///< of its keys
+  std::string text;                    ///< the file's text with the assignments
+  std::vector<std::string> files;      ///< that it names and that were read: of sizes, of a surface
 };
 
 /// Reads a description; keys and defaults are in packing_description.cpp only. `without_box`: its key `box` is ignored,

@@ -59,16 +59,13 @@ std::string sizes_csv(const SpherePacking& packing) {
   return text;
 }
 
-std::string target_csv(const TomlDocument& description) {
-  TableReader root(description);
-  TableReader table = root.table("size_distribution");
-  table.choice("kind", {"table"});
-  const std::vector<double> values = table.numbers("values", Range::positive());
-  const std::vector<double> cumulative = table.numbers("cumulative", Range::between(0, 1));
-  if (values.size() != cumulative.size())
-    table.fail("cumulative", fmt::format("found {} numbers, allowed: as many as 'values'", cumulative.size()));
+std::string target_csv(const PackingDescription& description) {
+  if (description.table_diameters.empty())
+    throw InputError(fmt::format("{}key 'size_distribution.kind': found no table, allowed with --target: table",
+                                 description.places.prefix("size_distribution")));
   std::string text = "diameter_mm,cumulative_number\n";
-  for (std::size_t i = 0; i < values.size(); ++i) text += fmt::format("{:.3f},{:.3f}\n", values[i], cumulative[i]);
+  for (const double diameter : description.table_diameters)
+    text += fmt::format("{:.3f},{:.3f}\n", diameter, description.distribution->cumulative_number(diameter));
   return text;
 }
 

@@ -17,7 +17,8 @@ std::string quality_json(const SpherePacking& packing, const MeshReport& mesh, c
 /// CSV of diameter (mm) and cumulative fraction by number at each sphere's middle, ascending.
 std::string sizes_csv(const SpherePacking& packing);
 
-/// CSV of the points of a description's table. Throws InputError if its sizes are not a table with its own values.
-std::string target_csv(const TomlDocument& description);
+/// CSV of diameter (mm) and cumulative fraction by number at the sizes of a description's table. Throws InputError if
+/// its sizes are no table.
+std::string target_csv(const PackingDescription& description);
 
 } // namespace mpfem

@@ -250,6 +250,11 @@ TEST_CASE("pack-gen refuses what it cannot use with one line and exit code 2, an
                          {"count = 11", "count = 11\ncuont = 3", "cuont"},
                          {"relative_density = 0.3", "relative_density = 0.9", "0.9"},
                          {"relative_density = 0.3", "relative_density = 0.7", "size_scale_tolerance"},
+                         {"size_scale_tolerance = 0.2", "size_scale_tolerance = 5", "found 5, allowed: 0 … 1"},
+                         {"kind = \"table\"\nmeasure = \"diameter\"\nweight = \"number\"\nvalues = [0.1, 0.2]\n"
+                          "cumulative = [0, 1]",
+                          "kind = \"list\"\nmeasure = \"diameter\"\nvalues = [0.1, 0.2]",
+                          "pack.toml:1:9: key 'count': a list of 2 sizes cannot give 11 spheres"},
                          {"smallest_gap = 0.002", "smallest_gap = 0.08", "jam"},
                          {"[0.4, 0.4, 0.4]", "[0.4, 0.4]", "box"},
                          {"\"table\"", "\"weibull\"", "log_normal"},
@@ -289,6 +294,7 @@ TEST_CASE("pack-gen refuses what it cannot use with one line and exit code 2, an
     INFO(arguments << ": " << outcome.messages);
     CHECK(outcome.exit_code == 2);
     CHECK(outcome.one_error_line("pack-gen"));
+    CHECK_THAT(outcome.messages, Catch::StartsWith("pack-gen: error: " + (folder / "")));
     CHECK_FALSE(std::filesystem::exists(folder / "p.h5"));
   }
   // Sizes and outputs of the command line.
@@ -313,7 +319,7 @@ TEST_CASE("no output of pack-gen replaces a file that it reads") {
   const std::string named = replaced(description, "values = [0.1, 0.2]\ncumulative = [0, 1]", "file = \"sizes.csv\"");
   write_text(folder / "pack.toml", named);
   REQUIRE(pack_gen(fmt::format("spheres {} -o {}", folder / "pack.toml", folder / "s.h5")).exit_code == 0);
-  REQUIRE(pack_gen(fmt::format("mesh {} --size 0.08 -o {}", folder / "s.h5", folder / "p.h5")).exit_code == 0);
+  REQUIRE(pack_gen(fmt::format("mesh {} --size 0.05 -o {}", folder / "s.h5", folder / "p.h5")).exit_code == 0);
   const std::string quality = fmt::format("quality {} --description {}", folder / "p.h5", folder / "pack.toml");
   REQUIRE(pack_gen(fmt::format("{} --sizes {} --target {}", quality, folder / "a.csv", folder / "b.csv")).exit_code ==
           0);
@@ -335,6 +341,52 @@ TEST_CASE("no output of pack-gen replaces a file that it reads") {
     CHECK_THAT(outcome.messages, Catch::Contains("would overwrite the input " + (folder / input)));
     CHECK(read_text(folder / input) == before);
   }
+}
+
+TEST_CASE("two outputs of quality have two names") {
+  const Folder folder;
+  write_text(folder / "pack.toml", description);
+  REQUIRE(pack_gen(fmt::format("spheres {} -o {}", folder / "pack.toml", folder / "s.h5")).exit_code == 0);
+  const std::string quality = fmt::format("quality {} --description {}", folder / "s.h5", folder / "pack.toml");
+  for (const char* options : {"-o {0} --sizes {0}", "-o {0} --target {0}", "--sizes {0} --target {0}"}) {
+    const Outcome outcome = pack_gen(quality + " " + fmt::format(fmt::runtime(options), folder / "one"));
+    INFO(options << ": " << outcome.messages);
+    CHECK(outcome.exit_code == 2);
+    CHECK(outcome.one_error_line("pack-gen"));
+    CHECK_THAT(outcome.messages, Catch::Contains("would overwrite the output of --"));
+    CHECK_FALSE(std::filesystem::exists(folder / "one"));
+  }
+}
+
+TEST_CASE("overlapping spheres of a table are named where the table has them, in any container") {
+  const Folder folder;
+  write_text(folder / "s.csv", "5,5,5,1\n6,5,5,1\n");
+  for (const std::string container : {"", "--container cylinder --diameter 4 --height 4 --bottom-center 5.5,5,3"}) {
+    const Outcome outcome = pack_gen(fmt::format("import {} {} -o {}", container, folder / "s.csv", folder / "s.h5"));
+    INFO(outcome.messages);
+    CHECK(outcome.exit_code == 2);
+    CHECK_THAT(outcome.messages, Catch::Contains("sphere 0 at (5, 5, 5) and sphere 1 at (6, 5, 5) overlap by 1 mm"));
+  }
+}
+
+TEST_CASE("a word after a list or a setting is the input") {
+  const Folder folder;
+  write_text(folder / "s.csv", "0.5,0.5,0.5,0.2\n");
+  write_text(folder / "pack.toml", description);
+  CHECK(pack_gen(fmt::format("import --box 1,1,1 {} -o {}", folder / "s.csv", folder / "s.h5")).exit_code == 0);
+  CHECK(pack_gen(fmt::format("spheres --set seed=3 --set smallest_gap=0.002 {} -o {}", folder / "pack.toml",
+                             folder / "t.h5"))
+            .exit_code == 0);
+}
+
+TEST_CASE("an output that cannot be written is refused before the mesh is made") {
+  const Folder folder;
+  write_packing_file(folder / "s.h5", {.box = {1, 1, 1}, .center = {{0.5, 0.5, 0.5}}, .radius = {0.4}}, {});
+  std::filesystem::create_directory(folder / "p.h5.partial"); // nothing can be written under this name
+  const Outcome outcome = pack_gen(fmt::format("mesh {} --size 0.1 -o {}", folder / "s.h5", folder / "p.h5"));
+  INFO(outcome.messages);
+  CHECK(outcome.exit_code == 4);
+  CHECK(outcome.one_error_line("pack-gen")); // and none of progress
 }
 
 TEST_CASE("a file with overlapping spheres is not meshed: the spheres and the overlap are named") {
@@ -474,6 +526,14 @@ TEST_CASE("quality reports named numbers, a table of sizes, and their distance f
   const std::string sizes = read_text(folder / "sizes.csv");
   CHECK(std::count(sizes.begin(), sizes.end(), '\n') == 12);
   CHECK_THAT(sizes, Catch::EndsWith("0.954545455\n")); // 10.5/11
+  // Sizes that are radii, from a file.
+  write_text(folder / "radii.csv", "0.05,0\n0.1,1\n");
+  write_text(folder / "pack.toml", replaced(replaced(description, "\"diameter\"", "\"radius\""),
+                                            "values = [0.1, 0.2]\ncumulative = [0, 1]", "file = \"radii.csv\""));
+  REQUIRE(pack_gen(fmt::format("{} --quiet --description {} --target {}", quality, folder / "pack.toml",
+                               folder / "radii-target.csv"))
+              .exit_code == 0);
+  CHECK(read_text(folder / "radii-target.csv") == read_text(folder / "target.csv"));
   const Outcome refused = pack_gen(quality + " --target x.csv");
   CHECK(refused.exit_code == 2);
   CHECK_THAT(refused.messages, Catch::Contains("--description"));

@@ -216,3 +216,11 @@ TEST_CASE("spheres too near for so coarse a mesh are refused, with the grains na
   CHECK_THROWS_WITH(mesh_packing(cluster(0.06, 1e-9), {.nominal_size = 0.05}),
                     Catch::Contains("grain") && Catch::Contains("allowed: a smaller size or a larger smallest_gap"));
 }
+
+TEST_CASE("a mesh that the memory surely cannot hold is refused before it is made") {
+  SpherePacking packing = three_spheres();
+  const MeshRequest fitting{.nominal_size = 0.05, .memory = 1e6}, coarse{.nominal_size = 0.05, .memory = 1000};
+  CHECK_NOTHROW(mesh_packing(packing, fitting));
+  CHECK_THROWS_WITH(mesh_packing(packing, coarse),
+                    Catch::Contains("which need at least") && Catch::Contains("GiB of memory that are free here"));
+}
