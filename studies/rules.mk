@@ -72,6 +72,9 @@ ifneq ($(call others_than,0-9,THREADS)$(filter 0%,$(THREADS)),)
 endif
 #: BIN=FOLDER       folder of the executables (default: build/bin, or that of the installation)
 BIN ?= $(if $(wildcard $(toolkit)/../../bin/postproc),$(toolkit)/../../bin,$(source)build/bin)
+ifneq ($(words $(BIN)),1)
+  $(error BIN=$(BIN): allowed: a path without spaces)
+endif
 
 #: ELEMENT=TYPE     element of the figures: tet4-anp (default; averaged nodal pressure halves the error at the same
 #:                  mesh, docs/speed-against-error), tet4 (the paper's), tet4-patch

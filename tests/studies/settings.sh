@@ -18,7 +18,7 @@ code=0
 refused() {
   local words=$1 message
   shift
-  if message=$(make "$@" BIN="$bin" 2>&1); then
+  if message=$(make BIN="$bin" "$@" 2>&1); then
     echo "settings.sh: make $* is taken" && code=1
   elif [[ $(grep -c . <<<"$message") != 1 || $message != *"$words"* || -e out ]]; then
     echo "settings.sh: make $* says: $message" && code=1
@@ -35,6 +35,7 @@ for threads in x 0 1.5 "'" '2 x'; do
   refused "THREADS=$threads: allowed: a whole" "${study[@]}" THREADS="$threads"
 done
 for seeds in x "'" '2 x'; do refused "SEEDS=$seeds: allowed: whole" "${study[@]}" SEEDS="$seeds"; done
+refused 'BIN=my studies: allowed: a path without spaces' "${study[@]}" BIN='my studies'
 refused 'SEEDS=1: 1 is the seed of my.toml itself' "${study[@]}" SEEDS=1
 refused 'SEEDS=2 1: 1 is the seed of no-seed.toml itself' "${study[@]}" STUDY=no-seed.toml SEEDS='2 1'
 study[1]="$work/my studies/studies/rules.mk"
