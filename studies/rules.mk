@@ -86,6 +86,15 @@ $(call allowed,ELEMENT,tet4 tet4-anp tet4-patch)
 SURFACE ?= facets
 $(call allowed,SURFACE,facets smooth)
 
+#: BESIDE=NAME      draw the results of other settings into the same plots, dashed, e.g. BESIDE=coarser-smooth: those of
+#:                  out/NAME, or the kept ones of studies/results/NAME
+BESIDE ?=
+ifneq ($(BESIDE),)
+  beside_folder := $(firstword $(wildcard out/$(BESIDE) $(studies)/results/$(BESIDE)))
+  $(if $(beside_folder),,$(error BESIDE=$(value BESIDE): neither out/$(value BESIDE) nor $(studies)/results/$(value \
+    BESIDE) exists))
+endif
+
 #: SEEDS='2 3'      further packings of the same description, for figures that show a spread; each has its own folder
 #:                  and is made by a separate make with SEED
 SEED ?=
@@ -243,8 +252,11 @@ $(table_files): | $(BIN)/postproc
 $(fit_files): | $(BIN)/postproc
 	$(BIN)/postproc fits $(figure) $(of_mesh) -o $@
 
-$(plot_files): | $(BIN)/postproc
-	$(BIN)/postproc plot $(figure) $(basename $(@F)) $(of_mesh) \
+$(eval $(call stamp,$(out)/beside.settings,beside $(BESIDE)))
+# Figures of which the other results have nothing are drawn without them.
+beside_of = $(if $(BESIDE),$(if $(wildcard $(beside_folder)/$(notdir $(@D))),--beside $(BESIDE)=$(beside_folder)))
+$(plot_files): $(out)/beside.settings | $(BIN)/postproc
+	$(BIN)/postproc plot $(figure) $(basename $(@F)) $(of_mesh) $(beside_of) \
 	  $(if $(and $(SEEDS),$(filter $@,$(spread_plots))),--packings $(words own $(SEEDS))) -o $@
 
 $(picture_files): | $(BIN)/postproc

@@ -90,6 +90,10 @@ struct FigureCommands::State {
     command.add_option("name", name, "Name of the plot")->required();
     add_number(command, "--packings", packings, Range::between(0, 1e6), "",
                "Draw the spread over this number of packings");
+    command.add_option(
+        "--beside", beside,
+        "NAME=FOLDER: draw results of the same figure with other settings as well, dashed, and call them "
+        "NAME; FOLDER as for --results");
     command.get_option("--output")->required()->description("Picture to write (PNG or SVG)");
   }
 
@@ -199,6 +203,19 @@ struct FigureCommands::State {
     deliver(list.dump(2) + "\n");
   }
 
+  /// Those of plot's --beside.
+  std::optional<OtherResults> results_beside(const Figure& f) const {
+    if (beside.empty()) return std::nullopt;
+    const std::size_t sign = beside.find('=');
+    if (sign == std::string::npos || sign == 0)
+      throw InputError(fmt::format("--beside: found '{}', allowed: NAME=FOLDER", one_line(beside)));
+    const std::string other = beside.substr(sign + 1) + "/" + f.name;
+    if (!std::filesystem::is_directory(other))
+      throw InputError(fmt::format("--beside: the folder {} does not exist, allowed: results of the figure {}",
+                                   one_line(other), f.name));
+    return OtherResults{beside.substr(0, sign), FigureData(f, other)};
+  }
+
   void plot() const {
     const Figure f = read(figure);
     const auto found = std::find_if(f.plots.begin(), f.plots.end(), [&](const PlotSpec& p) { return p.name == name; });
@@ -209,8 +226,10 @@ struct FigureCommands::State {
     const std::string format = output.ends_with(".svg") ? "svg" : "png";
     refuse_overwriting_data(f);
     FigureData data(f, folder(f));
+    std::optional<OtherResults> other = results_beside(f);
     const TemporaryFile picture("");
-    run_gnuplot(plot_script(*found, data, folder(f), format, picture.path(), packings));
+    run_gnuplot(
+        plot_script(*found, data, folder(f), format, picture.path(), packings, other ? &other.value() : nullptr));
     write_file(output, picture.content());
   }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -63,11 +64,22 @@ std::string title_text(const std::string& title) {
   return title.empty() ? " notitle" : " title " + gnuplot_string(title);
 }
 
+/// The same series from other results: dashed, with hollow points, without a title.
+SeriesSpec as_beside(SeriesSpec s) {
+  s.dash = "dashed";
+  s.title.clear();
+  s.spread = false;
+  constexpr int point_of_colour[] = {7, 5, 9, 11, 13, 2, 15, 3}; // those of `style`
+  if (s.point == 0) s.point = point_of_colour[(s.colour - 1) % 8];
+  if (s.point >= 5 && s.point % 2 == 1) --s.point; // gnuplot's hollow form of a filled point
+  return s;
+}
+
 /// Data blocks and the lines of the plot command that draw them.
 class Script {
 public:
   Script(const PlotSpec& plot, FigureData& data, std::string folder, int packings)
-      : plot_(plot), data_(data), folder_(std::move(folder)), packings_(packings) {}
+      : plot_(plot), data_(&data), folder_(std::move(folder)), packings_(packings) {}
 
   void add(const SeriesSpec& s) {
     if (s.table.empty())
@@ -78,6 +90,15 @@ public:
       add_groups(s);
     if (s.spread && packings_ > 0) add_spread(s);
   }
+  /// Adds measured points or a curve as they are in other results, if those have them.
+  void add_beside(const SeriesSpec& s, FigureData& other) {
+    if (s.table.empty() || !s.colour_by.empty() || !other.has_table(s.table)) return;
+    FigureData* const own = std::exchange(data_, &other);
+    add(as_beside(s));
+    data_ = own;
+    has_beside_ = true;
+  }
+  bool has_beside() const { return has_beside_; }
   const std::string& blocks() const { return blocks_; }
   std::string drawings() const { return fmt::format("{}", fmt::join(drawings_, ", \\\n  ")); }
   bool empty() const { return drawings_.empty(); }
@@ -90,7 +111,7 @@ private:
   }
 
   void add_groups(const SeriesSpec& s) {
-    const TextTable& table = data_.table(s.table);
+    const TextTable& table = data_->table(s.table);
     const std::size_t group = table.column(s.group, s.place);
     std::vector<Value> seen;
     for (const std::size_t row : table.rows_of(s.where, s.place)) {
@@ -105,7 +126,7 @@ private:
   }
 
   void add_rows(const SeriesSpec& s, const std::vector<Filter>& where, int colour, const std::string& title) {
-    const TextTable& table = data_.table(s.table);
+    const TextTable& table = data_->table(s.table);
     std::vector<std::pair<std::size_t, double>> columns = {{table.column(s.x, s.place), s.x_scale},
                                                            {table.column(s.y, s.place), s.y_scale}};
     if (!s.error.empty()) columns.emplace_back(table.column(s.error, s.place), s.y_scale);
@@ -153,7 +174,7 @@ private:
     bool relative_density = false;
     double from = s.from.value_or(plot_.x.low.value_or(0)), to = s.to.value_or(plot_.x.high.value_or(1));
     if (!s.fit.empty()) {
-      const auto& fit = data_.fit(s.fit);
+      const auto& fit = data_->fit(s.fit);
       if (fit.contains("refused")) return;
       for (const auto& [name, value] : fit.at("coefficients").items())
         if (value.at("value").is_number()) coefficients[name] = value.at("value").template get<double>();
@@ -192,7 +213,8 @@ private:
   }
 
   const PlotSpec& plot_;
-  FigureData& data_;
+  FigureData* data_;
+  bool has_beside_ = false;
   std::string folder_;
   int packings_ = 0, count_ = 0, spreads_ = 0;
   std::string blocks_;
@@ -295,7 +317,7 @@ set key at screen 0.02,0.98 left top Left reverse samplen 2
 } // namespace
 
 std::string plot_script(const PlotSpec& plot, FigureData& data, const std::string& folder, const std::string& format,
-                        const std::string& image, int packings) {
+                        const std::string& image, int packings, OtherResults* beside) {
   std::string text = terminal(format) + style + fmt::format("set output {}\n", gnuplot_string(image));
   if (!plot.title.empty()) text += fmt::format("set title {}\n", gnuplot_string(plot.title));
   text += key_text(plot) + axis_text("x", plot.x) + axis_text("y", plot.y);
@@ -303,6 +325,8 @@ std::string plot_script(const PlotSpec& plot, FigureData& data, const std::strin
   Script script(plot, data, folder, packings);
   if (plot.surface) return text + surface_script(plot, data, script);
   for (const SeriesSpec& s : plot.series) script.add(s);
+  if (beside != nullptr)
+    for (const SeriesSpec& s : plot.series) script.add_beside(s, beside->data);
   if (script.empty())
     plot.place.fail(fmt::format("plot '{}': none of the values that it shows could be measured", plot.name));
   for (const LineSpec& line : plot.lines)
@@ -317,7 +341,10 @@ std::string plot_script(const PlotSpec& plot, FigureData& data, const std::strin
             "set rmargin at screen 0.86\nunset key\n";
   text += script.blocks();
   if (plot.inset) text += "set multiplot\n";
-  text += "plot " + script.drawings() + reference_lines(plot) + "\n";
+  text += "plot " + script.drawings() + reference_lines(plot);
+  if (script.has_beside())
+    text += ", \\\n  NaN with linespoints linetype 8 pointtype 6 dashtype 2" + title_text(beside->name);
+  text += "\n";
   if (!plot.inset) return text;
   const InsetSpec& inset = *plot.inset;
   text += fmt::format("set origin {},{}\nset size {},{}\nset rmargin -1\nunset colorbox\nunset key\nunset title\n",

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <fstream>
 #include <numeric>
 
@@ -190,6 +191,10 @@ const TextTable& FigureData::table(const std::string& name) {
   const auto found = tables_.find(name);
   if (found != tables_.end()) return found->second;
   return tables_.emplace(name, read_text_table(path_of_table(figure_.table(name, {}), folder_))).first->second;
+}
+
+bool FigureData::has_table(const std::string& name) const {
+  return std::filesystem::exists(path_of_table(figure_.table(name, {}), folder_));
 }
 
 const Json& FigureData::fit(const std::string& name) {

@@ -12,6 +12,7 @@ public:
   const Figure& figure() const { return figure_; }
   const TextTable& table(const std::string& name);
   const nlohmann::ordered_json& fit(const std::string& name);
+  bool has_table(const std::string& name) const;
 
 private:
   const Figure& figure_;
