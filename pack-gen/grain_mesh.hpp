@@ -68,8 +68,8 @@ struct MeshRequest {
 };
 
 /// Meshes every sphere. Throws InputError when the size is too large for the smallest sphere, when there are more nodes
-/// or tets than 32-bit indices can number or the memory can hold, or when no orientation keeps the facets of two grains,
-/// or of a grain and a wall, apart.
+/// or tets than 32-bit indices can number or the memory can hold, or when no orientation keeps the facets of two
+/// grains, or of a grain and a wall, apart.
 PackingMesh mesh_packing(const SpherePacking& packing, const MeshRequest& request);
 
 } // namespace mpfem
