@@ -25,8 +25,8 @@ void let_writes_fail() {
   std::signal(SIGPIPE, SIG_IGN);
 }
 
-/// Opens closed standard streams to nowhere. Otherwise the next file that is opened takes the number of one of them, and
-/// messages are written into it.
+/// Opens closed standard streams to nowhere. Otherwise the next file that is opened takes the number of one of them,
+/// and messages are written into it.
 void keep_standard_streams_open() {
   for (int stream = STDIN_FILENO; stream <= STDERR_FILENO; ++stream) // open() takes the lowest number that is free
     if (fcntl(stream, F_GETFD) < 0 && errno == EBADF && open("/dev/null", O_RDWR) < 0) return;

@@ -46,7 +46,8 @@ NearGrains find_near_grains(std::span<const Bounds> bounds, double margin, std::
 ContactCandidates find_contact_candidates(const SurfaceView& surface, double margin, std::span<const Bounds> bounds,
                                           const NearGrains& near, ThreadTeam& team);
 
-/// The offset that follows the last entry of a list of candidates. Throws SimulationError if it does not fit into 32 bits.
+/// The offset that follows the last entry of a list of candidates. Throws SimulationError if it does not fit into 32
+/// bits.
 std::int32_t offset_after(const std::vector<std::int32_t>& list);
 
 /// Makes outgoing_offset, incoming_offset and incoming_pair from pair_first and pair_second.

@@ -47,9 +47,10 @@ inline double contact_stiffness_bound(double stiffness, double weight0, double w
   return (1.0 + std::abs(weight0) + std::abs(weight1) + std::abs(weight2)) * stiffness;
 }
 
-/// What contact usually adds to the frequency squared (1/s^2) of a surface node with `inverse_mass` (1/tonne): twice its
-/// `stiffness` (N/mm). The stiffness of a contact point, K/2 A between equal grains, counts for the point itself and,
-/// by symmetry, for the facets that other points touch. At a wall it is K A; twice that is on the safe side.
+/// What contact usually adds to the frequency squared (1/s^2) of a surface node with `inverse_mass` (1/tonne): twice a
+/// `stiffness` (N/mm), as contact_stiffness_bound() with W = 1. With the stiffness K/2 A of a contact point between
+/// equal grains this is the part of that point alone. With K A it also has the node's share as a corner of facets that
+/// other points touch, by symmetry of the same size, and is more than what a wall adds, K A.
 inline double expected_contact_rate(double stiffness, double inverse_mass) {
   return 2.0 * stiffness * inverse_mass;
 }

@@ -54,8 +54,8 @@ std::vector<std::string> kept_by_run_in(const std::string& rolling, const std::s
   }
 }
 
-/// Refuses to write over checkpoints of other runs. The checkpoint of RUN.h5 at the end of its stage `press` is called as
-/// the rolling checkpoint of RUN.press.h5, and the files of a run without an ending as those of RUN.h5.
+/// Refuses to write over checkpoints of other runs. The checkpoint of RUN.h5 at the end of its stage `press` is called
+/// as the rolling checkpoint of RUN.press.h5, and the files of a run without an ending as those of RUN.h5.
 void refuse_checkpoints_of_other_runs(const Scenario& scenario, const std::string& output) {
   const auto refuse = [&](const std::string& checkpoint, const std::string& run) {
     throw InputError(fmt::format("--output {}: {} would be replaced, which belongs to the run {}; allowed: another "

@@ -33,7 +33,8 @@ public:
   Continuation(Simulation& simulation, RunRecord& record, const RunOptions& options, const RunReport& report);
 
   /// Collective, to be called once, before all others. Throws InputError if the output or a checkpoint belongs to
-  /// another run or another beginning, if it counts on a snapshot that is lost, or if none is intact, on all ranks alike.
+  /// another run or another beginning, if it counts on a snapshot that is lost, or if none is intact, on all ranks
+  /// alike.
   Beginning begin();
 
   // ---- on the first rank alone, as part of root_does() or root_lists()
