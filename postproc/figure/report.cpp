@@ -170,8 +170,10 @@ std::string note_of(const nlohmann::json& statement) {
   return why.empty() ? note : fmt::format("{}{}why: {}", note, note.empty() ? "" : "; ", why);
 }
 
+/// Empty for a figure without statements.
 std::string statements_table(const std::filesystem::path& folder) {
   const auto list = statements_in(folder);
+  if (list.empty()) return {};
   std::string text =
       "<div class=\"wide\"><table "
       "class=\"statements\">\n<tr><th>statement</th><th>paper</th><th>here</th><th>verdict</th><th>note</th></tr>\n";
@@ -283,10 +285,16 @@ std::string report_page(const std::vector<ReportEntry>& entries, const ReportReq
                   "content=\"width=device-width, initial-scale=1\">\n<link rel=\"icon\" href=\"data:,\">\n"
                   "<title>{0}</title>\n<style>\n{1}</style>\n</head>\n<body>\n<h1>{0}</h1>\n",
                   html_text(request.title), style);
-  page += "<p>The tables compare what was stated or expected with the results computed here. Verdicts follow from the "
-          "data. A click on a picture enlarges it.</p>\n<div class=\"top\">\n<section><h3 "
-          "id=\"verdicts\">Verdicts</h3>\n";
-  page += summary_table(entries, request.results) + "</section>\n";
+  const bool judged = std::any_of(entries.begin(), entries.end(), [&](const ReportEntry& entry) {
+    return !statements_in(std::filesystem::path(request.results) / entry.name).empty();
+  });
+  page += "<p>";
+  if (judged)
+    page += "The tables compare what was stated or expected with the results computed here. Verdicts follow from the "
+            "data. ";
+  page += "A click on a picture enlarges it.</p>\n<div class=\"top\">\n";
+  if (judged)
+    page += "<section><h3 id=\"verdicts\">Verdicts</h3>\n" + summary_table(entries, request.results) + "</section>\n";
   if (!request.beside.empty()) page += table_of_page(request);
   page += "</div>\n";
   if (!request.view.empty())
@@ -299,8 +307,8 @@ std::string report_page(const std::vector<ReportEntry>& entries, const ReportReq
     for (const CaptionedPicture& picture : pictures_in(folder, entry))
       page += picture_of(folder / picture.file, picture.caption, request.page_folder);
     page += "</div>\n" + statements_table(folder) +
-            fmt::format("<p>Numbers:{} · <a href=\"#verdicts\">all verdicts</a></p>\n",
-                        links_of(entry, folder, request.page_folder)) +
+            fmt::format("<p>Numbers:{}{}</p>\n", links_of(entry, folder, request.page_folder),
+                        judged ? " · <a href=\"#verdicts\">all verdicts</a>" : "") +
             runs_table(entry.runs, request.page_folder);
   }
   return page + "</body>\n</html>\n";

@@ -599,6 +599,17 @@ TEST_CASE("a report opens with how many statements of each study agree, and says
   CHECK(page.find("class=\"summary\"") < page.find("id=\"fig03\""));
 }
 
+TEST_CASE("a report of a study without statements has no tables of verdicts, and no link to them") {
+  const Studies studies;
+  write_text(studies.path("out/locking/verdict.json"), "[]");
+  const std::string page = report_page({{"locking", "energy", "q"}}, {studies.path("out"), "Locking"});
+  for (const std::string text : {"<table", "erdicts", "compare"}) {
+    CAPTURE(text);
+    CHECK(page.substr(page.find("<body>")).find(text) == std::string::npos);
+  }
+  CHECK_THAT(page, Contains("<p>q</p>"));
+}
+
 TEST_CASE("a report has settings and quality of each run, and links that are relative to its folder") {
   const Studies studies;
   write_text(studies.path("out/study/verdict.json"), "[]");
