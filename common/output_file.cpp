@@ -93,7 +93,9 @@ void check_output_path(std::string_view option, const std::string& path, OutputK
 }
 
 void refuse_other_endings(std::string_view option, const std::string& path, const std::vector<std::string>& endings) {
-  const std::string ending = std::filesystem::path(path).extension().string();
+  std::filesystem::path name = path;
+  if (name.extension() == ".partial") name = name.stem();
+  const std::string ending = name.extension().string();
   if (std::find(endings.begin(), endings.end(), ending) != endings.end()) return;
   throw InputError(fmt::format("{} {}: found {}, allowed: {}", option, one_line(path),
                                ending.empty() ? "no ending" : fmt::format("the ending '{}'", one_line(ending)),

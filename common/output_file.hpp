@@ -18,7 +18,8 @@ void refuse_special_file(std::string_view option, const std::string& path, Outpu
 /// The same, and the folder must exist. To be called before hours of work. An empty path is refused.
 void check_output_path(std::string_view option, const std::string& path, OutputKind kind);
 
-/// Refuses an output whose name has none of these endings (".png"). Throws InputError.
+/// Refuses an output whose name has none of these endings (".png"). A ".partial" after them, as scripts of a study
+/// write it, does not count. Throws InputError.
 void refuse_other_endings(std::string_view option, const std::string& path, const std::vector<std::string>& endings);
 
 /// Writes an empty partial file of an output and removes it. To be called before hours of work. Throws StorageError.

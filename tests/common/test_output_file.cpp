@@ -121,6 +121,8 @@ TEST_CASE("An output with another ending than the allowed ones is refused with b
     return input_error([&] { refuse_other_endings("--output", path, {".png", ".svg"}); });
   };
   CHECK_NOTHROW(refuse_other_endings("--output", "a.b/x.svg", {".png", ".svg"}));
+  CHECK_NOTHROW(refuse_other_endings("--output", "a.b/x.png.partial", {".png", ".svg"}));
+  CHECK(refusal_of("x.jpg.partial") == "--output x.jpg.partial: found the ending '.jpg', allowed: .png or .svg");
   CHECK(refusal_of("x.jpg") == "--output x.jpg: found the ending '.jpg', allowed: .png or .svg");
   CHECK(refusal_of("a.png/x") == "--output a.png/x: found no ending, allowed: .png or .svg");
 }
