@@ -1,7 +1,6 @@
 #include "solver/run/check_output.hpp"
 
 #include <filesystem>
-#include <fstream>
 #include <optional>
 #include <string_view>
 #include <variant>
@@ -73,15 +72,6 @@ void refuse_checkpoints_of_other_runs(const Scenario& scenario, const std::strin
   if (const std::string run = stem == output ? output + ".h5" : stem; fs::is_regular_file(run)) refuse(rolling, run);
 }
 
-/// Writes a partial file under the name that the run file's will have, and removes it.
-void try_to_write(const std::string& output) {
-  const std::string trial = output_target(output) + ".partial";
-  remove_stale_partial(trial);
-  if (!std::ofstream(trial)) throw StorageError(fmt::format("{}: cannot be written", one_line(trial)));
-  std::error_code ignored;
-  fs::remove(trial, ignored);
-}
-
 } // namespace
 
 void check_output(const Scenario& scenario, const RunOptions& options) {
@@ -93,7 +83,7 @@ void check_output(const Scenario& scenario, const RunOptions& options) {
       refuse_overwriting(fmt::format("--output {}: its checkpoint", one_line(output)), checkpoint, input);
   }
   refuse_checkpoints_of_other_runs(scenario, output);
-  try_to_write(output);
+  try_output(output);
 }
 
 } // namespace mpfem
