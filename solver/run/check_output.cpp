@@ -30,12 +30,6 @@ std::vector<std::string> inputs_of(const Scenario& scenario, const RunOptions& o
   return inputs;
 }
 
-std::vector<std::string> checkpoints_of(const Scenario& scenario, const std::string& output) {
-  std::vector<std::string> checkpoints = kept_checkpoints(scenario, output);
-  checkpoints.insert(checkpoints.end(), {checkpoint_path(output), previous_checkpoint_path(output)});
-  return checkpoints;
-}
-
 /// `text` without `ending`; none if it does not end so.
 std::optional<std::string> without(const std::string& text, std::string_view ending) {
   if (!text.ends_with(ending)) return std::nullopt;
@@ -79,7 +73,7 @@ void check_output(const Scenario& scenario, const RunOptions& options) {
   check_output_path("--output", output, OutputKind::binary);
   for (const std::string& input : inputs_of(scenario, options)) {
     refuse_overwriting("--output", output, input);
-    for (const std::string& checkpoint : checkpoints_of(scenario, output))
+    for (const std::string& checkpoint : all_checkpoints(scenario, output))
       refuse_overwriting(fmt::format("--output {}: its checkpoint", one_line(output)), checkpoint, input);
   }
   refuse_checkpoints_of_other_runs(scenario, output);

@@ -84,9 +84,15 @@ std::vector<std::string> kept_checkpoints(const Scenario& scenario, const std::s
   return paths;
 }
 
+std::vector<std::string> all_checkpoints(const Scenario& scenario, const std::string& run_file) {
+  std::vector<std::string> paths = kept_checkpoints(scenario, run_file);
+  paths.insert(paths.end(), {checkpoint_path(run_file), previous_checkpoint_path(run_file)});
+  return paths;
+}
+
 double size_on_disk(const Scenario& scenario, const std::string& run_file) {
-  std::vector<fs::path> files{run_file, checkpoint_path(run_file), previous_checkpoint_path(run_file)};
-  for (const std::string& path : kept_checkpoints(scenario, run_file)) files.emplace_back(path);
+  std::vector<fs::path> files{run_file};
+  for (const std::string& path : all_checkpoints(scenario, run_file)) files.emplace_back(path);
   std::error_code failed;
   for (const auto& entry : fs::directory_iterator(parts_folder(run_file), failed)) files.push_back(entry.path());
   double bytes = 0;

@@ -25,6 +25,8 @@ std::string stage_checkpoint_path(const std::string& run_file, const std::string
 std::string density_checkpoint_path(const std::string& run_file, double relative_density);
 /// Paths of all checkpoints that stay when the run is complete.
 std::vector<std::string> kept_checkpoints(const Scenario& scenario, const std::string& run_file);
+/// The same with the rolling one and that before it.
+std::vector<std::string> all_checkpoints(const Scenario& scenario, const std::string& run_file);
 /// Bytes of the files that the run has written so far.
 double size_on_disk(const Scenario& scenario, const std::string& run_file);
 
