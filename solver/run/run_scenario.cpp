@@ -57,15 +57,15 @@ void report_beginning(const RunReport& report, const std::vector<std::string>& w
 }
 
 /// A warning, if there is one. Space that earlier files of the same run take is free for it.
-void check_disk_space(const Scenario& scenario, const RunOptions& options, const RunReport& report) {
-  const Needs needs{.disk = needs_of(read_packing_counts(scenario.packing_file), scenario).disk};
+void check_disk_space(const Scenario& scenario, const RunOptions& options, double needed, const RunReport& report) {
   const double available = available_disk_space(options.output) + size_on_disk(scenario, options.output);
-  if (const std::string scarce = check_needs(options.output, needs, {.disk = available}); !scarce.empty())
+  if (const std::string scarce = check_needs(options.output, {.disk = needed}, {.disk = available}); !scarce.empty())
     report.warning(scarce);
 }
 
-/// Prepares a simulation where the run begins, and runs it.
-Outcome run_once(const Scenario& scenario, const RunOptions& options, const Communicator& ranks, const Owners& owners) {
+/// Prepares a simulation where the run begins, and runs it. `needs` are those of the first rank.
+Outcome run_once(const Scenario& scenario, const RunOptions& options, const Communicator& ranks, const Owners& owners,
+                 const Needs& needs) {
   const auto begun = Profile::Clock::now();
   ThreadTeam team(options.threads);
   Simulation simulation(load_model(scenario, options, ranks, owners), scenario, team, options.from.has_value(), ranks);
@@ -77,7 +77,7 @@ Outcome run_once(const Scenario& scenario, const RunOptions& options, const Comm
   if (beginning == Beginning::must_start_again) return {RunEnd::must_start_again};
   stop_before_first_step(ranks, checkpoint_path(options.output));
   if (beginning == Beginning::complete) return {RunEnd::complete};
-  if (!owners) root_does(ranks, [&] { check_disk_space(scenario, options, report); });
+  if (!owners) root_does(ranks, [&] { check_disk_space(scenario, options, needs.disk, report); });
   report_beginning(report, warnings, simulation);
   check_programme(scenario, simulation.state().stage, simulation.stage_run().state().start, simulation.model(),
                   simulation.step_estimate().stable_step());
@@ -95,17 +95,18 @@ void run_scenario(const Scenario& scenario, const RunOptions& given, const Commu
   RunOptions options = given;
   if (!ranks.is_root()) options.quiet = true;
   std::optional<RunLock> lock;
+  Needs needs;
   root_does(ranks, [&] {
     check_output(scenario, options);
-    const Needs needs{.memory = needs_of(read_packing_counts(scenario.packing_file), scenario).memory};
-    const std::string scarce = check_needs(options.output, needs, {.memory = available_memory()});
+    needs = needs_of(read_packing_counts(scenario.packing_file), scenario);
+    const std::string scarce = check_needs(options.output, {.memory = needs.memory}, {.memory = available_memory()});
     if (!scarce.empty() && !options.quiet) fmt::print(stderr, "mpfem: warning: {}\n", scarce);
     lock.emplace(options.output);
     remove_partial_files(scenario, options.output);
   });
   for (Owners owners;;) {
     const auto begun = Profile::Clock::now();
-    const Outcome outcome = run_once(scenario, options, ranks, owners);
+    const Outcome outcome = run_once(scenario, options, ranks, owners, needs);
     if (outcome.end == RunEnd::complete) return;
     options.resume = outcome.end == RunEnd::redistributed;
     owners = outcome.owners;
