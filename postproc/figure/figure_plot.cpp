@@ -16,21 +16,30 @@ namespace {
 
 constexpr int curve_points = 201;
 
-/// Colours that colour-blind readers can tell apart (Okabe and Ito), each with its point type.
+/// A colour and its point type.
+struct Look {
+  const char* colour;
+  int point;
+};
+/// Colours that colour-blind readers can tell apart (Okabe and Ito).
+constexpr Look looks[] = {{"#0072b2", 7},  {"#d55e00", 5}, {"#009e73", 9},  {"#cc79a7", 11},
+                          {"#000000", 13}, {"#56b4e9", 2}, {"#e69f00", 15}, {"#999999", 3}};
+
 constexpr const char* style = R"(set encoding utf8
 set border 3 linewidth 1.2
 set tics nomirror out
 set grid linecolor rgb '#dddddd' linetype 1
-set linetype 1 linecolor rgb '#0072b2' linewidth 2 pointtype 7
-set linetype 2 linecolor rgb '#d55e00' linewidth 2 pointtype 5
-set linetype 3 linecolor rgb '#009e73' linewidth 2 pointtype 9
-set linetype 4 linecolor rgb '#cc79a7' linewidth 2 pointtype 11
-set linetype 5 linecolor rgb '#000000' linewidth 2 pointtype 13
-set linetype 6 linecolor rgb '#56b4e9' linewidth 2 pointtype 2
-set linetype 7 linecolor rgb '#e69f00' linewidth 2 pointtype 15
-set linetype 8 linecolor rgb '#999999' linewidth 2 pointtype 3
 set datafile missing 'NaN'
 )";
+
+std::string line_types() {
+  std::string text;
+  int number = 0;
+  for (const Look& look : looks)
+    text +=
+        fmt::format("set linetype {} linecolor rgb '{}' linewidth 2 pointtype {}\n", ++number, look.colour, look.point);
+  return text;
+}
 
 std::string number(const std::optional<double>& value) {
   return value ? fmt::format("{}", *value) : "*";
@@ -69,8 +78,7 @@ SeriesSpec as_beside(SeriesSpec s) {
   s.dash = "dashed";
   s.title.clear();
   s.spread = false;
-  constexpr int point_of_colour[] = {7, 5, 9, 11, 13, 2, 15, 3}; // those of `style`
-  if (s.point == 0) s.point = point_of_colour[(s.colour - 1) % 8];
+  if (s.point == 0) s.point = looks[s.colour - 1].point;
   if (s.point >= 5 && s.point % 2 == 1) --s.point; // gnuplot's hollow form of a filled point
   return s;
 }
@@ -120,7 +128,7 @@ private:
       seen.push_back(value);
       auto where = s.where;
       where.push_back({s.group, {value}, {}, {}});
-      const int colour = (s.colour - 1 + static_cast<int>(seen.size()) - 1) % 8 + 1;
+      const int colour = (s.colour - 1 + static_cast<int>(seen.size()) - 1) % static_cast<int>(std::size(looks)) + 1;
       add_rows(s, where, colour, filled_at(s.place, s.title, {{"value", value}}, Unknown::kept));
     }
   }
@@ -318,7 +326,7 @@ set key at screen 0.02,0.98 left top Left reverse samplen 2
 
 std::string plot_script(const PlotSpec& plot, FigureData& data, const std::string& folder, const std::string& format,
                         const std::string& image, int packings, OtherResults* beside) {
-  std::string text = terminal(format) + style + fmt::format("set output {}\n", gnuplot_string(image));
+  std::string text = terminal(format) + style + line_types() + fmt::format("set output {}\n", gnuplot_string(image));
   if (!plot.title.empty()) text += fmt::format("set title {}\n", gnuplot_string(plot.title));
   text += key_text(plot) + axis_text("x", plot.x) + axis_text("y", plot.y);
   if (plot.surface) text += axis_text("z", plot.z);
