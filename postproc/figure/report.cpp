@@ -144,7 +144,8 @@ std::string formatted(const std::string& plain) {
   return page;
 }
 
-/// Numbers of statements of each figure that agree, differ and are not judged, with links to the figures.
+/// Numbers of statements of each figure that agree, differ and are not judged, with links to the figures. Empty where
+/// no figure has statements.
 std::string summary_table(const std::vector<ReportEntry>& entries, const std::filesystem::path& results) {
   std::string text = "<div class=\"wide\"><table "
                      "class=\"summary\">\n<tr><th>study</th><th>agree</th><th>differ</th><th>not judged</th>"
@@ -160,6 +161,7 @@ std::string summary_table(const std::vector<ReportEntry>& entries, const std::fi
     text += fmt::format("<tr><td><a href=\"#{0}\">{1}</a></td><td>{2}</td><td>{3}</td><td>{4}</td></tr>\n", entry.name,
                         html_text(entry.title), count[0], count[1], count[2]);
   }
+  if (all == std::array<int, 3>{}) return {};
   return text + fmt::format("<tr><th>all</th><th>{}</th><th>{}</th><th>{}</th></tr>\n</table></div>\n", all[0], all[1],
                             all[2]);
 }
@@ -285,16 +287,14 @@ std::string report_page(const std::vector<ReportEntry>& entries, const ReportReq
                   "content=\"width=device-width, initial-scale=1\">\n<link rel=\"icon\" href=\"data:,\">\n"
                   "<title>{0}</title>\n<style>\n{1}</style>\n</head>\n<body>\n<h1>{0}</h1>\n",
                   html_text(request.title), style);
-  const bool judged = std::any_of(entries.begin(), entries.end(), [&](const ReportEntry& entry) {
-    return !statements_in(std::filesystem::path(request.results) / entry.name).empty();
-  });
+  const std::string summary = summary_table(entries, request.results);
+  const bool judged = !summary.empty();
   page += "<p>";
   if (judged)
     page += "The tables compare what was stated or expected with the results computed here. Verdicts follow from the "
             "data. ";
   page += "A click on a picture enlarges it.</p>\n<div class=\"top\">\n";
-  if (judged)
-    page += "<section><h3 id=\"verdicts\">Verdicts</h3>\n" + summary_table(entries, request.results) + "</section>\n";
+  if (judged) page += "<section><h3 id=\"verdicts\">Verdicts</h3>\n" + summary + "</section>\n";
   if (!request.beside.empty()) page += table_of_page(request);
   page += "</div>\n";
   if (!request.view.empty())
