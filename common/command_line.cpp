@@ -35,6 +35,10 @@ CLI::Option* separated_by_commas(CLI::Option* option) {
   return option->delimiter(',')->allow_extra_args(false);
 }
 
+CLI::Option* add_assignments(CLI::App& command, std::vector<std::string>& assignments, const std::string& help) {
+  return command.add_option("--set", assignments, help)->take_all()->allow_extra_args(false);
+}
+
 std::optional<int> parse_command_line(CLI::App& app, const std::string& program, int argc, char** argv) {
   try {
     app.parse(argc, argv);

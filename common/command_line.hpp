@@ -46,6 +46,9 @@ CLI::Option* add_number(CLI::App& command, const std::string& name, Variable& va
 /// Makes an option a list in one word, separated by commas: the words after it are no part of the list.
 CLI::Option* separated_by_commas(CLI::Option* option);
 
+/// Adds --set, one KEY=VALUE a time, to be repeated.
+CLI::Option* add_assignments(CLI::App& command, std::vector<std::string>& assignments, const std::string& help);
+
 /// Adds an option that is such a list of numbers: of `count`, or of any number for 0.
 template <class Number>
 CLI::Option* add_numbers(CLI::App& command, const std::string& name, std::vector<Number>& variable, int count,

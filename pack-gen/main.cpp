@@ -332,9 +332,7 @@ CLI::App* add_spheres(CLI::App& app, Arguments& arguments) {
   add_output(*command, arguments);
   add_number(*command, "--seed", arguments.seed, seed_numbers, "", "Seed, instead of the one in the description");
   add_container(*command, arguments, "the description's, else a box");
-  command->add_option("--set", arguments.assignments, "Override a value: KEY=VALUE, e.g. count=400")
-      ->take_all()
-      ->allow_extra_args(false);
+  add_assignments(*command, arguments.assignments, "Override a value: KEY=VALUE, e.g. count=400");
   return command;
 }
 

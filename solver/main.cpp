@@ -58,9 +58,7 @@ void add_threads(CLI::App& command, Arguments& arguments) {
 
 void add_common(CLI::App& command, Arguments& arguments, const std::string& quiet) {
   command.add_option("scenario", arguments.scenario, "Scenario file (TOML)")->required();
-  command.add_option("--set", arguments.assignments, "Override a value: KEY=VALUE, e.g. stages.0.wall_speed=2000")
-      ->allow_extra_args(false)
-      ->take_all();
+  add_assignments(command, arguments.assignments, "Override a value: KEY=VALUE, e.g. stages.0.wall_speed=2000");
   add_threads(command, arguments);
   command.add_flag("--quiet", arguments.run.quiet, quiet);
 }
@@ -85,9 +83,7 @@ CLI::App* add_bond(CLI::App& app, BondProgrammeOptions& options) {
                    "Separations to reach in turn (CSV): opening,shear1,shear2[,increments], mm")
       ->required();
   bond->add_option("-o,--output", options.output, "Table to write (CSV)")->required();
-  bond->add_option("--set", options.assignments, "Override a value of the law: KEY=VALUE")
-      ->allow_extra_args(false)
-      ->take_all();
+  add_assignments(*bond, options.assignments, "Override a value of the law: KEY=VALUE");
   add_number(*bond, "--increments", options.increments, Range::between(1, 1e7), "",
              "Increments for rows that give no number of their own")
       ->capture_default_str();
@@ -106,9 +102,7 @@ CLI::App* add_bench(CLI::App& app, Arguments& arguments, BenchOptions& options) 
       "  mpfem bench compaction.toml --from run.compaction.checkpoint.h5 --set stages.0.relative_density=0.95");
   bench->add_option("scenario", arguments.scenario, "Scenario to measure instead of the built-in packing (TOML)");
   bench->add_option("--from", arguments.from, "Checkpoint whose state is measured")->check(CLI::ExistingFile);
-  bench->add_option("--set", arguments.assignments, "Override a value of the scenario: KEY=VALUE")
-      ->allow_extra_args(false)
-      ->take_all();
+  add_assignments(*bench, arguments.assignments, "Override a value of the scenario: KEY=VALUE");
   add_threads(*bench, arguments);
   add_number(*bench, "--tets", options.tets, Range::between(8, 4e8), "",
              "Approximate number of tetrahedra of the built-in packing")

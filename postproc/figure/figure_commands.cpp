@@ -61,8 +61,7 @@ struct FigureCommands::State {
     add_common(command);
     command.add_option("--packing", packing, "The meshed packing")->required();
     command.add_option("--description", description, "The file that the packing was made from, for metrics");
-    command.add_option("--set", settings, "Setting of every run, unless it has common_settings = false: KEY=VALUE")
-        ->allow_extra_args(false);
+    add_assignments(command, settings, "Setting of every run, unless it has common_settings = false: KEY=VALUE");
   }
 
   void add_table(CLI::App& app) {
