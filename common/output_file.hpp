@@ -32,7 +32,7 @@ bool same_file(const std::string& a, const std::string& b);
 /// ("--output"). Throws InputError.
 void refuse_overwriting(std::string_view option, const std::string& output, const std::string& input);
 
-/// An output of a program, and the option that names it. An empty path is an output that was not asked for.
+/// An output of a program, and the option that names it. An empty path is an output that is not wanted.
 struct NamedOutput {
   std::string option, path;
 };
