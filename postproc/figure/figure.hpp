@@ -141,7 +141,9 @@ struct InsetSpec {
 
 /// A plot, drawn by gnuplot.
 struct PlotSpec {
-  std::string name, title, key, key_title, caption; ///< caption: a sentence for the report
+  std::string name, title;
+  std::string key, key_title; ///< key: its place in gnuplot's words; empty for one that covers no data
+  std::string caption;        ///< a sentence for the report
   AxisSpec x, y, z;
   std::vector<SeriesSpec> series;
   std::vector<LineSpec> lines;

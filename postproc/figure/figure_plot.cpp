@@ -8,6 +8,7 @@
 #include <fmt/ranges.h>
 
 #include "common/errors.hpp"
+#include "postproc/figure/key_place.hpp"
 #include "postproc/files/gnuplot.hpp"
 
 namespace mpfem {
@@ -69,6 +70,15 @@ std::string line_style(const SeriesSpec& s) {
   return text;
 }
 
+/// A table's value as gnuplot shows it letter by letter, where "on_contact" would set the c below the line.
+Value without_markup(Value value) {
+  constexpr std::string_view marks = "_^{}@&~";
+  std::string text;
+  for (const char c : value.text) text += (marks.find(c) == std::string_view::npos ? "" : "\\") + std::string(1, c);
+  value.text = text;
+  return value;
+}
+
 std::string title_text(const std::string& title) {
   return title.empty() ? " notitle" : " title " + gnuplot_string(title);
 }
@@ -110,12 +120,18 @@ public:
   const std::string& blocks() const { return blocks_; }
   std::string drawings() const { return fmt::format("{}", fmt::join(drawings_, ", \\\n  ")); }
   bool empty() const { return drawings_.empty(); }
+  /// What the plot shows, and its titles in the key.
+  const std::vector<DrawnLine>& lines() const { return lines_; }
+  const std::vector<std::string>& titles() const { return titles_; }
 
 private:
-  void draw(const std::string& block, const std::string& with) {
+  /// Draws the points of `line`, with the columns `using` of `block`.
+  void draw(const std::string& block, const std::string& with, const std::string& title, DrawnLine line = {}) {
     const std::string name = fmt::format("$data{}", ++count_);
     blocks_ += fmt::format("{} << EOD\n{}EOD\n", name, block);
-    drawings_.push_back(fmt::format("{} {}", name, with));
+    drawings_.push_back(fmt::format("{} {}{}", name, with, title_text(title)));
+    lines_.push_back(std::move(line));
+    titles_.push_back(title);
   }
 
   void add_groups(const SeriesSpec& s) {
@@ -129,7 +145,7 @@ private:
       auto where = s.where;
       where.push_back({s.group, {value}, {}, {}});
       const int colour = (s.colour - 1 + static_cast<int>(seen.size()) - 1) % static_cast<int>(std::size(looks)) + 1;
-      add_rows(s, where, colour, filled_at(s.place, s.title, {{"value", value}}, Unknown::kept));
+      add_rows(s, where, colour, filled_at(s.place, s.title, {{"value", without_markup(value)}}, Unknown::kept));
     }
   }
 
@@ -140,23 +156,26 @@ private:
     if (!s.error.empty()) columns.emplace_back(table.column(s.error, s.place), s.y_scale);
     if (!s.colour_by.empty()) columns.emplace_back(table.column(s.colour_by, s.place), 1);
     std::string block;
+    DrawnLine line{{}, s.style != "points"};
     for (const std::size_t row : table.rows_of(where, s.place)) {
-      for (const auto& [column, scale] : columns) {
-        const auto& value = table.rows[row][column].number;
-        block += value ? fmt::format("{:.9g} ", *value * scale) : "NaN ";
-      }
+      const auto& cells = table.rows[row];
+      for (const auto& [column, scale] : columns)
+        block += cells[column].number ? fmt::format("{:.9g} ", *cells[column].number * scale) : "NaN ";
       block += '\n';
+      const auto x = cells[columns[0].first].number, y = cells[columns[1].first].number;
+      if (x && y) line.points.push_back({*x * s.x_scale, *y * s.y_scale});
     }
     if (block.find_first_of("0123456789") == std::string::npos) return; // none of it could be measured
     SeriesSpec drawn = s;
     drawn.colour = colour;
     if (!s.colour_by.empty())
-      draw(block, fmt::format("using 1:2:3 with lines linewidth 1.5 palette{}", title_text(title)));
+      draw(block, "using 1:2:3 with lines linewidth 1.5 palette", title, line);
     else if (!s.error.empty())
-      draw(block, fmt::format("using 1:2:3 with {}{}{}", s.style == "points" ? "yerrorbars" : "yerrorlines",
-                              line_style(drawn), title_text(title)));
+      draw(block,
+           fmt::format("using 1:2:3 with {}{}", s.style == "points" ? "yerrorbars" : "yerrorlines", line_style(drawn)),
+           title, line);
     else
-      draw(block, fmt::format("using 1:2 with {}{}{}", s.style, line_style(drawn), title_text(title)));
+      draw(block, fmt::format("using 1:2 with {}{}", s.style, line_style(drawn)), title, line);
   }
 
   void add_spread(const SeriesSpec& s) {
@@ -164,15 +183,18 @@ private:
     const std::size_t x = table.column(s.x, s.place), y = table.column(s.y, s.place),
                       deviation = table.column(s.y + "_deviation", s.place);
     std::string block;
-    for (const auto& row : table.rows)
-      if (row[x].number && row[y].number && row[deviation].number)
-        block += fmt::format("{:.9g} {:.9g} {:.9g}\n", *row[x].number * s.x_scale, *row[y].number * s.y_scale,
-                             *row[deviation].number * s.y_scale);
+    DrawnLine line;
+    for (const auto& row : table.rows) {
+      if (!row[x].number || !row[y].number || !row[deviation].number) continue;
+      const double at = *row[x].number * s.x_scale, mean = *row[y].number * s.y_scale,
+                   spread = *row[deviation].number * s.y_scale;
+      block += fmt::format("{:.9g} {:.9g} {:.9g}\n", at, mean, spread);
+      line.points.insert(line.points.end(), {{at, mean - spread}, {at, mean + spread}});
+    }
     if (block.empty()) return;
     const bool first = spreads_++ == 0; // named only once in the key
-    draw(block,
-         fmt::format("using 1:2:3 with yerrorbars linetype {} pointtype 6 pointsize 1.5{}", first ? 5 : 4,
-                     title_text(first ? fmt::format("mean and standard deviation of {} packings", packings_) : "")));
+    draw(block, fmt::format("using 1:2:3 with yerrorbars linetype {} pointtype 6 pointsize 1.5", first ? 5 : 4),
+         first ? fmt::format("mean and standard deviation of {} packings", packings_) : "", line);
   }
 
   /// A fit, over the range of its points or the given one, or a model with given coefficients.
@@ -198,12 +220,15 @@ private:
       return;
     }
     std::string block;
+    DrawnLine line{{}, true};
     for (int i = 0; i < curve_points; ++i) {
       const double at = from + (to - from) * i / (curve_points - 1), other = s.at.value_or(0);
       const double value = s.x == "z" ? y(other, at) : y(at, other);
-      if (std::isfinite(value)) block += fmt::format("{:.9g} {:.9g}\n", at * s.x_scale, value * s.y_scale);
+      if (!std::isfinite(value)) continue;
+      block += fmt::format("{:.9g} {:.9g}\n", at * s.x_scale, value * s.y_scale);
+      line.points.push_back({at * s.x_scale, value * s.y_scale});
     }
-    draw(block, fmt::format("using 1:2 with lines{}{}", line_style(s), title_text(s.title)));
+    draw(block, fmt::format("using 1:2 with lines{}", line_style(s)), s.title, line);
   }
 
   void add_surface(const SeriesSpec& s, const std::function<double(double, double)>& y) {
@@ -217,7 +242,7 @@ private:
       }
       block += '\n';
     }
-    draw(block, fmt::format("using 1:2:3 with lines{}{}", line_style(s), title_text(s.title)));
+    draw(block, fmt::format("using 1:2:3 with lines{}", line_style(s)), s.title);
   }
 
   const PlotSpec& plot_;
@@ -226,7 +251,8 @@ private:
   std::string folder_;
   int packings_ = 0, count_ = 0, spreads_ = 0;
   std::string blocks_;
-  std::vector<std::string> drawings_;
+  std::vector<std::string> drawings_, titles_;
+  std::vector<DrawnLine> lines_;
 };
 
 /// The points of a surface's series: x, y and z are the table's columns s.x, s.group and s.y.
@@ -251,12 +277,40 @@ std::string terminal(const std::string& format) {
   throw InputError(fmt::format("found the format '{}', allowed: png, svg", format));
 }
 
-std::string key_text(const PlotSpec& plot) {
-  if (plot.key.find_first_not_of("abcdefghijklmnopqrstuvwxyzLR0123456789 ") != std::string::npos)
+/// A reference line from end to end of the axes. Of one through the origin the part between the first and the last x.
+DrawnLine drawn_line(const LineSpec& line, const std::vector<DrawnLine>& lines) {
+  if (line.y) return {{{-INFINITY, *line.y}, {INFINITY, *line.y}}, true};
+  if (line.x) return {{{*line.x, -INFINITY}, {*line.x, INFINITY}}, true};
+  double first = INFINITY, last = -INFINITY;
+  for (const DrawnLine& other : lines)
+    for (const auto& point : other.points) {
+      first = std::min(first, point[0]);
+      last = std::max(last, point[0]);
+    }
+  return {{{first, line.slope.value_or(0) * first}, {last, line.slope.value_or(0) * last}}, true};
+}
+
+/// The key's place that the figure's file gives, or one where it covers no data.
+std::string key_words(const PlotSpec& plot, const Script& script, const OtherResults* beside) {
+  if (!plot.key.empty()) return plot.key;
+  if (plot.inset) return "left top"; // an inset lies where the figure's file puts it, away from there
+  std::vector<DrawnLine> lines = script.lines();
+  std::vector<std::string> titles = script.titles();
+  if (script.has_beside()) titles.push_back(beside->name);
+  for (const LineSpec& line : plot.lines) {
+    titles.push_back(line.title);
+    lines.push_back(drawn_line(line, script.lines()));
+  }
+  return key_place(lines, {plot.x.low, plot.x.high, plot.x.logarithmic}, {plot.y.low, plot.y.high, plot.y.logarithmic},
+                   key_size(titles, plot.key_title));
+}
+
+std::string key_text(const PlotSpec& plot, const std::string& place) {
+  if (place.find_first_not_of("abcdefghijklmnopqrstuvwxyzLR0123456789 ") != std::string::npos)
     throw InputError(
-        fmt::format("key: found '{}', allowed: words of position such as 'left top' or 'outside right'", plot.key));
+        fmt::format("key: found '{}', allowed: words of position such as 'left top' or 'outside right'", place));
   std::string text = "set key Left reverse samplen 2 spacing 1.2 noautotitle\n";
-  text += fmt::format("set key {}\n", plot.key);
+  text += fmt::format("set key {}\n", place);
   if (!plot.key_title.empty()) text += fmt::format("set key title {} left\n", gnuplot_string(plot.key_title));
   return text;
 }
@@ -328,8 +382,8 @@ std::string plot_script(const PlotSpec& plot, FigureData& data, const std::strin
                         const std::string& image, int packings, OtherResults* beside) {
   std::string text = terminal(format) + style + line_types() + fmt::format("set output {}\n", gnuplot_string(image));
   if (!plot.title.empty()) text += fmt::format("set title {}\n", gnuplot_string(plot.title));
-  text += key_text(plot) + axis_text("x", plot.x) + axis_text("y", plot.y);
-  if (plot.surface) text += axis_text("z", plot.z);
+  text += axis_text("x", plot.x) + axis_text("y", plot.y);
+  if (plot.surface) text += axis_text("z", plot.z) + key_text(plot, "left top");
   Script script(plot, data, folder, packings);
   if (plot.surface) return text + surface_script(plot, data, script);
   for (const SeriesSpec& s : plot.series) script.add(s);
@@ -337,6 +391,7 @@ std::string plot_script(const PlotSpec& plot, FigureData& data, const std::strin
     for (const SeriesSpec& s : plot.series) script.add_beside(s, beside->data);
   if (script.empty())
     plot.place.fail(fmt::format("plot '{}': none of the values that it shows could be measured", plot.name));
+  text += key_text(plot, key_words(plot, script, beside));
   for (const LineSpec& line : plot.lines)
     if (line.x)
       text += fmt::format("set arrow from {0},graph 0 to {0},graph 1 nohead dashtype (2, 3) linecolor rgb '#777777'\n",

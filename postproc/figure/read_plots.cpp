@@ -113,7 +113,7 @@ PlotSpec read_plot(Texts& t) {
   plot.place = Place(r, "name");
   plot.name = t.name("name");
   plot.title = t.optional("title");
-  plot.key = t.optional("key", "left top");
+  plot.key = t.optional("key");
   plot.key_title = t.optional("key_title");
   plot.caption = t.optional("caption");
   plot.x = read_axis(r.table("x"), t.words());

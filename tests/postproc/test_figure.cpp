@@ -404,6 +404,20 @@ TEST_CASE("values are compared row by row with those of another sample, and rows
   CHECK(verdict["ours"] == "2.0 at 1");
 }
 
+TEST_CASE("a group's name is drawn letter by letter, a series' title with its markup") {
+  const Toolkit toolkit;
+  const Figure figure = toolkit.figure(tablets + R"([[plots]]
+name = "p"
+x = { label = "D" }
+y = { label = "s" }
+series = [{ table = "strength", x = "density", y = "strength", group = "name", title = "G^c {value}" }]
+)");
+  const std::string folder = toolkit.path("out");
+  write_text(folder + "/strength.csv", "name,density [1],strength [MPa]\non_contact,1,3\n");
+  FigureData data(figure, folder);
+  CHECK_THAT(plot_script(figure.plots[0], data, folder, "svg", "p.svg", 0), Contains("title 'G^c on\\_contact'"));
+}
+
 TEST_CASE("a plot draws the points with their errors, a curve of the fit, and refuses to draw nothing") {
   const Toolkit toolkit;
   const Figure figure = toolkit.figure(tablets + R"([[fits]]
