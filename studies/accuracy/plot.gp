@@ -12,8 +12,8 @@ set ylabel 'error, mean of absolute values / %'
 set format y '%g'
 set format x '10^{%L}'
 # The key lies below the axis title, which it would touch without this margin.
-set bmargin at screen 0.36
-set key at screen 0.5, 0.245 center top vertical maxrows 5 spacing 1.1 width 1 font ',17'
+set bmargin at screen 0.385
+set key at screen 0.5, 0.25 center top vertical maxrows 6 spacing 1.05 width 1 font ',16'
 # Column 18 is the error in per cent, 19 the reference's uncertainty; what is smaller than a third of it is drawn there.
 here = sprintf("awk -F, -v s='%s' -v m='%s' 'NR > 1 && $2 == s && $9 == m " . \
   "{ d = 100 * $16; e = 100 * $14; print $0 \",\" (e < 0.3 * d ? 0.3 * d : e) \",\" d }' '%s'", scene, measure, data)
@@ -40,14 +40,16 @@ smooth_other = of('tet4-anp', 'surface') . ' && ($6 != 10 || $7 != 1 || $8 != 1)
 points_of(condition) = int(system(sprintf("%s | awk -F, '%s' | wc -l", here, condition)))
 # Elements differ by colour and by shape: circle, square, triangle; hollow with another penalty.
 names = 'tet4 tet4-anp tet4-patch'
+filled = '7 5 9'
+hollow = '6 4 8'
 plot \
   for [i = 1:3] sorted(of(word(names, i), 'mesh')) using 12:18 \
-    with linespoints linetype i pointtype 5 + 2 * (i == 1 ? 1 : i == 2 ? 0 : 2) pointsize 1.5 \
+    with linespoints linetype i pointtype int(word(filled, i)) pointsize 1.5 \
     title (points_of(of(word(names, i), 'mesh')) ? word(names, i) : ''), \
   for [i = 1:3] ends(of(word(names, i), 'mesh')) using 12:18:(strcol(5)) \
     with labels offset character 0, character (i == 3 ? -0.9 : 0.9) font ',15' textcolor linetype i, \
   for [i = 1:3] sorted(of(word(names, i), 'penalty')) using 12:18 \
-    with points linetype i pointtype 4 + 2 * (i == 1 ? 1 : i == 2 ? 0 : 2) pointsize 1.7 \
+    with points linetype i pointtype int(word(hollow, i)) pointsize 1.7 \
     title named(word(names, i) . ', K h/E =', values(of(word(names, i), 'penalty'), 6, '')), \
   sorted(of('tet4-anp', 'speed')) using 12:18 with points linetype 4 pointtype 12 pointsize 1.7 \
     title named('tet4-anp, speed', values(of('tet4-anp', 'speed'), 7, '×')), \
