@@ -41,9 +41,10 @@ namespace {
 
 /// Everything is drawn twice as large in both directions, then averaged.
 constexpr int supersampling = 2;
-constexpr RodKind rod_kinds[] = {RodKind::whole, RodKind::broken, RodKind::contact};
+constexpr RodKind rod_kinds[] = {RodKind::intact, RodKind::damaged, RodKind::broken, RodKind::contact};
 /// Colours of Okabe and Ito (2008), distinct for all kinds of colour vision.
-constexpr double blue[3] = {0.0, 0.45, 0.70}, vermilion[3] = {0.84, 0.37, 0.0}, dark_grey[3] = {0.25, 0.25, 0.25};
+constexpr double blue[3] = {0.0, 0.45, 0.70}, yellow[3] = {0.94, 0.89, 0.26}, vermilion[3] = {0.84, 0.37, 0.0},
+                 grey[3] = {0.62, 0.62, 0.62}, dark_grey[3] = {0.25, 0.25, 0.25};
 
 using MakeColour = std::function<Colour(std::size_t triangle, std::size_t corner)>;
 
@@ -114,7 +115,10 @@ vtkNew<vtkActor> rods_of(const std::vector<PairRod>& rods, RodKind kind) {
   tubes->Update();
   vtkNew<vtkActor> actor = actor_of(tubes->GetOutput(), true);
   actor->GetMapper()->ScalarVisibilityOff();
-  const double* colour = kind == RodKind::whole ? blue : kind == RodKind::broken ? vermilion : dark_grey;
+  const double* colour = kind == RodKind::intact    ? blue
+                         : kind == RodKind::damaged ? yellow
+                         : kind == RodKind::broken  ? vermilion
+                                                    : grey;
   actor->GetProperty()->SetColor(colour[0], colour[1], colour[2]);
   return actor;
 }
@@ -168,6 +172,8 @@ void add_text(vtkRenderer* renderer, const std::string& text, const Eigen::Vecto
   property->SetFontSize(static_cast<int>(std::lround(height)));
   property->SetColor(0, 0, 0);
   property->SetOrientation(orientation);
+  property->SetBackgroundColor(1, 1, 1); // grains of a failing sample fly behind the axes' names
+  property->SetBackgroundOpacity(0.75);
   if (centred) property->SetJustificationToCentered();
   property->SetVerticalJustificationToCentered();
   actor->SetPosition(place[0], place[1]);

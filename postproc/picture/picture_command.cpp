@@ -60,8 +60,8 @@ public:
     options().add_option("--size", size_, "WIDTHxHEIGHT in pixels")->capture_default_str();
     options().add_option("--title", request_.title, "Title (default: relative density and mean stress)");
     options().add_flag("--bonds", request_.bonds,
-                       "Draw bonds from grain to grain in the part that is cut away: unbroken ones blue, with a "
-                       "thickness that grows with their area, broken ones orange");
+                       "Draw bonds from grain to grain in the part that is cut away: blue, yellow where damage "
+                       "exceeds one half, orange where broken; thickness grows with the intact area");
     options().add_flag("--contacts", request_.contacts,
                        "Draw contacts from grain to grain in the part that is cut away, grey, with a thickness "
                        "proportional to the square root of their force");
@@ -104,7 +104,7 @@ private:
     const CutAway away = cut_away(state, request);
     if (request.bonds) {
       scene.rods = bond_rods(file, state, away);
-      scene.note += "; bonds: blue unbroken, orange broken";
+      scene.note += "; bonds: blue intact, yellow more than half broken, orange broken";
     }
     if (request.contacts) {
       const std::vector<PairRod> contacts = contact_rods(file, state, away);

@@ -134,7 +134,7 @@ std::vector<PairRod> contact_rods(const schema::FileReader& file, const Snapshot
     const auto first = static_cast<std::size_t>(grains[2 * p]), second = static_cast<std::size_t>(grains[2 * p + 1]);
     if (!(size[p] > 0) || !lies_in(away, 0.5 * (centre[first] + centre[second]))) continue;
     const double share = std::sqrt(size[p] / largest);
-    rods.push_back({centre[first], centre[second], thin_radius(snapshot) * (0.4 + 3 * share), RodKind::contact});
+    rods.push_back({centre[first], centre[second], thin_radius(snapshot) * (0.2 + 2.3 * share), RodKind::contact});
   }
   return rods;
 }
@@ -152,9 +152,8 @@ std::vector<PairRod> bond_rods(const schema::FileReader& file, const Snapshot& s
   for (std::size_t p = 0; p < damage.size(); ++p) {
     const auto first = static_cast<std::size_t>(grains[2 * p]), second = static_cast<std::size_t>(grains[2 * p + 1]);
     if (damage[p] < 0 || !lies_in(away, 0.5 * (centre[first] + centre[second]))) continue; // < 0: never bonded
-    const bool whole = area[p] > 0;
-    rods.push_back({centre[first], centre[second], whole ? std::max(thin, std::sqrt(0.1 * area[p] / M_PI)) : thin,
-                    whole ? RodKind::whole : RodKind::broken});
+    const RodKind kind = !(area[p] > 0) ? RodKind::broken : damage[p] > 0.5 ? RodKind::damaged : RodKind::intact;
+    rods.push_back({centre[first], centre[second], std::max(thin, std::sqrt(0.1 * area[p] / M_PI)), kind});
   }
   return rods;
 }
@@ -187,12 +186,24 @@ void add_tools(PictureScene& scene, const Snapshot& snapshot, const SceneRequest
   }
 }
 
+/// The triangles of the grains whose centres do not lie in `away`.
+std::vector<SolidTriangle> without_grains_in(const CutAway& away, std::vector<SolidTriangle> triangles,
+                                             const Snapshot& snapshot) {
+  if (away.empty()) return triangles;
+  const std::vector<Eigen::Vector3d> centre = grain_centres(snapshot);
+  std::erase_if(triangles,
+                [&](const SolidTriangle& t) { return lies_in(away, centre[static_cast<std::size_t>(t.grain)]); });
+  return triangles;
+}
+
 } // namespace
 
 PictureScene make_scene(const Snapshot& snapshot, const SceneRequest& request) {
   const ShownField field = shown_field(snapshot, field_of(request.colour));
   PictureScene scene;
-  scene.triangles = cut_solid(snapshot, field, cut_away(snapshot, request));
+  const CutAway away = cut_away(snapshot, request);
+  scene.triangles = field.name == "damage" ? without_grains_in(away, cut_solid(snapshot, field, {}), snapshot)
+                                           : cut_solid(snapshot, field, away);
   if (scene.triangles.empty())
     throw InputError(fmt::format("--cut {}: the cut at --cut-at {} removes all grains", request.cut, request.cut_at));
   const auto range = request.range.value_or(range_of(scene.triangles, field));

@@ -34,7 +34,8 @@ const std::vector<std::string>& cut_names();
 /// Unit vector from the box towards the camera.
 Eigen::Vector3d towards_camera(const std::array<double, 2>& angles);
 
-/// The part that is cut away: for an axis the camera's side of the plane, for the octant that of all three planes.
+/// The part that is cut away: for an axis the camera's side of the plane, for the octant that of all three planes. Of
+/// damage, a field of surfaces, whole grains are taken away: those whose centres lie in this part.
 CutAway cut_away(const Snapshot& snapshot, const SceneRequest& request);
 
 /// The part of the tools that is cut away so that grains can be seen: with an octant of the grains the whole quarter
@@ -42,14 +43,15 @@ CutAway cut_away(const Snapshot& snapshot, const SceneRequest& request);
 /// the grains.
 CutAway tool_cut_away(const Snapshot& snapshot, const SceneRequest& request);
 
-/// Kinds of rods: a bond with some area unbroken, a broken bond, a contact that carries a force.
-enum class RodKind { whole, broken, contact };
+/// Kinds of rods: a bond whose mean damage is at most one half, one with more, a bond that is broken all over, a contact
+/// that carries a force.
+enum class RodKind { intact, damaged, broken, contact };
 
 /// Two grains that touch, or are or were bonded, drawn as a rod from centre to centre.
 struct PairRod {
   Eigen::Vector3d from, to; ///< mm
-  double radius = 0; ///< mm; whole bond: of a circle of a tenth of its area; contact: grows as the root of its force
-  RodKind kind = RodKind::whole;
+  double radius = 0; ///< mm; bond: of a circle of a tenth of its intact area; contact: grows as the root of its force
+  RodKind kind = RodKind::intact;
 };
 
 /// Rods for the contacts that carry a force and whose middles lie in the part cut away; all of them where `away` is

@@ -83,7 +83,7 @@ TEST_CASE("bonds are drawn where they are chosen: in the part that is cut away, 
     return blue_pixels(shown.image);
   };
   CHECK(blue_after("set('axis', 1);") < 20);
-  CHECK(blue_after("set('axis', 1); set('at', 0.45); set('rods', '01');") > 200);
-  CHECK(blue_after("set('axis', -1); set('rods', '01');") > 200);
-  CHECK(blue_after("set('axis', -1); set('rods', '2');") < 20); // contacts are grey
+  CHECK(blue_after("set('axis', 1); set('at', 0.45); set('rods', '012');") > 200);
+  CHECK(blue_after("set('axis', -1); set('rods', '012');") > 200);
+  CHECK(blue_after("set('axis', -1); set('rods', '3');") < 20); // contacts are grey
 }

@@ -5,6 +5,7 @@
 #include <Eigen/Geometry>
 #include <catch2/catch.hpp>
 
+#include "bonded_run.hpp"
 #include "postproc/picture/view_frame.hpp"
 #include "small_run.hpp"
 #include "tests/support/folder.hpp"
@@ -115,6 +116,21 @@ TEST_CASE("colours and ticks: grey where there is no value, round numbers inside
   near(round_ticks({-3, 9}, 6), {-2, 0, 2, 4, 6, 8});
   request.colour = "height";
   CHECK_THROWS_WITH(make_scene(snapshot, request), Catch::Contains("--color: found 'height', allowed: von-mises"));
+}
+
+TEST_CASE("damage is shown on whole grains, of which a cut takes away those with their centres in it") {
+  const Folder folder;
+  write_run(folder / "run.h5", bonded_run());
+  const Snapshot snapshot = read_snapshot({folder / "run.h5", schema::FileKind::run}, 0);
+  SceneRequest request = cut_of("none", 0.5);
+  request.colour = "damage";
+  CHECK(std::abs(enclosed_volume(make_scene(snapshot, request).triangles, {0, 0, 0}) - 24) < 1e-10);
+  // Cubes of 8 mm^3 around (0, 0, 0), (2, 0, 0) and (0, 0, 2): a plane at x = 0.9 would cut all of them.
+  request.cut = "x";
+  request.cut_at = (0.9 - snapshot.box_low[0]) / (snapshot.box_high[0] - snapshot.box_low[0]);
+  const PictureScene scene = make_scene(snapshot, request);
+  CHECK(std::abs(enclosed_volume(scene.triangles, {0, 0, 0}) - 16) < 1e-10);
+  for (const SolidTriangle& t : scene.triangles) CHECK((t.face == 0 && t.grain != 1));
 }
 
 TEST_CASE("all of the bounds lie in the picture for any direction of the camera") {

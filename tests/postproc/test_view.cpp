@@ -116,9 +116,9 @@ TEST_CASE("a view has bonds and contacts as rods from centre to centre, and dama
   const schema::FileReader file(folder / "run.h5", schema::FileKind::run);
   const std::vector<Snapshot> snapshots = {read_snapshot(file, 0)};
   const ViewData data = view_data(snapshots, rods_of(file, snapshots));
-  // Two contacts, 10 N and 1 N, and a bond between the first two grains that is whole.
+  // Two contacts, 10 N and 1 N, and a bond between the first two grains whose mean damage is a half.
   const ViewState& state = data.states[0];
-  REQUIRE(state.rod_kind == std::vector<std::uint8_t>{2, 2, 0});
+  REQUIRE(state.rod_kind == std::vector<std::uint8_t>{3, 3, 0});
   CHECK(state.rod_width[0] > 2 * state.rod_width[1]);
   CHECK(within(data.widest_rod, std::sqrt(0.1 * 3.5 / M_PI), rounding));
   CHECK(state.rod_width[2] == 255);
@@ -133,6 +133,24 @@ TEST_CASE("a view has bonds and contacts as rods from centre to centre, and dama
   const auto& values = snapshots[0].node_field("damage").values;
   for (std::size_t n = 0; n < values.size(); ++n) // 0: never bonded; else from 1 to 255
     CHECK(damage[n] == (values[n] < 0 ? 0 : std::lround(1 + 254 * static_cast<double>(values[n]))));
+}
+
+TEST_CASE("a bond is damaged above a mean damage of one half, and broken without intact area") {
+  const Folder folder;
+  const struct {
+    double damage, area;
+    RodKind kind;
+  } cases[] = {{0, 4, RodKind::intact}, {0.51, 4, RodKind::damaged}, {1, 0, RodKind::broken}};
+  for (const auto& c : cases) {
+    RunContents contents = bonded_run();
+    contents.numbers["/snapshots/*/pair_damage"][0] = c.damage;
+    contents.numbers["/snapshots/*/pair_bonded_area"][0] = c.area;
+    write_run(folder / "run.h5", contents);
+    const schema::FileReader file(folder / "run.h5", schema::FileKind::run);
+    const auto rods = bond_rods(file, read_snapshot(file, 0), {});
+    REQUIRE(rods.size() == 1);
+    CHECK(rods[0].kind == c.kind);
+  }
 }
 
 TEST_CASE("a view's colours have the range that a picture of the same grains has without a cut") {
