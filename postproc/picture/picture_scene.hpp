@@ -43,8 +43,8 @@ CutAway cut_away(const Snapshot& snapshot, const SceneRequest& request);
 /// the grains.
 CutAway tool_cut_away(const Snapshot& snapshot, const SceneRequest& request);
 
-/// Kinds of rods: a bond whose mean damage is at most one half, one with more, a bond that is broken all over, a contact
-/// that carries a force.
+/// Kinds of rods: a bond whose mean damage is at most one half, a bond with more, a bond that is broken all over, and a
+/// contact that carries a force.
 enum class RodKind { intact, damaged, broken, contact };
 
 /// Two grains that touch, or are or were bonded, drawn as a rod from centre to centre.
