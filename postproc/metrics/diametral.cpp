@@ -3,13 +3,16 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <map>
 #include <numbers>
+#include <utility>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include "common/errors.hpp"
 #include "common/one_line.hpp"
+#include "postproc/fits/statistics.hpp"
 #include "postproc/metrics/disc_crack.hpp"
 #include "postproc/run_data/ringing.hpp"
 #include "postproc/run_data/smoothing.hpp"
@@ -75,6 +78,30 @@ int third_axis(int a, int b) {
 }
 
 } // namespace
+
+double disc_thickness(std::span<const float> node, int load_axis, int disc_axis, double diameter) {
+  constexpr double columns = 12, share_of_radius = 0.8;
+  const auto load = static_cast<std::size_t>(load_axis), axis = static_cast<std::size_t>(disc_axis);
+  const auto across = static_cast<std::size_t>(third_axis(load_axis, disc_axis));
+  std::array<double, 3> middle{};
+  for (std::size_t i = 0; i < node.size(); ++i)
+    middle[i % 3] += 3 * static_cast<double>(node[i]) / static_cast<double>(node.size());
+  std::map<std::pair<int, int>, Extent> local;
+  for (std::size_t i = 0; i < node.size(); i += 3) {
+    const auto column = [&](std::size_t k) {
+      return static_cast<int>(std::floor((static_cast<double>(node[i + k]) - middle[k]) * columns / diameter));
+    };
+    const std::pair<int, int> place{column(load), column(across)};
+    if (std::hypot(place.first + 0.5, place.second + 0.5) > share_of_radius * 0.5 * columns) continue;
+    const double height = static_cast<double>(node[i + axis]);
+    Extent& extent = local.try_emplace(place, Extent{height, height}).first->second;
+    extent.low = std::min(extent.low, height);
+    extent.high = std::max(extent.high, height);
+  }
+  std::vector<double> thickness;
+  for (const auto& [place, extent] : local) thickness.push_back(extent.length());
+  return thickness.empty() ? 0 : median(std::move(thickness));
+}
 
 std::optional<double> flat_half_angle(const DiscState& state) {
   const Extent along = extent_along(state.node, state.load_axis);
@@ -184,7 +211,8 @@ struct Disc {
   double diameter = 0, thickness = 0; ///< mm
 };
 
-/// As given, otherwise the extents of the grains before the test, as calipers would measure them.
+/// As given, otherwise of the grains before the test: the extent along the load, as the plates find it, and the median
+/// thickness.
 Disc disc_of(const schema::FileReader& file, const HistoryTable& history, const Test& test, const DiametralRule& rule) {
   if (rule.diameter && rule.thickness) return {*rule.diameter, *rule.thickness};
   const auto number = snapshot_at(file, history["time"][test.stage.first], false);
@@ -192,8 +220,12 @@ Disc disc_of(const schema::FileReader& file, const HistoryTable& history, const 
     throw InputError(fmt::format("{}: no snapshot before stage {}; allowed: one, or --diameter and --thickness",
                                  one_line(file.path()), test.stage.number));
   const Snapshot before = read_snapshot(file, *number);
-  return {rule.diameter.value_or(extent_along(before.node, test.axis).length()),
-          rule.thickness.value_or(extent_along(before.node, rule.disc_axis).length())};
+  const double diameter = rule.diameter.value_or(extent_along(before.node, test.axis).length());
+  const double thickness = rule.thickness.value_or(disc_thickness(before.node, test.axis, rule.disc_axis, diameter));
+  if (!(thickness > 0))
+    throw InputError(fmt::format("{}: found no thickness of the disc before stage {}; allowed: --thickness",
+                                 one_line(file.path()), test.stage.number));
+  return {diameter, thickness};
 }
 
 /// Half angle (rad) of the flats at a row's time: as given, otherwise from a snapshot of the stage; empty without one.

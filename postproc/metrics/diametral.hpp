@@ -48,6 +48,12 @@ struct DiscState {
 /// the loaded diameter. Empty where an end has no pressed node.
 std::optional<double> flat_half_angle(const DiscState& state);
 
+/// Thickness (mm) of a disc: the median of its local thickness over the face. Local is the distance of the outermost
+/// nodes in a column along the disc's axis, a twelfth of the diameter wide, within 0.8 radii of the axis. A grain that
+/// sticks out of a face, or has come off, changes few columns and so hardly the median; between the outermost nodes of
+/// the whole disc it would count in full. 0 without nodes there.
+double disc_thickness(std::span<const float> node, int load_axis, int disc_axis, double diameter);
+
 /// How a diametral test is read.
 struct DiametralRule {
   std::vector<std::string> plates;           ///< two tools; default: the only two of the run
@@ -55,7 +61,7 @@ struct DiametralRule {
   double drop = 0.1;                         ///< share of the peak force by which the force must fall after it
   double smallest_peak = 0;                  ///< N, smaller peaks do not count
   int disc_axis = 2;                         ///< 0, 1, 2 for x, y, z
-  std::optional<double> diameter, thickness; ///< mm; default: the nodes' extents before the test
+  std::optional<double> diameter, thickness; ///< mm; default: extent along the load and disc_thickness before the test
   std::optional<double> flat_angle;          ///< degrees, 2 alpha; default: from the snapshot nearest to the peak
   std::optional<double> face_distance;       ///< mm; default: a hundredth of the diameter
 };

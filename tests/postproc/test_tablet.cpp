@@ -474,6 +474,27 @@ TEST_CASE("the peak of a disc is the largest force before its first fall by a te
   CHECK_FALSE(none.falls);
 }
 
+TEST_CASE("a disc is as thick as its faces are apart, whatever sticks out of them or has come off") {
+  // A disc of diameter 2 and thickness 0.6 mm along y, loaded along x; its nodes, in single precision, are 0.05 mm apart.
+  std::vector<float> node;
+  const auto add = [&](double x, double y, double z) {
+    for (const double value : {x, y, z}) node.push_back(static_cast<float>(value));
+  };
+  for (int i = -20; i <= 20; ++i)
+    for (int j = -20; j <= 20; ++j)
+      for (const double y : {0.0, 0.3, 0.6})
+        if (i * i + j * j <= 400) add(0.05 * i, y, 0.05 * j);
+  CHECK(within(disc_thickness(node, 0, 1, 2), 0.6, 1e-6));
+  // A grain that sticks out by 0.3 mm, and one that has come off and moves the mean of all nodes by some 0.01 mm.
+  for (int i = 0; i < 4; ++i)
+    for (int j = 0; j < 4; ++j) {
+      add(0.3 + 0.05 * i, 0.9, 0.05 * j);
+      add(3 + 0.05 * i, 1, 0.05 * j);
+    }
+  CHECK(within(disc_thickness(node, 0, 1, 2), 0.6, 1e-6));
+  CHECK(disc_thickness({}, 0, 1, 2) == 0);
+}
+
 TEST_CASE("the angle of a flat is that of its pressed nodes, of the wider flat") {
   // A disc of diameter 2 pressed along x: nodes at y = -0.1 … 0.1 on one side, -0.05 … 0.05 on the other.
   const std::vector<float> node = {0, 0.9F, 0, 0, 1.1F, 0, 2, 0.95F, 0, 2, 1.05F, 0, 1, 0, 0, 1, 2, 0};
