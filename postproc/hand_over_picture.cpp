@@ -20,7 +20,9 @@ void hand_over_picture(int argc, char** argv) {
   for (int i = 2; i < argc; ++i)
     if (std::string_view(argv[i]) == "--help" || std::string_view(argv[i]) == "-h") return;
   throw SimulationError(
-      fmt::format("{} is not built: it needs VTK 9, which ./bootstrap pictures installs on Debian", program));
+      fmt::format("found no {}, which draws with VTK 9 and is built apart, allowed: ./bootstrap pictures in the "
+                  "source folder, then cmake --install build --component pictures for an installed postproc",
+                  program));
 }
 
 } // namespace mpfem

@@ -86,10 +86,10 @@ public:
 
 private:
   NamedPoints read_points() const {
-    const auto columns = read_csv(points_);
-    NamedPoints points{csv_column(columns, x_, points_), csv_column(columns, y_, points_), {}};
-    if (!z_.empty()) points.z = csv_column(columns, z_, points_);
-    return points;
+    std::vector<std::string> names = {x_, y_};
+    if (!z_.empty()) names.push_back(z_);
+    const std::vector<Column> columns = read_csv_columns(points_, names);
+    return {columns[0], columns[1], z_.empty() ? std::nullopt : std::optional(columns[2])};
   }
 
   std::vector<Fit> fits_of(const NamedPoints& points) const {

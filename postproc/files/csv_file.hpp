@@ -14,8 +14,8 @@ namespace mpfem {
 std::vector<Column> read_csv(const std::string& path);
 /// The same for a table that is already open.
 std::vector<Column> read_csv(CsvReader reader);
-
-/// A column by its name without unit. Throws InputError that suggests the nearest name.
-const Column& csv_column(const std::vector<Column>& columns, const std::string& name, const std::string& path);
+/// The columns of these names, without units, in this order; the others may hold text. Throws InputError also for a
+/// name that no column has, with the nearest one or all.
+std::vector<Column> read_csv_columns(const std::string& path, const std::vector<std::string>& wanted);
 
 } // namespace mpfem

@@ -10,7 +10,6 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     const auto columns = read_csv(CsvReader::from_text(std::string(fuzz::text_of(data, size)), "points.csv"));
     for (const Column& column : columns)
       if (column.values.size() != columns.front().values.size()) std::abort();
-    csv_column(columns, "x", "points.csv");
   });
   return 0;
 }

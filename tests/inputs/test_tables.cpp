@@ -29,7 +29,7 @@ TEST_CASE("Points that are no table are refused with file and line or column") {
            {"a,b\n1,2\n\n# three\n1,two\n", ":5"},
            {"a,b\n1," + endless + "\n", ":2"},
            {endless + "\n1\n", "'a'"},
-           {endless + "," + endless + "\n1,y\n", ":2"},
+           {endless + "," + endless + "\n1,y\n", "'a'"},
            {std::string(100'000, ','), ":1"},
            {std::string(1000, '\0'), "'a'"},
            {"\xff\xfe", "'a'"},

@@ -302,6 +302,20 @@ TEST_CASE("a CSV file is read with units, quotes and comments") {
   CHECK(columns[1].values == std::vector<double>{1.5, 2});
 }
 
+TEST_CASE("columns of text do not matter where others are read, but a text among numbers is refused") {
+  const Folder folder;
+  write_text(folder / "t.csv", "name,x [mm],y\nfirst,1,2\nsecond,3,4\n");
+  const auto columns = read_csv_columns(folder / "t.csv", {"y", "x", "y"});
+  REQUIRE(columns.size() == 3);
+  CHECK(columns[0].values == std::vector<double>{2, 4});
+  CHECK(columns[1].unit == "mm");
+  CHECK(columns[2].values == columns[0].values);
+  CHECK_THROWS_WITH(read_csv_columns(folder / "t.csv", {"name"}),
+                    Catch::Contains("t.csv:2") && Catch::Contains("first"));
+  CHECK_THROWS_WITH(read_csv_columns(folder / "t.csv", {"nmae"}), Catch::Contains("did you mean 'name'?"));
+  CHECK_THROWS_WITH(read_csv_columns(folder / "t.csv", {"pressure"}), Catch::Contains("allowed: name, x, y"));
+}
+
 TEST_CASE("postproc fit writes a list of fits with ranges, and the curves") {
   const Folder folder;
   std::string text = "porosity [1],strength [MPa]\n";
