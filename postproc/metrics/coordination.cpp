@@ -96,7 +96,7 @@ Measurement measure_coordination(const schema::FileReader& file, int snapshot, i
   m.uncertainty = value.half_width;
   m.uncertainty_meaning = "half of the 95 % interval of a mean over the grains, taken as independent";
   m.method = fmt::format("mean contacts, walls included, without rattlers, grains with fewer than {} "
-                         "contacts and no unbroken bond, removed until none is left",
+                         "contacts and no intact bond, removed until none is left",
                          fewest);
   m.snapshot = snapshot_window(file, snapshot);
   const auto add = [&](const std::string& key, Ratio ratio) {

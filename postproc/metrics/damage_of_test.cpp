@@ -100,10 +100,9 @@ Measurement measure_damage_of_test(const schema::FileReader& file, int snapshot,
                                  one_line(before.path()), one_line(file.path())));
   const BondsSince since = bonds_since(read_bond_table(before, snapshot_before), read_bond_table(file, snapshot));
   if (since.found.empty())
-    throw InputError(
-        fmt::format("{}: no bond is unbroken at that snapshot; allowed: --before and --snapshot-before of a "
-                    "bonded compact",
-                    one_line(before.path())));
+    throw InputError(fmt::format("{}: no bond is intact at that snapshot; allowed: --before and --snapshot-before of a "
+                                 "bonded compact",
+                                 one_line(before.path())));
   const std::vector<double> damage_before = values_of(since.found_before, damage_of);
   std::vector<double> growth = values_of(since.found, damage_of);
   for (std::size_t b = 0; b < growth.size(); ++b) growth[b] -= damage_before[b];
@@ -113,7 +112,7 @@ Measurement measure_damage_of_test(const schema::FileReader& file, int snapshot,
   m.value = value.value;
   m.uncertainty = value.half_width;
   m.uncertainty_meaning = "half of the 95 % interval of the ratio of sums over pairs of grains, taken as independent";
-  m.method = "growth of the area-weighted mean damage of the bonds that were unbroken at the snapshot before";
+  m.method = "growth of the area-weighted mean damage of the bonds that were intact at the snapshot before";
   m.snapshot = snapshot_window(file, snapshot);
   m.details["snapshot_before"] = snapshot_window(before, snapshot_before).number;
   m.details["found_mean_damage_before"] = then.value;

@@ -11,7 +11,7 @@ namespace mpfem {
 
 /// The bonds of a later snapshot, grouped by their state at an earlier one.
 struct BondsSince {
-  std::vector<BondRow> found;          ///< unbroken then; their state now
+  std::vector<BondRow> found;          ///< intact then; their state now
   std::vector<BondRow> found_before;   ///< [found], their state then
   std::vector<BondRow> formed;         ///< formed since, or broken then and formed again since
   std::vector<BondRow> broken_already; ///< broken then and now
@@ -21,11 +21,11 @@ struct BondsSince {
 /// `before` must also be in `now`.
 BondsSince bonds_since(const std::vector<BondRow>& before, const std::vector<BondRow>& now);
 
-/// Growth of the area-weighted mean damage, of the bonds that were unbroken at snapshot `snapshot_before` of `before`,
+/// Growth of the area-weighted mean damage, of the bonds that were intact at snapshot `snapshot_before` of `before`,
 /// up to snapshot `snapshot` of `file`. The details hold both means, the broken share, the damage energy over the
 /// energy that breaks them, and the same for the bonds formed since. Uncertainty: as of `damage`, by pairs of grains.
 /// `before` may be the run that this one branched from, or this run. Throws InputError where the files' packings
-/// differ, or where no bond was unbroken.
+/// differ, or where no bond was intact.
 Measurement measure_damage_of_test(const schema::FileReader& file, int snapshot, const schema::FileReader& before,
                                    int snapshot_before);
 

@@ -213,7 +213,7 @@ std::string to_text(const Summary& s) {
   line("coordination number", fmt::format("{:.2f}", s.coordination_number));
   line("contact area over surface", fmt::format("{:.3f}", s.contact_area_ratio));
   if (s.bonds) {
-    line("unbroken bonds, area", fmt::format("{}  {:.4g} mm^2", s.bonds->unbroken, s.bonds->area));
+    line("intact bonds, area", fmt::format("{}  {:.4g} mm^2", s.bonds->unbroken, s.bonds->area));
     line("mean damage of bonds", fmt::format("{:.4f}", s.bonds->mean_damage));
   }
   for (std::size_t i = 0; i < s.profile_name.size(); ++i)

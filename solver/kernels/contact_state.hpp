@@ -2,7 +2,7 @@
 // Contact between grains: every surface node against the facets of the grains near it, both surfaces alike.
 //
 // Each of the two passes (nodes of A on facets of B, nodes of B on facets of A) carries half of the penalty stiffness
-// (solver/physics/penalty.hpp). Bonds belong to the same points (solver/physics/bond_kinematics.hpp); an unbroken bond
+// (solver/physics/penalty.hpp). Bonds belong to the same points (solver/physics/bond_kinematics.hpp); an intact bond
 // keeps its point among the candidates however far it has opened. Friction belongs to points that are closed
 // (solver/physics/friction_kinematics.hpp).
 

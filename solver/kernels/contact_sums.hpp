@@ -16,10 +16,10 @@ double contact_area(const Model& model, const Contact& contact, int grain);
 struct BondSums {
   double stored = 0;       ///< mJ
   double dissipated = 0;   ///< mJ, lost to damage so far
-  double bonded_area = 0;  ///< mm^2 of both sides with unbroken bonds, as measured at the start of the run
+  double bonded_area = 0;  ///< mm^2 of both sides with intact bonds, as measured at the start of the run
   double formed_area = 0;  ///< mm^2 of both sides where a bond was ever formed
   double damaged_area = 0; ///< mm^2, integral of the damage over formed_area
-  std::int64_t bonds = 0;  ///< unbroken
+  std::int64_t bonds = 0;  ///< intact
 
   template <class Self, class Visitor>
   static void for_each_term(Self& s, Visitor&& visit) {

@@ -1,5 +1,5 @@
 #pragma once
-// The table that `mpfem bond` writes while it walks a point through a programme.
+// The table that `mpfem bond` writes while it drives a point along a programme.
 
 #include <cstddef>
 #include <string>

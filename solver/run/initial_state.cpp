@@ -43,7 +43,7 @@ double set_velocity(Model& model, std::size_t grain, const Vector& linear, const
 /// Largest penetration of a pair's points over the element size.
 double deepest_point(const Model& model, const Contact& contact, std::int32_t pair, std::size_t grain) {
   double deepest = 0;
-  // An unbroken bond may carry the force of a point itself: then the push is zero and the bond's force gives the depth.
+  // An intact bond may carry the force of a point itself: then the push is zero and the bond's force gives the depth.
   for (const auto points : {contact.active_points(pair), contact.pulling_bonds(pair)})
     for (const ContactForce& point : points)
       if (point.stiffness > 0)

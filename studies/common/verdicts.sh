@@ -17,6 +17,8 @@ Every statement that a figure of Ku, Zhao, Mollon and Zhao makes, compared with 
   stresses are the closest to the converged ones ([speed against error](speed-against-error/README.md)).
 - The reasons begin with *the paper's choice* (an unstated choice, identified here, explains the
   difference), *the paper's error* (the number belongs to the method and not to the grains) or *open*.
+- Where a cell is empty, the figure was not made with this mesh, or the statement needs another one. Only two statements
+  of fig14 lack \`coarse\` for another reason: its results [are older](../studies/fig14/README.md).
 - Statements are judged by the softening law \`energy\`, which reads Eq. 5 literally. The law \`exponential\`, the
   curve that Fig. 3 draws, is reported without verdicts.
 - [What the paper did](what-the-paper-did.md) shows the choices. The notes of

@@ -64,7 +64,7 @@ TEST_CASE("rattlers are removed with their contacts until none is left") {
   for (std::size_t grain = 8; grain < 11; ++grain) CHECK(contacts[grain] == 0);
 }
 
-TEST_CASE("a grain that an unbroken bond holds is not a rattler") {
+TEST_CASE("a grain that an intact bond holds is not a rattler") {
   ContactGraph graph = lattice(2);
   graph.walls.push_back(0);
   graph.pairs.push_back({{3, 8}, true});

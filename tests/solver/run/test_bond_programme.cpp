@@ -110,7 +110,7 @@ TEST_CASE("breaking the point takes the fracture energy at 20, 200 and 2000 incr
     }
 }
 
-TEST_CASE("along the whole walk the energy account is the area under the tractions, also unloaded and compressed") {
+TEST_CASE("along the whole path the energy account is the area under the tractions, also unloaded and compressed") {
   for (const std::string softening : {"exponential", "energy"}) {
     const Result result =
         walk("opening,shear1,shear2\n-5e-6,0,0\n2e-5,0,0\n0,0,0\n-4e-6,1e-5,0\n3e-5,3e-5,-1e-5\n0,0,0\n",

@@ -1,9 +1,9 @@
 #!/bin/sh
-# walks.sh areas|envelopes MPFEM LAW WORK: walks of one contact point, as a table on standard output. WORK: folder for
-# the programme and the result of one walk.
-# walks.sh checks AREAS.csv WALK.csv...: what the statements need of the walks row by row, as a table of one row.
-# WALK.csv: loading, unloading, reloading and compression.
-# areas: straight walks to failure in three modes, with both softening laws, four fracture energies and four step sizes;
+# paths.sh areas|envelopes MPFEM LAW WORK: paths of one contact point, as a table on standard output. WORK: folder for
+# the programme and the result of one path.
+# paths.sh checks AREAS.csv PATH.csv...: what the statements need of the paths row by row, as a table of one row.
+# PATH.csv: loading, unloading, reloading and compression.
+# areas: straight paths to failure in three modes, with both softening laws, four fracture energies and four step sizes;
 # the work of each. envelopes: traction against opening to failure for four fracture energies and both laws, at openings
 # in equal ratios.
 set -eu
@@ -83,7 +83,7 @@ envelopes() {
   done
 }
 
-# First file: straight walks to failure; the others: loading, unloading, reloading and compression.
+# First file: straight paths to failure; the others: loading, unloading, reloading and compression.
 checks() {
   awk -v CONVFMT=%.17g '
     BEGIN { FS = "," }
@@ -115,7 +115,7 @@ checks() {
       trapezoid[n] = larger(trapezoid[n], absolute($at("trapezoidal_work_N_per_mm") / g - 1))
       along[n] = larger(along[n], $at("largest_difference_N_per_mm") / g)
       if ($at("state") == "broken") ++broken
-      ++walks
+      ++paths
       peak = $at("peak_MPa")
       expected = $at("expected_peak_MPa")
       if (law == "exponential") {
@@ -176,7 +176,7 @@ checks() {
         give("trapezoid_" increments[i], trapezoid[increments[i]])
       give("along", along[20000])
       give("account", account)
-      give("walks", walks)
+      give("paths", paths)
       give("broken", broken)
       give("unloading", unloading)
       give("unloading_rows", unloading_rows)
@@ -200,7 +200,7 @@ areas | envelopes)
   rm -rf "$work"
   ;;
 *)
-  echo "walks.sh: found '$part', allowed: areas, envelopes, checks" >&2
+  echo "paths.sh: found '$part', allowed: areas, envelopes, checks" >&2
   exit 2
   ;;
 esac
