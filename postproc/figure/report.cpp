@@ -54,6 +54,11 @@ constexpr const char* style =
     h2 { font-size: 1.25rem; margin-top: 1.5rem; }
     td, th { padding: 0.3rem 0.4rem; }
     .summary th { font-size: 0.85rem; }
+    .stacked tr:first-child { display: none; }
+    .stacked tr { display: block; border: 1px solid #bbb; margin-bottom: 0.7rem; padding: 0.2rem 0; }
+    .stacked td { display: block; border: 0; padding: 0.1rem 0.6rem; }
+    .stacked td:first-child { font-weight: bold; }
+    .stacked td::before { content: attr(data-heading) ": "; color: #555; font-weight: normal; }
     .runs { min-width: 75rem; } /* it scrolls: narrower, every row would be tall */
     .view { height: calc(86vw + 30.5rem); max-height: none; } /* grains and all controls, without scrolling in it */
     .files a, .runs a { display: inline-block; padding: 0.3rem 0.4rem; }
@@ -200,22 +205,34 @@ std::vector<std::string> cells_of(const std::string& line) {
   return cells;
 }
 
+/// A row of a table. On a narrow page its cells lie below each other, each with its heading. Without headings it is
+/// their row.
+std::string row_of(const std::vector<std::string>& cells, const std::vector<std::string>& headings) {
+  std::string row;
+  for (std::size_t i = 0; i < cells.size(); ++i)
+    row += headings.empty() ? fmt::format("<th>{}</th>", formatted(cells[i]))
+                            : fmt::format("<td data-heading=\"{}\">{}</td>",
+                                          i < headings.size() ? html_text(headings[i]) : "", formatted(cells[i]));
+  return "<tr>" + row + "</tr>\n";
+}
+
 /// The title and the first table of a Markdown page, with a link to it.
 std::string table_of_page(const ReportRequest& request) {
   std::istringstream lines(content_of(request.beside));
   std::string line, title, rows;
+  std::vector<std::string> headings;
   while (std::getline(lines, line)) {
     if (line.starts_with("# ") && title.empty()) title = line.substr(2);
     if (!line.starts_with('|') && !rows.empty()) break;
     if (!line.starts_with('|') || line.starts_with("|-")) continue;
-    const char* element = rows.empty() ? "th" : "td";
-    rows += "<tr>";
-    for (const std::string& cell : cells_of(line)) rows += fmt::format("<{0}>{1}</{0}>", element, formatted(cell));
-    rows += "</tr>\n";
+    const std::vector<std::string> cells = cells_of(line);
+    rows += row_of(cells, headings);
+    if (headings.empty()) headings = cells;
   }
   if (rows.empty()) throw InputError(fmt::format("{}: found no table, allowed: Markdown", one_line(request.beside)));
-  return fmt::format("<section><h3>{}</h3>\n<div class=\"wide\"><table>\n{}</table></div>\n<p>{}</p></section>\n",
-                     html_text(title), rows, link_to(request.beside, request.page_folder, "all tables and conditions"));
+  return fmt::format(
+      "<section><h3>{}</h3>\n<div class=\"wide\"><table class=\"stacked\">\n{}</table></div>\n<p>{}</p></section>\n",
+      html_text(title), rows, link_to(request.beside, request.page_folder, "all tables and conditions"));
 }
 
 /// The file's name with spaces for hyphens, without its ending.
