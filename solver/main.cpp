@@ -175,7 +175,7 @@ void measure_steps(const Arguments& arguments, BenchOptions options, const Commu
   if (!arguments.scenario.empty()) options.scenario = load_scenario(arguments);
   if (!arguments.from.empty()) options.from = arguments.from;
   if (arguments.scenario.empty() && (!arguments.from.empty() || !arguments.assignments.empty()))
-    throw InputError("mpfem bench: found --from or --set without a scenario; allowed: with a scenario only");
+    throw InputError("mpfem bench: found --from or --set without a scenario, allowed: with a scenario only");
   options.threads = arguments.run.threads;
   run_bench(options, ranks);
 }

@@ -38,9 +38,9 @@ const Column& csv_column(const std::vector<Column>& columns, const std::string& 
   for (const Column& c : columns) names.push_back(c.name);
   const auto near = nearest_word(name, names);
   throw InputError(
-      fmt::format("{}: no column '{}'; {}", shown_path(path), shortened(name),
-                  near ? fmt::format("did you mean '{}'?", shortened(*near))
-                       : fmt::format("allowed: {}", shortened(fmt::format("{}", fmt::join(names, ", ")), 160))));
+      fmt::format("{}: no column '{}'{}", shown_path(path), shortened(name),
+                  near ? fmt::format("; did you mean '{}'?", shortened(*near))
+                       : fmt::format(", allowed: {}", shortened(fmt::format("{}", fmt::join(names, ", ")), 160))));
 }
 
 } // namespace mpfem

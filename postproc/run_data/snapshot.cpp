@@ -59,7 +59,7 @@ const Field& Snapshot::tet_field(const std::string& field_name) const {
   for (const Field& field : tet_fields) names.push_back(field.name);
   for (const Field& field : node_fields)
     if (field.name == "damage") names.push_back(field.name); // the only node field that sections show
-  throw InputError(fmt::format("no field '{}'; allowed: {}", one_line(field_name), fmt::join(names, ", ")));
+  throw InputError(fmt::format("no field '{}', allowed: {}", one_line(field_name), fmt::join(names, ", ")));
 }
 
 const Field& Snapshot::node_field(const std::string& field_name) const {
