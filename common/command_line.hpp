@@ -66,7 +66,8 @@ constexpr Range thread_numbers = Range::between(1, 1024);
 constexpr Range seed_numbers = Range::between(0, 9007199254740991.0);
 
 /// Parses the command line. Returns the exit code if nothing is left to do because help or version was printed. Throws
-/// InputError for a mistake; its message ends with the command that prints the help.
+/// InputError for a mistake; its message ends with the command that prints the help. A word that is no subcommand or
+/// option is named with the nearest one, or with all.
 std::optional<int> parse_command_line(CLI::App& app, const std::string& program, int argc, char** argv);
 
 } // namespace mpfem

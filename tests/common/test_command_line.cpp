@@ -74,6 +74,36 @@ TEST_CASE("Options refuse anything but a finite number within their range, in on
   CHECK_THAT(refusal({"--seed", "9223372036854775808"}), Catch::StartsWith("--seed"));
 }
 
+TEST_CASE("A word that no option or argument takes is named before what is missing") {
+  CHECK(refusal({"--siez", "1"}) == "found '--siez'; did you mean '--size'? (see example --help)");
+  CHECK(refusal({"--q=3"}) ==
+        "found '--q', allowed: --help, --size, --threads, --seed, --box, --densities (see example --help)");
+  CHECK(refusal({"one", "two", "three"}) == "found one more word, 'two', allowed: options (see example --help)");
+}
+
+TEST_CASE("An unknown subcommand is named with the nearest one, or with the allowed ones") {
+  const auto refusal_of = [](std::vector<std::string> words) {
+    CLI::App app("example");
+    app.require_subcommand(1);
+    std::string input, output;
+    CLI::App* pack = app.add_subcommand("pack", "Pack");
+    pack->add_option("input", input, "Input");
+    pack->add_option("-o,--output", output, "Output")->required();
+    app.add_subcommand("mesh", "Mesh");
+    words.insert(words.begin(), "example");
+    std::vector<char*> pointers;
+    for (std::string& word : words) pointers.push_back(word.data());
+    return input_error([&] { parse_command_line(app, "example", static_cast<int>(pointers.size()), pointers.data()); });
+  };
+  CHECK(refusal_of({"foo"}) == "found 'foo', allowed: pack, mesh (see example --help)");
+  CHECK(refusal_of({"pakc"}) == "found 'pakc'; did you mean 'pack'? (see example --help)");
+  CHECK(refusal_of({}) == "found no subcommand, allowed: pack, mesh (see example --help)");
+  CHECK(refusal_of({"--foo"}) == "found '--foo', allowed: --help (see example --help)");
+  CHECK(refusal_of({"pack", "a"}) == "--output is required (see example pack --help)");
+  CHECK(refusal_of({"pack", "a", "--outptu", "b"}) ==
+        "found '--outptu'; did you mean '--output'? (see example pack --help)");
+}
+
 TEST_CASE("A long word on the command line is shortened in the message") {
   const std::string endless(100'000, 'x');
   CHECK(refusal({"--size", endless}).size() < 300);

@@ -107,6 +107,15 @@ TEST_CASE("Words that no program knows are refused in one line that names the he
   }
 }
 
+TEST_CASE("Each program names an unknown subcommand and those that it has") {
+  for (const Program& program : programs) {
+    const std::string first = program.commands.front().name;
+    INFO(program.path);
+    CHECK(fault_of_refusal(program.path, {"qqqqqqq"}, {"found 'qqqqqqq'", "allowed: " + first + ", "}) == "");
+    CHECK(fault_of_refusal(program.path, {first + "x"}, {fmt::format("did you mean '{}'?", first)}) == "");
+  }
+}
+
 TEST_CASE("Help and version end with exit code 0") {
   for (const Program& program : programs) {
     CHECK(run_limited(program.path, {"--help"}).exit_code == 0);
