@@ -1,6 +1,9 @@
 #include "common/command_line.hpp"
 
+#include <algorithm>
+
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "common/errors.hpp"
 #include "common/nearest_word.hpp"
@@ -92,6 +95,14 @@ CLI::Validator finite_number_in(const Range& range, const std::string& unit) {
 
 CLI::Validator whole_number_in(const Range& range, const std::string& unit) {
   return validator(range, unit, "a whole number", whole_number);
+}
+
+CLI::Validator one_of(const std::vector<std::string>& words) {
+  return {[words](std::string& text) {
+            if (std::find(words.begin(), words.end(), text) != words.end()) return std::string();
+            return fmt::format("found '{}', allowed: {}", shortened(text, longest_word), fmt::join(words, ", "));
+          },
+          fmt::format("{{{}}}", fmt::join(words, ","))};
 }
 
 CLI::Option* separated_by_commas(CLI::Option* option) {

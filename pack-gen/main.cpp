@@ -303,7 +303,7 @@ void add_container(CLI::App& command, Arguments& arguments, const std::string& o
   command
       .add_option("--container", arguments.container,
                   "box, cylinder (along z) or surface (a closed one from an STL file) (default: " + otherwise + ")")
-      ->check(CLI::IsMember({"box", "cylinder", "surface"}));
+      ->check(one_of({"box", "cylinder", "surface"}));
   add_number(command, "--diameter", arguments.diameter, positive_length, "mm", "Diameter of the cylinder");
   add_number(command, "--height", arguments.height, positive_length, "mm", "Height of the cylinder");
   command.add_option("--surface", arguments.surface, "STL file of the surface; its lowest corner becomes the origin");

@@ -1,7 +1,6 @@
 // mpfem: explicit finite-strain elasto-plastic finite elements of every grain of a packing.
 
 #include <filesystem>
-#include <map>
 
 #include <malloc.h>
 
@@ -110,17 +109,12 @@ CLI::App* add_bench(CLI::App& app, Arguments& arguments, BenchOptions& options) 
   add_number(*bench, "--grains", options.grains, Range::between(1, 1e7), "",
              "Approximate number of grains of the built-in packing")
       ->capture_default_str();
-  bench->add_option("--element", options.element, "Element of the built-in packing")
-      ->transform(CLI::CheckedTransformer(std::map<std::string, ElementType>{{"tet4", ElementType::tet4},
-                                                                             {"tet4-anp", ElementType::tet4_anp},
-                                                                             {"tet4-patch", ElementType::tet4_patch}})
-                      .description("{tet4,tet4-anp,tet4-patch}"));
-  bench
-      ->add_option("--precision", options.precision,
-                   "Precision of its tetrahedra: double, or mixed with strains and stresses in single precision")
-      ->transform(CLI::CheckedTransformer(
-                      std::map<std::string, Precision>{{"double", Precision::full}, {"mixed", Precision::mixed}})
-                      .description("{double,mixed}"));
+  add_choice(
+      *bench, "--element", options.element,
+      {{"tet4", ElementType::tet4}, {"tet4-anp", ElementType::tet4_anp}, {"tet4-patch", ElementType::tet4_patch}},
+      "Element of the built-in packing");
+  add_choice(*bench, "--precision", options.precision, {{"double", Precision::full}, {"mixed", Precision::mixed}},
+             "Precision of its tetrahedra: double, or mixed with strains and stresses in single precision");
   bench->add_flag("!--no-bonds", options.bonds, "Built-in packing without bonds");
   add_number(*bench, "--friction", options.friction, Range::between(0, 2), "",
              "Friction of the built-in packing, between grains and at walls")

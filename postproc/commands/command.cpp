@@ -81,7 +81,7 @@ void add_snapshot(CLI::App& command, int& snapshot) {
 }
 
 void add_axis(CLI::App& command, std::string& axis, const std::string& help) {
-  command.add_option("--axis", axis, help)->check(CLI::IsMember({"x", "y", "z"}))->capture_default_str();
+  command.add_option("--axis", axis, help)->check(one_of({"x", "y", "z"}))->capture_default_str();
 }
 
 int axis_number(const std::string& axis) {

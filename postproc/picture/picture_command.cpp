@@ -72,13 +72,13 @@ private:
   void add_choices() {
     options()
         .add_option("--color", request_.colour, "What colours mean (for --packing: grain)")
-        ->check(CLI::IsMember(colour_names()))
+        ->check(one_of(colour_names()))
         ->capture_default_str();
     options()
         .add_option("--cut", request_.cut,
                     "What is cut away: the octant towards the camera, all on the camera's side of a plane normal to "
                     "x, y or z, or none")
-        ->check(CLI::IsMember(cut_names()))
+        ->check(one_of(cut_names()))
         ->capture_default_str();
   }
 

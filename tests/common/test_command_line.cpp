@@ -1,6 +1,7 @@
 // Options of the programs: numbers with their range and unit, and mistakes in one line.
 
 #include <catch2/catch.hpp>
+#include <fmt/format.h>
 
 #include "common/command_line.hpp"
 #include "one_line_error.hpp"
@@ -10,12 +11,15 @@ using test::input_error;
 
 namespace {
 
+enum class Way { up, down };
+
 struct Options {
   double size = 0;
   int threads = 1;
   std::optional<std::int64_t> seed;
   std::vector<double> box, densities;
-  std::string input;
+  std::string input, axis;
+  std::optional<Way> way;
 };
 
 Options parsed(std::vector<std::string> words) {
@@ -27,6 +31,8 @@ Options parsed(std::vector<std::string> words) {
   add_numbers(app, "--box", options.box, 3, positive_length, "mm", "Box");
   add_numbers(app, "--densities", options.densities, 0, Range::between(0, 1), "", "Densities");
   app.add_option("input", options.input, "Input");
+  app.add_option("--axis", options.axis, "Axis")->check(one_of({"x", "y", "z"}));
+  add_choice(app, "--way", options.way, {{"up", Way::up}, {"down", Way::down}}, "Way");
   words.insert(words.begin(), "example");
   std::vector<char*> pointers;
   for (std::string& word : words) pointers.push_back(word.data());
@@ -74,10 +80,22 @@ TEST_CASE("Options refuse anything but a finite number within their range, in on
   CHECK_THAT(refusal({"--seed", "9223372036854775808"}), Catch::StartsWith("--seed"));
 }
 
+TEST_CASE("An option that takes one of some words refuses others and lists those that are allowed") {
+  const Options options = parsed({"--axis", "y", "--way", "down"});
+  CHECK(options.axis == "y");
+  CHECK(options.way == Way::down);
+  CHECK_FALSE(parsed({}).way.has_value());
+  CHECK(refusal({"--axis", "w"}) == "--axis: found 'w', allowed: x, y, z (see example --help)");
+  for (const char* text : {"Up", "0", "", "up,down"}) {
+    INFO(text);
+    CHECK(refusal({"--way", text}) == fmt::format("--way: found '{}', allowed: up, down (see example --help)", text));
+  }
+}
+
 TEST_CASE("A word that no option or argument takes is named before what is missing") {
   CHECK(refusal({"--siez", "1"}) == "found '--siez'; did you mean '--size'? (see example --help)");
-  CHECK(refusal({"--q=3"}) ==
-        "found '--q', allowed: --help, --size, --threads, --seed, --box, --densities (see example --help)");
+  CHECK(refusal({"--q=3"}) == "found '--q', allowed: --help, --size, --threads, --seed, --box, --densities, --axis, "
+                              "--way (see example --help)");
   CHECK(refusal({"one", "two", "three"}) == "found one more word, 'two', allowed: options (see example --help)");
 }
 
