@@ -9,6 +9,7 @@
 #include "common/nearest_word.hpp"
 #include "common/number_text.hpp"
 #include "common/one_line.hpp"
+#include "common/text_input.hpp"
 
 namespace mpfem {
 
@@ -95,6 +96,10 @@ CLI::Validator finite_number_in(const Range& range, const std::string& unit) {
 
 CLI::Validator whole_number_in(const Range& range, const std::string& unit) {
   return validator(range, unit, "a whole number", whole_number);
+}
+
+CLI::Validator existing_file() {
+  return {[](std::string& path) { return path.empty() ? std::string() : fault_of_input_file(path); }, "FILE"};
 }
 
 CLI::Validator one_of(const std::vector<std::string>& words) {

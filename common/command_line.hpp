@@ -47,6 +47,10 @@ CLI::Option* add_number(CLI::App& command, const std::string& name, Variable& va
 /// Makes an option a list in one word, separated by commas: the words after it are no part of the list.
 CLI::Option* separated_by_commas(CLI::Option* option);
 
+/// Refuses what is no file that can be read. An empty name passes: it may stand for no file. Such a mistake is reported
+/// before options that are missing.
+CLI::Validator existing_file();
+
 /// Refuses anything but one of some words, which the help lists.
 CLI::Validator one_of(const std::vector<std::string>& words);
 

@@ -22,6 +22,10 @@ void Command::run_if_given() const {
 }
 
 CLI::Option* Command::add_input(const std::string& name, std::string& path, const std::string& help) {
+  return add_later_input(name, path, help)->check(existing_file());
+}
+
+CLI::Option* Command::add_later_input(const std::string& name, std::string& path, const std::string& help) {
   inputs_.push_back(&path);
   return options_->add_option(name, path, help);
 }

@@ -5,9 +5,12 @@
 
 #include "common/command_line.hpp"
 #include "one_line_error.hpp"
+#include "tests/support/folder.hpp"
 
 using namespace mpfem;
+using test::Folder;
 using test::input_error;
+using test::write_text;
 
 namespace {
 
@@ -18,7 +21,7 @@ struct Options {
   int threads = 1;
   std::optional<std::int64_t> seed;
   std::vector<double> box, densities;
-  std::string input, axis;
+  std::string input, axis, from;
   std::optional<Way> way;
 };
 
@@ -32,6 +35,7 @@ Options parsed(std::vector<std::string> words) {
   add_numbers(app, "--densities", options.densities, 0, Range::between(0, 1), "", "Densities");
   app.add_option("input", options.input, "Input");
   app.add_option("--axis", options.axis, "Axis")->check(one_of({"x", "y", "z"}));
+  app.add_option("--from", options.from, "File")->check(existing_file());
   add_choice(app, "--way", options.way, {{"up", Way::up}, {"down", Way::down}}, "Way");
   words.insert(words.begin(), "example");
   std::vector<char*> pointers;
@@ -92,10 +96,21 @@ TEST_CASE("An option that takes one of some words refuses others and lists those
   }
 }
 
+TEST_CASE("An option that names an input file refuses what is no file, and says which option it is") {
+  const Folder folder;
+  write_text(folder / "a.toml", "");
+  CHECK(parsed({"--from", folder / "a.toml"}).from == folder / "a.toml");
+  CHECK(parsed({"--from", ""}).from.empty());
+  CHECK(refusal({"--from", "none.toml"}) == "--from: none.toml: no such file (see example --help)");
+  CHECK(refusal({"--from", "/"}) == "--from: /: is a folder, allowed: a file (see example --help)");
+  CHECK(refusal({"--from", "/dev/null"}) ==
+        "--from: /dev/null: is a pipe, socket or device, allowed: a file (see example --help)");
+}
+
 TEST_CASE("A word that no option or argument takes is named before what is missing") {
   CHECK(refusal({"--siez", "1"}) == "found '--siez'; did you mean '--size'? (see example --help)");
   CHECK(refusal({"--q=3"}) == "found '--q', allowed: --help, --size, --threads, --seed, --box, --densities, --axis, "
-                              "--way (see example --help)");
+                              "--from, --way (see example --help)");
   CHECK(refusal({"one", "two", "three"}) == "found one more word, 'two', allowed: options (see example --help)");
 }
 

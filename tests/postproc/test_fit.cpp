@@ -336,7 +336,7 @@ TEST_CASE("postproc fit writes a list of fits with ranges, and the curves") {
            {fmt::format("fit {} --x x --y y --model linear", folder / "empty.csv"), "is empty"},
            {fmt::format("fit {} --x x --y y --model linear", folder / "nan.csv"),
             "column y: found 'nan', allowed: a number"},
-           {fmt::format("fit {} --x x --y y --model linear", folder / "absent.csv"), "No such file"},
+           {fmt::format("fit {} --x x --y y --model linear", folder / "absent.csv"), "no such file"},
            {fmt::format("fit {} --x porosty --y strength --model linear", folder / "p.csv"),
             "did you mean 'porosity'?"},
            {command + "linear --z porosity", "--z cannot be used"},
