@@ -86,7 +86,8 @@ private:
   }
 
   void execute() const override {
-    if (output().empty() && data_.empty()) throw InputError("give -o, --data or both; postproc --help says more");
+    if (output().empty() && data_.empty())
+      throw InputError("found neither of --output and --data, allowed: one or both");
     const Snapshot state = read_state(snapshot_);
     PictureRequest request = picture_;
     request.plane = plane_in(state);

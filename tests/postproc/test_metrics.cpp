@@ -167,16 +167,17 @@ TEST_CASE("postproc refuses what it cannot use with one line and exit code 2") {
            {"summary " + (folder / "absent.h5"), "no such file"},
            {"summary " + (folder / "text.h5"), "not an HDF5 file"},
            {"curve " + run + " --columns mean_stres", "mean_stress"},
-           {"curve " + run + " --columns zzz", "allowed"},
+           {"curve " + run + " --columns zzz", "--columns: found no column 'zzz', allowed: time, "},
            {"contact " + run + " --snapshot 4", "allowed: 0 … 0"},
-           {"section " + run + " --field colour -o " + (folder / "x.png"), "von_mises"},
+           {"section " + run + " --field colour -o " + (folder / "x.png"),
+            "--field: found 'colour', allowed: von_mises, "},
            {"section " + run + " --position 7 -o " + (folder / "x.png"), "cuts no grain"},
            {"section " + run + " --range 5,5 -o " + (folder / "x.png"), "low < high"},
            {"section " + run + " --packing " + run + " -o " + (folder / "x.png"), "exactly one"},
            {"section --packing " + run + " -o " + (folder / "x.png"), "allowed: a packing file"},
            {"section " + run + " --view 5,6,5,6 -o " + (folder / "x.png"),
             "--view: no grain is cut in 5 … 6, 5 … 6 mm, allowed"},
-           {"section " + run, "-o, --data or both"},
+           {"section " + run, "found neither of --output and --data, allowed: one or both"},
            {"summary " + run + " -o " + run, "would overwrite the input"},
            {fmt::format("stress-at-densities {0} --densities 0.8 --reference {1} --data {1}", run, folder / "text.h5"),
             "would overwrite the input"},
@@ -184,7 +185,7 @@ TEST_CASE("postproc refuses what it cannot use with one line and exit code 2") {
            {fmt::format("section {} -o {}", run, folder / "x.jpg"), "the ending '.jpg', allowed: .png"},
            {fmt::format("contact {} --pair 0,1 --view {}", run, folder / "x"), "no ending, allowed: .png"},
            {fmt::format("density-map {} -o {}", run, folder / "x.svg"), "the ending '.svg', allowed: .csv or .png"},
-           {"vtk -o " + (folder / "x"), "either RUN.h5 or --packing"}}) {
+           {"vtk -o " + (folder / "x"), "found neither of RUN.h5 and --packing, allowed: exactly one"}}) {
     const Outcome outcome = postproc(arguments);
     INFO(arguments << ": " << outcome.messages);
     CHECK(outcome.exit_code == 2);
