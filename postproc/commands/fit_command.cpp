@@ -74,7 +74,8 @@ public:
                 "ryshkewitch-duckworth,rumpf -o fits.json\n"
                 "Example: postproc fit q.csv --x p_c --z G_c --y q --model pc-gc-surface",
             "JSON file to write, a list of fits") {
-    add_input("points", points_, "CSV file with a heading, \"name [unit],…\"")->required();
+    add_input("points", points_, "CSV file with a heading, \"name [unit],…\"; columns that are not used may hold text")
+        ->required();
     options().add_option("--x", x_, "Column, without its unit")->required();
     options().add_option("--y", y_, "Column")->required();
     options().add_option("--z", z_, "Column: G^c of pc-gc-surface");
@@ -86,9 +87,11 @@ public:
 
 private:
   NamedPoints read_points() const {
-    const auto columns = read_csv(points_);
-    NamedPoints points{csv_column(columns, x_, points_), csv_column(columns, y_, points_), {}};
-    if (!z_.empty()) points.z = csv_column(columns, z_, points_);
+    std::vector<WantedColumn> wanted = {{x_, "--x"}, {y_, "--y"}};
+    if (!z_.empty()) wanted.push_back({z_, "--z"});
+    const std::vector<Column> columns = read_csv(points_, wanted);
+    NamedPoints points{columns[0], columns[1], {}};
+    if (!z_.empty()) points.z = columns[2];
     return points;
   }
 

@@ -73,9 +73,8 @@ Measurement measure_stress_at_densities(const schema::FileReader& file, const st
 }
 
 CompactionCurve read_compaction_curve(const std::string& path) {
-  const std::vector<Column> columns = read_csv(path);
-  CompactionCurve curve{csv_column(columns, "relative_density", path).values,
-                        csv_column(columns, "mean_stress_MPa", path).values};
+  const std::vector<Column> columns = read_csv(path, {{"relative_density"}, {"mean_stress_MPa"}});
+  CompactionCurve curve{columns[0].values, columns[1].values};
   const auto& density = curve.relative_density;
   if (density.empty() || std::adjacent_find(density.begin(), density.end(), std::greater_equal<>()) != density.end())
     throw InputError(
