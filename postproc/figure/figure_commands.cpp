@@ -267,7 +267,7 @@ struct FigureCommands::State {
       const std::string question = f.source.empty() ? f.question : fmt::format("{} Source: {}.", f.question, f.source);
       entries.push_back({f.name, f.name == f.title ? f.title : fmt::format("{}: {}", f.name, f.title), question, file,
                          runs_of_figure(f, {results, mesh}), captions_of_figure(f, {results, mesh})});
-      refuse_overwriting_any({folder(f) + "/verdict.json"});
+      refuse_overwriting_any(files_on_page(entries.back(), folder(f)));
       for (const ReportRun& r : entries.back().runs) refuse_overwriting_any({r.file});
     }
     const std::string page_folder = std::filesystem::path(output).parent_path().string();
