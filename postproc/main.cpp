@@ -72,8 +72,9 @@ int body(int argc, char** argv) {
   app.require_subcommand(1);
   std::vector<std::unique_ptr<Command>> commands;
   for (MakeCommand* make : before_figures) commands.push_back(make(app));
-  app.add_subcommand("picture", "Draw a snapshot in three dimensions, cut open.\n"
-                                "Needs the executable postproc-picture, which ./bootstrap pictures builds.");
+  app.add_subcommand("picture",
+                     "Draw a snapshot in three dimensions, cut open.\n"
+                     "Needs the executable postproc-picture, which ./bootstrap pictures builds in the sources.");
   const FigureCommands figures(app);
   for (MakeCommand* make : after_figures) commands.push_back(make(app));
 

@@ -280,6 +280,24 @@ TEST_CASE("validate says which file has no checksums, and where a checked one is
   CHECK_THAT(reading.messages, Catch::Contains(bad + ": the file is damaged"));
 }
 
+TEST_CASE("a missing postproc-picture is reported with what adds it, to a build and to an installation") {
+  const Folder folder;
+  const std::string program = folder / "bin/postproc";
+  std::filesystem::create_directories(folder / "bin");
+  std::filesystem::copy_file(MPFEM_POSTPROC, program);
+  const Outcome installed = run_command(program + " picture run.h5");
+  CHECK(installed.exit_code == 3);
+  CHECK(installed.one_error_line("postproc"));
+  CHECK_THAT(installed.messages,
+             Catch::Contains(program + "-picture is not installed: run ./bootstrap pictures") &&
+                 Catch::Contains("--component pictures --prefix " +
+                                 std::filesystem::path(program).parent_path().parent_path().string()));
+  write_text(folder / "CMakeCache.txt", "");
+  CHECK_THAT(run_command(program + " picture run.h5").messages,
+             Catch::Contains("is not built: ./bootstrap pictures builds it"));
+  CHECK(run_command(program + " picture --help").exit_code == 0);
+}
+
 TEST_CASE("validate says that a file has lost its seal though all of its values are there") {
   const Folder folder;
   const std::string path = folder / "run.h5";
