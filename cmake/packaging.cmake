@@ -1,12 +1,27 @@
-# Man pages (target man-pages, needs help2man), completion of command lines, and the Debian package that cpack makes.
+# Man pages, completion of command lines, and the Debian package that cpack makes.
 
+# Man pages are part of the whole build where help2man is found. They need all programs, so a build of single programs, as
+# ./bootstrap does for studies, makes none.
 set(man_pages ${CMAKE_BINARY_DIR}/man)
-add_custom_target(man-pages
+find_program(HELP2MAN help2man)
+mark_as_advanced(HELP2MAN)
+set(in_whole_build)
+if(HELP2MAN)
+  set(in_whole_build ALL)
+endif()
+add_custom_command(OUTPUT ${man_pages}/made
   COMMAND ${PROJECT_SOURCE_DIR}/packaging/man-pages.sh ${CMAKE_RUNTIME_OUTPUT_DIRECTORY} ${man_pages}
-  DEPENDS mpfem pack-gen postproc
+  COMMAND ${CMAKE_COMMAND} -E touch ${man_pages}/made
+  DEPENDS mpfem pack-gen postproc ${PROJECT_SOURCE_DIR}/packaging/man-pages.sh
   COMMENT "Man pages from --help"
   VERBATIM)
+add_custom_target(man-pages ${in_whole_build} DEPENDS ${man_pages}/made)
 install(DIRECTORY ${man_pages}/ DESTINATION ${CMAKE_INSTALL_MANDIR}/man1 FILES_MATCHING PATTERN "*.1")
+install(CODE "
+  if(NOT EXISTS \"${man_pages}/made\")
+    message(STATUS \"Man pages are left out: they need help2man; cmake --build ${CMAKE_BINARY_DIR} --target man-pages \"
+      \"makes them\")
+  endif()")
 
 # Completions for all shells read the words from --help with the same awk program.
 set(completions ${CMAKE_BINARY_DIR}/completions)

@@ -1,24 +1,91 @@
 #include "common/command_line.hpp"
 
+#include <algorithm>
+
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "common/errors.hpp"
+#include "common/nearest_word.hpp"
 #include "common/number_text.hpp"
 #include "common/one_line.hpp"
+#include "common/text_input.hpp"
 
 namespace mpfem {
 
 namespace {
+
+constexpr std::size_t longest_word = 40; // of what was found
 
 template <class Parse>
 CLI::Validator validator(const Range& range, const std::string& unit, const char* kind, Parse parse) {
   return {[range, unit, kind, parse](std::string& text) {
             const auto value = parse(text);
             if (value && range.contains(static_cast<double>(*value))) return std::string();
-            return fmt::format("found '{}', allowed: {}", shortened(text, 40), allowed_number(kind, range, unit));
+            return fmt::format("found '{}', allowed: {}", shortened(text, longest_word),
+                               allowed_number(kind, range, unit));
           },
           // The help does not print the limits of the type.
           range.low == whole_numbers.low ? std::string() : allowed_number("", range, unit)};
+}
+
+/// The words, or the first of them and "…" where all would make a message too long.
+std::string list_of(const std::vector<std::string>& words) {
+  constexpr std::size_t longest = 160;
+  std::string list;
+  for (const std::string& word : words) {
+    if (list.size() + word.size() > longest) return list + ", …";
+    list += list.empty() ? word : ", " + word;
+  }
+  return list;
+}
+
+/// "found 'WORD'" and the nearest of `known`, or all of them.
+std::string unknown_word(const std::string& word, const std::vector<std::string>& known) {
+  const auto near = nearest_word(word, known);
+  return fmt::format("found '{}'{}", shortened(word, longest_word),
+                     near ? fmt::format("; did you mean '{}'?", *near) : ", allowed: " + list_of(known));
+}
+
+std::vector<std::string> names_of_subcommands(const CLI::App& app) {
+  std::vector<std::string> names;
+  for (const CLI::App* command : app.get_subcommands({})) names.push_back(command->get_name());
+  return names;
+}
+
+std::vector<std::string> long_names_of_options(const CLI::App& app) {
+  std::vector<std::string> names;
+  for (const CLI::Option* option : app.get_options())
+    for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
+  return names;
+}
+
+/// The first word that a command did not take; empty if it took all of them.
+std::string fault_of_words(const CLI::App& command) {
+  const std::vector<std::string> words = command.remaining();
+  if (words.empty()) return "";
+  const std::string& word = words.front();
+  if (word.starts_with('-')) return unknown_word(word.substr(0, word.find('=')), long_names_of_options(command));
+  const std::vector<std::string> subcommands = names_of_subcommands(command);
+  if (!subcommands.empty()) return unknown_word(word, subcommands);
+  return fmt::format("found one more word, '{}', allowed: options", shortened(word, longest_word));
+}
+
+/// What is wrong with a command line. A word that nothing took comes before an option that is missing: it may be the
+/// same one, mistyped.
+std::string fault_of(const CLI::App& app, const CLI::ParseError& error) {
+  constexpr std::size_t longest = 240;
+  const int code = error.get_exit_code();
+  if (code != static_cast<int>(CLI::ExitCodes::RequiredError) && code != static_cast<int>(CLI::ExitCodes::ExtrasError))
+    return shortened(error.what(), longest);
+  std::string fault = fault_of_words(app);
+  for (const CLI::App* parsed : app.get_subcommands())
+    if (fault.empty()) fault = fault_of_words(*parsed);
+  if (!fault.empty()) return fault;
+  const std::vector<std::string> subcommands = names_of_subcommands(app);
+  if (!subcommands.empty() && app.get_subcommands().empty())
+    return "found no subcommand, allowed: " + list_of(subcommands);
+  return shortened(error.what(), longest);
 }
 
 } // namespace
@@ -29,6 +96,18 @@ CLI::Validator finite_number_in(const Range& range, const std::string& unit) {
 
 CLI::Validator whole_number_in(const Range& range, const std::string& unit) {
   return validator(range, unit, "a whole number", whole_number);
+}
+
+CLI::Validator existing_file() {
+  return {[](std::string& path) { return path.empty() ? std::string() : fault_of_input_file(path); }, "FILE"};
+}
+
+CLI::Validator one_of(const std::vector<std::string>& words) {
+  return {[words](std::string& text) {
+            if (std::find(words.begin(), words.end(), text) != words.end()) return std::string();
+            return fmt::format("found '{}', allowed: {}", shortened(text, longest_word), fmt::join(words, ", "));
+          },
+          fmt::format("{{{}}}", fmt::join(words, ","))};
 }
 
 CLI::Option* separated_by_commas(CLI::Option* option) {
@@ -45,10 +124,9 @@ std::optional<int> parse_command_line(CLI::App& app, const std::string& program,
   } catch (const CLI::Success& success) { // help or version
     return app.exit(success);
   } catch (const CLI::ParseError& error) {
-    constexpr std::size_t longest = 240;
     std::string command = program;
     for (const CLI::App* parsed : app.get_subcommands()) command += " " + parsed->get_name();
-    throw InputError(fmt::format("{} (see {} --help)", shortened(error.what(), longest), command));
+    throw InputError(fmt::format("{} (see {} --help)", fault_of(app, error), command));
   }
   return std::nullopt;
 }

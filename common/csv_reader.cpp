@@ -23,14 +23,14 @@ std::string_view trimmed(std::string_view text, std::string_view blanks) {
                                          : text.substr(first, text.find_last_not_of(blanks) - first + 1);
 }
 
-/// The line up to a '#' outside quotes.
-std::string_view without_comment(std::string_view line) {
+/// Where a character stands in a line outside quotes that open from `begin` on; the line's end if it does not.
+std::size_t find_outside_quotes(std::string_view line, char wanted, std::size_t begin) {
   bool quoted = false;
-  for (std::size_t i = 0; i < line.size(); ++i) {
+  for (std::size_t i = begin; i < line.size(); ++i) {
     if (line[i] == '"') quoted = !quoted;
-    if (line[i] == '#' && !quoted) return line.substr(0, i);
+    if (line[i] == wanted && !quoted) return i;
   }
-  return line;
+  return line.size();
 }
 
 } // namespace
@@ -53,11 +53,11 @@ std::optional<CsvRow> CsvReader::next() {
     ++line_;
     constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
     if (line_ == 1 && line.starts_with(byte_order_mark)) line.remove_prefix(byte_order_mark.size());
-    line = trimmed(without_comment(line), " \t\r");
+    line = trimmed(line.substr(0, find_outside_quotes(line, '#', 0)), " \t\r");
     if (line.empty()) continue;
     CsvRow row{line_, {}};
     for (std::size_t begin = 0; begin <= line.size();) {
-      const std::size_t comma = std::min(line.find(',', begin), line.size());
+      const std::size_t comma = find_outside_quotes(line, ',', begin);
       if (row.cells.size() == most_columns)
         fail(row, fmt::format("found too many columns, allowed: up to {}", most_columns));
       row.cells.push_back(trimmed(line.substr(begin, comma - begin), " \t\r\""));

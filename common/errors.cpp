@@ -3,6 +3,7 @@
 #include <cerrno>
 #include <csignal>
 #include <cstdio>
+#include <cstring>
 #include <exception>
 #include <filesystem>
 #include <new>
@@ -38,11 +39,21 @@ bool is_of_storage(const std::error_code& code) {
          (number == EPIPE || number == EFBIG || number == ENOSPC || number == EIO || number == EDQUOT);
 }
 
+/// A failed output, by the number and the text of the system's error. A reader that has seen enough, such as head, closes
+/// the pipe.
+Failure failed_output(int number, const std::string& text) {
+  return {number == EPIPE ? "the output was cut short: the program that reads it has closed the pipe"
+                          : fmt::format("an output could not be written: {}", text),
+          ExitCode::storage_failed};
+}
+
 /// The exit code of a body that has ended, or storage_failed if its last output could not be written.
 int after_output(const char* program, int code) {
-  if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0) return code;
+  const bool flushed = std::fflush(stdout) == 0;
+  const int number = flushed ? EIO : errno; // of an earlier failure it is not known
+  if (flushed && std::ferror(stdout) == 0) return code;
   std::clearerr(stdout); // it is reported once
-  return code != 0 ? code : report(program, {"standard output could not be written", ExitCode::storage_failed});
+  return code != 0 ? code : report(program, failed_output(number, std::strerror(number)));
 }
 
 } // namespace
@@ -59,8 +70,7 @@ Failure present_failure() {
   } catch (const std::filesystem::filesystem_error& error) {
     return {error.what(), ExitCode::storage_failed};
   } catch (const std::system_error& error) {
-    if (is_of_storage(error.code()))
-      return {fmt::format("an output could not be written: {}", error.what()), ExitCode::storage_failed};
+    if (is_of_storage(error.code())) return failed_output(error.code().value(), error.what());
     return {error.what(), ExitCode::simulation_failed};
   } catch (const std::bad_alloc&) {
     return {"out of memory", ExitCode::simulation_failed};

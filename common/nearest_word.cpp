@@ -42,7 +42,7 @@ std::optional<std::string> nearest_word(std::string_view word, const std::vector
 
 std::string suggestion(std::string_view word, const std::vector<std::string>& known) {
   if (const auto near = nearest_word(word, known)) return fmt::format("; did you mean '{}'?", *near);
-  return known.empty() ? "" : fmt::format("; allowed: {}", fmt::join(known, ", "));
+  return known.empty() ? "" : fmt::format(", allowed: {}", fmt::join(known, ", "));
 }
 
 } // namespace mpfem

@@ -17,7 +17,7 @@ std::size_t edit_distance(std::string_view a, std::string_view b);
 std::optional<std::string> nearest_word(std::string_view word, const std::vector<std::string>& known);
 
 /// What a message about an unknown word ends with: "; did you mean 'NEAREST'?" or, where none is near,
-/// "; allowed: ALL, KNOWN". Empty where nothing is known.
+/// ", allowed: ALL, KNOWN". Empty where nothing is known.
 std::string suggestion(std::string_view word, const std::vector<std::string>& known);
 
 } // namespace mpfem

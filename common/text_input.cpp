@@ -12,15 +12,20 @@
 
 namespace mpfem {
 
-void refuse_irregular_file(const std::string& path) {
-  const auto fail = [&](const std::string& what) { throw InputError(fmt::format("{}: {}", shown_path(path), what)); };
-  if (path.find('\0') != std::string::npos) fail("is not a path: found a zero byte in it, allowed: none");
+std::string fault_of_input_file(const std::string& path) {
+  const auto fault = [&](const std::string& what) { return fmt::format("{}: {}", shown_path(path), what); };
+  if (path.find('\0') != std::string::npos) return fault("is not a path: found a zero byte in it, allowed: none");
   std::error_code error;
   const std::filesystem::file_status status = std::filesystem::status(path, error);
-  if (!std::filesystem::status_known(status)) fail(fmt::format("cannot be read: {}", error.message()));
-  if (!std::filesystem::exists(status)) fail("cannot be read: No such file or directory");
-  if (std::filesystem::is_directory(status)) fail("is a folder, allowed: a file");
-  if (!std::filesystem::is_regular_file(status)) fail("is a pipe, socket or device, allowed: a file");
+  if (!std::filesystem::status_known(status)) return fault(fmt::format("cannot be read: {}", error.message()));
+  if (!std::filesystem::exists(status)) return fault("no such file");
+  if (std::filesystem::is_directory(status)) return fault("is a folder, allowed: a file");
+  if (!std::filesystem::is_regular_file(status)) return fault("is a pipe, socket or device, allowed: a file");
+  return "";
+}
+
+void refuse_irregular_file(const std::string& path) {
+  if (const std::string fault = fault_of_input_file(path); !fault.empty()) throw InputError(fault);
 }
 
 std::string read_text_file(const std::string& path, std::size_t most_bytes) {

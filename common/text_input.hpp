@@ -10,7 +10,10 @@ namespace mpfem {
 /// cannot be read, or if it has more than `most_bytes`.
 std::string read_text_file(const std::string& path, std::size_t most_bytes);
 
-/// Throws InputError if the path is not a regular file: opening a pipe may wait without end.
+/// Why a path is no regular file, or no text: "PATH: no such file". Opening a pipe may wait without end.
+std::string fault_of_input_file(const std::string& path);
+
+/// Throws InputError with this fault.
 void refuse_irregular_file(const std::string& path);
 
 } // namespace mpfem

@@ -18,7 +18,7 @@ std::string names_of(const std::vector<CsvColumn>& columns) {
 void check_heading(const CsvReader& reader, const CsvRow& row, const std::vector<CsvColumn>& columns) {
   for (std::size_t i = 0; i < columns.size(); ++i)
     if (csv_heading(row.cells[i]).name != columns[i].name)
-      reader.fail(row, fmt::format("found column '{}'; allowed: {}", shortened(row.cells[i]), names_of(columns)));
+      reader.fail(row, fmt::format("found column '{}', allowed: {}", shortened(row.cells[i]), names_of(columns)));
 }
 
 } // namespace
@@ -28,7 +28,7 @@ std::vector<std::vector<double>> read_csv(CsvReader reader, const std::vector<Cs
   bool heading_allowed = true;
   while (const auto row = reader.next()) {
     if (row->cells.size() != columns.size())
-      reader.fail(*row, fmt::format("found {} columns; allowed: {}", row->cells.size(), names_of(columns)));
+      reader.fail(*row, fmt::format("found {} columns, allowed: {}", row->cells.size(), names_of(columns)));
     const bool heading = heading_allowed && !finite_number(row->cells[0]);
     heading_allowed = false;
     if (heading) {
@@ -41,7 +41,7 @@ std::vector<std::vector<double>> read_csv(CsvReader reader, const std::vector<Cs
       values.push_back(reader.number(*row, i, columns[i].name, columns[i].range));
     rows.push_back(std::move(values));
   }
-  if (rows.empty()) reader.fail(fmt::format("found no rows; allowed: rows of {}", names_of(columns)));
+  if (rows.empty()) reader.fail(fmt::format("found no rows, allowed: rows of {}", names_of(columns)));
   return rows;
 }
 

@@ -302,10 +302,10 @@ constexpr double least_bytes_per_tet = 40;
 void refuse_too_many(double tets, double size, double memory) {
   constexpr double most = 0.95 * std::numeric_limits<std::int32_t>::max(), gib = 1024.0 * 1024 * 1024;
   if (tets > most)
-    throw InputError(fmt::format("size {:g} mm would give {:.3g} tetrahedra; allowed: at most {:.3g} (32-bit numbers)",
+    throw InputError(fmt::format("size {:g} mm would give {:.3g} tetrahedra, allowed: at most {:.3g} (32-bit numbers)",
                                  size, tets, most));
   if (tets * least_bytes_per_tet > memory)
-    throw InputError(fmt::format("size {:g} mm would give {:.3g} tetrahedra, which need at least {:.3g} GiB; allowed: "
+    throw InputError(fmt::format("size {:g} mm would give {:.3g} tetrahedra, which need at least {:.3g} GiB, allowed: "
                                  "the {:.3g} GiB of memory that are free here",
                                  size, tets, tets * least_bytes_per_tet / gib, memory / gib));
 }
@@ -318,7 +318,7 @@ std::vector<int> library_keys(const SpherePacking& packing, double size, double 
     const double ratio = packing.radius[i] / size;
     if (ratio < smallest_size_ratio)
       throw InputError(
-          fmt::format("size {:g} mm is too large for sphere {} of radius {:g} mm; allowed: at most {:g} mm", size, i,
+          fmt::format("size {:g} mm is too large for sphere {} of radius {:g} mm, allowed: at most {:g} mm", size, i,
                       packing.radius[i], packing.radius[i] / smallest_size_ratio));
     key[i] = library_key(ratio);
     tets_wanted += wanted_tets(ratio);

@@ -191,7 +191,7 @@ void hemispheres(const Arguments& arguments) {
 void check_container(const Arguments& arguments) {
   const bool cylinder = arguments.container == "cylinder";
   const auto refuse = [](const char* option, const char* allowed) {
-    throw InputError(fmt::format("{}: allowed: {}", option, allowed));
+    throw InputError(fmt::format("{}, allowed: {}", option, allowed));
   };
   if (cylinder && !arguments.box.empty())
     refuse("--box: cannot be used with --container cylinder", "--diameter and --height");
@@ -261,8 +261,10 @@ void quality(const Arguments& arguments) {
 
 void add_quality_outputs(CLI::App& command, Arguments& arguments) {
   command.add_option("-o,--output", arguments.output, "JSON file to write: the report's numbers by name");
-  command.add_option("--description", arguments.description,
-                     "Description of the packing (TOML); the report then compares the sizes of the grains with it");
+  command
+      .add_option("--description", arguments.description,
+                  "Description of the packing (TOML); the report then compares the sizes of the grains with it")
+      ->check(existing_file());
   command.add_option("--sizes", arguments.sizes, "CSV file to write: diameters with their cumulative fraction");
   command.add_option("--target", arguments.target, "CSV file to write: the size table of --description")
       ->needs("--description");
@@ -303,17 +305,18 @@ void add_container(CLI::App& command, Arguments& arguments, const std::string& o
   command
       .add_option("--container", arguments.container,
                   "box, cylinder (along z) or surface (a closed one from an STL file) (default: " + otherwise + ")")
-      ->check(CLI::IsMember({"box", "cylinder", "surface"}));
+      ->check(one_of({"box", "cylinder", "surface"}));
   add_number(command, "--diameter", arguments.diameter, positive_length, "mm", "Diameter of the cylinder");
   add_number(command, "--height", arguments.height, positive_length, "mm", "Height of the cylinder");
-  command.add_option("--surface", arguments.surface, "STL file of the surface; its lowest corner becomes the origin");
+  command.add_option("--surface", arguments.surface, "STL file of the surface; its lowest corner becomes the origin")
+      ->check(existing_file());
   add_number(command, "--scale", arguments.scale, length_of_unit, "mm", "Length of one unit of the STL file");
 }
 
 /// A command that reads a file, described by `input`.
 CLI::App* add_command(CLI::App& app, Arguments& arguments, const char* name, const char* help, const char* input) {
   CLI::App* command = app.add_subcommand(name, help);
-  command->add_option("input", arguments.input, input)->required();
+  command->add_option("input", arguments.input, input)->required()->check(existing_file());
   command->add_flag("--quiet", arguments.quiet, "No progress, notes or report");
   return command;
 }

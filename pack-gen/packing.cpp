@@ -204,7 +204,7 @@ void refuse_spheres_beyond_the_box(const PackingRequest& request) {
   for (std::size_t k = 0; k < 3; ++k)
     if (2 * (largest + request.smallest_gap) > request.box[k])
       throw InputError(fmt::format("the largest sphere (diameter {:g} mm) with a gap of {:g} mm to both walls does not "
-                                   "fit into a {} of {:g} mm; allowed: smaller spheres or a larger container",
+                                   "fit into a {} of {:g} mm, allowed: smaller spheres or a larger container",
                                    2 * largest, request.smallest_gap,
                                    box      ? "box edge"
                                    : k == 2 ? "cylinder's height"

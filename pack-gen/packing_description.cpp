@@ -144,7 +144,7 @@ DrawnSizes draw_sizes(const PackingDescription& description) {
   if (!(std::abs(scale - 1) <= description.size_scale_tolerance))
     throw InputError(fmt::format(
         "{}key 'count': {} spheres of this size distribution at a relative_density of {:g} in this {} need "
-        "sizes scaled by {:.4g}; allowed: {:g} … {:g} (size_scale_tolerance); or take {:.0f} spheres, or "
+        "sizes scaled by {:.4g}, allowed: {:g} … {:g} (size_scale_tolerance); or take {:.0f} spheres, or "
         "a {} larger by {:.4g} along {}",
         description.places.prefix("count"), description.count, description.relative_density, name_of(container.shape),
         scale, 1 - description.size_scale_tolerance, 1 + description.size_scale_tolerance,

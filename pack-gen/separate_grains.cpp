@@ -103,7 +103,7 @@ bool touches(const Clearance& clearance) {
   const Clearance& worst = found[first];
   throw InputError(fmt::format(
       "size {:g} mm: the meshes of {} grains still touch after {} rounds of rotations, first grain {} and {}: the gap "
-      "between the spheres is too small for such a coarse mesh; allowed: a smaller size or a larger smallest_gap",
+      "between the spheres is too small for such a coarse mesh, allowed: a smaller size or a larger smallest_gap",
       nominal_size, std::count_if(found.begin(), found.end(), touches), most_rounds, first,
       worst.other < 0 ? "a wall" : fmt::format("grain {}", worst.other)));
 }

@@ -24,7 +24,7 @@ double top_of(const SpherePacking& packing) {
 SettledPacking settle(const SpherePacking& packing, const SettleRequest& request) {
   const double gap = request.smallest_gap;
   if (packing.surface && request.fit_height)
-    throw InputError("found a container that is a surface, whose height is that of its file; allowed: a box or a "
+    throw InputError("found a container that is a surface, whose height is that of its file, allowed: a box or a "
                      "cylinder for a height fitted to the bed");
   const InflatedSpheres spheres = inflated_spheres(packing.radius, gap, packing.container());
   std::vector<Point> start = packing.center;
@@ -49,7 +49,7 @@ SettledPacking settle(const SpherePacking& packing, const SettleRequest& request
   if (!rests || !(smallest_gap(result.packing).gap >= gap * (1 - 1e-9)))
     throw InputError(
         fmt::format("{} spheres do not come to rest with gaps of {:g} mm in this container: {:.2g} of a "
-                    "weight is unbalanced and the smallest gap is {:.4g} mm; allowed: smaller gaps or more "
+                    "weight is unbalanced and the smallest gap is {:.4g} mm, allowed: smaller gaps or more "
                     "room",
                     packing.radius.size(), gap, result.unbalanced, smallest_gap(result.packing).gap));
   return result;

@@ -73,7 +73,7 @@ public:
     inside_ = standard_normal_cumulative(normal(largest)) - below_;
     if (!(inside_ > 1e-9))
       throw InputError(fmt::format(
-          "log-normal size distribution: it has no sizes between {:g} and {:g} mm; allowed: limits around its median",
+          "log-normal size distribution: it has no sizes between {:g} and {:g} mm, allowed: limits around its median",
           smallest, largest));
   }
 
@@ -115,7 +115,7 @@ public:
   }
   std::vector<double> sample(int count) const override {
     if (static_cast<std::size_t>(count) != diameter_.size())
-      throw InputError(fmt::format("a list of {} sizes cannot give {} spheres; allowed: as many spheres as sizes",
+      throw InputError(fmt::format("a list of {} sizes cannot give {} spheres, allowed: as many spheres as sizes",
                                    diameter_.size(), count));
     return diameter_;
   }
@@ -129,23 +129,23 @@ private:
 std::unique_ptr<SizeDistribution> table_distribution(std::vector<double> diameter, std::vector<double> cumulative,
                                                      SizeWeight weight) {
   if (diameter.size() != cumulative.size() || diameter.size() < 2)
-    throw InputError(fmt::format("size table: found {} sizes and {} cumulative fractions; allowed: equally many, at "
+    throw InputError(fmt::format("size table: found {} sizes and {} cumulative fractions, allowed: equally many, at "
                                  "least two",
                                  diameter.size(), cumulative.size()));
   for (std::size_t i = 0; i < diameter.size(); ++i) {
     if (!(diameter[i] > 0) || !std::isfinite(diameter[i]))
-      throw InputError(fmt::format("size table: size {} is {:g}; allowed: > 0", i + 1, diameter[i]));
+      throw InputError(fmt::format("size table: size {} is {:g}, allowed: > 0", i + 1, diameter[i]));
     if (i > 0 && !(diameter[i] > diameter[i - 1]))
-      throw InputError(fmt::format("size table: size {} ({:g}) is not above the one before ({:g}); allowed: ascending "
+      throw InputError(fmt::format("size table: size {} ({:g}) is not above the one before ({:g}), allowed: ascending "
                                    "sizes",
                                    i + 1, diameter[i], diameter[i - 1]));
     if (i > 0 && !(cumulative[i] >= cumulative[i - 1]))
-      throw InputError(fmt::format("size table: cumulative fraction {} ({:g}) is below the one before ({:g}); allowed: "
+      throw InputError(fmt::format("size table: cumulative fraction {} ({:g}) is below the one before ({:g}), allowed: "
                                    "not decreasing",
                                    i + 1, cumulative[i], cumulative[i - 1]));
   }
   if (std::abs(cumulative.front()) > 1e-12 || std::abs(cumulative.back() - 1) > 1e-12)
-    throw InputError(fmt::format("size table: cumulative fractions run from {:g} to {:g}; allowed: from 0 to 1",
+    throw InputError(fmt::format("size table: cumulative fractions run from {:g} to {:g}, allowed: from 0 to 1",
                                  cumulative.front(), cumulative.back()));
   return std::make_unique<TableDistribution>(std::move(diameter), std::move(cumulative), weight);
 }
@@ -158,10 +158,10 @@ std::unique_ptr<SizeDistribution> log_normal_distribution(double median, double 
 }
 
 std::unique_ptr<SizeDistribution> list_distribution(std::vector<double> diameter) {
-  if (diameter.empty()) throw InputError("size list: found no size; allowed: one or more");
+  if (diameter.empty()) throw InputError("size list: found no size, allowed: one or more");
   for (const double value : diameter)
     if (!(value > 0) || !std::isfinite(value))
-      throw InputError(fmt::format("size list: found {:g}; allowed: > 0", value));
+      throw InputError(fmt::format("size list: found {:g}, allowed: > 0", value));
   return std::make_unique<ListDistribution>(std::move(diameter));
 }
 

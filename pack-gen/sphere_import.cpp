@@ -36,7 +36,7 @@ void refuse_overlap(const SpherePacking& packing, const std::string& name, const
   SphereGap gap = smallest_wall_gap(packing);
   if (!(gap.gap < -rounding)) gap = smallest_gap_of_pairs(packing.center, packing.radius, -rounding);
   if (gap.gap < -rounding)
-    throw InputError(fmt::format("{}: {} and {} overlap by {:.4g} mm; allowed: no overlap", shown_path(name),
+    throw InputError(fmt::format("{}: {} and {} overlap by {:.4g} mm, allowed: no overlap", shown_path(name),
                                  body(packing, gap.first, corner), body(packing, gap.second, corner), -gap.gap));
 }
 

@@ -26,7 +26,12 @@ page() {
     --name "$3" --version-string "$version" --output "$folder/$2.1" "$bin/$1"
 }
 
+command -v help2man >/dev/null || {
+  echo 'man-pages.sh: help2man is missing; on Debian: apt-get install help2man' >&2
+  exit 1
+}
 mkdir -p "$folder"
+rm -f "$folder"/*.1
 for program in "${!names[@]}"; do
   page "$program" "$program" "${names[$program]}"
   while read -r subcommand description; do

@@ -8,8 +8,24 @@
 #include <unistd.h>
 
 #include "common/errors.hpp"
+#include "common/one_line.hpp"
 
 namespace mpfem {
+
+namespace {
+
+/// How to get postproc-picture where it is missing beside a postproc in this folder: in a folder of builds, or installed.
+std::string remedy(const std::filesystem::path& folder) {
+  std::error_code ignored;
+  const std::filesystem::path above = folder.parent_path();
+  if (std::filesystem::exists(above / "CMakeCache.txt", ignored))
+    return "is not built: ./bootstrap pictures builds it, and installs VTK 9 on Debian";
+  return fmt::format("is not installed: run ./bootstrap pictures and cmake --install build --component "
+                     "pictures --prefix {} in the sources of mpfem (it needs VTK 9, so the Debian package lacks it)",
+                     one_line(above.string()));
+}
+
+} // namespace
 
 void hand_over_picture(int argc, char** argv) {
   if (argc < 2 || std::string_view(argv[1]) != "picture") return;
@@ -19,10 +35,7 @@ void hand_over_picture(int argc, char** argv) {
   execv(program.c_str(), argv); // returns only on failure
   for (int i = 2; i < argc; ++i)
     if (std::string_view(argv[i]) == "--help" || std::string_view(argv[i]) == "-h") return;
-  throw SimulationError(
-      fmt::format("found no {}, which draws with VTK 9 and is built apart, allowed: ./bootstrap pictures in the "
-                  "source folder, then cmake --install build --component pictures for an installed postproc",
-                  program));
+  throw SimulationError(fmt::format("{} {}", one_line(program), remedy(self.parent_path())));
 }
 
 } // namespace mpfem

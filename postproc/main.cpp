@@ -74,7 +74,7 @@ int body(int argc, char** argv) {
   for (MakeCommand* make : before_figures) commands.push_back(make(app));
   app.add_subcommand("picture",
                      "Draw a snapshot in three dimensions, cut open.\n"
-                     "Needs the executable postproc-picture, which ./bootstrap pictures builds in the source folder.");
+                     "Needs the executable postproc-picture, which ./bootstrap pictures builds in the sources.");
   const FigureCommands figures(app);
   for (MakeCommand* make : after_figures) commands.push_back(make(app));
 

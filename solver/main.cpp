@@ -1,7 +1,6 @@
 // mpfem: explicit finite-strain elasto-plastic finite elements of every grain of a packing.
 
 #include <filesystem>
-#include <map>
 
 #include <malloc.h>
 
@@ -57,7 +56,7 @@ void add_threads(CLI::App& command, Arguments& arguments) {
 }
 
 void add_common(CLI::App& command, Arguments& arguments, const std::string& quiet) {
-  command.add_option("scenario", arguments.scenario, "Scenario file (TOML)")->required();
+  command.add_option("scenario", arguments.scenario, "Scenario file (TOML)")->required()->check(existing_file());
   add_assignments(command, arguments.assignments, "Override a value: KEY=VALUE, e.g. stages.0.wall_speed=2000");
   add_threads(command, arguments);
   command.add_flag("--quiet", arguments.run.quiet, quiet);
@@ -78,10 +77,11 @@ CLI::App* add_bond(CLI::App& app, BondProgrammeOptions& options) {
       "                   -1e-6,0,0,           # closed: the undamaged penalty; increments as --increments\n"
       "Tractions in the result are positive in tension and along the shear separation; negative normal traction is\n"
       "compression.");
-  bond->add_option("law", options.law, "Law (TOML): stiffness and [bond]")->required();
+  bond->add_option("law", options.law, "Law (TOML): stiffness and [bond]")->required()->check(existing_file());
   bond->add_option("programme", options.programme,
                    "Separations to reach in turn (CSV): opening,shear1,shear2[,increments], mm")
-      ->required();
+      ->required()
+      ->check(existing_file());
   bond->add_option("-o,--output", options.output, "Table to write (CSV)")->required();
   add_assignments(*bond, options.assignments, "Override a value of the law: KEY=VALUE");
   add_number(*bond, "--increments", options.increments, Range::between(1, 1e7), "",
@@ -100,8 +100,9 @@ CLI::App* add_bench(CLI::App& app, Arguments& arguments, BenchOptions& options) 
       "  mpfem bench --tets 1600000 --threads 1 --json\n"
       "  mpfem bench --no-bonds --friction 0.3\n"
       "  mpfem bench compaction.toml --from run.compaction.checkpoint.h5 --set stages.0.relative_density=0.95");
-  bench->add_option("scenario", arguments.scenario, "Scenario to measure instead of the built-in packing (TOML)");
-  bench->add_option("--from", arguments.from, "Checkpoint whose state is measured")->check(CLI::ExistingFile);
+  bench->add_option("scenario", arguments.scenario, "Scenario to measure instead of the built-in packing (TOML)")
+      ->check(existing_file());
+  bench->add_option("--from", arguments.from, "Checkpoint whose state is measured")->check(existing_file());
   add_assignments(*bench, arguments.assignments, "Override a value of the scenario: KEY=VALUE");
   add_threads(*bench, arguments);
   add_number(*bench, "--tets", options.tets, Range::between(8, 4e8), "",
@@ -110,17 +111,12 @@ CLI::App* add_bench(CLI::App& app, Arguments& arguments, BenchOptions& options) 
   add_number(*bench, "--grains", options.grains, Range::between(1, 1e7), "",
              "Approximate number of grains of the built-in packing")
       ->capture_default_str();
-  bench->add_option("--element", options.element, "Element of the built-in packing")
-      ->transform(CLI::CheckedTransformer(std::map<std::string, ElementType>{{"tet4", ElementType::tet4},
-                                                                             {"tet4-anp", ElementType::tet4_anp},
-                                                                             {"tet4-patch", ElementType::tet4_patch}})
-                      .description("{tet4,tet4-anp,tet4-patch}"));
-  bench
-      ->add_option("--precision", options.precision,
-                   "Precision of its tetrahedra: double, or mixed with strains and stresses in single precision")
-      ->transform(CLI::CheckedTransformer(
-                      std::map<std::string, Precision>{{"double", Precision::full}, {"mixed", Precision::mixed}})
-                      .description("{double,mixed}"));
+  add_choice(
+      *bench, "--element", options.element,
+      {{"tet4", ElementType::tet4}, {"tet4-anp", ElementType::tet4_anp}, {"tet4-patch", ElementType::tet4_patch}},
+      "Element of the built-in packing");
+  add_choice(*bench, "--precision", options.precision, {{"double", Precision::full}, {"mixed", Precision::mixed}},
+             "Precision of its tetrahedra: double, or mixed with strains and stresses in single precision");
   bench->add_flag("!--no-bonds", options.bonds, "Built-in packing without bonds");
   add_number(*bench, "--friction", options.friction, Range::between(0, 2), "",
              "Friction of the built-in packing, between grains and at walls")
@@ -152,7 +148,7 @@ CLI::App* add_run(CLI::App& app, Arguments& arguments) {
   add_common(*run, arguments, "No progress");
   run->add_option("-o,--output", arguments.run.output, "Run file to write (HDF5)")->required();
   run->add_flag("--resume", arguments.run.resume, "Continue from the run's checkpoint if there is one");
-  run->add_option("--from", arguments.from, "Start from the state in this checkpoint")->check(CLI::ExistingFile);
+  run->add_option("--from", arguments.from, "Start from the state in this checkpoint")->check(existing_file());
   add_number(*run, "--time-limit", arguments.run.time_limit, Range::between(1e-9, 1e9), "s",
              "Stop after this wall-clock time of steps; reading the packing comes before. --resume continues");
   return run;
@@ -167,7 +163,7 @@ CLI::App* add_check(CLI::App& app, Arguments& arguments) {
   add_common(*check, arguments,
              "Print warnings only, and try no step; the exit code tells whether the run would start");
   check->add_option("--from", arguments.from, "Check a branch that starts from this checkpoint")
-      ->check(CLI::ExistingFile);
+      ->check(existing_file());
   return check;
 }
 
@@ -175,7 +171,7 @@ void measure_steps(const Arguments& arguments, BenchOptions options, const Commu
   if (!arguments.scenario.empty()) options.scenario = load_scenario(arguments);
   if (!arguments.from.empty()) options.from = arguments.from;
   if (arguments.scenario.empty() && (!arguments.from.empty() || !arguments.assignments.empty()))
-    throw InputError("mpfem bench: found --from or --set without a scenario; allowed: with a scenario only");
+    throw InputError("mpfem bench: found --from or --set without a scenario, allowed: with a scenario only");
   options.threads = arguments.run.threads;
   run_bench(options, ranks);
 }

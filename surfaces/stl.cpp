@@ -97,7 +97,7 @@ void check_closed(const Checked& surface, const EdgePairs& pairs) {
         std::pair(pairs.non_manifold, "belong to more than two triangles"),
         std::pair(pairs.misoriented, "have two triangles that run along them the same way")})
     if (fault.count > 0)
-      surface.fail(fmt::format("the surface is not closed and oriented: found {} edges that {}, one {}; allowed: two "
+      surface.fail(fmt::format("the surface is not closed and oriented: found {} edges that {}, one {}, allowed: two "
                                "triangles at every edge, in opposite directions",
                                fault.count, what, surface.place_of_edge(fault.example)));
 }
@@ -142,7 +142,7 @@ void check_nesting(const Checked& surface, std::span<const std::vector<std::size
     constexpr double slack = 0.75; // where shells touch, the winding number is not whole
     if (std::abs(winding - (is_cavity ? 1 : 0)) > slack)
       surface.fail(fmt::format(
-          "found {} shells of which the one at {} {}; allowed: bodies side by side, and cavities in "
+          "found {} shells of which the one at {} {}, allowed: bodies side by side, and cavities in "
           "them",
           shell.size(), place(x), is_cavity ? "is turned inside out" : "lies in another one or runs through it"));
   }

@@ -22,6 +22,10 @@ void Command::run_if_given() const {
 }
 
 CLI::Option* Command::add_input(const std::string& name, std::string& path, const std::string& help) {
+  return add_later_input(name, path, help)->check(existing_file());
+}
+
+CLI::Option* Command::add_later_input(const std::string& name, std::string& path, const std::string& help) {
   inputs_.push_back(&path);
   return options_->add_option(name, path, help);
 }
@@ -81,7 +85,7 @@ void add_snapshot(CLI::App& command, int& snapshot) {
 }
 
 void add_axis(CLI::App& command, std::string& axis, const std::string& help) {
-  command.add_option("--axis", axis, help)->check(CLI::IsMember({"x", "y", "z"}))->capture_default_str();
+  command.add_option("--axis", axis, help)->check(one_of({"x", "y", "z"}))->capture_default_str();
 }
 
 int axis_number(const std::string& axis) {

@@ -28,8 +28,10 @@ protected:
   CLI::App& options() { return *options_; }
   bool given(const std::string& option) const { return options_->count(option) > 0; }
 
-  /// An option with an input file; no output of this subcommand may overwrite it.
+  /// An option with an input file, which must exist; no output of this subcommand may overwrite it.
   CLI::Option* add_input(const std::string& name, std::string& path, const std::string& help);
+  /// The same for a file that may be written later.
+  CLI::Option* add_later_input(const std::string& name, std::string& path, const std::string& help);
   /// An option that names a file to write; binary ones are PNG pictures, and end so.
   CLI::Option* add_output(const std::string& name, std::string& path, const std::string& help,
                           OutputKind kind = OutputKind::text);

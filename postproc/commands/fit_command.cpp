@@ -74,7 +74,8 @@ public:
                 "ryshkewitch-duckworth,rumpf -o fits.json\n"
                 "Example: postproc fit q.csv --x p_c --z G_c --y q --model pc-gc-surface",
             "JSON file to write, a list of fits") {
-    add_input("points", points_, "CSV file with a heading, \"name [unit],…\"")->required();
+    add_input("points", points_, "CSV file with a heading, \"name [unit],…\"; columns that are not used may hold text")
+        ->required();
     options().add_option("--x", x_, "Column, without its unit")->required();
     options().add_option("--y", y_, "Column")->required();
     options().add_option("--z", z_, "Column: G^c of pc-gc-surface");
@@ -86,10 +87,12 @@ public:
 
 private:
   NamedPoints read_points() const {
-    std::vector<std::string> names = {x_, y_};
-    if (!z_.empty()) names.push_back(z_);
-    const std::vector<Column> columns = read_csv_columns(points_, names);
-    return {columns[0], columns[1], z_.empty() ? std::nullopt : std::optional(columns[2])};
+    std::vector<WantedColumn> wanted = {{x_, "--x"}, {y_, "--y"}};
+    if (!z_.empty()) wanted.push_back({z_, "--z"});
+    const std::vector<Column> columns = read_csv(points_, wanted);
+    NamedPoints points{columns[0], columns[1], {}};
+    if (!z_.empty()) points.z = columns[2];
+    return points;
   }
 
   std::vector<Fit> fits_of(const NamedPoints& points) const {

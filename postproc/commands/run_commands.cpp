@@ -80,7 +80,7 @@ private:
       write_file(output(), vtu_text(read_state(-1)));
       return;
     }
-    if (path_of_run().empty()) throw InputError("give either RUN.h5 or --packing; postproc --help says more");
+    if (path_of_run().empty()) throw InputError("found neither of RUN.h5 and --packing, allowed: exactly one");
     write_run_as_vtk({path_of_run(), schema::FileKind::run}, output(), quiet());
   }
 };

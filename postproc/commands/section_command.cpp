@@ -73,7 +73,7 @@ private:
   std::optional<std::pair<double, double>> range() const {
     if (range_.empty()) return {};
     if (!is_interval(range_[0], range_[1]))
-      throw InputError(fmt::format("--range: found {},{}; allowed: low,high with low < high", range_[0], range_[1]));
+      throw InputError(fmt::format("--range: found '{},{}', allowed: low,high with low < high", range_[0], range_[1]));
     return {{range_[0], range_[1]}};
   }
 
@@ -81,12 +81,13 @@ private:
     if (view_.empty()) return {};
     if (!is_interval(view_[0], view_[1]) || !is_interval(view_[2], view_[3]))
       throw InputError(
-          fmt::format("--view: found {}; allowed: low,high,low,high with low < high", fmt::join(view_, ",")));
+          fmt::format("--view: found '{}', allowed: low,high,low,high with low < high", fmt::join(view_, ",")));
     return View{{view_[0], view_[2]}, {view_[1], view_[3]}};
   }
 
   void execute() const override {
-    if (output().empty() && data_.empty()) throw InputError("give -o, --data or both; postproc --help says more");
+    if (output().empty() && data_.empty())
+      throw InputError("found neither of --output and --data, allowed: one or both");
     const Snapshot state = read_state(snapshot_);
     PictureRequest request = picture_;
     request.plane = plane_in(state);

@@ -1,7 +1,5 @@
 // One number from a stage of a run: elastic recovery, modulus, strength, yield, cycles, quality of loading, energies.
 
-#include <map>
-
 #include <fmt/format.h>
 
 #include "common/errors.hpp"
@@ -95,13 +93,12 @@ public:
             "Example: postproc strength run.h5 -o strength.json\n"
             "Example: postproc strength run.h5 --test triaxial --at-strain 0.1",
             "the last unconfined_compression or triaxial_compression, else the last") {
-    add_choice<StrengthTest>("--test", "unconfined or triaxial (default: as the stage is)",
-                             {{"unconfined", StrengthTest::unconfined}, {"triaxial", StrengthTest::triaxial}},
-                             [this](StrengthTest test) { rule_.test = test; });
-    add_choice<StrengthCriterion>(
-        "--criterion", "peak, or damage-onset: the stress where damage begins to grow (default: peak)",
-        {{"peak", StrengthCriterion::peak}, {"damage-onset", StrengthCriterion::damage_onset}},
-        [this](StrengthCriterion criterion) { rule_.criterion = criterion; });
+    add_choice(options(), "--test", rule_.test,
+               {{"unconfined", StrengthTest::unconfined}, {"triaxial", StrengthTest::triaxial}},
+               "unconfined or triaxial (default: as the stage is)");
+    add_choice(options(), "--criterion", rule_.criterion,
+               {{"peak", StrengthCriterion::peak}, {"damage-onset", StrengthCriterion::damage_onset}},
+               "peak, or damage-onset: the stress where damage begins to grow (default: peak)");
     add_number(options(), "--drop", rule_.drop, share, "",
                "Relative fall after the largest stress that makes it a peak")
         ->capture_default_str();
@@ -111,18 +108,6 @@ public:
   }
 
 private:
-  template <class Choice, class Take>
-  void add_choice(const std::string& name, const std::string& help,
-                  const std::vector<std::pair<std::string, Choice>>& choices, const Take& take) {
-    const std::map<std::string, Choice> by_name(choices.begin(), choices.end());
-    std::vector<std::string> names;
-    for (const auto& [choice, value] : choices) names.push_back(choice);
-    options()
-        .add_option_function<std::string>(
-            name, [by_name, take](const std::string& choice) { take(by_name.at(choice)); }, help)
-        ->check(CLI::IsMember(names));
-  }
-
   Measurement measure(const schema::FileReader& run) const override { return measure_strength(run, stage(), rule_); }
 
   StrengthRule rule_;

@@ -90,7 +90,8 @@ public:
 
 private:
   Measurement measure(const schema::FileReader& run) const override {
-    if (!reference_.empty() && data_.empty()) throw InputError("--reference: needs --data, where it is compared");
+    if (!reference_.empty() && data_.empty())
+      throw InputError("--reference: found no --data, allowed: with --data, where it is compared");
     std::optional<CompactionCurve> reference;
     if (!reference_.empty()) reference = read_compaction_curve(reference_);
     if (!data_.empty()) write_file(data_, stress_at_densities_csv(run, densities_, reference));

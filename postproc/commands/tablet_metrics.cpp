@@ -94,7 +94,7 @@ public:
         ->capture_default_str();
     options()
         .add_option("--disc-axis", disc_axis_, "Axis of the disc, along its thickness")
-        ->check(CLI::IsMember({"x", "y", "z"}))
+        ->check(one_of({"x", "y", "z"}))
         ->capture_default_str();
     add_number(options(), "--diameter", rule_.diameter, positive_length, "mm",
                "Diameter of the disc (default: extent of the grains along the load before the test)");

@@ -36,7 +36,7 @@ public:
                 "the curve so far,\nfrom the checkpoint that mpfem leaves every output.checkpoint_interval (60 s by "
                 "default). It only reads files. It ends with the run, or with Ctrl-C.\n"
                 "Example: postproc watch run.h5\nExample: postproc watch run.h5 --once") {
-    add_input("run", run_, "Run file (HDF5) that mpfem will write: its --output")->required();
+    add_later_input("run", run_, "Run file (HDF5) that mpfem will write: its --output")->required();
     add_number(options(), "--interval", interval_, Range::between(0.1, 86400), "s", "Time between two updates")
         ->capture_default_str();
     options().add_flag("--once", once_, "Print once and exit");

@@ -41,7 +41,7 @@ struct FigureCommands::State {
   CLI::App& add_on_figure(CLI::App& app, const char* command_name, const std::string& help,
                           std::function<void()> action) {
     CLI::App& command = add(app, command_name, help, std::move(action));
-    command.add_option("figure", figure, "The figure's file (TOML)")->required();
+    command.add_option("figure", figure, "The figure's file (TOML)")->required()->check(existing_file());
     add_common(command);
     return command;
   }
@@ -57,7 +57,7 @@ struct FigureCommands::State {
                             "Write the rules by which make produces figures: files, their inputs, settings of runs.\n"
                             "Example: postproc depends studies/fig12/figure.toml --results out/smoke --mesh smoke",
                             [this] { depends(); });
-    command.add_option("figures", files, "Figures' files (TOML)")->required();
+    command.add_option("figures", files, "Figures' files (TOML)")->required()->check(existing_file());
     add_common(command);
     command.add_option("--packing", packing, "The meshed packing")->required();
     command.add_option("--description", description, "The file that the packing was made from, for metrics");
@@ -74,9 +74,11 @@ struct FigureCommands::State {
                           "-o modulus.csv",
                       [this] { table(); });
     command.add_option("name", name, "Name of the table")->required();
-    command.add_option(
-        "--spread", files,
-        "Write mean and deviation over these tables of several packings instead, the table of this packing first");
+    command
+        .add_option(
+            "--spread", files,
+            "Write mean and deviation over these tables of several packings instead, the table of this packing first")
+        ->check(existing_file());
   }
 
   void add_plot(CLI::App& app) {
@@ -112,11 +114,12 @@ struct FigureCommands::State {
             "Example: postproc report studies/fig12/figure.toml --results out/smoke --mesh smoke --title Moduli "
             "-o out/smoke/report/index.html",
             [this] { report(); });
-    command.add_option("figures", files, "Figures' files (TOML)")->required();
+    command.add_option("figures", files, "Figures' files (TOML)")->required()->check(existing_file());
     add_common(command);
     command.add_option("--title", title, "Title of the page")->required();
-    command.add_option("--beside", beside, "Markdown page whose first table is shown next to the verdicts");
-    command.add_option("--view", run, "Run shown in three dimensions on the page (HDF5)");
+    command.add_option("--beside", beside, "Markdown page whose first table is shown next to the verdicts")
+        ->check(existing_file());
+    command.add_option("--view", run, "Run shown in three dimensions on the page (HDF5)")->check(existing_file());
   }
 
   void deliver(const std::string& text) const {
@@ -244,7 +247,7 @@ struct FigureCommands::State {
     for (const std::string& text : files) {
       const std::size_t equals = text.find('=');
       if (equals == std::string::npos)
-        throw InputError(fmt::format("found '{}', allowed: MESH=FOLDER", one_line(text)));
+        throw InputError(fmt::format("folders: found '{}', allowed: MESH=FOLDER", one_line(text)));
       meshes.push_back({text.substr(0, equals), text.substr(equals + 1)});
       refuse_overwriting_any(verdict_files(meshes.back().folder));
     }
@@ -264,7 +267,7 @@ struct FigureCommands::State {
       const std::string question = f.source.empty() ? f.question : fmt::format("{} Source: {}.", f.question, f.source);
       entries.push_back({f.name, f.name == f.title ? f.title : fmt::format("{}: {}", f.name, f.title), question, file,
                          runs_of_figure(f, {results, mesh}), captions_of_figure(f, {results, mesh})});
-      refuse_overwriting_any({folder(f) + "/verdict.json"});
+      refuse_overwriting_any(files_on_page(entries.back(), folder(f)));
       for (const ReportRun& r : entries.back().runs) refuse_overwriting_any({r.file});
     }
     const std::string page_folder = std::filesystem::path(output).parent_path().string();

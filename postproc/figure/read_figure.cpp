@@ -77,7 +77,7 @@ private:
       const filesystem::path file = (plain ? filesystem::path(programmes_) / other : beside).lexically_normal();
       if (!filesystem::is_regular_file(file))
         root.fail("include",
-                  fmt::format("found '{}', but there is no such file; allowed: a file beside this one, or in "
+                  fmt::format("found '{}', but there is no such file, allowed: a file beside this one, or in "
                               "the folder '{}'",
                               other, programmes_));
       files.push_back(file.string());

@@ -298,6 +298,18 @@ std::vector<CaptionedPicture> captions_of_figure(const Figure& figure, const Res
   return captions;
 }
 
+std::vector<std::string> files_on_page(const ReportEntry& entry, const std::string& folder) {
+  std::vector<std::string> files;
+  for (const CaptionedPicture& picture : pictures_in(folder, entry)) {
+    const std::filesystem::path path = std::filesystem::path(folder) / picture.file;
+    files.push_back(path.string());
+    files.push_back(std::filesystem::path(path).replace_extension(".svg").string());
+  }
+  for (const char* ending : {".csv", ".json"})
+    for (const auto& file : files_with(folder, ending)) files.push_back(file.string());
+  return files;
+}
+
 std::string report_page(const std::vector<ReportEntry>& entries, const ReportRequest& request) {
   std::string page =
       fmt::format("<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n<meta name=\"viewport\" "

@@ -27,6 +27,9 @@ struct ReportEntry {
   std::vector<CaptionedPicture> captions = {}; ///< these pictures come first; others are named after their files
 };
 
+/// The files that the page embeds or links to from the folder of a figure's results: pictures, tables and verdicts.
+std::vector<std::string> files_on_page(const ReportEntry& entry, const std::string& folder);
+
 /// Content and place of the page; links are relative to `page_folder`.
 struct ReportRequest {
   std::string results, title;

@@ -110,7 +110,7 @@ Quantity of_fit(const QuantitySpec& q, const Json& fit) {
                 std::array{c.at("low").get<double>(), c.at("high").get<double>()},
                 {}};
       }
-  q.place.fail(fmt::format("quantity '{}': the model '{}' has no coefficient '{}'; allowed: {}", q.name,
+  q.place.fail(fmt::format("quantity '{}': the model '{}' has no coefficient '{}', allowed: {}", q.name,
                            fit.value("model", ""), q.coefficient, fmt::join(names, ", ")));
 }
 

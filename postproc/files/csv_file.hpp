@@ -1,5 +1,5 @@
 #pragma once
-// Tables of numbers in CSV files: those that this program writes, and similar ones.
+// Tables in CSV files: those that this program writes, and similar ones.
 
 #include <string>
 #include <vector>
@@ -9,13 +9,18 @@
 
 namespace mpfem {
 
-/// Columns of a CSV file. The first line that is neither empty nor a comment (#) names them: "name [unit]", the unit
-/// optional, quotes allowed. Every other such line has a number in each column. Throws InputError with file and line.
-std::vector<Column> read_csv(const std::string& path);
+/// A column to read: its name without unit, and the option that gives this name, if one does.
+struct WantedColumn {
+  std::string name;
+  std::string option = {}; ///< "--x"; begins the message where there is no such column
+};
+
+/// The wanted columns of a CSV file, in the order in which they are wanted. The first line that is neither empty nor a
+/// comment (#) names all columns: "name [unit]", the unit optional, quotes allowed. Every other such line has a number
+/// in each of the wanted columns; the others may hold text. Throws InputError with file and line; for a name that is
+/// not there it suggests the nearest one.
+std::vector<Column> read_csv(const std::string& path, const std::vector<WantedColumn>& wanted);
 /// The same for a table that is already open.
-std::vector<Column> read_csv(CsvReader reader);
-/// The columns of these names, without units, in this order; the others may hold text. Throws InputError also for a
-/// name that no column has, with the nearest one or all.
-std::vector<Column> read_csv_columns(const std::string& path, const std::vector<std::string>& wanted);
+std::vector<Column> read_csv(CsvReader reader, const std::vector<WantedColumn>& wanted);
 
 } // namespace mpfem

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "common/errors.hpp"
 #include "common/one_line.hpp"
@@ -18,7 +19,8 @@ constexpr double reached = 1e-6; ///< tolerance of a relative density
 
 std::vector<std::optional<double>> stresses(const HistoryTable& history, const std::vector<double>& wanted) {
   if (wanted.empty() || std::adjacent_find(wanted.begin(), wanted.end(), std::greater_equal<>()) != wanted.end())
-    throw InputError("--densities: allowed: one or more, each larger than the one before");
+    throw InputError(fmt::format("--densities: found '{}', allowed: one or more, each larger than the one before",
+                                 fmt::join(wanted, ",")));
   return stress_at_densities(history["relative_density"], history["mean_stress"], wanted);
 }
 
@@ -71,12 +73,13 @@ Measurement measure_stress_at_densities(const schema::FileReader& file, const st
 }
 
 CompactionCurve read_compaction_curve(const std::string& path) {
-  const std::vector<Column> columns = read_csv_columns(path, {"relative_density", "mean_stress_MPa"});
+  const std::vector<Column> columns = read_csv(path, {{"relative_density"}, {"mean_stress_MPa"}});
   CompactionCurve curve{columns[0].values, columns[1].values};
   const auto& density = curve.relative_density;
   if (density.empty() || std::adjacent_find(density.begin(), density.end(), std::greater_equal<>()) != density.end())
-    throw InputError(fmt::format("{}: relative_density: allowed: one or more rows, each denser than the one before",
-                                 one_line(path)));
+    throw InputError(
+        fmt::format("{}: column relative_density: found {}, allowed: one or more rows, each denser than the one before",
+                    one_line(path), density.empty() ? "no rows" : "a row that is not denser"));
   return curve;
 }
 

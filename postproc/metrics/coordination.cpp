@@ -62,7 +62,7 @@ ContactGraph contact_graph(const schema::FileReader& file, int snapshot) {
   namespace run = schema::run;
   const std::string name = snapshot_name(file, snapshot);
   if (!file.has(run::snapshots_wall_force, name))
-    throw InputError(fmt::format("{}: snapshot {} has no forces of walls; allowed: a run of this version",
+    throw InputError(fmt::format("{}: snapshot {} has no forces of walls, allowed: a run of this version",
                                  one_line(file.path()), name));
   const auto grains = file.read(run::snapshots_pair_grains, name);
   const auto area = file.read(run::snapshots_pair_area, name);

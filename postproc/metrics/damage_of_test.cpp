@@ -96,11 +96,11 @@ Measurement measure_damage_of_test(const schema::FileReader& file, int snapshot,
                                    int snapshot_before) {
   namespace run = schema::run;
   if (file.read_scalar(run::provenance_packing_hash) != before.read_scalar(run::provenance_packing_hash))
-    throw InputError(fmt::format("{}: its packing is not that of {}; allowed: the run that it branched from, or itself",
+    throw InputError(fmt::format("{}: its packing is not that of {}, allowed: the run that it branched from, or itself",
                                  one_line(before.path()), one_line(file.path())));
   const BondsSince since = bonds_since(read_bond_table(before, snapshot_before), read_bond_table(file, snapshot));
   if (since.found.empty())
-    throw InputError(fmt::format("{}: no bond is intact at that snapshot; allowed: --before and --snapshot-before of a "
+    throw InputError(fmt::format("{}: no bond is intact at that snapshot, allowed: --before and --snapshot-before of a "
                                  "bonded compact",
                                  one_line(before.path())));
   const std::vector<double> damage_before = values_of(since.found_before, damage_of);

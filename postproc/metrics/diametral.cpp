@@ -217,7 +217,7 @@ Disc disc_of(const schema::FileReader& file, const HistoryTable& history, const 
   if (rule.diameter && rule.thickness) return {*rule.diameter, *rule.thickness};
   const auto number = snapshot_at(file, history["time"][test.stage.first], false);
   if (!number)
-    throw InputError(fmt::format("{}: no snapshot before stage {}; allowed: one, or --diameter and --thickness",
+    throw InputError(fmt::format("{}: no snapshot before stage {}, allowed: one, or --diameter and --thickness",
                                  one_line(file.path()), test.stage.number));
   const Snapshot before = read_snapshot(file, *number);
   const double diameter = rule.diameter.value_or(extent_along(before.node, test.axis).length());

@@ -19,7 +19,7 @@ ElasticRecovery elastic_recovery(std::span<const double> density, std::span<cons
   const std::size_t last = density.size() - 1;
   r.densest_row = static_cast<std::size_t>(std::max_element(density.begin(), density.end()) - density.begin());
   if (r.densest_row == last)
-    throw InputError(fmt::format("{}: the densest row is the last one of the unloading; allowed: a stage in which the "
+    throw InputError(fmt::format("{}: the densest row is the last one of the unloading, allowed: a stage in which the "
                                  "relative density falls",
                                  one_line(path)));
   r.largest_density = density[r.densest_row];

@@ -154,7 +154,7 @@ Measurement measure_heckel(const schema::FileReader& file, const StageRows& stag
   const auto fit = heckel_window(pressure, density, rule);
   if (!fit)
     throw InputError(fmt::format("{}: stage {}: no window of {} rows or more, with pressure and relative densities up "
-                                 "to {:g}, has R^2 of {:g} or more; allowed: a stage that presses, or a smaller "
+                                 "to {:g}, has R^2 of {:g} or more, allowed: a stage that presses, or a smaller "
                                  "--r-squared",
                                  one_line(file.path()), stage.number, rule.fewest_rows, rule.largest_density,
                                  rule.r_squared));

@@ -129,7 +129,7 @@ Hysteresis hysteresis(std::span<const double> mean_stress, std::span<const doubl
   const auto cycles = find_cycles(mean_stress);
   if (cycles.empty() || !cycles.back().whole)
     throw InputError(
-        fmt::format("{}: the mean stress makes no whole cycle, from low over high to low; allowed: a stage "
+        fmt::format("{}: the mean stress makes no whole cycle, from low over high to low, allowed: a stage "
                     "with one, or --stage N",
                     one_line(path)));
   h.low_stress = mean_stress[cycles.front().end];

@@ -86,7 +86,7 @@ Measurement offset_yield(const StageCurve& c, const OffsetYieldRule& rule) {
   const ElasticLine line = elastic_line(c, path, rule);
   const auto at = reach_offset(path, line, line.slope, rule.offset);
   if (!at)
-    throw InputError(fmt::format("{}: stage {} does not reach a plastic strain of {:g}; allowed: a longer loading, or "
+    throw InputError(fmt::format("{}: stage {} does not reach a plastic strain of {:g}, allowed: a longer loading, or "
                                  "--offset",
                                  c.path, c.stage, rule.offset));
   const std::vector<double>& column = c.unconfined ? c.axial_stress : c.deviatoric_stress;

@@ -54,7 +54,7 @@ std::size_t peak_row(const Test& test) {
         "{}: stage {}: {} never rises above its value at the beginning of the stage, allowed: a stage that loads",
         c.path, c.stage, test.stress_name));
   if (!(c.axial_strain[peak] > 0))
-    throw InputError(fmt::format("{}: stage {}: its largest {} is at an axial strain of {:.3g}; allowed: a stage of "
+    throw InputError(fmt::format("{}: stage {}: its largest {} is at an axial strain of {:.3g}, allowed: a stage of "
                                  "axial compression",
                                  c.path, c.stage, test.stress_name, c.axial_strain[peak]));
   return peak;
@@ -107,7 +107,7 @@ struct Reading {
 
 Reading at_damage_onset(const Test& test, std::size_t peak, const std::optional<DamageOnset>& onset) {
   if (!onset)
-    throw InputError(fmt::format("{}: stage {}: damage dissipation does not grow before the peak, so it has no onset; "
+    throw InputError(fmt::format("{}: stage {}: damage dissipation does not grow before the peak, so it has no onset, "
                                  "allowed: --criterion peak",
                                  test.curve.path, test.curve.stage));
   return {"damage-onset",
@@ -150,7 +150,7 @@ Reading at_given_strain(const Test& test, const StrengthRule& rule) {
   const auto crossing = first_crossing(c.axial_strain, 0, c.rows() - 1,
                                        ends_there ? std::min(last_strain, rule.at_strain) : rule.at_strain);
   if (!crossing)
-    throw InputError(fmt::format("{}: stage {}: q has no peak (a fall of {:g} %) and the axial strain ends at {:.4g}; "
+    throw InputError(fmt::format("{}: stage {}: q has no peak (a fall of {:g} %) and the axial strain ends at {:.4g}, "
                                  "allowed: a run to {:g}, or --at-strain",
                                  c.path, c.stage, 100 * rule.drop, c.axial_strain.back(), rule.at_strain));
   return {"at-strain",

@@ -149,7 +149,7 @@ void add_wall_at_peak(Tablet& tablet, const Reading& lower) {
 void add_peak(Tablet& tablet) {
   tablet.peak = peak_of(tablet.upper, tablet.loaded);
   if (!(tablet.peak.value > 0))
-    throw InputError(fmt::format("{}: stage '{}': found no force of grains on the upper punch that pushes it up; "
+    throw InputError(fmt::format("{}: stage '{}': found no force of grains on the upper punch that pushes it up, "
                                  "allowed: a stage that presses, --press NAME",
                                  one_line(tablet.file.path()), one_line(tablet.press.name)));
   const std::size_t row = tablet.peak.row;

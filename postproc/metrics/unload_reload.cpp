@@ -41,7 +41,7 @@ double loop_area(const StageCurve& c, const UnloadReloadLoop& loop) {
 const UnloadReloadLoop& choose_loop(const std::vector<UnloadReloadLoop>& loops, int number, const StageCurve& c) {
   const int count = static_cast<int>(loops.size());
   if (count == 0)
-    throw InputError(fmt::format("{}: stage {}: found no loop in which the axial strain falls and rises again; "
+    throw InputError(fmt::format("{}: stage {}: found no loop in which the axial strain falls and rises again, "
                                  "allowed: an axial loading with an unloading and a reloading in it",
                                  c.path, c.stage));
   const int index = number < 0 ? count + number : number;

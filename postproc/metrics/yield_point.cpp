@@ -39,7 +39,7 @@ YieldPoint find_yield(const StageCurve& c, double ratio) {
     dissipated[row] = c.plastic_dissipation[row] + c.damage_dissipation[row];
   if (!(dissipated.front() > 0))
     throw InputError(
-        fmt::format("{}: nothing was dissipated before stage {}, so {:g} times that dissipation is not a criterion; "
+        fmt::format("{}: nothing was dissipated before stage {}, so {:g} times that dissipation is not a criterion, "
                     "allowed: a probe after a compaction",
                     c.path, c.stage, ratio));
   const double threshold = ratio * dissipated.front();

@@ -20,7 +20,7 @@ std::string picture_path(const std::string& output, const std::string& input) {
   const std::string path = std::filesystem::path(input).replace_extension(".png").string();
   std::error_code ignored;
   if (std::filesystem::exists(path, ignored))
-    throw InputError(fmt::format("{}: already exists; allowed: -o with the picture to write", one_line(path)));
+    throw InputError(fmt::format("{}: already exists, allowed: -o with the picture to write", one_line(path)));
   check_output_path("--output", path, OutputKind::binary);
   return path;
 }
@@ -72,13 +72,13 @@ private:
   void add_choices() {
     options()
         .add_option("--color", request_.colour, "What colours mean (for --packing: grain)")
-        ->check(CLI::IsMember(colour_names()))
+        ->check(one_of(colour_names()))
         ->capture_default_str();
     options()
         .add_option("--cut", request_.cut,
                     "What is cut away: the octant towards the camera, all on the camera's side of a plane normal to "
                     "x, y or z, or none")
-        ->check(CLI::IsMember(cut_names()))
+        ->check(one_of(cut_names()))
         ->capture_default_str();
   }
 
@@ -88,11 +88,11 @@ private:
     if (of_packing() && !given("--color")) request.colour = "grain";
     for (const auto& [rods, option] : {std::pair{request.bonds, "--bonds"}, {request.contacts, "--contacts"}})
       if (rods && (of_packing() || request.cut == "none"))
-        throw InputError(fmt::format("{}: found {}; allowed: with a run, and a cut that shows them", option,
+        throw InputError(fmt::format("{}: found {}, allowed: with a run, and a cut that shows them", option,
                                      of_packing() ? "--packing" : "--cut none"));
     if (range_.empty()) return request;
     if (!(range_[1] > range_[0]))
-      throw InputError(fmt::format("--range: found {},{}; allowed: low,high with low < high", range_[0], range_[1]));
+      throw InputError(fmt::format("--range: found '{},{}', allowed: low,high with low < high", range_[0], range_[1]));
     request.range = {range_[0], range_[1]};
     return request;
   }
@@ -153,7 +153,7 @@ private:
     std::error_code error;
     std::filesystem::create_directories(path, error);
     if (error || !std::filesystem::is_directory(path))
-      throw InputError(fmt::format("--frames {}: cannot be made; allowed: a folder, new or not", one_line(path)));
+      throw InputError(fmt::format("--frames {}: cannot be made, allowed: a folder, new or not", one_line(path)));
   }
 
   int snapshot_ = -1;

@@ -42,7 +42,7 @@ std::vector<BondRow> read_bond_table(const schema::FileReader& file, int snapsho
   namespace run = schema::run;
   const std::string name = snapshot_name(file, snapshot), path = one_line(file.path());
   if (!file.has(run::snapshots_bond_node, name))
-    throw InputError(fmt::format("{}: snapshot {} has no bonds; allowed: a run with bonds", path, name));
+    throw InputError(fmt::format("{}: snapshot {} has no bonds, allowed: a run with bonds", path, name));
   const auto node = file.read(run::snapshots_bond_node, name), grain = file.read(run::snapshots_bond_grain, name);
   const auto damage = file.read(run::snapshots_bond_damage, name);
   const auto area = file.read(run::snapshots_bond_area, name);
@@ -60,7 +60,7 @@ std::vector<BondRow> read_bond_table(const schema::FileReader& file, int snapsho
                      told ? std::optional(dissipation.at(b)) : std::nullopt});
   }
   if (bonds.empty())
-    throw InputError(fmt::format("{}: no bond was formed by snapshot {}; allowed: a later --snapshot", path, name));
+    throw InputError(fmt::format("{}: no bond was formed by snapshot {}, allowed: a later --snapshot", path, name));
   return bonds;
 }
 

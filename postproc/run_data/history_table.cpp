@@ -82,9 +82,13 @@ bool HistoryTable::has(std::string_view name) const {
 const Column& HistoryTable::column(std::string_view name) const {
   const auto found = std::find_if(columns_.begin(), columns_.end(), [&](const Column& c) { return c.name == name; });
   if (found != columns_.end()) return *found;
+  throw InputError(fmt::format("{}: {}", path_, unknown_column(name)));
+}
+
+std::string HistoryTable::unknown_column(std::string_view name) const {
   std::vector<std::string> names;
   for (const Column& c : columns_) names.push_back(c.name);
-  throw InputError(fmt::format("{}: no column '{}'{}", path_, one_line(name), suggestion(name, names)));
+  return fmt::format("found no column '{}'{}", one_line(name), suggestion(name, names));
 }
 
 std::vector<const Column*> HistoryTable::select(const std::vector<std::string>& names) const {
@@ -98,7 +102,9 @@ std::vector<const Column*> HistoryTable::select(const std::vector<std::string>& 
       if (found == columns_.end()) break;
       selected.push_back(&*found);
     }
-    if (selected.size() == before) selected.push_back(&column(name));
+    if (selected.size() > before) continue;
+    if (!has(name)) throw InputError(fmt::format("{}: --columns: {}", path_, unknown_column(name)));
+    selected.push_back(&column(name));
   }
   return selected;
 }

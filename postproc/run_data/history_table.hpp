@@ -28,7 +28,7 @@ public:
   const Column& column(std::string_view name) const;
   bool has(std::string_view name) const; ///< files of earlier versions lack some columns
   const std::vector<double>& operator[](std::string_view name) const { return column(name).values; }
-  /// Columns by name, where "wall_stress" stands for all of its components. Throws InputError.
+  /// Columns by name, as --columns gives them, where "wall_stress" stands for all of its components. Throws InputError.
   std::vector<const Column*> select(const std::vector<std::string>& names) const;
 
   /// Volume (mm^3) of the box, or of the container that tools form.
@@ -37,6 +37,7 @@ public:
   double section(std::size_t row) const;
 
 private:
+  std::string unknown_column(std::string_view name) const;
   void add_columns(const schema::FileReader& file, const schema::DatasetDescription& line, const std::string& tool);
 
   std::string path_;

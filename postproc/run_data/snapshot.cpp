@@ -59,14 +59,14 @@ const Field& Snapshot::tet_field(const std::string& field_name) const {
   for (const Field& field : tet_fields) names.push_back(field.name);
   for (const Field& field : node_fields)
     if (field.name == "damage") names.push_back(field.name); // the only node field that sections show
-  throw InputError(fmt::format("no field '{}'; allowed: {}", one_line(field_name), fmt::join(names, ", ")));
+  throw InputError(fmt::format("--field: found '{}', allowed: {}", one_line(field_name), fmt::join(names, ", ")));
 }
 
 const Field& Snapshot::node_field(const std::string& field_name) const {
   for (const Field& field : node_fields)
     if (field.name == field_name) return field;
-  throw InputError(fmt::format("no field '{}' at the nodes of snapshot {}{}", one_line(field_name), name,
-                               field_name == "damage" ? ": the run has no bonds" : ""));
+  throw InputError(fmt::format("found no field '{}' at the nodes of snapshot {}{}", one_line(field_name), name,
+                               field_name == "damage" ? ": the run has no bonds, allowed: a run with bonds" : ""));
 }
 
 std::string snapshot_name(const schema::FileReader& file, int number) {

@@ -143,7 +143,7 @@ const StageRows& choose_unloading(const std::vector<StageRows>& stages, std::opt
     if (stage.last > densest && falls(density, stage, 1e-9) && falls(stress, stage, 0.05)) return stage;
   throw InputError(
       fmt::format("{}: no unloading: in no stage after the densest row do relative density and mean stress "
-                  "both fall, the stress by more than a twentieth; allowed: a run that unloads, or --stage N",
+                  "both fall, the stress by more than a twentieth, allowed: a run that unloads, or --stage N",
                   one_line(path)));
 }
 

@@ -53,7 +53,7 @@ void check_direction(const schema::FileReader& file, const ToolGeometry& tool) {
   const bool is_axis = tool.shape != ToolKind::plane;
   if (std::abs((is_axis ? longest : length) - 1) > 1e-9 || std::abs(length - 1) > 1e-9)
     refuse(file, tool.name,
-           fmt::format("direction {:g}, {:g}, {:g}; allowed: a unit vector{}", d[0], d[1], d[2],
+           fmt::format("direction {:g}, {:g}, {:g}, allowed: a unit vector{}", d[0], d[1], d[2],
                        is_axis ? " along x, y or z" : ""));
 }
 

@@ -104,7 +104,7 @@ StepCost measure_steps(Simulation& simulation, int steps) {
       simulation.advance();
     }
     if (taken == 0)
-      throw InputError("mpfem bench: the stage ends before all steps are measured; allowed: fewer --steps");
+      throw InputError("mpfem bench: the stage ends before all steps are measured, allowed: fewer --steps");
     const double scale = 1e9 / (taken * tets);
     segment.whole = scale * Profile::since(start);
     for (std::size_t p = 0; p < profile_parts; ++p)

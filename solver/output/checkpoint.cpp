@@ -26,7 +26,7 @@ void refuse_damaged_checkpoint(const std::string& path) {
 
 std::string CheckpointReader::content_hash() const {
   if (file_.checksums().empty())
-    throw InputError(fmt::format("{}: the checkpoint has no checksum; allowed: a file written by this version of mpfem",
+    throw InputError(fmt::format("{}: the checkpoint has no checksum, allowed: a file written by this version of mpfem",
                                  one_line(path())));
   return file_.checksums();
 }
@@ -80,7 +80,7 @@ void CheckpointReader::check_model(const Model& model, const Communicator& ranks
   // Otherwise all contacts would open or close at once by the height of the smooth surface.
   if (const auto smooth = file_.read_scalar(check::smooth_grains); smooth != model.smooth_grains)
     fail(fmt::format(
-        "has {} of {} grains with smooth contact surfaces, the scenario has {}; allowed: the same contact.surface",
+        "has {} of {} grains with smooth contact surfaces, the scenario has {}, allowed: the same contact.surface",
         smooth, model.grains, model.smooth_grains));
 }
 

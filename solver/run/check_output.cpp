@@ -51,7 +51,7 @@ std::vector<std::string> kept_by_run_in(const std::string& rolling, const std::s
 /// as the rolling checkpoint of RUN.press.h5, and the files of a run without an ending as those of RUN.h5.
 void refuse_checkpoints_of_other_runs(const Scenario& scenario, const std::string& output) {
   const auto refuse = [&](const std::string& checkpoint, const std::string& run) {
-    throw InputError(fmt::format("--output {}: {} would be replaced, which belongs to the run {}; allowed: another "
+    throw InputError(fmt::format("--output {}: {} would be replaced, which belongs to the run {}, allowed: another "
                                  "--output",
                                  one_line(output), one_line(checkpoint), one_line(run)));
   };

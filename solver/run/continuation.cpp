@@ -98,7 +98,7 @@ bool Continuation::found_complete(std::vector<std::string>& lost) const {
 void Continuation::refuse_other_run(const RunSummary& run) const {
   const auto refuse = [this](const std::string& what) {
     throw InputError(
-        fmt::format("{}: the complete run there {}; allowed: another --output, or no --resume to replace it",
+        fmt::format("{}: the complete run there {}, allowed: another --output, or no --resume to replace it",
                     one_line(options_.output), what));
   };
   if (run.packing_hash != identity_.packing_hash) refuse("has another packing");

@@ -83,8 +83,8 @@ std::string compare(const std::string& purpose, const char* what, double needed,
   if (needed > (1 + margin) * available)
     throw InputError(text +
                      (what[0] == 'm'
-                          ? "; allowed: a coarser mesh, element.precision = \"mixed\", or a machine with more memory"
-                          : "; allowed: fewer checkpoints and snapshots, or an --output on another disk"));
+                          ? ", allowed: a coarser mesh, element.precision = \"mixed\", or a machine with more memory"
+                          : ", allowed: fewer checkpoints and snapshots, or an --output on another disk"));
   return text;
 }
 

@@ -18,7 +18,7 @@ BondedPointLaw read_bonded_point_law(const TomlDocument& document) {
   TableReader table = root.table("bond");
   const BondParameters bond = read_bond(table);
   root.finish();
-  if (bond.stiffness_factor) table.fail("stiffness_factor", "is used only with a mesh; allowed: 'stiffness' (MPa/mm)");
+  if (bond.stiffness_factor) table.fail("stiffness_factor", "is used only with a mesh, allowed: 'stiffness' (MPa/mm)");
   const BondLaw law{.stiffness = bond.stiffness.value_or(penalty),
                     .tensile_strength = bond.tensile_strength,
                     .shear_strength = bond.shear_strength,

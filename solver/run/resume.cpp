@@ -37,7 +37,7 @@ void check_tools(const std::string& checkpoint, const Scenario& before, const Sc
   for (std::size_t i = 0; i < before.tools.size(); ++i) {
     const ToolParameters& tool = before.tools[i];
     if (i >= now.tools.size())
-      throw InputError(fmt::format("{}: the checkpoint has the tool '{}', the scenario has not; allowed: a scenario "
+      throw InputError(fmt::format("{}: the checkpoint has the tool '{}', the scenario has not, allowed: a scenario "
                                    "that begins with the tools of the checkpoint",
                                    one_line(checkpoint), tool.name));
     const ToolParameters& own = now.tools[i];
@@ -63,7 +63,7 @@ void check_branch(const CheckpointReader& checkpoint, bool bonded, const Scenari
     throw InputError(fmt::format("{}: {}", one_line(checkpoint.path()), what));
   };
   if (before.material != now.material || before.grain_materials != now.grain_materials)
-    refuse("the checkpoint's material differs from the scenario's; allowed: the same [material]");
+    refuse("the checkpoint's material differs from the scenario's, allowed: the same [material]");
   if (now.initial_velocity != std::array<double, 3>{} || !now.grain_velocity.empty() ||
       !now.grain_angular_velocity.empty())
     refuse("[initial] cannot be used in a run that begins at a checkpoint: grains keep the velocities that they have "
@@ -72,12 +72,12 @@ void check_branch(const CheckpointReader& checkpoint, bool bonded, const Scenari
   if (!bonded) return;
   // Bonds keep the law by which they formed, and [bond] is the law of future bonds. Whether bonds resist sliding
   // decides how all bonds are tracked.
-  if (!now.bond) refuse("the checkpoint has bonds, the scenario has none; allowed: a [bond] with the same normal_only");
+  if (!now.bond) refuse("the checkpoint has bonds, the scenario has none, allowed: a [bond] with the same normal_only");
   if (before.bond->normal_only != now.bond->normal_only)
-    refuse("the checkpoint's bonds were formed with another bond.normal_only; allowed: a [bond] with the same "
+    refuse("the checkpoint's bonds were formed with another bond.normal_only, allowed: a [bond] with the same "
            "normal_only");
   if (before.contact.penalty_differs(now.contact)) // the separations of a damaged bond depend on its stiffness
-    refuse("the checkpoint's bonds were formed with another penalty than the scenario's; allowed: the same "
+    refuse("the checkpoint's bonds were formed with another penalty than the scenario's, allowed: the same "
            "contact.stiffness and contact.stiffness_factor");
 }
 

@@ -426,7 +426,7 @@ void Simulation::grip_faces() {
   for (double& side : holds) side = ranks_->largest(side);
   if (holds[0] == 0 || holds[1] == 0)
     throw InputError(fmt::format("stage '{}': key 'grip_depth': found {:g} mm, but no node lies so close to the {} "
-                                 "face of the box; allowed: a larger value",
+                                 "face of the box, allowed: a larger value",
                                  stage().name, grip->depth, holds[0] > 0 ? "high" : "low"));
 }
 

@@ -191,7 +191,7 @@ void check_adhesion(const Scenario& scenario) {
       throw InputError(fmt::format("{}tool '{}': adhesion key 'stiffness_factor': {}",
                                    tool.adhesion_places.prefix("stiffness_factor"), tool.name, what));
     };
-    if (scenario.contact.stiffness) fail("cannot be used with 'contact.stiffness'; allowed: 'stiffness' (MPa/mm)");
+    if (scenario.contact.stiffness) fail("cannot be used with 'contact.stiffness', allowed: 'stiffness' (MPa/mm)");
     if (tool.friction > 0 && factor > scenario.contact.stiffness_factor)
       fail(fmt::format("found {:g}, allowed: with friction up to contact.stiffness_factor = {:g}", factor,
                        scenario.contact.stiffness_factor));
@@ -233,7 +233,7 @@ Scenario read_scenario(const TomlDocument& document) {
     scenario.bond_places = table->places();
     scenario.bond = read_bond(*table);
     if (scenario.bond->stiffness_factor && scenario.contact.stiffness)
-      table->fail("stiffness_factor", "cannot be used with 'contact.stiffness'; allowed: 'stiffness' (MPa/mm)");
+      table->fail("stiffness_factor", "cannot be used with 'contact.stiffness', allowed: 'stiffness' (MPa/mm)");
   }
   check_adhesion(scenario);
   if (contact) check_friction(*contact, scenario);

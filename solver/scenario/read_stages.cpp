@@ -201,7 +201,7 @@ StageType read_tool_loading(TableReader& table, const StageContext& context) {
     loading.away.push_back(tool_named(table, "away", name, context.tools));
   for (const ToolDrive& drive : loading.drives) {
     if (is_away(loading, drive.tool))
-      table.fail("away", fmt::format("found '{}', which the stage also drives; allowed: a tool that it does not drive",
+      table.fail("away", fmt::format("found '{}', which the stage also drives, allowed: a tool that it does not drive",
                                      context.tools[drive.tool].name));
     const auto& v = drive.velocity;
     loading.speed = std::max(loading.speed, std::hypot(v[0], v[1], v[2]));
@@ -334,7 +334,7 @@ std::vector<Stage> read_stages(TableReader& root, const StageContext& context) {
     stages.push_back(read_stage(table, stages.size() + 1, context));
     const std::string& name = stages.back().name;
     if (!names.insert(name).second)
-      table.fail("name", fmt::format("found '{}', the name of an earlier stage; allowed: different names", name));
+      table.fail("name", fmt::format("found '{}', the name of an earlier stage, allowed: different names", name));
   }
   return stages;
 }

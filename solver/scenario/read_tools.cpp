@@ -136,7 +136,7 @@ ToolParameters read_tool(TableReader& table) {
 std::optional<Vector> read_direction(TableReader& table, const ToolShape& shape) {
   if (!table.has("direction")) return direction_of(shape);
   if (std::holds_alternative<PlaneShape>(shape))
-    table.fail("direction", "found for a plane, which moves along its normal; allowed: another tool");
+    table.fail("direction", "found for a plane, which moves along its normal, allowed: another tool");
   for (const char* key : {"velocity", "stress"})
     if (table.has(key)) table.fail("direction", "is used only with 'speed' or 'force'");
   const Vector given = table.vector3("direction", Range::between(-1e6, 1e6));
@@ -190,7 +190,7 @@ std::vector<ToolParameters> read_tools(TableReader& root, const std::string& sce
       stl->file = (std::filesystem::path(scenario_file).parent_path() / stl->file).lexically_normal().string();
     const std::string& name = tools.back().name;
     if (!names.insert(name).second)
-      table.fail("name", fmt::format("found '{}', the name of an earlier tool; allowed: different names", name));
+      table.fail("name", fmt::format("found '{}', the name of an earlier tool, allowed: different names", name));
   }
   return tools;
 }

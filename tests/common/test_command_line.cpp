@@ -1,21 +1,28 @@
 // Options of the programs: numbers with their range and unit, and mistakes in one line.
 
 #include <catch2/catch.hpp>
+#include <fmt/format.h>
 
 #include "common/command_line.hpp"
 #include "one_line_error.hpp"
+#include "tests/support/folder.hpp"
 
 using namespace mpfem;
+using test::Folder;
 using test::input_error;
+using test::write_text;
 
 namespace {
+
+enum class Way { up, down };
 
 struct Options {
   double size = 0;
   int threads = 1;
   std::optional<std::int64_t> seed;
   std::vector<double> box, densities;
-  std::string input;
+  std::string input, axis, from;
+  std::optional<Way> way;
 };
 
 Options parsed(std::vector<std::string> words) {
@@ -27,6 +34,9 @@ Options parsed(std::vector<std::string> words) {
   add_numbers(app, "--box", options.box, 3, positive_length, "mm", "Box");
   add_numbers(app, "--densities", options.densities, 0, Range::between(0, 1), "", "Densities");
   app.add_option("input", options.input, "Input");
+  app.add_option("--axis", options.axis, "Axis")->check(one_of({"x", "y", "z"}));
+  app.add_option("--from", options.from, "File")->check(existing_file());
+  add_choice(app, "--way", options.way, {{"up", Way::up}, {"down", Way::down}}, "Way");
   words.insert(words.begin(), "example");
   std::vector<char*> pointers;
   for (std::string& word : words) pointers.push_back(word.data());
@@ -72,6 +82,59 @@ TEST_CASE("Options refuse anything but a finite number within their range, in on
   }
   CHECK_THAT(refusal({"--threads", "1.5"}), Catch::Contains("found '1.5', allowed: a whole number 1 … 1024"));
   CHECK_THAT(refusal({"--seed", "9223372036854775808"}), Catch::StartsWith("--seed"));
+}
+
+TEST_CASE("An option that takes one of some words refuses others and lists those that are allowed") {
+  const Options options = parsed({"--axis", "y", "--way", "down"});
+  CHECK(options.axis == "y");
+  CHECK(options.way == Way::down);
+  CHECK_FALSE(parsed({}).way.has_value());
+  CHECK(refusal({"--axis", "w"}) == "--axis: found 'w', allowed: x, y, z (see example --help)");
+  for (const char* text : {"Up", "0", "", "up,down"}) {
+    INFO(text);
+    CHECK(refusal({"--way", text}) == fmt::format("--way: found '{}', allowed: up, down (see example --help)", text));
+  }
+}
+
+TEST_CASE("An option that names an input file refuses what is no file, and says which option it is") {
+  const Folder folder;
+  write_text(folder / "a.toml", "");
+  CHECK(parsed({"--from", folder / "a.toml"}).from == folder / "a.toml");
+  CHECK(parsed({"--from", ""}).from.empty());
+  CHECK(refusal({"--from", "none.toml"}) == "--from: none.toml: no such file (see example --help)");
+  CHECK(refusal({"--from", "/"}) == "--from: /: is a folder, allowed: a file (see example --help)");
+  CHECK(refusal({"--from", "/dev/null"}) ==
+        "--from: /dev/null: is a pipe, socket or device, allowed: a file (see example --help)");
+}
+
+TEST_CASE("A word that no option or argument takes is named before what is missing") {
+  CHECK(refusal({"--siez", "1"}) == "found '--siez'; did you mean '--size'? (see example --help)");
+  CHECK(refusal({"--q=3"}) == "found '--q', allowed: --help, --size, --threads, --seed, --box, --densities, --axis, "
+                              "--from, --way (see example --help)");
+  CHECK(refusal({"one", "two", "three"}) == "found one more word, 'two', allowed: options (see example --help)");
+}
+
+TEST_CASE("An unknown subcommand is named with the nearest one, or with the allowed ones") {
+  const auto refusal_of = [](std::vector<std::string> words) {
+    CLI::App app("example");
+    app.require_subcommand(1);
+    std::string input, output;
+    CLI::App* pack = app.add_subcommand("pack", "Pack");
+    pack->add_option("input", input, "Input");
+    pack->add_option("-o,--output", output, "Output")->required();
+    app.add_subcommand("mesh", "Mesh");
+    words.insert(words.begin(), "example");
+    std::vector<char*> pointers;
+    for (std::string& word : words) pointers.push_back(word.data());
+    return input_error([&] { parse_command_line(app, "example", static_cast<int>(pointers.size()), pointers.data()); });
+  };
+  CHECK(refusal_of({"foo"}) == "found 'foo', allowed: pack, mesh (see example --help)");
+  CHECK(refusal_of({"pakc"}) == "found 'pakc'; did you mean 'pack'? (see example --help)");
+  CHECK(refusal_of({}) == "found no subcommand, allowed: pack, mesh (see example --help)");
+  CHECK(refusal_of({"--foo"}) == "found '--foo', allowed: --help (see example --help)");
+  CHECK(refusal_of({"pack", "a"}) == "--output is required (see example pack --help)");
+  CHECK(refusal_of({"pack", "a", "--outptu", "b"}) ==
+        "found '--outptu'; did you mean '--output'? (see example pack --help)");
 }
 
 TEST_CASE("A long word on the command line is shortened in the message") {

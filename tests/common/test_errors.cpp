@@ -1,5 +1,11 @@
 #include <algorithm>
+#include <array>
+#include <cerrno>
+#include <cstdio>
 #include <new>
+#include <system_error>
+
+#include <unistd.h>
 
 #include <catch2/catch.hpp>
 
@@ -66,6 +72,27 @@ TEST_CASE("Lack of memory and what is no std::exception make one line too") {
   const Ending unknown = run([](int, char**) -> int { throw 5; });
   CHECK(unknown.code == 3);
   CHECK(unknown.message == "program: error: unknown error\n");
+}
+
+TEST_CASE("A program whose reader closes the pipe says so in one line and ends with the code of failed storage") {
+  const auto [body] = GENERATE(table<int (*)(int, char**)>({
+      {[](int, char**) -> int { throw std::system_error(EPIPE, std::generic_category(), "cannot write to file"); }},
+      {[](int, char**) -> int {
+        std::puts("more than is read"); // it is written at the end
+        return 0;
+      }},
+  }));
+  std::fflush(stdout);
+  std::array<int, 2> ends{};
+  REQUIRE(pipe(ends.data()) == 0);
+  const int kept = dup(STDOUT_FILENO);
+  dup2(ends[1], STDOUT_FILENO);
+  for (const int end : ends) close(end);
+  const Ending ending = run(body);
+  dup2(kept, STDOUT_FILENO);
+  close(kept);
+  CHECK(ending.code == 4);
+  CHECK(ending.message == "program: error: the output was cut short: the program that reads it has closed the pipe\n");
 }
 
 TEST_CASE("The version is three numbers, and the host one line without control characters") {

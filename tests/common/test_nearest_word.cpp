@@ -45,7 +45,7 @@ TEST_CASE("The first of equally near words wins, and nothing is proposed where n
 
 TEST_CASE("A suggestion names the nearest word, otherwise all known ones") {
   CHECK(suggestion("nmae", {"name", "until"}) == "; did you mean 'name'?");
-  CHECK(suggestion("radius", {"name", "until"}) == "; allowed: name, until");
+  CHECK(suggestion("radius", {"name", "until"}) == ", allowed: name, until");
   CHECK(suggestion("radius", {}).empty());
 }
 

@@ -269,8 +269,7 @@ TEST_CASE("Text that is no TOML is refused with line and column") {
 }
 
 TEST_CASE("A file that is missing or a folder is refused with its name") {
-  CHECK(input_error([] { TomlDocument::from_file("no/such\nfile.toml"); }) ==
-        "no/such\\nfile.toml: cannot be read: No such file or directory");
+  CHECK(input_error([] { TomlDocument::from_file("no/such\nfile.toml"); }) == "no/such\\nfile.toml: no such file");
   const std::string folder = std::filesystem::temp_directory_path().string();
   CHECK(input_error([&] { TomlDocument::from_file(folder); }) == folder + ": is a folder, allowed: a file");
 }

@@ -67,7 +67,7 @@ TEST_CASE("Only a regular file is read, and not more of it than is allowed") {
   write_text(folder / "a", "abc");
   CHECK(read_text_file(folder / "a", 3) == "abc");
   CHECK_THAT(input_error([&] { read_text_file(folder / "a", 2); }), Catch::Contains("is too large, allowed: up to "));
-  CHECK_THAT(input_error([&] { read_text_file(folder / "none", 2); }), Catch::Contains("No such file"));
+  CHECK_THAT(input_error([&] { read_text_file(folder / "none", 2); }), Catch::Contains("no such file"));
   CHECK_THAT(input_error([&] { read_text_file(folder / "", 2); }), Catch::Contains("is a folder"));
   REQUIRE(mkfifo((folder / "pipe").c_str(), 0600) == 0);
   CHECK_THAT(input_error([&] { read_text_file(folder / "pipe", 2); }), Catch::Contains("is a pipe"));

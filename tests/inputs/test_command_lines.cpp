@@ -15,7 +15,7 @@ namespace {
 
 struct Command {
   std::string name;
-  std::vector<std::string> required; ///< words without which it does nothing
+  std::vector<std::string> required; ///< words without which it does nothing; as an input, a file that is there
 };
 
 struct Program {
@@ -25,36 +25,36 @@ struct Program {
 
 const std::vector<Program> programs = {
     {MPFEM_PACK_GEN,
-     {{"spheres", {"none", "-o", "none.h5"}},
-      {"settle", {"none", "-o", "none.h5"}},
-      {"mesh", {"none", "-o", "none.h5"}},
-      {"import", {"none", "-o", "none.h5"}},
-      {"export", {"none", "-o", "none.h5"}},
-      {"quality", {"none"}},
+     {{"spheres", {__FILE__, "-o", "none.h5"}},
+      {"settle", {__FILE__, "-o", "none.h5"}},
+      {"mesh", {__FILE__, "-o", "none.h5"}},
+      {"import", {__FILE__, "-o", "none.h5"}},
+      {"export", {__FILE__, "-o", "none.h5"}},
+      {"quality", {__FILE__}},
       {"hemispheres", {"-o", "none.h5"}}}},
     {MPFEM_EXECUTABLE,
-     {{"run", {"none", "-o", "none.h5"}},
-      {"check", {"none"}},
+     {{"run", {__FILE__, "-o", "none.h5"}},
+      {"check", {__FILE__}},
       {"bench", {}},
-      {"bond", {"none", "none", "-o", "n.csv"}}}},
+      {"bond", {__FILE__, __FILE__, "-o", "n.csv"}}}},
     {MPFEM_POSTPROC,
-     {{"summary", {"none"}},
-      {"curve", {"none"}},
-      {"contact", {"none"}},
-      {"vtk", {"none", "-o", "none"}},
-      {"section", {"none", "-o", "none.png"}},
-      {"elastic-recovery", {"none"}},
-      {"modulus", {"none"}},
-      {"strength", {"none"}},
-      {"yield", {"none"}},
-      {"hysteresis", {"none"}},
-      {"damage", {"none"}},
-      {"energy", {"none"}},
-      {"tablet", {"none"}},
-      {"heckel", {"none"}},
-      {"diametral", {"none"}},
-      {"fit", {"none", "--x", "a", "--y", "b", "--model", "linear"}},
-      {"validate", {"none"}}}},
+     {{"summary", {__FILE__}},
+      {"curve", {__FILE__}},
+      {"contact", {__FILE__}},
+      {"vtk", {__FILE__, "-o", "none"}},
+      {"section", {__FILE__, "-o", "none.png"}},
+      {"elastic-recovery", {__FILE__}},
+      {"modulus", {__FILE__}},
+      {"strength", {__FILE__}},
+      {"yield", {__FILE__}},
+      {"hysteresis", {__FILE__}},
+      {"damage", {__FILE__}},
+      {"energy", {__FILE__}},
+      {"tablet", {__FILE__}},
+      {"heckel", {__FILE__}},
+      {"diametral", {__FILE__}},
+      {"fit", {__FILE__, "--x", "a", "--y", "b", "--model", "linear"}},
+      {"validate", {__FILE__}}}},
 };
 
 /// Options of a command whose value is a number, by its help.
@@ -104,6 +104,34 @@ TEST_CASE("Words that no program knows are refused in one line that names the he
       INFO(program.path << " " << fmt::format("{}", line.empty() ? "" : line.back().substr(0, 40)));
       CHECK(fault_of_refusal(program.path, line, {"--help"}) == "");
     }
+  }
+}
+
+TEST_CASE("Each program names an unknown subcommand and those that it has") {
+  for (const Program& program : programs) {
+    const std::string first = program.commands.front().name;
+    INFO(program.path);
+    CHECK(fault_of_refusal(program.path, {"qqqqqqq"}, {"found 'qqqqqqq'", "allowed: " + first + ", "}) == "");
+    CHECK(fault_of_refusal(program.path, {first + "x"}, {fmt::format("did you mean '{}'?", first)}) == "");
+  }
+}
+
+TEST_CASE("An input that does not exist is named before an option that is missing") {
+  for (const auto& [program, arguments] :
+       std::vector<std::pair<std::string, std::vector<std::string>>>{{MPFEM_PACK_GEN, {"spheres", "none"}},
+                                                                     {MPFEM_PACK_GEN, {"mesh", "none"}},
+                                                                     {MPFEM_EXECUTABLE, {"run", "none"}},
+                                                                     {MPFEM_EXECUTABLE, {"bond", "none", __FILE__}},
+                                                                     {MPFEM_POSTPROC, {"fit", "none"}},
+                                                                     {MPFEM_POSTPROC, {"vtk", "none"}},
+                                                                     {MPFEM_POSTPROC, {"triaxial", "none"}},
+                                                                     {MPFEM_POSTPROC, {"table", "none"}},
+                                                                     {MPFEM_POSTPROC, {"report", "none"}}}) {
+    INFO(program << " " << arguments.front());
+    CHECK(fault_of_refusal(program, arguments, {": none: no such file"}) == "");
+    std::vector<std::string> present = arguments;
+    present[1] = __FILE__;
+    CHECK(fault_of_refusal(program, present, {"is required"}) == "");
   }
 }
 

@@ -198,7 +198,7 @@ TEST_CASE("damage refuses runs and snapshots without bonds with one line and exi
   write_run(folder / "early.h5", early);
   const std::string plain = folder / "plain.h5", without = folder / "early.h5";
   for (const auto& [arguments, expected] : std::vector<std::pair<std::string, std::string>>{
-           {plain, "has no bonds; allowed: a run with bonds"},
+           {plain, "has no bonds, allowed: a run with bonds"},
            {without, "no bond was formed by snapshot 0000"},
            {without + " --snapshot 3", "no snapshot 3"},
            {folder / "absent.h5", "no such file"},

@@ -563,6 +563,7 @@ TEST_CASE("no file from which something of a figure is made is replaced by it") 
   write_complete_study(studies);
   const std::string figure = studies.path("study.toml"), programmes = " --programmes " + studies.path("programmes"),
                     results = " --results " + studies.path("out") + programmes;
+  for (const char* picture : {"out/study/p.png", "out/study/p.svg"}) write_text(studies.path(picture), "a picture");
   for (const auto& [command, name] : {std::pair<std::string, std::string>{"powder " + figure + programmes, "more.toml"},
                                       {"powder " + figure + programmes, "programmes/press.toml"},
                                       {"depends " + figure + programmes + " --packing p.h5", "more.toml"},
@@ -571,7 +572,10 @@ TEST_CASE("no file from which something of a figure is made is replaced by it") 
                                       {"verdict " + figure + results, "out/study/t.csv"},
                                       {"verdict " + figure + results, "out/study/fits.json"},
                                       {"verdicts mesh=" + studies.path("out"), "out/study/verdict.json"},
-                                      {"report " + figure + " --title x" + results, "out/study/verdict.json"}}) {
+                                      {"report " + figure + " --title x" + results, "out/study/verdict.json"},
+                                      {"report " + figure + " --title x" + results, "out/study/t.csv"},
+                                      {"report " + figure + " --title x" + results, "out/study/p.png"},
+                                      {"report " + figure + " --title x" + results, "out/study/p.svg"}}) {
     const std::string before = test::read_text(studies.path(name));
     const auto outcome = test::postproc(fmt::format("{} -o {}", command, studies.path(name)));
     INFO(command << ": " << outcome.messages);

@@ -167,16 +167,17 @@ TEST_CASE("postproc refuses what it cannot use with one line and exit code 2") {
            {"summary " + (folder / "absent.h5"), "no such file"},
            {"summary " + (folder / "text.h5"), "not an HDF5 file"},
            {"curve " + run + " --columns mean_stres", "mean_stress"},
-           {"curve " + run + " --columns zzz", "allowed"},
+           {"curve " + run + " --columns zzz", "--columns: found no column 'zzz', allowed: time, "},
            {"contact " + run + " --snapshot 4", "allowed: 0 … 0"},
-           {"section " + run + " --field colour -o " + (folder / "x.png"), "von_mises"},
+           {"section " + run + " --field colour -o " + (folder / "x.png"),
+            "--field: found 'colour', allowed: von_mises, "},
            {"section " + run + " --position 7 -o " + (folder / "x.png"), "cuts no grain"},
            {"section " + run + " --range 5,5 -o " + (folder / "x.png"), "low < high"},
            {"section " + run + " --packing " + run + " -o " + (folder / "x.png"), "exactly one"},
            {"section --packing " + run + " -o " + (folder / "x.png"), "allowed: a packing file"},
            {"section " + run + " --view 5,6,5,6 -o " + (folder / "x.png"),
             "--view: no grain is cut in 5 … 6, 5 … 6 mm, allowed"},
-           {"section " + run, "-o, --data or both"},
+           {"section " + run, "found neither of --output and --data, allowed: one or both"},
            {"summary " + run + " -o " + run, "would overwrite the input"},
            {fmt::format("stress-at-densities {0} --densities 0.8 --reference {1} --data {1}", run, folder / "text.h5"),
             "would overwrite the input"},
@@ -184,7 +185,7 @@ TEST_CASE("postproc refuses what it cannot use with one line and exit code 2") {
            {fmt::format("section {} -o {}", run, folder / "x.jpg"), "the ending '.jpg', allowed: .png"},
            {fmt::format("contact {} --pair 0,1 --view {}", run, folder / "x"), "no ending, allowed: .png"},
            {fmt::format("density-map {} -o {}", run, folder / "x.svg"), "the ending '.svg', allowed: .csv or .png"},
-           {"vtk -o " + (folder / "x"), "either RUN.h5 or --packing"}}) {
+           {"vtk -o " + (folder / "x"), "found neither of RUN.h5 and --packing, allowed: exactly one"}}) {
     const Outcome outcome = postproc(arguments);
     INFO(arguments << ": " << outcome.messages);
     CHECK(outcome.exit_code == 2);
@@ -277,6 +278,24 @@ TEST_CASE("validate says which file has no checksums, and where a checked one is
   const Outcome reading = postproc("summary " + bad);
   CHECK(reading.exit_code == 2);
   CHECK_THAT(reading.messages, Catch::Contains(bad + ": the file is damaged"));
+}
+
+TEST_CASE("a missing postproc-picture is reported with what adds it, to a build and to an installation") {
+  const Folder folder;
+  const std::string program = folder / "bin/postproc";
+  std::filesystem::create_directories(folder / "bin");
+  std::filesystem::copy_file(MPFEM_POSTPROC, program);
+  const Outcome installed = run_command(program + " picture run.h5");
+  CHECK(installed.exit_code == 3);
+  CHECK(installed.one_error_line("postproc"));
+  CHECK_THAT(installed.messages,
+             Catch::Contains(program + "-picture is not installed: run ./bootstrap pictures") &&
+                 Catch::Contains("--component pictures --prefix " +
+                                 std::filesystem::path(program).parent_path().parent_path().string()));
+  write_text(folder / "CMakeCache.txt", "");
+  CHECK_THAT(run_command(program + " picture run.h5").messages,
+             Catch::Contains("is not built: ./bootstrap pictures builds it"));
+  CHECK(run_command(program + " picture --help").exit_code == 0);
 }
 
 TEST_CASE("validate says that a file has lost its seal though all of its values are there") {

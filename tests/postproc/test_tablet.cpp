@@ -617,7 +617,7 @@ TEST_CASE("postproc diametral refuses wrong plates, axes and wide flats, and tel
   CHECK(broken["broken_share_in_centre"] == 1);
   CHECK(broken["broken_share_in_centre_if_even"] == 1);
   REQUIRE(postproc(fmt::format("diametral {} --data {}", folder / "broken.h5", folder / "crack.csv")).exit_code == 0);
-  const auto columns = read_csv_columns(folder / "crack.csv", {"snapshot", "force", "broken_share_in_centre"});
+  const auto columns = read_csv(folder / "crack.csv", {{"snapshot"}, {"force"}, {"broken_share_in_centre"}});
   CHECK(columns[0].values == std::vector<double>{1});
   CHECK(columns[1].values == std::vector<double>{50}); // the snapshot is at the peak
   CHECK(columns[2].values == std::vector<double>{1});
