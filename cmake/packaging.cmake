@@ -1,7 +1,7 @@
 # Man pages, completion of command lines, and the Debian package that cpack makes.
 
-# Man pages are part of the whole build where help2man is found. They need all programs, so a build of single programs, as
-# ./bootstrap does for studies, makes none.
+# Man pages are part of the whole build where help2man is found. They need all programs, so a build of single programs,
+# as ./bootstrap does for studies, makes none.
 set(man_pages ${CMAKE_BINARY_DIR}/man)
 find_program(HELP2MAN help2man)
 mark_as_advanced(HELP2MAN)

@@ -1,6 +1,6 @@
 #pragma once
-// Tables of comma-separated values: lines of cells; '#' begins a comment; blank lines are skipped. Within quotes, a comma
-// and a '#' are text.
+// Tables of comma-separated values: lines of cells; '#' begins a comment; blank lines are skipped. Within quotes, a
+// comma and a '#' are text.
 
 #include <cstddef>
 #include <optional>

@@ -39,8 +39,8 @@ bool is_of_storage(const std::error_code& code) {
          (number == EPIPE || number == EFBIG || number == ENOSPC || number == EIO || number == EDQUOT);
 }
 
-/// A failed output, by the number and the text of the system's error. A reader that has seen enough, such as head, closes
-/// the pipe.
+/// A failed output, by the number and the text of the system's error. A reader that has seen enough, such as head,
+/// closes the pipe.
 Failure failed_output(int number, const std::string& text) {
   return {number == EPIPE ? "the output was cut short: the program that reads it has closed the pipe"
                           : fmt::format("an output could not be written: {}", text),
