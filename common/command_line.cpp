@@ -1,6 +1,7 @@
 #include "common/command_line.hpp"
 
 #include <algorithm>
+#include <regex>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -71,13 +72,27 @@ std::string fault_of_words(const CLI::App& command) {
   return fmt::format("found one more word, '{}', allowed: options", shortened(word, longest_word));
 }
 
+/// CLI11's message in the form of the others; as it is where it has another form.
+std::string in_own_form(const std::string& message) {
+  constexpr std::size_t longest = 240;
+  // A long word does not belong into a regular expression: it takes the stack.
+  const std::string text = shortened(message, longest);
+  std::smatch part;
+  if (std::regex_match(text, part, std::regex("(.+): [0-9]+ required (.+) missing")))
+    return fmt::format("{}: found no value, allowed: {}", part.str(1), part.str(2));
+  if (std::regex_match(text, part, std::regex("(.+): At (?:[Ll]east|[Mm]ost) ([0-9]+) required but received ([0-9]+)")))
+    return fmt::format("{}: found {} values, allowed: {}", part.str(1), part.str(3), part.str(2));
+  if (std::regex_match(text, part, std::regex("Could not convert: (.+) = (.*)")))
+    return fmt::format("{}: found '{}', allowed: the option without a value", part.str(1), part.str(2));
+  return text;
+}
+
 /// What is wrong with a command line. A word that nothing took comes before an option that is missing: it may be the
 /// same one, mistyped.
 std::string fault_of(const CLI::App& app, const CLI::ParseError& error) {
-  constexpr std::size_t longest = 240;
   const int code = error.get_exit_code();
   if (code != static_cast<int>(CLI::ExitCodes::RequiredError) && code != static_cast<int>(CLI::ExitCodes::ExtrasError))
-    return shortened(error.what(), longest);
+    return in_own_form(error.what());
   std::string fault = fault_of_words(app);
   for (const CLI::App* parsed : app.get_subcommands())
     if (fault.empty()) fault = fault_of_words(*parsed);
@@ -85,7 +100,7 @@ std::string fault_of(const CLI::App& app, const CLI::ParseError& error) {
   const std::vector<std::string> subcommands = names_of_subcommands(app);
   if (!subcommands.empty() && app.get_subcommands().empty())
     return "found no subcommand, allowed: " + list_of(subcommands);
-  return shortened(error.what(), longest);
+  return in_own_form(error.what());
 }
 
 } // namespace

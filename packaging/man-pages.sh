@@ -18,10 +18,8 @@ subcommands() {
     awk '/^Subcommands:/ { listed = 1; next } listed && /^  [a-z]/ { sub(/\.$/, ""); $1 = $1; print }'
 }
 
-# page EXECUTABLE NAME DESCRIPTION
+# page EXECUTABLE NAME DESCRIPTION; all programs have the same version.
 page() {
-  local version
-  version=$("$bin/${1%% *}" --version | cut -d ' ' -f 1)
   help2man --locale C.UTF-8 --no-info --no-discard-stderr --section 1 --source mpfem --manual 'User commands' \
     --name "$3" --version-string "$version" --output "$folder/$2.1" "$bin/$1"
 }
@@ -32,6 +30,7 @@ command -v help2man >/dev/null || {
 }
 mkdir -p "$folder"
 rm -f "$folder"/*.1
+version=$("$bin/postproc" --version | cut -d ' ' -f 1)
 for program in "${!names[@]}"; do
   page "$program" "$program" "${names[$program]}"
   while read -r subcommand description; do

@@ -14,8 +14,7 @@ namespace mpfem {
 
 namespace {
 
-/// How to get postproc-picture where it is missing beside a postproc in this folder: in a folder of builds, or
-/// installed.
+/// How to get postproc-picture where it is missing beside a postproc in this folder, of a build or an installation.
 std::string remedy(const std::filesystem::path& folder) {
   std::error_code ignored;
   const std::filesystem::path above = folder.parent_path();

@@ -87,7 +87,7 @@ private:
 
   void execute() const override {
     if (output().empty() && data_.empty())
-      throw InputError("found neither of --output and --data, allowed: one or both");
+      throw InputError("found neither of --output and --data, allowed: one or both (see postproc section --help)");
     const Snapshot state = read_state(snapshot_);
     PictureRequest request = picture_;
     request.plane = plane_in(state);

@@ -23,6 +23,7 @@ struct Options {
   std::vector<double> box, densities;
   std::string input, axis, from;
   std::optional<Way> way;
+  bool quiet = false;
 };
 
 Options parsed(std::vector<std::string> words) {
@@ -36,6 +37,7 @@ Options parsed(std::vector<std::string> words) {
   app.add_option("input", options.input, "Input");
   app.add_option("--axis", options.axis, "Axis")->check(one_of({"x", "y", "z"}));
   app.add_option("--from", options.from, "File")->check(existing_file());
+  app.add_flag("--quiet", options.quiet, "Quiet");
   add_choice(app, "--way", options.way, {{"up", Way::up}, {"down", Way::down}}, "Way");
   words.insert(words.begin(), "example");
   std::vector<char*> pointers;
@@ -110,7 +112,7 @@ TEST_CASE("An option that names an input file refuses what is no file, and says 
 TEST_CASE("A word that no option or argument takes is named before what is missing") {
   CHECK(refusal({"--siez", "1"}) == "found '--siez'; did you mean '--size'? (see example --help)");
   CHECK(refusal({"--q=3"}) == "found '--q', allowed: --help, --size, --threads, --seed, --box, --densities, --axis, "
-                              "--from, --way (see example --help)");
+                              "--from, --quiet, --way (see example --help)");
   CHECK(refusal({"one", "two", "three"}) == "found one more word, 'two', allowed: options (see example --help)");
 }
 
@@ -135,6 +137,13 @@ TEST_CASE("An unknown subcommand is named with the nearest one, or with the allo
   CHECK(refusal_of({"pack", "a"}) == "--output is required (see example pack --help)");
   CHECK(refusal_of({"pack", "a", "--outptu", "b"}) ==
         "found '--outptu'; did you mean '--output'? (see example pack --help)");
+}
+
+TEST_CASE("Options with no value, or with the wrong number of them, say how many were found and are allowed") {
+  CHECK(refusal({"--from"}) == "--from: found no value, allowed: TEXT:FILE (see example --help)");
+  CHECK(refusal({"--box", "1,2"}) == "--box: found 2 values, allowed: 3 (see example --help)");
+  CHECK(refusal({"--quiet=maybe"}) ==
+        "--quiet: found 'maybe', allowed: the option without a value (see example --help)");
 }
 
 TEST_CASE("A long word on the command line is shortened in the message") {
