@@ -286,15 +286,16 @@ TEST_CASE("pack-gen refuses what it cannot use with one line and exit code 2, an
   }
   write_text(folder / "s.csv", "0.5,0.5,0.5,0.2\n");
   REQUIRE(pack_gen(fmt::format("import {} --box 1,1,1 -o {}", folder / "s.csv", folder / "s.h5")).exit_code == 0);
-  for (const std::string& arguments :
-       {"mesh " + (folder / "s.h5") + " --size 0.5 -o " + (folder / "p.h5"),
-        "mesh " + (folder / "absent.h5") + " --size 0.1 -o " + (folder / "p.h5"), "quality " + (folder / "s.h5"),
-        "mesh " + (folder / "s.csv") + " --size 0.1 -o " + (folder / "p.h5")}) {
+  for (const auto& [arguments, place] : std::vector<std::pair<std::string, std::string>>{
+           {"mesh " + (folder / "s.h5") + " --size 0.5 -o " + (folder / "p.h5"), ""},
+           {"mesh " + (folder / "absent.h5") + " --size 0.1 -o " + (folder / "p.h5"), "input: "},
+           {"quality " + (folder / "s.h5"), ""},
+           {"mesh " + (folder / "s.csv") + " --size 0.1 -o " + (folder / "p.h5"), ""}}) {
     const Outcome outcome = pack_gen(arguments);
     INFO(arguments << ": " << outcome.messages);
     CHECK(outcome.exit_code == 2);
     CHECK(outcome.one_error_line("pack-gen"));
-    CHECK_THAT(outcome.messages, Catch::StartsWith("pack-gen: error: " + (folder / "")));
+    CHECK_THAT(outcome.messages, Catch::StartsWith("pack-gen: error: " + place + (folder / "")));
     CHECK_FALSE(std::filesystem::exists(folder / "p.h5"));
   }
   // Sizes and outputs of the command line.
