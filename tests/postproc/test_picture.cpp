@@ -107,15 +107,16 @@ TEST_CASE("frames are one picture for each snapshot") {
 TEST_CASE("what cannot be drawn is refused in one line") {
   const Folder folder;
   write_run(folder / "run.h5", small_run());
-  const std::pair<const char*, const char*> mistakes[] = {{"--size 10x10", "--size: found '10x10'"},
-                                                          {"--size big", "--size: found 'big'"},
-                                                          {"--range 3,2", "--range: found 3,2"},
-                                                          {"--color damage", "the run has no bonds"},
-                                                          {"--cut none --bonds", "--bonds: found --cut"},
-                                                          {"--cut none --contacts", "--contacts: found --cut"},
-                                                          {"--bonds", "the run has no bonds"},
-                                                          {"--cut w", "--cut"},
-                                                          {"--color height", "--color"}};
+  const std::pair<const char*, const char*> mistakes[] = {
+      {"--size 10x10", "--size: found '10x10'"},
+      {"--size big", "--size: found 'big'"},
+      {"--range 3,2", "--range: found '3,2'"},
+      {"--color damage", "the run has no bonds"},
+      {"--cut none --bonds", "--bonds: found --cut"},
+      {"--cut none --contacts", "--contacts: found --cut"},
+      {"--bonds", "the run has no bonds"},
+      {"--cut w", "--cut: found 'w', allowed: octant, x, y, z, none"},
+      {"--color height", "--color"}};
   for (const auto& [options, message] : mistakes) {
     const Outcome outcome = picture(fmt::format("{} {} -o {}", folder / "run.h5", options, folder / "p.png"));
     INFO(options << ": " << outcome.messages);
