@@ -227,7 +227,9 @@ std::string table_of_page(const ReportRequest& request) {
     if (!line.starts_with('|') || line.starts_with("|-")) continue;
     const std::vector<std::string> cells = cells_of(line);
     rows += row_of(cells, headings);
-    if (headings.empty()) headings = cells;
+    if (!headings.empty()) continue;
+    headings = cells;
+    for (std::string& heading : headings) std::erase(heading, '`'); // an attribute has no code
   }
   if (rows.empty()) throw InputError(fmt::format("{}: found no table, allowed: Markdown", one_line(request.beside)));
   return fmt::format(
