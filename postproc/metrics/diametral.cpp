@@ -223,7 +223,7 @@ Disc disc_of(const schema::FileReader& file, const HistoryTable& history, const 
   const double diameter = rule.diameter.value_or(extent_along(before.node, test.axis).length());
   const double thickness = rule.thickness.value_or(disc_thickness(before.node, test.axis, rule.disc_axis, diameter));
   if (!(thickness > 0))
-    throw InputError(fmt::format("{}: found no thickness of the disc before stage {}; allowed: --thickness",
+    throw InputError(fmt::format("{}: found no thickness of the disc before stage {}, allowed: --thickness",
                                  one_line(file.path()), test.stage.number));
   return {diameter, thickness};
 }
