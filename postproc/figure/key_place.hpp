@@ -32,7 +32,6 @@ KeySize key_size(const std::vector<std::string>& titles, const std::string& titl
 /// A place for a key of this size in gnuplot's words: the first corner that holds no data, or one outside the axes
 /// where there is none. The limits that gnuplot chooses for itself are estimated: a corner is free only at some
 /// distance to the data.
-std::string key_place(const std::vector<DrawnLine>& lines, const ShownAxis& x, const ShownAxis& y,
-                      const KeySize& size);
+std::string key_place(const std::vector<DrawnLine>& lines, const ShownAxis& x, const ShownAxis& y, const KeySize& size);
 
 } // namespace mpfem
