@@ -141,7 +141,8 @@ $(accuracy)/points.csv: studies/common/verdict.awk studies/accuracy/points.awk s
 define accuracy_picture
 accuracy_pictures += $(1)
 $(accuracy_page)/$(1).png $(accuracy_page)/$(1).svg: $(accuracy_page)/$(1).%: \
-  studies/accuracy/plot.gp studies/common/style.gp $(accuracy)/points.csv | $(accuracy_page)
+  studies/accuracy/plot.gp studies/accuracy/labels.awk studies/common/style.gp $(accuracy)/points.csv | \
+  $(accuracy_page)
 	$(gnuplot) -c $$< $$* $(accuracy)/points.csv $(2) $(3) '$(4)' '$(5)' $$@.partial
 	mv $$@.partial $$@
 endef
