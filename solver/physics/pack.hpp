@@ -155,6 +155,12 @@ Pack<W, Real> min(Pack<W, Real> a, Pack<W, Real> b) {
 /// True if the mask holds in at least one lane.
 template <int W, class Real>
 bool any(Mask<W, Real> mask) {
+#if defined(__AVX512F__) // one instruction instead of twenty
+  if constexpr (sizeof(mask.v) == 64) {
+    const auto bits = reinterpret_cast<__m512i>(mask.v);
+    return _mm512_test_epi64_mask(bits, bits) != 0;
+  }
+#endif
 #if defined(__AVX__) // one instruction instead of ten
   if constexpr (sizeof(mask.v) == 32) {
     if constexpr (W == 4) return _mm256_movemask_pd(reinterpret_cast<__m256d>(mask.v)) != 0;
