@@ -59,12 +59,12 @@ Work work_of_tet(const Model& model) {
   const PowerLaw law{25, 125, 0.3};
   const Counted zero(0.0);
   const Vector3<Counted> edge[3] = {{1.0, zero, zero}, {zero, 1.0, zero}, {zero, zero, 1.0}};
-  const Vector3<Counted> velocity[3] = {{1.0, zero, zero}, {zero, -1.0, zero}, {zero, zero, zero}};
+  const Vector3<Counted> displacement[3] = {{1e-4, zero, zero}, {zero, -1e-4, zero}, {zero, zero, zero}};
   // On the yield surface at a plastic strain of 0.5, and moving on by 1e-4.
   const double flow = 25 + 125 * std::pow(0.5, 0.3);
   const TetState<Counted> state{{flow / std::sqrt(3.0), -flow / std::sqrt(3.0), zero, zero, zero}, {flow, 0.5}};
   work.operations = operations_of([&] {
-    update_tet(law, TetConstants{moduli, {0.06, 1.2}, 2e6, 1.55e-9, 1e-4}, edge, velocity, state, Counted(6.0),
+    update_tet(law, TetConstants{moduli, {0.06, 1.2}, 2e6, 1.55e-9, 1e-4}, edge, displacement, state, Counted(6.0),
                Counted(1.0), [&](const Counted& ratio) { return mean_stress(moduli, ratio); });
   });
   // Block read; deviator, flow stress and plastic strain written; positions and velocities of nodes read, forces

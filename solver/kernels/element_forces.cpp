@@ -4,10 +4,21 @@
 #include <cmath>
 
 #include "solver/kernels/tet_pressure.hpp"
+#include "solver/model/row_pairs.hpp"
 
 namespace mpfem {
 
 namespace {
+
+/// Positions of a grain's nodes, and their displacements in the step, in pairs (mm); valid until the next call of this
+/// thread.
+const double* moving_nodes(const Model& model, int grain, double time_step) {
+  thread_local RowPairs pairs;
+  const auto g = static_cast<std::size_t>(grain);
+  const auto first = static_cast<std::size_t>(model.node_offset[g]);
+  return pairs.place(model.position.data() + 4 * first, model.velocity.data() + 4 * first, time_step,
+                     static_cast<std::size_t>(model.node_offset[g + 1]) - first);
+}
 
 // flatten: everything below is inlined here. In calls, packs go through memory, which takes 1.2 times as long.
 template <class Real, class Law, class Pressure>
@@ -16,8 +27,7 @@ MPFEM_FLATTEN ElementSums element_pass(Model& model, int grain, double time_step
   constexpr int W = TetBlock<Real>::lanes;
   const auto g = static_cast<std::size_t>(grain);
   const std::int32_t first_node = model.node_offset[g];
-  const double* position = model.position.data() + 4 * first_node;
-  const double* velocity = model.velocity.data() + 4 * first_node;
+  const double* moving = moving_nodes(model, grain, time_step);
   double* force = model.force.data() + 4 * first_node;
   std::fill(force, force + 4 * (model.node_offset[g + 1] - first_node), 0.0);
 
@@ -30,10 +40,9 @@ MPFEM_FLATTEN ElementSums element_pass(Model& model, int grain, double time_step
   for (std::int32_t b = model.block_offset[g]; b < end; ++b) {
     TetBlock<Real>& block = model.block<Real>(b);
     pressure.enter(b);
-    Vector3<S> edge[3], edge_velocity[3];
-    load_edges<W, 3>(position, block.node, edge);
-    load_edges<W, 3>(velocity, block.node, edge_velocity);
-    auto update = update_tet(law, constants, edge, edge_velocity, load_state(block), S::load(block.inverse_volume),
+    Vector3<S> edge[3], displacement[3];
+    load_edge_pairs<W, 3>(moving, block.node, edge, displacement);
+    auto update = update_tet(law, constants, edge, displacement, load_state(block), S::load(block.inverse_volume),
                              S::load(block.length), [&](const S& ratio) { return pressure(block, ratio); });
     store_deviator(block, update.state.deviator);
     if constexpr (Law::yields) {

@@ -7,7 +7,7 @@
 #include <Eigen/Eigenvalues>
 
 #include "solver/model/aligned.hpp"
-#include "solver/model/rows.hpp"
+#include "solver/model/row_pairs.hpp"
 #include "solver/physics/kinematics.hpp"
 
 namespace mpfem {
@@ -35,12 +35,14 @@ MPFEM_FLATTEN void add_product(const Model& model, int grain, const LinearRespon
   constexpr int W = TetBlock<Real>::lanes;
   using S = Pack<W, Real>;
   const auto g = static_cast<std::size_t>(grain);
-  const double* position = model.position.data() + 4 * model.node_offset[g];
+  const auto first = static_cast<std::size_t>(model.node_offset[g]);
+  thread_local RowPairs both;
+  const double* pairs =
+      both.place(model.position.data() + 4 * first, x, 1.0, static_cast<std::size_t>(model.node_offset[g + 1]) - first);
   for (std::int32_t b = model.block_offset[g]; b < model.block_offset[g + 1]; ++b) {
     const TetBlock<Real>& block = model.block<Real>(b);
     Vector3<S> edge[3], displacement[3], force[3];
-    load_edges<W, 3>(position, block.node, edge);
-    load_edges<W, 3>(x, block.node, displacement);
+    load_edge_pairs<W, 3>(pairs, block.node, edge, displacement);
     const TetGeometry<S> geometry = tet_geometry(edge[0], edge[1], edge[2]);
     const SymmetricTensor<S> strain = displacement_increment(geometry, displacement).strain;
     const S volumetric = strain.xx + strain.yy + strain.zz;

@@ -10,8 +10,9 @@
 
 namespace mpfem {
 
-/// A row of four doubles in one register.
+/// A row of four doubles in one register, and two rows in one.
 typedef double Row __attribute__((vector_size(32), aligned(32), may_alias));
+typedef double TwoRows __attribute__((vector_size(64), aligned(64), may_alias));
 
 namespace detail {
 
@@ -24,25 +25,63 @@ inline void transpose(Row a, Row b, Row c, Row d, Row& x, Row& y, Row& z) {
   y = __builtin_shufflevector(ab_high, cd_high, 0, 1, 4, 5);
 }
 
-/// Row `index` of an array of rows.
-inline Row row(const double* rows, std::int32_t index) {
-  return *reinterpret_cast<const Row*>(rows + 4 * index);
+/// Row `index` of an array in which a row begins every `Stride` numbers.
+template <int Stride = 4>
+Row row(const double* rows, std::int32_t index) {
+  return *reinterpret_cast<const Row*>(rows + Stride * static_cast<std::size_t>(index));
 }
 /// Adds to row `index` of an array of rows.
 inline void add_row(double* rows, std::int32_t index, Row value) {
-  *reinterpret_cast<Row*>(rows + 4 * index) += value;
+  *reinterpret_cast<Row*>(rows + 4 * static_cast<std::size_t>(index)) += value;
 }
 
 /// Rows of four cells' nodes 1 … N relative to node 0. `index[i]` points at the four cells' node i.
-template <int N>
+template <int N, int Stride>
 void edges4(const double* rows, const std::int32_t* const (&index)[N + 1], Row (&edge)[N][3]) {
   Row base[4];
-  for (int lane = 0; lane < 4; ++lane) base[lane] = row(rows, index[0][lane]);
+  for (int lane = 0; lane < 4; ++lane) base[lane] = row<Stride>(rows, index[0][lane]);
   for (int i = 0; i < N; ++i) {
     const std::int32_t* node = index[i + 1];
-    transpose(row(rows, node[0]) - base[0], row(rows, node[1]) - base[1], row(rows, node[2]) - base[2],
-              row(rows, node[3]) - base[3], edge[i][0], edge[i][1], edge[i][2]);
+    transpose(row<Stride>(rows, node[0]) - base[0], row<Stride>(rows, node[1]) - base[1],
+              row<Stride>(rows, node[2]) - base[2], row<Stride>(rows, node[3]) - base[3], edge[i][0], edge[i][1],
+              edge[i][2]);
   }
+}
+
+/// Numbers 0 and 1 of a and of b, of the first rows and then of the second; or numbers 2 and 3.
+inline TwoRows first_halves(TwoRows a, TwoRows b) {
+  return __builtin_shufflevector(a, b, 0, 1, 8, 9, 4, 5, 12, 13);
+}
+inline TwoRows second_halves(TwoRows a, TwoRows b) {
+  return __builtin_shufflevector(a, b, 2, 3, 10, 11, 6, 7, 14, 15);
+}
+/// Numbers of a and b in turn: 0 and 2 of both, or 1 and 3, of the first rows and then of the second.
+inline TwoRows even_in_turn(TwoRows a, TwoRows b) {
+  return __builtin_shufflevector(a, b, 0, 8, 2, 10, 4, 12, 6, 14);
+}
+inline TwoRows odd_in_turn(TwoRows a, TwoRows b) {
+  return __builtin_shufflevector(a, b, 1, 9, 3, 11, 5, 13, 7, 15);
+}
+
+/// Adds the vectors f to nodes 1, 2, 3 of eight tets, and minus their sum to node 0.
+inline void add_balanced8(double* rows, const std::int32_t (&index)[4][8], const TwoRows (&f)[3][3]) {
+  const auto add = [&](const std::int32_t* node, int k, TwoRows value) { // to tets k and k + 4
+    add_row(rows, node[k], __builtin_shufflevector(value, value, 0, 1, 2, 3));
+    add_row(rows, node[k + 4], __builtin_shufflevector(value, value, 4, 5, 6, 7));
+  };
+  const TwoRows zero = {};
+  TwoRows total[4] = {};
+  for (int i = 0; i < 3; ++i) {
+    const TwoRows xy_even = even_in_turn(f[i][0], f[i][1]), xy_odd = odd_in_turn(f[i][0], f[i][1]),
+                  z_even = even_in_turn(f[i][2], zero), z_odd = odd_in_turn(f[i][2], zero);
+    const TwoRows of[4] = {first_halves(xy_even, z_even), first_halves(xy_odd, z_odd), second_halves(xy_even, z_even),
+                           second_halves(xy_odd, z_odd)};
+    for (int k = 0; k < 4; ++k) {
+      add(index[i + 1], k, of[k]);
+      total[k] += of[k];
+    }
+  }
+  for (int k = 0; k < 4; ++k) add(index[0], k, -total[k]);
 }
 
 /// Adds the vectors f to nodes 1, 2, 3 of four tets, and minus their sum to node 0.
@@ -114,15 +153,15 @@ Floats<W> of_fours(Floats<W> a, Floats<W> b) {
 }
 
 /// Edges of W cells, as load_edges() gives them.
-template <int W, int N>
+template <int W, int N, int Stride>
 void float_edges(const double* rows, const std::int32_t (&index)[N + 1][W], Vector3<Pack<W, float>> (&edge)[N]) {
   Row base[W];
-  for (int cell = 0; cell < W; ++cell) base[cell] = row(rows, index[0][cell]);
+  for (int cell = 0; cell < W; ++cell) base[cell] = row<Stride>(rows, index[0][cell]);
   for (int i = 0; i < N; ++i) {
     Floats<W> of[4]; // (x, y, z, spare) of cells 0, 4, …; of cells 1, 5, …; and so on
     for (int k = 0; k < 4; ++k) {
       Floats<4> part[W / 4];
-      for (int p = 0; p < W / 4; ++p) part[p] = narrow(row(rows, index[i + 1][4 * p + k]) - base[4 * p + k]);
+      for (int p = 0; p < W / 4; ++p) part[p] = narrow(row<Stride>(rows, index[i + 1][4 * p + k]) - base[4 * p + k]);
       of[k] = join<W>(part);
     }
     const Floats<W> xy01 = of_fours<W, 0, 4, 1, 5>(of[0], of[1]), xy23 = of_fours<W, 0, 4, 1, 5>(of[2], of[3]);
@@ -176,17 +215,18 @@ Pack<W, Real> load_numbers(const double* numbers, const std::int32_t (&index)[W]
   return result;
 }
 
-/// Edges of W cells (tets: N = 3, facets: N = 2): nodes 1 … N relative to node 0. `index[i]` holds the W cells' node i.
-template <int W, int N, class Real>
+/// Edges of W cells (tets: N = 3, facets: N = 2): nodes 1 … N relative to node 0. `index[i]` holds the W cells' node i;
+/// a row begins every `Stride` numbers.
+template <int W, int N, int Stride = 4, class Real>
 void load_edges(const double* rows, const std::int32_t (&index)[N + 1][W], Vector3<Pack<W, Real>> (&edge)[N]) {
   if constexpr (std::is_same_v<Real, float>) {
-    detail::float_edges<W, N>(rows, index, edge);
+    detail::float_edges<W, N, Stride>(rows, index, edge);
   } else if constexpr (W % 4 == 0) {
     Row e[W / 4][N][3];
     for (int part = 0; part < W / 4; ++part) {
       const std::int32_t* node[N + 1];
       for (int i = 0; i <= N; ++i) node[i] = index[i] + 4 * part;
-      detail::edges4<N>(rows, node, e[part]);
+      detail::edges4<N, Stride>(rows, node, e[part]);
     }
     for (int i = 0; i < N; ++i) {
       if constexpr (W == 4) {
@@ -201,7 +241,7 @@ void load_edges(const double* rows, const std::int32_t (&index)[N + 1][W], Vecto
     for (int i = 0; i < N; ++i) {
       typename Pack<W>::Native x{}, y{}, z{};
       for (int k = 0; k < W; ++k) {
-        const double *base = rows + 4 * index[0][k], *node = rows + 4 * index[i + 1][k];
+        const double *base = rows + Stride * index[0][k], *node = rows + Stride * index[i + 1][k];
         x[k] = node[0] - base[0], y[k] = node[1] - base[1], z[k] = node[2] - base[2];
       }
       edge[i] = {Pack<W>(x), Pack<W>(y), Pack<W>(z)};
@@ -219,17 +259,8 @@ void add_balanced(double* rows, const std::int32_t (&index)[4][W], const Vector3
         rows, {index[0], index[1], index[2], index[3]},
         {{f[0].x.v, f[0].y.v, f[0].z.v}, {f[1].x.v, f[1].y.v, f[1].z.v}, {f[2].x.v, f[2].y.v, f[2].z.v}});
   } else if constexpr (W == 8) {
-    Row low[3][3], high[3][3];
-    for (int i = 0; i < 3; ++i) {
-      const auto& x = f[i].x.v;
-      const auto& y = f[i].y.v;
-      const auto& z = f[i].z.v;
-      low[i][0] = __builtin_shufflevector(x, x, 0, 1, 2, 3), high[i][0] = __builtin_shufflevector(x, x, 4, 5, 6, 7);
-      low[i][1] = __builtin_shufflevector(y, y, 0, 1, 2, 3), high[i][1] = __builtin_shufflevector(y, y, 4, 5, 6, 7);
-      low[i][2] = __builtin_shufflevector(z, z, 0, 1, 2, 3), high[i][2] = __builtin_shufflevector(z, z, 4, 5, 6, 7);
-    }
-    detail::add_balanced4(rows, {index[0], index[1], index[2], index[3]}, low);
-    detail::add_balanced4(rows, {index[0] + 4, index[1] + 4, index[2] + 4, index[3] + 4}, high);
+    detail::add_balanced8(
+        rows, index, {{f[0].x.v, f[0].y.v, f[0].z.v}, {f[1].x.v, f[1].y.v, f[1].z.v}, {f[2].x.v, f[2].y.v, f[2].z.v}});
   } else {
     for (int k = 0; k < W; ++k) {
       double* base = rows + 4 * index[0][k];

@@ -33,19 +33,18 @@ struct Increment {
 /// increments of nodes 1, 2, 3 relative to node 0 (mm); `middle` the geometry half way.
 template <class S>
 Increment<S> displacement_increment(const TetGeometry<S>& middle, const Vector3<S> (&du)[3]) {
-  const S inverse = S(1.0) / middle.det;
-  const Vector3<S> g0 = inverse * middle.area[0], g1 = inverse * middle.area[1], g2 = inverse * middle.area[2];
-  const S hxx = du[0].x * g0.x + du[1].x * g1.x + du[2].x * g2.x;
-  const S hxy = du[0].x * g0.y + du[1].x * g1.y + du[2].x * g2.y;
-  const S hxz = du[0].x * g0.z + du[1].x * g1.z + du[2].x * g2.z;
-  const S hyx = du[0].y * g0.x + du[1].y * g1.x + du[2].y * g2.x;
-  const S hyy = du[0].y * g0.y + du[1].y * g1.y + du[2].y * g2.y;
-  const S hyz = du[0].y * g0.z + du[1].y * g1.z + du[2].y * g2.z;
-  const S hzx = du[0].z * g0.x + du[1].z * g1.x + du[2].z * g2.x;
-  const S hzy = du[0].z * g0.y + du[1].z * g1.y + du[2].z * g2.y;
-  const S hzz = du[0].z * g0.z + du[1].z * g1.z + du[2].z * g2.z;
-  const S half(0.5);
-  return {{hxx, hyy, hzz, half * (hxy + hyx), half * (hyz + hzy), half * (hzx + hxz)},
+  const Vector3<S>* a = middle.area;
+  const S hxx = du[0].x * a[0].x + du[1].x * a[1].x + du[2].x * a[2].x; // the gradient times det
+  const S hxy = du[0].x * a[0].y + du[1].x * a[1].y + du[2].x * a[2].y;
+  const S hxz = du[0].x * a[0].z + du[1].x * a[1].z + du[2].x * a[2].z;
+  const S hyx = du[0].y * a[0].x + du[1].y * a[1].x + du[2].y * a[2].x;
+  const S hyy = du[0].y * a[0].y + du[1].y * a[1].y + du[2].y * a[2].y;
+  const S hyz = du[0].y * a[0].z + du[1].y * a[1].z + du[2].y * a[2].z;
+  const S hzx = du[0].z * a[0].x + du[1].z * a[1].x + du[2].z * a[2].x;
+  const S hzy = du[0].z * a[0].y + du[1].z * a[1].y + du[2].z * a[2].y;
+  const S hzz = du[0].z * a[0].z + du[1].z * a[1].z + du[2].z * a[2].z;
+  const S inverse = S(1.0) / middle.det, half = S(0.5) * inverse;
+  return {{inverse * hxx, inverse * hyy, inverse * hzz, half * (hxy + hyx), half * (hyz + hzy), half * (hzx + hxz)},
           {half * (hzy - hyz), half * (hxz - hzx), half * (hyx - hxy)}};
 }
 

@@ -38,36 +38,36 @@ struct TetUpdate {
   S strain_increment_square;
 };
 
-/// One step of a tet. `edge` are nodes 1, 2, 3 relative to node 0 at the end of the step (mm), `velocity` their
-/// velocities relative to node 0 in the half step that led there (mm/s); `inverse_volume` 1 over the reference volume
+/// One step of a tet. `edge` are nodes 1, 2, 3 relative to node 0 at the end of the step (mm), `displacement` their
+/// displacements relative to node 0 in the step (mm); `inverse_volume` 1 over the reference volume
 /// (1/mm^3); `length` the length of bulk viscosity (mm). `elastic_mean` gives the elastic mean stress (MPa) for the
 /// tet's own volume ratio: this is where elements that average pressure differ.
 template <class S, class Law, class ElasticMean>
 TetUpdate<S> update_tet(const Law& law, const TetConstants& c, const Vector3<S> (&edge)[3],
-                        const Vector3<S> (&velocity)[3], const TetState<S>& old, const S& inverse_volume,
+                        const Vector3<S> (&displacement)[3], const TetState<S>& old, const S& inverse_volume,
                         const S& length, const ElasticMean& elastic_mean) {
   TetUpdate<S> result;
-  // 1. Strain increment and rotation at the half step; deviator.
-  Vector3<S> du[3], middle_edge[3];
-  for (int i = 0; i < 3; ++i) {
-    du[i] = S(c.step) * velocity[i];
-    middle_edge[i] = edge[i] - S(0.5) * du[i];
-  }
-  const auto increment = displacement_increment(tet_geometry(middle_edge[0], middle_edge[1], middle_edge[2]), du);
-  const auto returned = update_deviator(law, c.moduli, old.deviator, old.hardening, increment);
-  result.state = {returned.deviator, returned.hardening};
-  result.plastic_work = returned.plastic_work;
-
-  // 2. Pressure from the volume at the end, bulk viscosity from the rate.
+  // What does not depend on the stress comes first, so that processors work on it while they wait for divisions.
+  // 1. Geometry at the half step and at the end.
+  Vector3<S> middle[3];
+  for (int i = 0; i < 3; ++i) middle[i] = edge[i] - S(0.5) * displacement[i];
+  const auto middle_geometry = tet_geometry(middle[0], middle[1], middle[2]);
   const auto geometry = tet_geometry(edge[0], edge[1], edge[2]);
   result.volume = S(1.0 / 6.0) * geometry.det;
   result.volume_ratio = result.volume * inverse_volume;
+
+  // 2. Strain increment and rotation at the half step; pressure from the volume at the end, bulk viscosity from the
+  //    rate; deviator.
+  const auto increment = displacement_increment(middle_geometry, displacement);
   const auto& e = increment.strain;
   const S volumetric_strain = e.xx + e.yy + e.zz;
   const S viscous = viscous_pressure(c.viscosity, c.wave_speed, S(c.density) / result.volume_ratio, length,
                                      volumetric_strain * S(1.0 / c.step));
   result.mean = elastic_mean(result.volume_ratio) - viscous;
   result.viscous_work = -(viscous * volumetric_strain);
+  const auto returned = update_deviator(law, c.moduli, old.deviator, old.hardening, increment);
+  result.state = {returned.deviator, returned.hardening};
+  result.plastic_work = returned.plastic_work;
 
   // 3. Forces f_i = -V sigma grad N_i = -sigma a_i / 6.
   for (int i = 0; i < 3; ++i)

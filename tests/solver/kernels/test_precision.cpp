@@ -8,8 +8,6 @@
 #include "solver/kernels/element_forces.hpp"
 #include "solver/kernels/element_step.hpp"
 #include "solver/kernels/grain_state.hpp"
-#include "solver/model/aligned.hpp"
-#include "solver/model/rows.hpp"
 #include "solver/physics/plasticity.hpp"
 #include "solver/run/simulation.hpp"
 #include "tests/support/meshes.hpp"
@@ -23,36 +21,6 @@ namespace {
 
 /// A few roundings of floats, each up to 6e-8 of the number.
 constexpr double few_roundings = 1e-6;
-
-template <int W>
-void check_rows_of_floats() {
-  std::mt19937 random(3);
-  std::uniform_real_distribution<double> uniform(-1, 1);
-  AlignedVector<double> node(4 * 50), force(4 * 50, 0.0), expected = force;
-  for (double& x : node) x = uniform(random);
-  std::int32_t index[4][W];
-  for (auto& corner : index)
-    for (auto& n : corner) n = static_cast<std::int32_t>(random() % 50);
-  Vector3<Pack<W, float>> edge[3];
-  load_edges<W, 3>(node.data(), index, edge);
-  add_balanced<W>(force.data(), index, edge);
-  std::array<double, 3> total{};
-  for (int lane = 0; lane < W; ++lane)
-    for (int i = 0; i < 3; ++i) {
-      const double of_lane[3] = {edge[i].x[lane], edge[i].y[lane], edge[i].z[lane]};
-      for (std::size_t a = 0; a < 3; ++a) {
-        const auto at = [&](int corner) { return 4 * static_cast<std::size_t>(index[corner][lane]) + a; };
-        CHECK(std::abs(of_lane[a] - (node[at(i + 1)] - node[at(0)])) < few_roundings);
-        expected[at(i + 1)] += of_lane[a];
-        expected[at(0)] -= of_lane[a];
-      }
-    }
-  for (std::size_t i = 0; i < force.size(); ++i) {
-    CHECK(std::abs(force[i] - expected[i]) < rounding);
-    if (i % 4 < 3) total[i % 4] += force[i];
-  }
-  for (const double sum : total) CHECK(std::abs(sum) < rounding * 100);
-}
 
 Scenario compaction(Precision precision, ElementType element) {
   Scenario scenario = holding_scenario(1, HardeningLaw::power);
@@ -79,12 +47,6 @@ HistoryRow compacted(Precision precision, ElementType element) {
 }
 
 } // namespace
-
-TEST_CASE("packs of floats of any width load edges, and their forces add up to zero") {
-  check_rows_of_floats<4>();
-  check_rows_of_floats<8>();
-  check_rows_of_floats<16>();
-}
 
 TEST_CASE("every lane of a pack of floats gives the scalar answer within a few roundings") {
   using S = Pack<native_lanes_of<float>, float>;
