@@ -7,6 +7,7 @@
 #include "common/available_memory.hpp"
 #include "common/errors.hpp"
 #include "solver/model/bond_resolution.hpp"
+#include "solver/output/earlier_run.hpp"
 #include "solver/output/run_lock.hpp"
 #include "solver/parallel/root.hpp"
 #include "solver/run/check_output.hpp"
@@ -56,11 +57,19 @@ void report_beginning(const RunReport& report, const std::vector<std::string>& w
     if (!text.empty()) report.note(text);
 }
 
-/// A warning, if there is one. Space that earlier files of the same run take is free for it.
+/// A warning, if there is one. Space that earlier files of the same run take is free for it, unless they are kept.
 void check_disk_space(const Scenario& scenario, const RunOptions& options, double needed, const RunReport& report) {
-  const double available = available_disk_space(options.output) + size_on_disk(scenario, options.output);
+  const double kept = options.keeps_earlier_run ? space_of_kept_run(options.output) : 0;
+  const double available = available_disk_space(options.output) + size_on_disk(scenario, options.output) - kept;
   if (const std::string scarce = check_needs(options.output, {.disk = needed}, {.disk = available}); !scarce.empty())
     report.warning(scarce);
+}
+
+/// What an earlier run of this name has left: the run file is kept without --resume, its rolling checkpoints go.
+void clear_way(const Continuation& continuation, const RunOptions& options, const RunReport& report) {
+  if (options.keeps_earlier_run)
+    if (const std::string kept = keep_earlier_run(options.output); !kept.empty()) report.note_despite_quiet(kept);
+  continuation.discard_unfinished_run();
 }
 
 /// Prepares a simulation where the run begins, and runs it. `needs` are those of the first rank.
@@ -81,7 +90,7 @@ Outcome run_once(const Scenario& scenario, const RunOptions& options, const Comm
   report_beginning(report, warnings, simulation);
   check_programme(scenario, simulation.state().stage, simulation.stage_run().state().start, simulation.model(),
                   simulation.step_estimate().stable_step());
-  if (beginning == Beginning::fresh) root_does(ranks, [&] { continuation.discard_unfinished_run(); });
+  if (beginning == Beginning::fresh) root_does(ranks, [&] { clear_way(continuation, options, report); });
   RunRecords records(simulation, record, options);
   if (beginning == Beginning::fresh) records.pass_checkpoint_densities(); // those that the packing has from the start
   TimeLoop loop(simulation, records, continuation, report, options, Profile::since(begun));
@@ -94,6 +103,7 @@ Outcome run_once(const Scenario& scenario, const RunOptions& options, const Comm
 void run_scenario(const Scenario& scenario, const RunOptions& given, const Communicator& ranks) {
   RunOptions options = given;
   if (!ranks.is_root()) options.quiet = true;
+  options.keeps_earlier_run = !given.resume;
   std::optional<RunLock> lock;
   Needs needs;
   root_does(ranks, [&] {
