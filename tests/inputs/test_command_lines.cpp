@@ -116,6 +116,17 @@ TEST_CASE("Each program names an unknown subcommand and those that it has") {
   }
 }
 
+TEST_CASE("A word that no program knows is refused with --help and --version, too") {
+  for (const Program& program : programs) {
+    const std::string first = program.commands.front().name, near = fmt::format("did you mean '{}'?", first);
+    INFO(program.path);
+    for (const std::string flag : {"--help", "-h", "--version"})
+      CHECK(fault_of_refusal(program.path, {first + "x", flag}, {near}) == "");
+    CHECK(fault_of_refusal(program.path, {"--help", first + "x"}, {near}) == "");
+    CHECK(fault_of_refusal(program.path, {first, "--help", "--nothing"}, {"found '--nothing'"}) == "");
+  }
+}
+
 TEST_CASE("An input that does not exist is named before an option that is missing") {
   for (const auto& [program, arguments] :
        std::vector<std::pair<std::string, std::vector<std::string>>>{{MPFEM_PACK_GEN, {"spheres", "none"}},
