@@ -13,7 +13,6 @@
 #include "common/output_file.hpp"
 #include "common/run_stem.hpp"
 #include "common/table_reader.hpp"
-#include "solver/output/earlier_run.hpp"
 #include "solver/run/checkpoints.hpp"
 #include "solver/scenario/read_scenario.hpp"
 
@@ -78,7 +77,6 @@ void check_output(const Scenario& scenario, const RunOptions& options) {
       refuse_overwriting(fmt::format("--output {}: its checkpoint", one_line(output)), checkpoint, input);
   }
   refuse_checkpoints_of_other_runs(scenario, output);
-  if (!options.resume) refuse_other_files(output);
   try_output(output);
 }
 

@@ -6,9 +6,8 @@
 
 namespace mpfem {
 
-/// Refuses to write over what the run reads, over what another run has written and, without --resume, over what is not
-/// a run file. Tries whether the output can be written at all. Throws InputError, and StorageError if nothing can be
-/// written there.
+/// Refuses to write over what the run reads or what another run has written, and tries whether the output can be
+/// written at all. Throws InputError, and StorageError if nothing can be written there.
 void check_output(const Scenario& scenario, const RunOptions& options);
 
 } // namespace mpfem

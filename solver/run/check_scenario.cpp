@@ -178,7 +178,7 @@ void check_scenario(const Scenario& scenario, const CheckOptions& options, const
   Needs needs;
   std::vector<std::string> warnings;
   root_does(ranks, [&] {
-    needs = needs_of(read_packing_counts(scenario.packing_file), scenario);
+    needs = needs_of(scenario);
     const std::string scarce =
         check_needs(scenario.packing_file, needs, {available_memory(), std::numeric_limits<double>::infinity()});
     if (!scarce.empty()) warnings.push_back(scarce);

@@ -86,10 +86,10 @@ Outcome run_once(const Scenario& scenario, const RunOptions& options, const Comm
   if (beginning == Beginning::must_start_again) return {RunEnd::must_start_again};
   stop_before_first_step(ranks, checkpoint_path(options.output));
   if (beginning == Beginning::complete) return {RunEnd::complete};
-  if (!owners) root_does(ranks, [&] { check_disk_space(scenario, options, needs.disk, report); });
-  report_beginning(report, warnings, simulation);
   check_programme(scenario, simulation.state().stage, simulation.stage_run().state().start, simulation.model(),
                   simulation.step_estimate().stable_step());
+  if (!owners) root_does(ranks, [&] { check_disk_space(scenario, options, needs.disk, report); });
+  report_beginning(report, warnings, simulation);
   if (beginning == Beginning::fresh) root_does(ranks, [&] { clear_way(continuation, options, report); });
   RunRecords records(simulation, record, options);
   if (beginning == Beginning::fresh) records.pass_checkpoint_densities(); // those that the packing has from the start
@@ -108,7 +108,8 @@ void run_scenario(const Scenario& scenario, const RunOptions& given, const Commu
   Needs needs;
   root_does(ranks, [&] {
     check_output(scenario, options);
-    needs = needs_of(read_packing_counts(scenario.packing_file), scenario);
+    needs = needs_of(scenario);
+    if (options.keeps_earlier_run) refuse_other_files(options.output);
     const std::string scarce = check_needs(options.output, {.memory = needs.memory}, {.memory = available_memory()});
     if (!scarce.empty() && !options.quiet) fmt::print(stderr, "mpfem: warning: {}\n", scarce);
     lock.emplace(options.output);

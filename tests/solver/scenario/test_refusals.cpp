@@ -159,7 +159,7 @@ TEST_CASE("every bad input is refused with one clear line and exit code 2") {
       {"exponent = 0.3", "exponent = 1.3", {"scenario.toml:10", "exponent", "1.3", "0.001 … 1"}},
       {"youngs_modulus = 5000", "youngs_modulus = nan", {"youngs_modulus", "nan"}},
       {"youngs_modulus = 5000", "", {"youngs_modulus", "missing"}},
-      {"packing.h5", "absent.h5", {"absent.h5", "no such file"}},
+      {"packing.h5", "absent.h5", {"scenario.toml:1:11: key 'packing': ", "absent.h5: no such file"}},
       {"packing.h5", "nothing.h5", {"nothing.h5", "not an HDF5 file"}},
       {"packing.h5", "inverted.h5", {"inverted.h5", "row 70", "inverted"}},
       {"packing.h5", "overlapping.h5", {"overlapping.h5", "grains 2 and 3"}},
