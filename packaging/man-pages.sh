@@ -36,7 +36,7 @@ command -v help2man >/dev/null || {
 }
 mkdir -p "$folder"
 rm -f "$folder"/*.1
-version=$("$bin/postproc" --version | cut -d ' ' -f 1)
+version=$("$bin/postproc" --version | cut -d ' ' -f 2)
 for program in "${!names[@]}"; do
   page "$program" "$program" "${names[$program]}"
   while read -r subcommand description; do

@@ -78,7 +78,7 @@ std::unique_ptr<Command> add_picture_help(CLI::App& app) {
 int body(int argc, char** argv) {
   hand_over_picture(argc, argv);
   CLI::App app(help);
-  app.set_version_flag("--version", version_and_commit());
+  app.set_version_flag("--version", "postproc " + version_and_commit());
   app.require_subcommand(1);
   std::vector<std::unique_ptr<Command>> commands;
   for (MakeCommand* make : before_figures) commands.push_back(make(app));

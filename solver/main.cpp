@@ -179,7 +179,7 @@ void measure_steps(const Arguments& arguments, BenchOptions options, const Commu
 
 int run_command(int argc, char** argv, const Communicator& ranks) {
   CLI::App app(help_text);
-  app.set_version_flag("--version", version_and_commit());
+  app.set_version_flag("--version", "mpfem " + version_and_commit());
   app.require_subcommand(1);
   Arguments arguments;
   arguments.run.threads = share_of_cores(ranks);

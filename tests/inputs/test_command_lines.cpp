@@ -146,6 +146,13 @@ TEST_CASE("An input that does not exist is named before an option that is missin
   }
 }
 
+TEST_CASE("The version is printed with the name of the program") {
+  for (const auto& [path, name] : {std::pair{MPFEM_PACK_GEN, "pack-gen"}, std::pair{MPFEM_EXECUTABLE, "mpfem"},
+                                   std::pair{MPFEM_POSTPROC, "postproc"}})
+    CHECK_THAT(run_command(fmt::format("'{}' --version", path)).output,
+               Catch::Matches(fmt::format("{} [0-9]+\\.[0-9]+\\.[0-9]+( \\(commit .+\\))?\n", name)));
+}
+
 TEST_CASE("Help and version end with exit code 0") {
   for (const Program& program : programs) {
     CHECK(run_limited(program.path, {"--help"}).exit_code == 0);
