@@ -1,6 +1,7 @@
 #include "solver/run/run_scenario.hpp"
 
 #include <algorithm>
+#include <iterator>
 
 #include <fmt/format.h>
 
@@ -16,6 +17,7 @@
 #include "solver/run/interrupt.hpp"
 #include "solver/run/needs.hpp"
 #include "solver/run/plan_text.hpp"
+#include "solver/run/plausibility.hpp"
 #include "solver/run/programme.hpp"
 #include "solver/run/run_records.hpp"
 #include "solver/run/run_report.hpp"
@@ -81,7 +83,8 @@ Outcome run_once(const Scenario& scenario, const RunOptions& options, const Comm
   RunReport report(ranks.is_root(), options.quiet);
   RunRecord record;
   Continuation continuation(simulation, record, options, report);
-  const auto warnings = check_bonds(simulation.model(), scenario, ranks);
+  auto warnings = implausible_values(scenario);
+  std::ranges::copy(check_bonds(simulation.model(), scenario, ranks), std::back_inserter(warnings));
   const Beginning beginning = continuation.begin();
   if (beginning == Beginning::must_start_again) return {RunEnd::must_start_again};
   stop_before_first_step(ranks, checkpoint_path(options.output));
