@@ -13,6 +13,7 @@ add_custom_command(OUTPUT ${man_pages}/made
   COMMAND ${PROJECT_SOURCE_DIR}/packaging/man-pages.sh ${CMAKE_RUNTIME_OUTPUT_DIRECTORY} ${man_pages}
   COMMAND ${CMAKE_COMMAND} -E touch ${man_pages}/made
   DEPENDS mpfem pack-gen postproc ${PROJECT_SOURCE_DIR}/packaging/man-pages.sh
+    ${PROJECT_SOURCE_DIR}/packaging/man-text.awk $<$<TARGET_EXISTS:postproc-picture>:postproc-picture>
   COMMENT "Man pages from --help"
   VERBATIM)
 add_custom_target(man-pages ${in_whole_build} DEPENDS ${man_pages}/made)

@@ -72,6 +72,14 @@ std::string fault_of_words(const CLI::App& command) {
   return fmt::format("found one more word, '{}', allowed: options", shortened(word, longest_word));
 }
 
+/// The same for all that were given.
+std::string fault_of_all_words(const CLI::App& app) {
+  std::string fault = fault_of_words(app);
+  for (const CLI::App* parsed : app.get_subcommands())
+    if (fault.empty()) fault = fault_of_words(*parsed);
+  return fault;
+}
+
 /// CLI11's message in the form of the others; as it is where it has another form.
 std::string in_own_form(const std::string& message) {
   constexpr std::size_t longest = 240;
@@ -93,10 +101,7 @@ std::string fault_of(const CLI::App& app, const CLI::ParseError& error) {
   const int code = error.get_exit_code();
   if (code != static_cast<int>(CLI::ExitCodes::RequiredError) && code != static_cast<int>(CLI::ExitCodes::ExtrasError))
     return in_own_form(error.what());
-  std::string fault = fault_of_words(app);
-  for (const CLI::App* parsed : app.get_subcommands())
-    if (fault.empty()) fault = fault_of_words(*parsed);
-  if (!fault.empty()) return fault;
+  if (const std::string fault = fault_of_all_words(app); !fault.empty()) return fault;
   const std::vector<std::string> subcommands = names_of_subcommands(app);
   if (!subcommands.empty() && app.get_subcommands().empty())
     return "found no subcommand, allowed: " + list_of(subcommands);
@@ -134,14 +139,18 @@ CLI::Option* add_assignments(CLI::App& command, std::vector<std::string>& assign
 }
 
 std::optional<int> parse_command_line(CLI::App& app, const std::string& program, int argc, char** argv) {
+  const auto refuse = [&](const std::string& fault) {
+    std::string command = program;
+    for (const CLI::App* parsed : app.get_subcommands()) command += " " + parsed->get_name();
+    throw InputError(fmt::format("{} (see {} --help)", fault, command));
+  };
   try {
     app.parse(argc, argv);
   } catch (const CLI::Success& success) { // help or version
+    if (const std::string fault = fault_of_all_words(app); !fault.empty()) refuse(fault);
     return app.exit(success);
   } catch (const CLI::ParseError& error) {
-    std::string command = program;
-    for (const CLI::App* parsed : app.get_subcommands()) command += " " + parsed->get_name();
-    throw InputError(fmt::format("{} (see {} --help)", fault_of(app, error), command));
+    refuse(fault_of(app, error));
   }
   return std::nullopt;
 }

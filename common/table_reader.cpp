@@ -1,8 +1,10 @@
 #include "common/table_reader.hpp"
 
 #include <algorithm>
+#include <array>
 #include <charconv>
 #include <cmath>
+#include <fstream>
 #include <sstream>
 #include <utility>
 
@@ -74,6 +76,14 @@ std::string wrong_type(const toml::node& node, std::string_view expected) {
 
 std::string quoted_list(const std::vector<std::string>& words) {
   return fmt::format("'{}'", fmt::join(words, "', '"));
+}
+
+/// Whether a regular file begins as those of mpfem do, which may be taken for one another.
+bool is_hdf5(const std::string& path) {
+  constexpr std::string_view signature = "\x89HDF\r\n\x1a\n";
+  std::array<char, signature.size()> begin{};
+  std::ifstream file(path, std::ios::binary);
+  return file.read(begin.data(), begin.size()) && std::string_view(begin.data(), begin.size()) == signature;
 }
 
 toml::table parse_toml(std::string_view text, const std::string& name) {
@@ -156,6 +166,8 @@ toml::node& child(toml::node& parent, const std::string& part, const toml::sourc
 TomlDocument::TomlDocument(toml::table root, std::string name) : root_(std::move(root)), name_(std::move(name)) {}
 
 TomlDocument TomlDocument::from_file(const std::string& path) {
+  refuse_irregular_file(path);
+  if (is_hdf5(path)) throw_input_error(shown_path(path), "found an HDF5 file, allowed: a text file (TOML)");
   return from_text(read_text_file(path, most_bytes), path);
 }
 

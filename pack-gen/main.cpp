@@ -438,7 +438,7 @@ CLI::App* add_hemispheres(CLI::App& app, Arguments& arguments) {
 
 int body(int argc, char** argv) {
   CLI::App app(help_text);
-  app.set_version_flag("--version", version_and_commit());
+  app.set_version_flag("--version", "pack-gen " + version_and_commit());
   app.require_subcommand(1);
   Arguments arguments;
   arguments.threads = available_cores();

@@ -18,10 +18,16 @@ subcommands() {
     awk '/^Subcommands:/ { listed = 1; next } listed && /^  [a-z]/ { sub(/\.$/, ""); $1 = $1; print }'
 }
 
+here=$(dirname "${BASH_SOURCE[0]}")
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
 # page EXECUTABLE NAME DESCRIPTION; all programs have the same version.
 page() {
   help2man --locale C.UTF-8 --no-info --no-discard-stderr --section 1 --source mpfem --manual 'User commands' \
-    --name "$3" --version-string "$version" --output "$folder/$2.1" "$bin/$1"
+    --name "$3" --version-string "$version" --output "$work/page" "$bin/$1"
+  # shellcheck disable=SC2086 # program and subcommand
+  "$bin/"$1 --help >"$work/help"
+  awk -f "$here/man-text.awk" "$work/help" "$work/page" >"$folder/$2.1"
 }
 
 command -v help2man >/dev/null || {
@@ -30,7 +36,7 @@ command -v help2man >/dev/null || {
 }
 mkdir -p "$folder"
 rm -f "$folder"/*.1
-version=$("$bin/postproc" --version | cut -d ' ' -f 1)
+version=$("$bin/postproc" --version | cut -d ' ' -f 2)
 for program in "${!names[@]}"; do
   page "$program" "$program" "${names[$program]}"
   while read -r subcommand description; do

@@ -6,6 +6,7 @@
 #include "postproc/commands/commands.hpp"
 #include "postproc/figure/figure_commands.hpp"
 #include "postproc/hand_over_picture.hpp"
+#include "postproc/picture/picture_command.hpp"
 
 namespace {
 
@@ -65,16 +66,23 @@ constexpr MakeCommand* before_figures[] = {summary_command,
                                            diametral_command};
 constexpr MakeCommand* after_figures[] = {validate_command, cost_command};
 
+/// The subcommand `picture` for --help alone: if it is to draw, hand_over_picture() does not return.
+std::unique_ptr<Command> add_picture_help(CLI::App& app) {
+  auto command = picture_command(app);
+  CLI::App* picture = app.get_subcommand("picture");
+  picture->description(picture->get_description() +
+                       "\nNeeds the executable postproc-picture, which ./bootstrap pictures builds in the sources.");
+  return command;
+}
+
 int body(int argc, char** argv) {
   hand_over_picture(argc, argv);
   CLI::App app(help);
-  app.set_version_flag("--version", version_and_commit());
+  app.set_version_flag("--version", "postproc " + version_and_commit());
   app.require_subcommand(1);
   std::vector<std::unique_ptr<Command>> commands;
   for (MakeCommand* make : before_figures) commands.push_back(make(app));
-  app.add_subcommand("picture",
-                     "Draw a snapshot in three dimensions, cut open.\n"
-                     "Needs the executable postproc-picture, which ./bootstrap pictures builds in the sources.");
+  const auto picture = add_picture_help(app);
   const FigureCommands figures(app);
   for (MakeCommand* make : after_figures) commands.push_back(make(app));
 

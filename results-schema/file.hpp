@@ -143,6 +143,10 @@ private:
   std::unique_ptr<State> state_;
 };
 
+/// Whether a file says of itself that it is of this kind; of any schema version. Nothing else of it is checked but its
+/// seal.
+bool states_kind(const std::string& path, FileKind kind);
+
 /// Result of validate().
 struct Validation {
   std::vector<std::string> findings; ///< one line each; empty for a good file

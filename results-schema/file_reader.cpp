@@ -90,6 +90,14 @@ std::unique_ptr<FileReader::State> open_unchecked(const std::string& path) {
   return state;
 }
 
+bool states_kind(const std::string& path, FileKind kind) {
+  std::error_code ignored;
+  if (!std::filesystem::is_regular_file(path, ignored) || check_seal(path) == Seal::broken) return false;
+  prepare_hdf5();
+  const Handle file(H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), H5Fclose);
+  return file && read_text_attribute(file, attribute::file_kind) == kinds[static_cast<std::size_t>(kind)].name;
+}
+
 FileReader::FileReader(const std::string& path) {
   std::error_code ignored;
   const bool regular = std::filesystem::is_regular_file(path, ignored);

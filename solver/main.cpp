@@ -142,6 +142,7 @@ constexpr const char* help_text =
 
 CLI::App* add_run(CLI::App& app, Arguments& arguments) {
   CLI::App* run = app.add_subcommand("run", "Run a scenario.\n"
+                                            "Without --resume, a run file that is already there is kept as RUN.h5~.\n"
                                             "Examples:\n"
                                             "  mpfem run compaction.toml -o run.h5 --resume\n"
                                             "  mpfem run compaction.toml -o rough.h5 --set contact.friction=0.3");
@@ -178,7 +179,7 @@ void measure_steps(const Arguments& arguments, BenchOptions options, const Commu
 
 int run_command(int argc, char** argv, const Communicator& ranks) {
   CLI::App app(help_text);
-  app.set_version_flag("--version", version_and_commit());
+  app.set_version_flag("--version", "mpfem " + version_and_commit());
   app.require_subcommand(1);
   Arguments arguments;
   arguments.run.threads = share_of_cores(ranks);

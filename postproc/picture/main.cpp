@@ -12,7 +12,7 @@ namespace {
 int body(int argc, char** argv) {
   CLI::App app("postproc picture: a snapshot in three dimensions");
   app.name("postproc");
-  app.set_version_flag("--version", mpfem::version_and_commit());
+  app.set_version_flag("--version", "postproc " + mpfem::version_and_commit());
   app.require_subcommand(1);
   const auto command = mpfem::picture_command(app);
   if (const auto done = mpfem::parse_command_line(app, "postproc", argc, argv)) return *done;

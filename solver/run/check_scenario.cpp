@@ -14,6 +14,7 @@
 #include "solver/parallel/root.hpp"
 #include "solver/run/needs.hpp"
 #include "solver/run/plan_text.hpp"
+#include "solver/run/plausibility.hpp"
 #include "solver/run/programme.hpp"
 #include "solver/run/resume.hpp"
 #include "solver/run/simulation.hpp"
@@ -165,11 +166,10 @@ void print_stages(const Scenario& scenario, Simulation& simulation, int threads)
   }
   const MeasuredTimes measured = measure(simulation);
   const double rows = scenario.output.history_rows * static_cast<double>(works.size()) * measured.row;
-  fmt::print(
-      "estimate       {:.3g} ms per step measured here on {} threads; {:.0f} steps: {:.3g} s, with an average step "
-      "of {:.3g} ms and {:.2g} s for the history\n",
-      1e3 * measured.step, threads, all.steps, all.cost * measured.step + rows,
-      1e3 * measured.step * all.cost / all.steps, rows);
+  fmt::print("estimate       {:.3g} ms per step measured here on {} threads; {:.0f} steps: {}, with an average step "
+             "of {:.3g} ms and {:.2g} s for the history\n",
+             1e3 * measured.step, threads, all.steps, wall_time_text(all.cost * measured.step + rows),
+             1e3 * measured.step * all.cost / all.steps, rows);
 }
 
 } // namespace
@@ -178,11 +178,12 @@ void check_scenario(const Scenario& scenario, const CheckOptions& options, const
   Needs needs;
   std::vector<std::string> warnings;
   root_does(ranks, [&] {
-    needs = needs_of(read_packing_counts(scenario.packing_file), scenario);
+    needs = needs_of(scenario);
     const std::string scarce =
         check_needs(scenario.packing_file, needs, {available_memory(), std::numeric_limits<double>::infinity()});
     if (!scarce.empty()) warnings.push_back(scarce);
   });
+  std::ranges::copy(implausible_values(scenario), std::back_inserter(warnings));
   ThreadTeam team(options.threads);
   Simulation simulation(build_model(read_packing(scenario.packing_file, ranks), scenario, scenario.packing_file, ranks),
                         scenario, team, options.from.has_value(), ranks);

@@ -94,6 +94,14 @@ Needs needs_of(const PackingCounts& packing, const Scenario& scenario) {
   return {memory_of(packing, scenario), disk_of(packing, scenario)};
 }
 
+Needs needs_of(const Scenario& scenario) {
+  try {
+    return needs_of(read_packing_counts(scenario.packing_file), scenario);
+  } catch (const InputError& error) {
+    throw InputError(fmt::format("{}key 'packing': {}", scenario.places.prefix("packing"), error.what()));
+  }
+}
+
 double available_disk_space(const std::string& file) {
   struct statvfs system {};
   const auto folder = std::filesystem::absolute(file).parent_path();

@@ -16,6 +16,10 @@ struct Needs {
 /// What a run of the scenario needs at most, in the dense packing.
 Needs needs_of(const PackingCounts& packing, const Scenario& scenario);
 
+/// The same, with the numbers of the scenario's packing. Throws InputError at the key 'packing' if its file cannot be
+/// read as a packing.
+Needs needs_of(const Scenario& scenario);
+
 /// Bytes that may be written to the folder of a file. Infinite if the system does not tell.
 double available_disk_space(const std::string& file);
 

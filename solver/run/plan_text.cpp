@@ -6,6 +6,16 @@
 
 namespace mpfem {
 
+std::string wall_time_text(double seconds) {
+  constexpr double minute = 60, hour = 60 * minute, day = 24 * hour;
+  if (seconds < minute) return fmt::format("{:.3g} s", seconds);
+  if (seconds < 10 * minute) return fmt::format("{:.2g} min", seconds / minute);
+  const double minutes = std::round(seconds / minute);
+  if (minutes < 60) return fmt::format("{:.0f} min", minutes);
+  if (seconds < 2 * day) return fmt::format("{:.0f} h {:.0f} min", std::floor(minutes / 60), std::fmod(minutes, 60));
+  return fmt::format("{:.3g} days", seconds / day);
+}
+
 std::string mass_scaling_text(const Scenario& scenario, const Model& model) {
   std::string text;
   if (const double factor = scenario.numerics.mass_scaling; factor != 1)

@@ -9,6 +9,7 @@
 #include "common/errors.hpp"
 #include "solver/output/history_row.hpp"
 #include "solver/run/history_schedule.hpp"
+#include "solver/run/plausibility.hpp"
 #include "solver/run/stages/isotropic_compaction.hpp"
 
 namespace mpfem {
@@ -57,10 +58,11 @@ void check_steps(const Scenario& scenario, std::int64_t first_stage, const std::
     const double own = stages[i].duration / stable_step;
     steps += own;
     if (!(steps <= most))
-      throw InputError(fmt::format(
-          "stage '{}': takes {:.3g} steps of {:.3g} s ({:.3g} s), allowed: at most {:g} steps in "
-          "all stages; raise its speed or shorten it",
-          scenario.stages[static_cast<std::size_t>(first_stage) + i].name, own, stable_step, stages[i].duration, most));
+      throw InputError(
+          fmt::format("stage '{}': takes {:.3g} steps of {:.3g} s ({:.3g} s), allowed: at most {:g} steps in "
+                      "all stages; raise its speed or shorten it{}",
+                      scenario.stages[static_cast<std::size_t>(first_stage) + i].name, own, stable_step,
+                      stages[i].duration, most, implausible_values_hint(scenario)));
   }
 }
 
@@ -78,15 +80,16 @@ void check_history(const Scenario& scenario, std::int64_t first_stage) {
                     scenario.output.history_rows, rows, stages, 1e-9 * needed, 1e-9 * memory));
 }
 
-/// Refuses a speed (mm/s) at which walls would hit grains hard within one step.
-void check_speed(const Stage& stage, const char* key, double speed, double size, double stable_step) {
+/// Refuses a speed (mm/s) at which walls would hit grains hard within one step. `hint` ends the message.
+void check_speed(const Stage& stage, const char* key, double speed, double size, double stable_step,
+                 const std::string& hint) {
   constexpr double largest_travel = 0.05; // of h a step; a penetration of that size in one step is an impact
   if (const double fastest = largest_travel * size / stable_step; speed > fastest)
     throw InputError(
         fmt::format("{}stage '{}': key '{}': found {:g} mm/s, allowed: at most {:.4g} mm/s here ({} of an element in a "
-                    "stable step of {:.3g} s)",
+                    "stable step of {:.3g} s){}",
                     stage.places.prefix(std::string(key).substr(0, std::string(key).find('.'))), stage.name, key, speed,
-                    fastest, largest_travel, stable_step));
+                    fastest, largest_travel, stable_step, hint));
 }
 
 } // namespace
@@ -134,6 +137,7 @@ void check_programme(const Scenario& scenario, std::int64_t first_stage, const C
   check_steps(scenario, first_stage, forecast(scenario, first_stage, cell, model), stable_step);
   check_history(scenario, first_stage);
   const double size = *std::min_element(model.element_size.begin(), model.element_size.end());
+  const std::string hint = implausible_values_hint(scenario);
   for (auto s = static_cast<std::size_t>(first_stage); s < scenario.stages.size(); ++s) {
     const Stage& stage = scenario.stages[s];
     const double speed = driven_speed(stage.type),
@@ -142,10 +146,11 @@ void check_programme(const Scenario& scenario, std::int64_t first_stage, const C
                       : std::holds_alternative<GripMotion>(stage.type)  ? "speed"
                       : std::holds_alternative<ToolLoading>(stage.type) ? "drive"
                                                                         : "wall_speed";
-    check_speed(stage, key, fastest, size, stable_step);
+    check_speed(stage, key, fastest, size, stable_step, hint);
     // Servos speed up in the same ratio as the stage.
     if (const auto servo = servo_speed(stage.type))
-      check_speed(stage, "servo_speed", *servo * (speed > 0 ? std::max(1.0, fastest / speed) : 1.0), size, stable_step);
+      check_speed(stage, "servo_speed", *servo * (speed > 0 ? std::max(1.0, fastest / speed) : 1.0), size, stable_step,
+                  hint);
   }
 }
 

@@ -57,7 +57,11 @@ RunReport::RunReport(bool is_root, bool quiet)
     : is_root_(is_root), quiet_(quiet || !is_root), progress_("mpfem", quiet_) {}
 
 void RunReport::note(const std::string& text) const {
-  if (!quiet_) fmt::print(stderr, "mpfem: {}\n", text);
+  if (!quiet_) note_despite_quiet(text);
+}
+
+void RunReport::note_despite_quiet(const std::string& text) const {
+  if (is_root_) fmt::print(stderr, "mpfem: {}\n", text);
 }
 
 void RunReport::warning(const std::string& text) const {

@@ -30,13 +30,15 @@ struct RowReport {
   double nanoseconds = 0;             ///< per tet and step
 };
 
-/// The messages of one run. Only the first rank prints, and with --quiet nothing but warning_despite_quiet().
+/// The messages of one run. Only the first rank prints, and with --quiet nothing but what is said despite of it.
 class RunReport {
 public:
   /// `is_root`: whether this is the first rank.
   RunReport(bool is_root, bool quiet);
 
   void note(const std::string& text) const;
+  /// For what was done to a file of the user.
+  void note_despite_quiet(const std::string& text) const;
   void warning(const std::string& text) const;
   /// For what was found on disk and must not be overlooked.
   void warning_despite_quiet(const std::string& text) const;

@@ -1,12 +1,14 @@
 #include "solver/run/run_scenario.hpp"
 
 #include <algorithm>
+#include <iterator>
 
 #include <fmt/format.h>
 
 #include "common/available_memory.hpp"
 #include "common/errors.hpp"
 #include "solver/model/bond_resolution.hpp"
+#include "solver/output/earlier_run.hpp"
 #include "solver/output/run_lock.hpp"
 #include "solver/parallel/root.hpp"
 #include "solver/run/check_output.hpp"
@@ -15,6 +17,7 @@
 #include "solver/run/interrupt.hpp"
 #include "solver/run/needs.hpp"
 #include "solver/run/plan_text.hpp"
+#include "solver/run/plausibility.hpp"
 #include "solver/run/programme.hpp"
 #include "solver/run/run_records.hpp"
 #include "solver/run/run_report.hpp"
@@ -56,11 +59,19 @@ void report_beginning(const RunReport& report, const std::vector<std::string>& w
     if (!text.empty()) report.note(text);
 }
 
-/// A warning, if there is one. Space that earlier files of the same run take is free for it.
+/// A warning, if there is one. Space that earlier files of the same run take is free for it, unless they are kept.
 void check_disk_space(const Scenario& scenario, const RunOptions& options, double needed, const RunReport& report) {
-  const double available = available_disk_space(options.output) + size_on_disk(scenario, options.output);
+  const double kept = options.keeps_earlier_run ? space_of_kept_run(options.output) : 0;
+  const double available = available_disk_space(options.output) + size_on_disk(scenario, options.output) - kept;
   if (const std::string scarce = check_needs(options.output, {.disk = needed}, {.disk = available}); !scarce.empty())
     report.warning(scarce);
+}
+
+/// What an earlier run of this name has left: the run file is kept without --resume, its rolling checkpoints go.
+void clear_way(const Continuation& continuation, const RunOptions& options, const RunReport& report) {
+  if (options.keeps_earlier_run)
+    if (const std::string kept = keep_earlier_run(options.output); !kept.empty()) report.note_despite_quiet(kept);
+  continuation.discard_unfinished_run();
 }
 
 /// Prepares a simulation where the run begins, and runs it. `needs` are those of the first rank.
@@ -72,16 +83,17 @@ Outcome run_once(const Scenario& scenario, const RunOptions& options, const Comm
   RunReport report(ranks.is_root(), options.quiet);
   RunRecord record;
   Continuation continuation(simulation, record, options, report);
-  const auto warnings = check_bonds(simulation.model(), scenario, ranks);
+  auto warnings = implausible_values(scenario);
+  std::ranges::copy(check_bonds(simulation.model(), scenario, ranks), std::back_inserter(warnings));
   const Beginning beginning = continuation.begin();
   if (beginning == Beginning::must_start_again) return {RunEnd::must_start_again};
   stop_before_first_step(ranks, checkpoint_path(options.output));
   if (beginning == Beginning::complete) return {RunEnd::complete};
-  if (!owners) root_does(ranks, [&] { check_disk_space(scenario, options, needs.disk, report); });
-  report_beginning(report, warnings, simulation);
   check_programme(scenario, simulation.state().stage, simulation.stage_run().state().start, simulation.model(),
                   simulation.step_estimate().stable_step());
-  if (beginning == Beginning::fresh) root_does(ranks, [&] { continuation.discard_unfinished_run(); });
+  if (!owners) root_does(ranks, [&] { check_disk_space(scenario, options, needs.disk, report); });
+  report_beginning(report, warnings, simulation);
+  if (beginning == Beginning::fresh) root_does(ranks, [&] { clear_way(continuation, options, report); });
   RunRecords records(simulation, record, options);
   if (beginning == Beginning::fresh) records.pass_checkpoint_densities(); // those that the packing has from the start
   TimeLoop loop(simulation, records, continuation, report, options, Profile::since(begun));
@@ -94,11 +106,13 @@ Outcome run_once(const Scenario& scenario, const RunOptions& options, const Comm
 void run_scenario(const Scenario& scenario, const RunOptions& given, const Communicator& ranks) {
   RunOptions options = given;
   if (!ranks.is_root()) options.quiet = true;
+  options.keeps_earlier_run = !given.resume;
   std::optional<RunLock> lock;
   Needs needs;
   root_does(ranks, [&] {
     check_output(scenario, options);
-    needs = needs_of(read_packing_counts(scenario.packing_file), scenario);
+    needs = needs_of(scenario);
+    if (options.keeps_earlier_run) refuse_other_files(options.output);
     const std::string scarce = check_needs(options.output, {.memory = needs.memory}, {.memory = available_memory()});
     if (!scarce.empty() && !options.quiet) fmt::print(stderr, "mpfem: warning: {}\n", scarce);
     lock.emplace(options.output);

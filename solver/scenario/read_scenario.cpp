@@ -219,6 +219,7 @@ Scenario read_scenario(const TomlDocument& document) {
   Scenario scenario;
   TableReader root(document);
   scenario.text = document.text();
+  scenario.places = root.places();
   scenario.packing_file = packing_path(root, document.name());
   scenario.tools = read_tools(root, document.name());
   scenario.container = read_container(root, scenario.tools);

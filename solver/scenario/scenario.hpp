@@ -149,6 +149,7 @@ struct Scenario {
   std::vector<std::array<double, 3>> grain_velocity;         ///< mm/s, of each grain (overrides; empty: none)
   std::vector<std::array<double, 3>> grain_angular_velocity; ///< rad/s, about each grain's centroid (empty: none)
   std::vector<Stage> stages;
+  KeyPlaces places;      ///< of the keys outside of tables
   KeyPlaces bond_places; ///< of the keys of [bond]
   std::string text;      ///< the TOML text, with values set on the command line
 

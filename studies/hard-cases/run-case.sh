@@ -13,6 +13,7 @@ scenario=$here/$(echo "$line" | cut -d, -f4).toml
 from=$(echo "$line" | cut -d, -f6)
 options=$(echo "$line" | cut -d, -f7-)
 code=0
+rm -f "$folder/$case.h5" # mpfem would keep the old run beside the new one
 # Options are words: split them.
 # shellcheck disable=SC2086
 "$bin/mpfem" run "$scenario" -o "$folder/$case.h5" --set "packing=$packing" $options --threads 1 \

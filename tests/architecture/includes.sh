@@ -13,7 +13,7 @@ common:
 results-schema: common
 surfaces: common solver/physics
 pack-gen: common results-schema surfaces solver/physics
-postproc: common postproc/commands postproc/figure
+postproc: common postproc/commands postproc/figure postproc/picture
 postproc/fits: common
 postproc/run_data: common results-schema postproc/fits
 postproc/files: common results-schema postproc/run_data

@@ -116,6 +116,17 @@ TEST_CASE("Each program names an unknown subcommand and those that it has") {
   }
 }
 
+TEST_CASE("A word that no program knows is refused with --help and --version, too") {
+  for (const Program& program : programs) {
+    const std::string first = program.commands.front().name, near = fmt::format("did you mean '{}'?", first);
+    INFO(program.path);
+    for (const std::string flag : {"--help", "-h", "--version"})
+      CHECK(fault_of_refusal(program.path, {first + "x", flag}, {near}) == "");
+    CHECK(fault_of_refusal(program.path, {"--help", first + "x"}, {near}) == "");
+    CHECK(fault_of_refusal(program.path, {first, "--help", "--nothing"}, {"found '--nothing'"}) == "");
+  }
+}
+
 TEST_CASE("An input that does not exist is named before an option that is missing") {
   for (const auto& [program, arguments] :
        std::vector<std::pair<std::string, std::vector<std::string>>>{{MPFEM_PACK_GEN, {"spheres", "none"}},
@@ -133,6 +144,13 @@ TEST_CASE("An input that does not exist is named before an option that is missin
     present[1] = __FILE__;
     CHECK(fault_of_refusal(program, present, {"is required"}) == "");
   }
+}
+
+TEST_CASE("The version is printed with the name of the program") {
+  for (const auto& [path, name] : {std::pair{MPFEM_PACK_GEN, "pack-gen"}, std::pair{MPFEM_EXECUTABLE, "mpfem"},
+                                   std::pair{MPFEM_POSTPROC, "postproc"}})
+    CHECK_THAT(run_command(fmt::format("'{}' --version", path)).output,
+               Catch::Matches(fmt::format("{} [0-9]+\\.[0-9]+\\.[0-9]+( \\(commit .+\\))?\n", name)));
 }
 
 TEST_CASE("Help and version end with exit code 0") {

@@ -284,6 +284,27 @@ TEST_CASE("A scenario that is no regular file, or too large, is refused at once"
   }
 }
 
+TEST_CASE("A packing or run in place of a scenario is refused as an HDF5 file, also where it is large") {
+  const Folder folder;
+  write_text(folder / "run.h5", "\x89HDF\r\n\x1a\n" + std::string(1000, '['));
+  CHECK(fault_of_refusal(MPFEM_EXECUTABLE, {"check", folder / "run.h5"},
+                         {"run.h5: found an HDF5 file, allowed: a text file (TOML)"}) == "");
+  std::filesystem::resize_file(folder / "run.h5", std::uintmax_t{1} << 36U); // it has no blocks on the disk
+  CHECK(fault_of_refusal(MPFEM_EXECUTABLE, {"check", folder / "run.h5"}, {"found an HDF5 file"}) == "");
+}
+
+TEST_CASE("A packing that cannot be read is refused at its key in the scenario, or with the assignment") {
+  const Folder folder;
+  write_text(folder / "scenario.toml", good_scenario);
+  const std::string place = folder / "scenario.toml";
+  for (const char* command : {"check", "run"}) {
+    std::vector<std::string> arguments = {command, place, "--set=packing=none.h5"};
+    if (std::string(command) == "run") arguments.insert(arguments.end(), {"-o", folder / "run.h5"});
+    CHECK(fault_of_refusal(MPFEM_EXECUTABLE, arguments,
+                           {"--set packing=", "key 'packing': ", "none.h5: no such file"}) == "");
+  }
+}
+
 TEST_CASE("A scenario as large as is read is refused within the memory that it may take") {
   Scenarios scenarios;
   std::string text = "packing = [";

@@ -295,7 +295,9 @@ TEST_CASE("a missing postproc-picture is reported with what adds it, to a build 
   write_text(folder / "CMakeCache.txt", "");
   CHECK_THAT(run_command(program + " picture run.h5").messages,
              Catch::Contains("is not built: ./bootstrap pictures builds it"));
-  CHECK(run_command(program + " picture --help").exit_code == 0);
+  const Outcome help = run_command(program + " picture --help");
+  CHECK(help.exit_code == 0);
+  CHECK_THAT(help.output, Catch::Contains("--camera") && Catch::Contains("Needs the executable postproc-picture"));
 }
 
 TEST_CASE("validate says that a file has lost its seal though all of its values are there") {

@@ -155,6 +155,92 @@ TEST_CASE("a run does not write over the checkpoints of another run") {
   CHECK(run_stages(folder, "run.third.h5").exit_code == 0); // no stage of run.h5
 }
 
+TEST_CASE("a run without --resume keeps the run that is there as RUN.h5~ and says so") {
+  const Folder folder;
+  prepare(folder, 3, two_stages);
+  REQUIRE(run_stages(folder, "run.h5", "--time-limit 0.001").exit_code == 5);
+  const std::string interrupted = read_text(folder / "run.h5");
+
+  const Outcome again = run_stages(folder, "run.h5");
+  INFO(again.messages);
+  CHECK(again.exit_code == 0);
+  CHECK_THAT(again.messages, Catch::Contains("run.h5: the earlier run is kept as ") &&
+                                 Catch::Contains("run.h5~; it was interrupted, and --resume would have continued it"));
+  CHECK(read_text(folder / "run.h5~") == interrupted);
+  CHECK(schema::validate(folder / "run.h5").empty());
+  const std::string complete = read_text(folder / "run.h5");
+
+  const Outcome third = run_stages(folder, "run.h5");
+  CHECK(third.exit_code == 0);
+  CHECK_THAT(third.messages, Catch::EndsWith("run.h5~\n") && !Catch::Contains("--resume"));
+  CHECK(read_text(folder / "run.h5~") == complete); // one generation
+
+  CHECK(run_stages(folder, "run.h5", "--resume").exit_code == 0); // already complete
+  CHECK(read_text(folder / "run.h5~") == complete);
+}
+
+TEST_CASE("a run keeps an earlier one only when it begins, not when it is refused or goes on") {
+  const Folder folder;
+  prepare(folder, 3, two_stages);
+  REQUIRE(run_stages(folder, "run.h5").exit_code == 0);
+  const std::string before = read_text(folder / "run.h5");
+  CHECK(run_stages(folder, "run.h5", "--set stages.0.relative_density=0.1").exit_code == 2);
+  CHECK(read_text(folder / "run.h5") == before);
+  CHECK_FALSE(fs::exists(folder / "run.h5~"));
+
+  REQUIRE(run_stages(folder, "parts.h5", "--time-limit 0.001").exit_code == 5);
+  CHECK(run_stages(folder, "parts.h5", "--resume").exit_code == 0);
+  CHECK_FALSE(fs::exists(folder / "parts.h5~"));
+}
+
+TEST_CASE("a run whose checkpoint must be written again with --resume keeps no earlier run") {
+  const Folder folder;
+  prepare(folder, 3, two_stages);
+  REQUIRE(run_stages(folder, "run.h5").exit_code == 0);
+  for (const std::string lost : {"run.first.checkpoint.h5", "run.second.checkpoint.h5", "run.D0.500.checkpoint.h5"})
+    fs::remove(folder / lost);
+  CHECK(run_stages(folder, "run.h5", "--resume").exit_code == 0);
+  CHECK(fs::exists(folder / "run.first.checkpoint.h5"));
+  CHECK_FALSE(fs::exists(folder / "run.h5~"));
+}
+
+TEST_CASE("what is not a run file is not replaced by a run, but an empty file is") {
+  const Folder folder;
+  prepare(folder, 3, two_stages);
+  write_text(folder / "notes.txt", "measured on Tuesday\n");
+  write_packing(folder / "other.h5", eight_grains(3), std::vector<double>(8, 0.1));
+  for (const std::string output : {"notes.txt", "other.h5"}) {
+    const std::string before = read_text(folder / output);
+    const Outcome refused = run_stages(folder, output);
+    INFO(refused.messages);
+    CHECK(refused.exit_code == 2);
+    CHECK(refused.one_error_line("mpfem"));
+    CHECK_THAT(refused.messages,
+               Catch::EndsWith(output + ": would be replaced, which is not a run file, allowed: another --output\n"));
+    CHECK(read_text(folder / output) == before);
+  }
+
+  write_text(folder / "run.h5", "");
+  CHECK(run_stages(folder, "run.h5").exit_code == 0);
+  CHECK_FALSE(fs::exists(folder / "run.h5~"));
+  write_text(folder / "run.h5~", "a backup by another program");
+  CHECK(run_stages(folder, "run.h5").exit_code == 2); // the backup would replace it
+  CHECK(read_text(folder / "run.h5~") == "a backup by another program");
+}
+
+TEST_CASE("an earlier run behind a symbolic link is kept beside the file to which the link leads") {
+  const Folder folder;
+  prepare(folder, 3, two_stages);
+  fs::create_directory(folder / "store");
+  fs::create_symlink("store/run.h5", folder / "run.h5");
+  REQUIRE(run_stages(folder, "run.h5").exit_code == 0);
+  const std::string before = read_text(folder / "store/run.h5");
+  CHECK(run_stages(folder, "run.h5").exit_code == 0);
+  CHECK(fs::is_symlink(folder / "run.h5"));
+  CHECK(read_text(folder / "store/run.h5~") == before);
+  CHECK(schema::validate(folder / "store/run.h5").empty());
+}
+
 TEST_CASE("disk space that a run has already taken is not missing for it") {
   const Folder folder;
   prepare(folder, 3, two_stages);
