@@ -85,8 +85,8 @@ private:
     deliver(output().ends_with(".json") ? to_json(table).dump(1) + "\n" : csv_text(table.columns));
     if (!quiet())
       fmt::print(stderr,
-                 "relative density {:.4f}, mean stress {:.4g} MPa: {} pairs, coordination number {:.2f}, contact area "
-                 "over surface {:.4f}\n",
+                 "relative density {:.4f}, mean stress {:.4g} MPa: {} pairs that touch or were ever bonded "
+                 "(coordination number {:.2f}), contact area over surface {:.4f}\n",
                  table.relative_density, table.mean_stress, table.columns.front().values.size(),
                  table.coordination_number, table.contact_area_ratio);
   }

@@ -1,5 +1,6 @@
 // section: a plane cut through the grains.
 
+#include <algorithm>
 #include <cmath>
 #include <optional>
 
@@ -46,11 +47,18 @@ private:
     options().add_flag("--relative", relative_, "Take --position as a fraction of the box (0 … 1)");
   }
 
+  /// Names as `postproc picture` spells them are accepted, too.
+  static std::string underscores_for_hyphens(std::string name) {
+    std::replace(name.begin(), name.end(), '-', '_');
+    return name;
+  }
+
   void add_picture_options() {
     options()
         .add_option("--field", picture_.field,
                     "von_mises, pressure, plastic_strain, grain (for --packing: grain) or, for runs with bonds, "
                     "damage: along the cut boundaries")
+        ->transform(underscores_for_hyphens)
         ->capture_default_str();
     add_numbers(options(), "--range", range_, 2, Range::between(-1e12, 1e12), "",
                 "low,high of the colour scale (default: from the data; for damage 0,1)");

@@ -144,11 +144,10 @@ Hysteresis hysteresis(std::span<const double> mean_stress, std::span<const doubl
   const auto steps = static_cast<double>(whole_cycles(h)) - 1;
   if (steps > 0) {
     const CycleResult &first = first_whole(h), &last = h.cycles.back();
-    h.drift_at_low = (last.density_at_low - first.density_at_low) / steps;
-    h.drift_at_high = (last.density_at_high - first.density_at_high) / steps;
-    h.drift_at_low_uncertainty = std::hypot(first.density_at_low_uncertainty, last.density_at_low_uncertainty) / steps;
-    h.drift_at_high_uncertainty =
-        std::hypot(first.density_at_high_uncertainty, last.density_at_high_uncertainty) / steps;
+    h.drift_at_low = {(last.density_at_low - first.density_at_low) / steps,
+                      std::hypot(first.density_at_low_uncertainty, last.density_at_low_uncertainty) / steps};
+    h.drift_at_high = {(last.density_at_high - first.density_at_high) / steps,
+                       std::hypot(first.density_at_high_uncertainty, last.density_at_high_uncertainty) / steps};
   }
   return h;
 }
@@ -211,19 +210,32 @@ StageRows choose_cycles(const HistoryTable& history, const schema::FileReader& f
 }
 
 nlohmann::ordered_json details_of(const Hysteresis& h, const std::vector<Column>& cycles) {
+  const auto value = [](const std::optional<Drift>& drift) {
+    return number_or_null(drift ? std::optional(drift->value) : std::nullopt);
+  };
+  const auto uncertainty = [](const std::optional<Drift>& drift) {
+    return number_or_null(drift ? std::optional(drift->uncertainty) : std::nullopt);
+  };
+  const bool high_is_larger = h.drift_at_low && h.drift_at_low->uncertainty < h.drift_at_high->uncertainty;
   nlohmann::ordered_json json = {
       {"cycles", whole_cycles(h)},
-      {"drift_of_relative_density_at_low_stress_per_cycle", h.drift_at_low},
-      {"drift_of_relative_density_at_low_stress_per_cycle_uncertainty", h.drift_at_low_uncertainty},
-      {"drift_of_relative_density_at_high_stress_per_cycle", h.drift_at_high},
-      {"drift_of_relative_density_at_high_stress_per_cycle_uncertainty", h.drift_at_high_uncertainty},
-      {"drift_uncertainty", std::max(h.drift_at_low_uncertainty, h.drift_at_high_uncertainty)},
+      {"drift_of_relative_density_at_low_stress_per_cycle", value(h.drift_at_low)},
+      {"drift_of_relative_density_at_low_stress_per_cycle_uncertainty", uncertainty(h.drift_at_low)},
+      {"drift_of_relative_density_at_high_stress_per_cycle", value(h.drift_at_high)},
+      {"drift_of_relative_density_at_high_stress_per_cycle_uncertainty", uncertainty(h.drift_at_high)},
+      {"drift_uncertainty", uncertainty(high_is_larger ? h.drift_at_high : h.drift_at_low)},
       {"low_stress_MPa", h.low_stress},
       {"high_stress_MPa", h.high_stress}};
   for (const Column& column : cycles)
     json["per_cycle"][column.unit == "1" ? column.name : fmt::format("{} [{}]", column.name, column.unit)] =
         column.values;
   return json;
+}
+
+std::string drift_text(const Hysteresis& h) {
+  if (!h.drift_at_low) return "no drift from one cycle";
+  return fmt::format("drift of the relative density per cycle {:+.2e} at {:.3g} MPa and {:+.2e} at {:.3g} MPa",
+                     h.drift_at_low->value, h.low_stress, h.drift_at_high->value, h.high_stress);
 }
 
 /// `highest_stress`: of the window, MPa.
@@ -264,10 +276,8 @@ HysteresisMeasurement measure_hysteresis(const schema::FileReader& file, std::op
       "area of the last cycle's loop, integral of (p - p_low) over the volumetric strain (mJ/mm^3 = MPa); cycles "
       "from lowest over highest to lowest mean stress";
   m.details = details_of(h, result.cycles);
-  m.brief = fmt::format("loop area of the last of {} cycles, drift of the relative density per cycle {:+.2e} at {:.3g} "
-                        "MPa and {:+.2e} at {:.3g} MPa, last cycle {:.3g} mJ plastic and {:.3g} mJ damage",
-                        whole_cycles(h), h.drift_at_low, h.low_stress, h.drift_at_high, h.high_stress, last.plastic,
-                        last.damage);
+  m.brief = fmt::format("loop area of the last of {} cycles, {}, last cycle {:.3g} mJ plastic and {:.3g} mJ damage",
+                        whole_cycles(h), drift_text(h), last.plastic, last.damage);
   m.notes = notes_on(h, range_of(history["deviatoric_stress"], m.window.first_row, m.window.last_row),
                      m.window.stress[1], part("mean_stress")[h.cycles.front().rows.begin]);
   return result;

@@ -39,14 +39,17 @@ struct CycleResult {
   double plastic_uncertainty = 0, damage_uncertainty = 0;
 };
 
+/// Mean change of the relative density from cycle to cycle.
+struct Drift {
+  double value, uncertainty; ///< uncertainty: from those of the first and last density
+};
+
 /// Results of all cycles of a curve.
 struct Hysteresis {
   std::vector<CycleResult> cycles; ///< the first may be a loading that is not whole; drifts are of whole ones
   double low_stress = 0;  ///< MPa: highest of the cycles' end stresses; density at low stress is read here, unloading
   double high_stress = 0; ///< MPa: lowest of the highest stresses; densities at high stress are read here, on loading
-  double drift_at_low = 0,
-         drift_at_high = 0; ///< mean change of the relative density from cycle to cycle; 0 for one cycle
-  double drift_at_low_uncertainty = 0, drift_at_high_uncertainty = 0; ///< from those of the first and last density
+  std::optional<Drift> drift_at_low, drift_at_high; ///< of the density at low and at high stress; none for one cycle
 };
 
 /// Curves row by row: MPa, 1 (compression positive), 1, mJ, mJ, mJ. Densities are read at common stresses because

@@ -203,14 +203,14 @@ std::string to_text(const Summary& s) {
   line("  ratio of both maxima", fmt::format("{:.2e}", s.kinetic_over_largest_internal));
   line("  at most 1 %", s.kinetic_small_from_density
                             ? fmt::format("from a relative density of {:.3f} to the end", *s.kinetic_small_from_density)
-                            : std::string("not at the end"));
+                            : std::string("it is larger at the end of the run"));
   line("inertial number under load", s.inertial_number ? fmt::format("{:.2e} in the median, {:.2e} at its largest",
                                                                      *s.inertial_number, *s.largest_inertial_number)
                                                        : std::string("not known"));
   line("penetration over element size, largest", fmt::format("{:.4f}", s.largest_penetration));
   line("current relative density, largest", fmt::format("{:.4f}", s.largest_current_density));
   line("time step", fmt::format("{:.4g} … {:.4g} s", s.smallest_time_step, s.largest_time_step));
-  line("coordination number", fmt::format("{:.2f}", s.coordination_number));
+  line("coordination number, touching grains", fmt::format("{:.2f}", s.coordination_number));
   line("contact area over surface", fmt::format("{:.3f}", s.contact_area_ratio));
   if (s.bonds) {
     line("intact bonds, area", fmt::format("{}  {:.4g} mm^2", s.bonds->unbroken, s.bonds->area));

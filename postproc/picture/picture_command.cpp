@@ -1,5 +1,6 @@
 #include "postproc/picture/picture_command.hpp"
 
+#include <algorithm>
 #include <filesystem>
 
 #include <fmt/format.h>
@@ -69,10 +70,17 @@ public:
   }
 
 private:
+  /// Names as `postproc section` spells them are accepted, too.
+  static std::string hyphens_for_underscores(std::string name) {
+    std::replace(name.begin(), name.end(), '_', '-');
+    return name;
+  }
+
   void add_choices() {
     options()
         .add_option("--color", request_.colour, "What colours mean (for --packing: grain)")
         ->check(one_of(colour_names()))
+        ->transform(hyphens_for_underscores)
         ->capture_default_str();
     options()
         .add_option("--cut", request_.cut,

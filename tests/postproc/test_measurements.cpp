@@ -504,6 +504,14 @@ TEST_CASE("a first loading from between the cycles' stresses is distinguished fr
   REQUIRE(m.notes.size() == 1);
   CHECK_THAT(m.notes.front(), Catch::Contains("begins at 40 MPa"));
   CHECK(result.cycles[0].values == std::vector<double>{0, 1, 2}); // its numbers stay those of the cycles
+  // One whole cycle has no drift, not one of zero.
+  rows.resize(9);
+  write_run(folder / "two.h5", run_of(rows));
+  const Measurement one = measure_hysteresis(schema::FileReader(folder / "two.h5"), {}).measurement;
+  CHECK(one.details["cycles"] == 1);
+  CHECK(one.details["drift_of_relative_density_at_low_stress_per_cycle"].is_null());
+  CHECK(one.details["drift_uncertainty"].is_null());
+  CHECK_THAT(one.brief, Catch::Contains("no drift from one cycle"));
   // Alone it is no cycle at all.
   rows.resize(6);
   write_run(folder / "one.h5", run_of(rows));

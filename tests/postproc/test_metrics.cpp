@@ -86,7 +86,7 @@ TEST_CASE("a run that ends in motion has no density from which it is quasi-stati
   const Summary s = summarise(schema::FileReader(folder / "run.h5", schema::FileKind::run));
   CHECK_FALSE(s.kinetic_small_from_density.has_value());
   CHECK(to_json(s)["relative_density_from_which_kinetic_below_1_percent"].is_null());
-  CHECK_THAT(to_text(s), Catch::Contains("not at the end"));
+  CHECK_THAT(to_text(s), Catch::Contains("it is larger at the end of the run"));
 }
 
 TEST_CASE("a curve has the requested columns, with units, and its numbers read back exactly") {

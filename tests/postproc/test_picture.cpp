@@ -63,7 +63,7 @@ TEST_CASE("grains with any numbers are outlined") {
     run.numbers["/snapshots/*/von_mises"].assign(48, 1.0);
     write_run(folder / (name + ".h5"), run);
     const std::string path = folder / (name + ".png");
-    REQUIRE(picture(fmt::format("{} --size 400x400 --color von-mises --range 0,1 -o {}", folder / (name + ".h5"), path))
+    REQUIRE(picture(fmt::format("{} --size 400x400 --color von_mises --range 0,1 -o {}", folder / (name + ".h5"), path))
                 .exit_code == 0);
     return read_png(path).share([](const auto& c) { return c[0] < 100 && c[1] < 100 && c[2] < 100; });
   };

@@ -85,7 +85,7 @@ TEST_CASE("a section's picture is written as PNG, its polygons as CSV") {
   const Folder folder;
   write_run(folder / "run.h5", small_run());
   const Outcome outcome = run_command(
-      fmt::format("'{}' section {} --field von_mises -o {} --data {} --pixels 200 --title 'a \"quoted\" title'",
+      fmt::format("'{}' section {} --field von-mises -o {} --data {} --pixels 200 --title 'a \"quoted\" title'",
                   MPFEM_POSTPROC, folder / "run.h5", folder / "s.png", folder / "s.csv"));
   INFO(outcome.messages);
   REQUIRE(outcome.exit_code == 0);
