@@ -75,7 +75,7 @@ bool replaces(const std::string& output, const std::string& file) {
 void refuse_special_file(std::string_view option, const std::string& path, OutputKind kind) {
   const auto refuse = [&](const std::string& what) {
     throw InputError(fmt::format("{} {}: found {}, allowed: a file{}", option, one_line(path), what,
-                                 kind == OutputKind::text ? ", a character device or a FIFO" : ""));
+                                 kind == OutputKind::text ? ", a pipe or a device" : ""));
   };
   if (path.ends_with('/')) refuse("a folder");
   const auto found = found_at(path);

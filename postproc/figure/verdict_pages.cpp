@@ -132,7 +132,10 @@ std::vector<std::string> verdict_files(const std::string& folder) {
   std::error_code error;
   for (const auto& entry : filesystem::directory_iterator(folder, error))
     if (const auto path = entry.path() / "verdict.json"; filesystem::exists(path)) files.push_back(path.string());
-  if (error) throw InputError(fmt::format("{}: {}", one_line(folder), error.message()));
+  if (error)
+    throw InputError(fmt::format("{}: cannot be read as a folder ({}), allowed: a folder of results, with a "
+                                 "verdict.json for each figure",
+                                 one_line(folder), error.message()));
   return files;
 }
 

@@ -54,7 +54,7 @@ TEST_CASE("A folder, a socket, no name and a missing folder are refused as outpu
   at.copy(address.sun_path, at.size());
   REQUIRE(bind(socket_file, reinterpret_cast<const sockaddr*>(&address), sizeof address) == 0);
   close(socket_file);
-  const std::string text = ", a character device or a FIFO";
+  const std::string text = ", a pipe or a device";
   for (const auto& [kind, more] : {std::pair{OutputKind::text, text}, {OutputKind::binary, std::string()}}) {
     const auto expected = [&, more = more](const std::string& path, const std::string& what) {
       return "--output " + path + ": found " + what + ", allowed: a file" + more;
