@@ -232,7 +232,7 @@ struct FigureCommands::State {
     const TemporaryFile picture("");
     run_gnuplot(
         plot_script(*found, data, folder(f), format, picture.path(), packings, other ? &other.value() : nullptr));
-    write_file(output, picture.content());
+    write_file(output, format == "svg" ? with_points_as_in_png(picture.content()) : picture.content());
   }
 
   void verdict() const {

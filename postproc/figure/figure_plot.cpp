@@ -26,6 +26,8 @@ struct Look {
 constexpr Look looks[] = {{"#0072b2", 7},  {"#d55e00", 5}, {"#009e73", 9},  {"#cc79a7", 11},
                           {"#000000", 13}, {"#56b4e9", 2}, {"#e69f00", 15}, {"#999999", 3}};
 
+constexpr const char *dashed = " dashtype (12, 10)", *dotted = " dashtype (4, 6)";
+
 constexpr const char* style = R"(set encoding utf8
 set border 3 linewidth 1.2
 set tics nomirror out
@@ -61,9 +63,10 @@ std::string axis_text(const char* axis, const AxisSpec& spec) {
 
 std::string line_style(const SeriesSpec& s) {
   std::string text = fmt::format(" linetype {}", s.colour);
-  if (s.dash == "dashed") text += " dashtype 2";
-  if (s.dash == "dotted") text += " dashtype (2, 3)";
-  if (s.dash == "long") text += " dashtype (8, 4)";
+  // Given as lengths: gnuplot's own patterns differ from format to format.
+  if (s.dash == "dashed") text += dashed;
+  if (s.dash == "dotted") text += dotted;
+  if (s.dash == "long") text += " dashtype (24, 10)";
   if (s.width > 0) text += fmt::format(" linewidth {}", s.width);
   if (s.point > 0) text += fmt::format(" pointtype {}", s.point);
   if (s.style != "lines") text += fmt::format(" pointsize {}", s.size);
@@ -270,9 +273,12 @@ std::string surface_points(const SeriesSpec& s, FigureData& data) {
   return block;
 }
 
+/// Both formats have the same layout. svg takes the size of letters in points of the picture, pngcairo in those of a
+/// printer, of which 3 are as large as 4 of the picture; a dash of svg is twice as long, and its ticks are longer.
 std::string terminal(const std::string& format) {
   if (format == "svg")
-    return "set terminal svg size 800,600 dynamic enhanced font 'DejaVu Sans,16' background 'white'\n";
+    return "set terminal svg size 1200,900 dynamic enhanced font 'DejaVu Sans,20' fontscale 1.3333 linewidth 1.5 "
+           "dashlength 0.5 background 'white'\nset tics scale 0.8\n";
   if (format == "png") return "set terminal pngcairo size 1200,900 enhanced font 'DejaVu Sans,20' linewidth 1.5\n";
   throw InputError(fmt::format("found the format '{}', allowed: png, svg", format));
 }
@@ -318,7 +324,8 @@ std::string key_text(const PlotSpec& plot, const std::string& place) {
 std::string reference_lines(const PlotSpec& plot) {
   std::string text;
   for (const LineSpec& line : plot.lines) {
-    const std::string look = " with lines linewidth 1 dashtype (2, 3) linecolor rgb '#777777'" + title_text(line.title);
+    const std::string look =
+        " with lines linewidth 1" + std::string(dotted) + " linecolor rgb '#777777'" + title_text(line.title);
     if (line.slope) text += fmt::format(", \\\n  {} * x{}", *line.slope, look);
     if (line.y) text += fmt::format(", \\\n  {}{}", *line.y, look);
   }
@@ -394,8 +401,8 @@ std::string plot_script(const PlotSpec& plot, FigureData& data, const std::strin
   text += key_text(plot, key_words(plot, script, beside));
   for (const LineSpec& line : plot.lines)
     if (line.x)
-      text += fmt::format("set arrow from {0},graph 0 to {0},graph 1 nohead dashtype (2, 3) linecolor rgb '#777777'\n",
-                          *line.x);
+      text +=
+          fmt::format("set arrow from {0},graph 0 to {0},graph 1 nohead{1} linecolor rgb '#777777'\n", *line.x, dotted);
   const bool palette =
       std::any_of(plot.series.begin(), plot.series.end(), [](const SeriesSpec& s) { return !s.colour_by.empty(); });
   if (palette)

@@ -3,11 +3,14 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <regex>
 #include <string_view>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -56,6 +59,21 @@ std::string TemporaryFile::content() const {
 
 std::string gnuplot_string(const std::string& text) {
   return in_single_quotes(text, "''");
+}
+
+std::string with_points_as_in_png(std::string svg) {
+  // The terminal defines each point once, at a fixed ratio to the font. Triangles and pentagons are larger than others,
+  // and the diamond is a square on its corner.
+  constexpr std::pair<const char*, const char*> changes[] = {
+      {R"( id='gpPt(7|13)' stroke-width='[0-9.]+')",
+       R"( id='gpPt$1' transform='scale(0.3)' vector-effect='non-scaling-stroke')"},
+      {R"( id='gpPt([0-9]+)' stroke-width='[0-9.]+')",
+       R"( id='gpPt$1' transform='scale(0.4)' vector-effect='non-scaling-stroke')"},
+      {R"('rotate\(45\)'/>)", R"('rotate(45) scale(0.7)'/>)"}};
+  const std::size_t end = std::min(svg.find("</defs>"), svg.size());
+  std::string definitions = svg.substr(0, end);
+  for (const auto& [found, wanted] : changes) definitions = std::regex_replace(definitions, std::regex(found), wanted);
+  return svg.replace(0, end, definitions);
 }
 
 void run_gnuplot(const std::string& script) {

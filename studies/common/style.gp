@@ -1,10 +1,17 @@
 # The look of all plots.   call 'studies/common/style.gp' png|svg   (load would hide the format: it has no arguments of
 # its own)
 if (ARG1 eq 'svg') {
-  set terminal svg size 800,600 dynamic enhanced font 'DejaVu Sans,16' background 'white'
+  # Letters, dashes and ticks as long as in a png; studies/common/gnuplot.sh does the same for points.
+  set terminal svg size 1200,900 dynamic enhanced font 'DejaVu Sans,20' fontscale 1.3333 linewidth 1.5 \
+    dashlength 0.5 background 'white'
+  set tics scale 0.8
 } else {
   set terminal pngcairo size 1200,900 enhanced font 'DejaVu Sans,20' linewidth 1.5
 }
+# Dashes, dots and long dashes: gnuplot's own patterns differ from format to format.
+set dashtype 2 (12, 10)
+set dashtype 3 (4, 6)
+set dashtype 4 (24, 10)
 set encoding utf8
 set datafile separator ','
 set border 3 linewidth 1.2

@@ -447,13 +447,13 @@ series = [
   CHECK_THAT(script, Contains("1 30 10 \n2 NaN 20 \n"));
   CHECK_THAT(script, Contains("using 1:2:3 with yerrorbars linetype 1") && Contains("title 'computed'"));
   CHECK_THAT(script, Contains("with yerrorlines linetype") && Contains("title 'joined'"));
-  CHECK_THAT(script, Contains("\n2 5\nEOD") && Contains("dashtype 2"));
+  CHECK_THAT(script, Contains("\n2 5\nEOD") && Contains("dashtype (12, 10)"));
   // Of other results, the points.
   write_text(toolkit.path("other") + "/strength.csv", "name,density [1],strength [MPa]\na,1,4\n");
   OtherResults other{"finer", FigureData(figure, toolkit.path("other"))};
   const std::string both = plot_script(figure.plots[0], data, folder, "svg", "p.svg", 0, &other);
   CHECK_THAT(both, Contains("1 30 10 \n2 NaN 20 \n") && Contains("EOD\n1 40 10 \n"));
-  CHECK_THAT(both, Contains("linetype 1 dashtype 2 pointtype 6") && Contains("title 'finer'"));
+  CHECK_THAT(both, Contains("linetype 1 dashtype (12, 10) pointtype 6") && Contains("title 'finer'"));
   CHECK(script.find("finer") == std::string::npos);
   OtherResults nothing{"nothing", FigureData(figure, toolkit.path("nothing"))};
   CHECK(plot_script(figure.plots[0], data, folder, "svg", "p.svg", 0, &nothing) == script);

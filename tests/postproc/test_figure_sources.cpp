@@ -10,6 +10,7 @@
 #include "postproc/figure/figure_plot.hpp"
 #include "postproc/figure/report.hpp"
 #include "postproc/figure/verdict_pages.hpp"
+#include "postproc/files/gnuplot.hpp"
 #include "run_postproc.hpp"
 #include "small_run.hpp"
 #include "tests/support/folder.hpp"
@@ -557,6 +558,18 @@ TEST_CASE("a plot ends in .png or .svg, and goes where a link leads") {
   const auto refused = plotted("p.jpg");
   CHECK(refused.exit_code == 2);
   CHECK_THAT(refused.messages, Contains("p.jpg: found the ending '.jpg', allowed: .png or .svg"));
+}
+
+TEST_CASE("points of an svg are as large as those of a png, also in the studies' own scripts") {
+  const test::Folder folder;
+  run_gnuplot(fmt::format("set terminal svg\nset output '{}'\nplot x with points pointtype 5", folder / "gnuplot.svg"));
+  const std::string before = test::read_text(folder / "gnuplot.svg"), after = with_points_as_in_png(before);
+  CHECK_THAT(before, Contains("<circle id='gpPt5' stroke-width='"));
+  CHECK_THAT(after, Contains("<circle id='gpPt5' transform='scale(0.4)' vector-effect='non-scaling-stroke' stroke="));
+  CHECK_THAT(after, Contains("'rotate(45) scale(0.7)'/>") && !Contains("id='gpPt7' stroke-width"));
+  CHECK(after.substr(after.find("</defs>")) == before.substr(before.find("</defs>")));
+  const auto script = test::run_command(fmt::format("sed -E -f {} {}", MPFEM_SVG_POINTS, folder / "gnuplot.svg"));
+  CHECK(script.output == after);
 }
 
 TEST_CASE("no file from which something of a figure is made is replaced by it") {
