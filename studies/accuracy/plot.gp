@@ -1,10 +1,8 @@
 # gnuplot -c plot.gp png|svg points.csv SCENE MEASURE TITLE NUMBERS IMAGE: error over cost of one measure, and the
 # front. NUMBERS says what the numbers at the meshes are.
 call 'studies/common/style.gp' ARG1
-# Markers and letters of SVG are larger, for the same number.
-dot = ARG1 eq 'svg' ? 0.5 : 1
-small = ARG1 eq 'svg' ? ',12' : ',16'
-number = ARG1 eq 'svg' ? ',12' : ',15'
+small = ',16'
+number = ',15'
 data = ARG2
 scene = ARG3
 measure = ARG4
@@ -59,23 +57,23 @@ filled = '7 5 9'
 hollow = '6 4 8'
 plot \
   for [i = 1:3] sorted(of(word(names, i), 'mesh')) using 12:18 \
-    with linespoints linetype i pointtype int(word(filled, i)) pointsize 1.5 * dot \
+    with linespoints linetype i pointtype int(word(filled, i)) pointsize 1.5 \
     title (points_of(of(word(names, i), 'mesh')) ? word(names, i) : ''), \
   for [i = 1:3] sorted(of(word(names, i), 'penalty')) using 12:18 \
-    with points linetype i pointtype int(word(hollow, i)) pointsize 1.7 * dot \
+    with points linetype i pointtype int(word(hollow, i)) pointsize 1.7 \
     title named(word(names, i) . ', K h/E =', values(of(word(names, i), 'penalty'), 6, '')), \
-  sorted(of('tet4-anp', 'speed')) using 12:18 with points linetype 4 pointtype 12 pointsize 1.7 * dot \
+  sorted(of('tet4-anp', 'speed')) using 12:18 with points linetype 4 pointtype 12 pointsize 1.7 \
     title named('tet4-anp, speed', values(of('tet4-anp', 'speed'), 7, '×')), \
-  sorted(of('tet4-anp', 'mass')) using 12:18 with points linetype 4 pointtype 11 pointsize 1.5 * dot \
+  sorted(of('tet4-anp', 'mass')) using 12:18 with points linetype 4 pointtype 11 pointsize 1.5 \
     title named('tet4-anp, mass', values(of('tet4-anp', 'mass'), 8, '×')), \
-  sorted(smooth) using 12:18 with linespoints linetype 6 dashtype 3 pointtype 13 pointsize 1.8 * dot \
+  sorted(smooth) using 12:18 with linespoints linetype 6 dashtype 3 pointtype 13 pointsize 1.8 \
     title (points_of(smooth) ? 'tet4-anp, smooth surface' : ''), \
-  sorted(smooth_other) using 12:18 with points linetype 6 pointtype 2 pointsize 1.5 * dot \
+  sorted(smooth_other) using 12:18 with points linetype 6 pointtype 2 pointsize 1.5 \
     title (points_of(smooth_other) ? 'smooth, other K, speed or mass' : ''), \
-  sorted(of('tet4-anp', 'precision')) using 12:18 with points linetype 5 pointtype 1 pointsize 1.8 * dot \
+  sorted(of('tet4-anp', 'precision')) using 12:18 with points linetype 5 pointtype 1 pointsize 1.8 \
     title (points_of(of('tet4-anp', 'precision')) ? 'tet4-anp, mixed precision' : ''), \
   sorted('$17 == 1') using 12:18 with steps linetype 5 linewidth 1.2 dashtype 2, \
-  sorted('$17 == 1') using 12:18 with points linetype 5 linewidth 1.2 pointtype 6 pointsize 2.8 * dot \
+  sorted('$17 == 1') using 12:18 with points linetype 5 linewidth 1.2 pointtype 6 pointsize 2.8 \
     title 'on the front', \
   for [i = 1:4] $numbers using ($1 == i ? $2 : NaN):3:(strcol(4)) \
     with labels font number textcolor rgb word(dark, i), \
