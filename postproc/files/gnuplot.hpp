@@ -24,8 +24,8 @@ private:
 /// The text as a gnuplot string. In single quotes, since gnuplot would run `commands` inside double ones.
 std::string gnuplot_string(const std::string& text);
 
-/// A picture of gnuplot's terminal svg with points as its terminal pngcairo draws them: there they are less than half as
-/// large, and outlines are as wide as lines. studies/common/svg-points.sed does the same for scripts of gnuplot.
+/// A picture of gnuplot's terminal svg with points as its terminal pngcairo draws them: less than half as large, with
+/// outlines as wide as lines. studies/common/svg-points.sed does the same for scripts of gnuplot.
 std::string with_points_as_in_png(std::string svg);
 
 /// Runs a script without the user's start-up file. Throws SimulationError where gnuplot is missing or fails, with the
