@@ -11,6 +11,41 @@
 
 namespace mpfem {
 
+namespace {
+
+/// The colour bar at the right of the raster, with what is written at its ends. Lengths as fractions of the picture.
+std::string bar_script(const ColourBar& bar, const View& place, double letter_height) {
+  std::string script = "set palette defined (";
+  constexpr int steps = 32;
+  for (int i = 0; i <= steps; ++i) {
+    const Colour c = scale_colour(static_cast<double>(i) / steps);
+    script += fmt::format("{}{} '#{:02x}{:02x}{:02x}'", i ? ", " : "", i, c[0], c[1], c[2]);
+  }
+  const auto [left, low] = place.low;
+  const auto [right, high] = place.high;
+  script += fmt::format(")\nset cbrange [{}:{}]\nset cblabel {} noenhanced\n", bar.range.first, bar.range.second,
+                        gnuplot_string(bar.label));
+  script += fmt::format("set colorbox user origin {},{} size {},{}\n", left, low, right - left, high - low);
+  const auto texts = bar.end_texts();
+  for (const auto& [text, y] : {std::pair{texts[0], low - letter_height}, {texts[1], high + letter_height}})
+    if (!text.empty())
+      script += fmt::format("set label {} at screen {},{} center noenhanced\n", gnuplot_string(text),
+                            0.5 * (left + right), y);
+  return script;
+}
+
+} // namespace
+
+void ColourBar::add(double value) {
+  const double tolerance = 1e-3 * (range.second - range.first);
+  below = below || value < range.first - tolerance;
+  above = above || value > range.second + tolerance;
+}
+
+std::array<std::string, 2> ColourBar::end_texts() const {
+  return {below ? fmt::format("≤ {:.3g}", range.first) : "", above ? fmt::format("≥ {:.3g}", range.second) : ""};
+}
+
 void write_raster_picture(const std::string& path, const Raster& raster, const Frame2d& frame) {
   std::string bytes;
   for (const Colour& pixel : raster.pixel) bytes.append(reinterpret_cast<const char*>(pixel.data()), 3);
@@ -36,14 +71,10 @@ void write_raster_picture(const std::string& path, const Raster& raster, const F
       "set lmargin at screen {}\nset rmargin at screen {}\nset bmargin at screen {}\nset tmargin at screen {}\n",
       left / width, (left + raster.width) / width, bottom / height, (bottom + raster.height) / height);
   if (frame.bar) {
-    script += "set palette defined (";
-    constexpr int steps = 32;
-    for (int i = 0; i <= steps; ++i) {
-      const Colour c = scale_colour(static_cast<double>(i) / steps);
-      script += fmt::format("{}{} '#{:02x}{:02x}{:02x}'", i ? ", " : "", i, c[0], c[1], c[2]);
-    }
-    script += fmt::format(")\nset cbrange [{}:{}]\nset cblabel {} noenhanced\nset colorbox\n", frame.bar->range.first,
-                          frame.bar->range.second, gnuplot_string(frame.bar->label));
+    const double bar_left = left + raster.width + scaled(35), bar_right = bar_left + scaled(40);
+    script += bar_script(*frame.bar,
+                         {{bar_left / width, bottom / height}, {bar_right / width, (bottom + raster.height) / height}},
+                         scaled(20) / height);
   }
   script += "unset key\n";
   script += fmt::format(

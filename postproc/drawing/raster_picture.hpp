@@ -1,6 +1,7 @@
 #pragma once
 // A raster with axes, title and colour bar, as a PNG picture.
 
+#include <array>
 #include <optional>
 #include <string>
 #include <utility>
@@ -12,7 +13,13 @@ namespace mpfem {
 /// A colour scale next to a picture.
 struct ColourBar {
   std::pair<double, double> range;
-  std::string label; ///< with its unit
+  std::string label;                 ///< with its unit
+  bool below = false, above = false; ///< whether the picture shows values beyond that end
+
+  /// Notes that the picture shows this value. What is beyond an end by less than a thousandth of the scale is not.
+  void add(double value);
+  /// What is written next to the lower and the upper end: "≤ LOW" and "≥ HIGH" where values lie beyond, else nothing.
+  std::array<std::string, 2> end_texts() const;
 };
 
 /// Axes, title and colour bar of a raster.

@@ -143,16 +143,26 @@ std::string label_of(const Shown& shown) {
   return with_unit(shown.damage ? "Damage of bonds (0 intact, 1 broken)" : field_label(name), shown.field.unit);
 }
 
-/// The picture's frame, with a colour bar where there is a scale.
-Frame2d frame_of(const Snapshot& snapshot, const Shown& shown, const Scale& scale, const View& view,
-                 const PictureRequest& request) {
+ColourBar bar_of(const Shown& shown, const Scale& scale, const std::vector<SectionPolygon>& polygons,
+                 const Lines& lines) {
+  ColourBar bar{scale.range, label_of(shown)};
+  if (!shown.damage)
+    for (const SectionPolygon& polygon : polygons)
+      bar.add(static_cast<double>(shown.field.values[static_cast<std::size_t>(polygon.tet)]));
+  const double length = scale.range.second - scale.range.first;
+  for (const Band& band : lines.bands) // which have fractions of the scale
+    for (const double fraction : {band.value_from, band.value_to}) bar.add(scale.range.first + fraction * length);
+  return bar;
+}
+
+/// The picture's frame.
+Frame2d frame_of(const Snapshot& snapshot, const View& view, const PictureRequest& request) {
   constexpr const char* axis_name[] = {"x", "y", "z"};
   const auto axis = static_cast<std::size_t>(request.plane.axis);
   const auto label = [&](std::size_t k) { return fmt::format("{} (mm)", axis_name[(axis + k) % 3]); };
   Frame2d frame{view, request.title, label(1), label(2), {}, request.pixels};
   if (frame.title.empty() && snapshot.relative_density > 0)
     frame.title = fmt::format("Relative density {:.3f}", snapshot.relative_density);
-  if (!shown.grains) frame.bar = ColourBar{scale.range, label_of(shown)};
   return frame;
 }
 
@@ -162,9 +172,12 @@ void write_section_picture(const std::string& path, const Snapshot& snapshot, co
   const Shown shown = shown_field(snapshot, request.field);
   const VisibleSection section = visible_section(snapshot, request);
   const Scale scale = scale_of(shown, section.polygons, request);
+  const Lines lines = lines_over(snapshot, shown, scale, request);
   const Raster raster = draw_section(section.polygons, tet_colours(snapshot, shown, scale), snapshot.tet_grain,
-                                     section.view, request.pixels, lines_over(snapshot, shown, scale, request));
-  write_raster_picture(path, raster, frame_of(snapshot, shown, scale, section.view, request));
+                                     section.view, request.pixels, lines);
+  Frame2d frame = frame_of(snapshot, section.view, request);
+  if (!shown.grains) frame.bar = bar_of(shown, scale, section.polygons, lines);
+  write_raster_picture(path, raster, frame);
 }
 
 std::string section_csv(const Snapshot& snapshot, const std::vector<SectionPolygon>& polygons,

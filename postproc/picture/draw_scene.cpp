@@ -31,8 +31,8 @@
 #include <vtkWindowToImageFilter.h>
 
 #include "common/errors.hpp"
-#include "common/one_line.hpp"
 #include "common/output_file.hpp"
+#include "postproc/picture/heading.hpp"
 #include "postproc/picture/offscreen_window.hpp"
 
 namespace mpfem {
@@ -42,9 +42,7 @@ namespace {
 /// Everything is drawn twice as large in both directions, then averaged.
 constexpr int supersampling = 2;
 constexpr RodKind rod_kinds[] = {RodKind::intact, RodKind::damaged, RodKind::broken, RodKind::contact};
-/// Colours of Okabe and Ito (2008), distinct for all kinds of colour vision.
-constexpr double blue[3] = {0.0, 0.45, 0.70}, yellow[3] = {0.94, 0.89, 0.26}, vermilion[3] = {0.84, 0.37, 0.0},
-                 grey[3] = {0.62, 0.62, 0.62}, dark_grey[3] = {0.25, 0.25, 0.25};
+constexpr double dark_grey[3] = {0.25, 0.25, 0.25};
 
 using MakeColour = std::function<Colour(std::size_t triangle, std::size_t corner)>;
 
@@ -115,11 +113,8 @@ vtkNew<vtkActor> rods_of(const std::vector<PairRod>& rods, RodKind kind) {
   tubes->Update();
   vtkNew<vtkActor> actor = actor_of(tubes->GetOutput(), true);
   actor->GetMapper()->ScalarVisibilityOff();
-  const double* colour = kind == RodKind::intact    ? blue
-                         : kind == RodKind::damaged ? yellow
-                         : kind == RodKind::broken  ? vermilion
-                                                    : grey;
-  actor->GetProperty()->SetColor(colour[0], colour[1], colour[2]);
+  const Colour colour = rod_colour(kind);
+  actor->GetProperty()->SetColor(colour[0] / 255.0, colour[1] / 255.0, colour[2] / 255.0);
   return actor;
 }
 
@@ -169,7 +164,7 @@ void add_text(vtkRenderer* renderer, const std::string& text, const Eigen::Vecto
   vtkNew<vtkTextActor> actor;
   actor->SetInput(text.c_str());
   vtkTextProperty* property = actor->GetTextProperty();
-  property->SetFontSize(static_cast<int>(std::lround(height)));
+  property->SetFontSize(std::max(1, static_cast<int>(std::lround(height))));
   property->SetColor(0, 0, 0);
   property->SetOrientation(orientation);
   property->SetBackgroundColor(1, 1, 1); // grains of a failing sample fly behind the axes' names
@@ -220,17 +215,49 @@ void add_bar(vtkRenderer* renderer, const ColourBar& bar, const PictureSize& siz
     add_patch(renderer, {right, y - half_line}, {right + tick, y + half_line}, black, black);
     add_text(renderer, fmt::format("{:.6g}", value), {right + 1.6 * tick, y}, text, false);
   }
+  const auto ends = bar.end_texts();
+  for (const auto& [end, y] : {std::pair{ends[0], low - 0.9 * text}, {ends[1], high + 0.9 * text}})
+    if (!end.empty()) add_text(renderer, end, {0.5 * (left + right), y}, text, true);
   add_text(renderer, bar.label, {0.968 * size.width, 0.5 * size.height}, text, true, 90);
+}
+
+/// A line of the key in the middle of the picture: patches of colour, each beside what it means.
+void add_key_line(vtkRenderer* renderer, const std::vector<KeyEntry>& line, double y, const Heading& heading,
+                  const PictureSize& size) {
+  const double height = heading.note_height;
+  double width = -height, x = 0.5 * size.width;
+  for (const KeyEntry& entry : line) width += entry_width(entry, height) + height;
+  x -= 0.5 * width;
+  for (const KeyEntry& entry : line) {
+    add_patch(renderer, {x, y - 0.25 * height}, {x + 1.5 * height, y + 0.25 * height}, entry.colour, entry.colour);
+    add_text(renderer, entry.text, {x + 2 * height, y}, height, false);
+    x += entry_width(entry, height) + height;
+  }
+}
+
+void add_heading(vtkRenderer* renderer, const Heading& heading, const PictureSize& size) {
+  const double middle = 0.5 * size.width;
+  double y = 0.99 * size.height;
+  for (const std::string& line : heading.title) {
+    add_text(renderer, line, {middle, y - 0.5 * heading.title_pitch()}, heading.title_height, true);
+    y -= heading.title_pitch();
+  }
+  for (const std::string& line : heading.note) {
+    add_text(renderer, line, {middle, y - 0.5 * heading.note_pitch()}, heading.note_height, true);
+    y -= heading.note_pitch();
+  }
+  for (const auto& line : heading.key) {
+    add_key_line(renderer, line, y - 0.5 * heading.note_pitch(), heading, size);
+    y -= heading.note_pitch();
+  }
 }
 
 void add_texts(vtkRenderer* renderer, const PictureScene& scene, const ViewFrame& view) {
   const PictureSize& size = view.size;
-  const double text = 0.024 * size.height;
-  add_text(renderer, one_line(scene.title), {0.5 * size.width, 0.965 * size.height}, 1.25 * text, true);
-  add_text(renderer, scene.note, {0.5 * size.width, 0.925 * size.height}, 0.9 * text, true);
-  const auto places = axis_names_places(view, {scene.box_low, scene.box_high});
+  add_heading(renderer, heading_of(scene, size), size);
+  const auto places = axis_names_places(view, {scene.box_low, scene.box_high}, scene.triangles);
   for (std::size_t axis = 0; axis < 3; ++axis)
-    add_text(renderer, std::string(1, "xyz"[axis]), places[axis], text, true);
+    if (places[axis]) add_text(renderer, std::string(1, "xyz"[axis]), *places[axis], 0.024 * size.height, true);
   if (scene.bar) add_bar(renderer, *scene.bar, size);
 }
 
@@ -341,7 +368,8 @@ void write_png(const std::string& path, vtkImageData* image) {
 
 void draw_scene(const std::string& path, const PictureScene& scene, const ShownBox& shown, const PictureSize& size) {
   const PictureSize large{supersampling * size.width, supersampling * size.height};
-  const ViewFrame view = frame_view(shown, scene.towards_camera, large, scene.bar.has_value());
+  const ViewFrame view =
+      frame_view(shown, scene.camera, large, {heading_of(scene, large).share(large), scene.bar.has_value()});
   vtkNew<OffscreenWindow> window;
   window->SetSize(large.width, large.height);
   vtkNew<vtkImageData> image = draw_colours(window, scene, view, shown);

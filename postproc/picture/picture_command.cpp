@@ -78,7 +78,8 @@ private:
 
   void add_choices() {
     options()
-        .add_option("--color", request_.colour, "What colours mean (for --packing: grain)")
+        .add_option("--color", request_.colour,
+                    "What colours mean (for --packing: grain; with --bonds: plain, which is grey)")
         ->check(one_of(colour_names()))
         ->transform(hyphens_for_underscores)
         ->capture_default_str();
@@ -93,7 +94,10 @@ private:
   SceneRequest request() const {
     SceneRequest request = request_;
     request.camera = {camera_[0], camera_[1]};
-    if (of_packing() && !given("--color")) request.colour = "grain";
+    if (!given("--color") && of_packing())
+      request.colour = "grain";
+    else if (!given("--color") && request.bonds)
+      request.colour = "plain"; // the rods have colours of their own
     for (const auto& [rods, option] : {std::pair{request.bonds, "--bonds"}, {request.contacts, "--contacts"}})
       if (rods && (of_packing() || request.cut == "none"))
         throw InputError(fmt::format("{}: found {}, allowed: with a run, and a cut that shows them", option,
@@ -112,12 +116,13 @@ private:
     const CutAway away = cut_away(state, request);
     if (request.bonds) {
       scene.rods = bond_rods(file, state, away);
-      scene.note += "; bonds: blue intact, yellow more than half broken, orange broken";
+      scene.key = bond_key();
     }
     if (request.contacts) {
       const std::vector<PairRod> contacts = contact_rods(file, state, away);
       scene.rods.insert(scene.rods.end(), contacts.begin(), contacts.end());
-      scene.note += "; contacts: grey, thickness by force";
+      const std::vector<KeyEntry> key = contact_key();
+      scene.key.insert(scene.key.end(), key.begin(), key.end());
     }
     return scene;
   }

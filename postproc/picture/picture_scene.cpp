@@ -19,11 +19,9 @@ namespace mpfem {
 namespace {
 
 /// The field of the snapshot that each colour shows.
-const std::map<std::string, std::string> fields = {{"von-mises", "von_mises"},
-                                                   {"plastic-strain", "plastic_strain"},
-                                                   {"pressure", "pressure"},
-                                                   {"damage", "damage"},
-                                                   {"grain", "grain"}};
+const std::map<std::string, std::string> fields = {{"von-mises", "von_mises"}, {"plastic-strain", "plastic_strain"},
+                                                   {"pressure", "pressure"},   {"damage", "damage"},
+                                                   {"grain", "grain"},         {"plain", "grain"}};
 
 const std::string& field_of(const std::string& colour) {
   const auto found = fields.find(colour);
@@ -45,9 +43,9 @@ double area(const SolidTriangle& t) {
 /// Colour where the field has no value: for damage, surfaces that were never bonded and cut faces.
 constexpr Colour grey{205, 205, 205};
 
-CornerColours colours_of(const SolidTriangle& triangle, bool grains, const std::pair<double, double>& range) {
-  if (grains) {
-    const Colour colour = grain_colour(triangle.grain);
+CornerColours colours_of(const SolidTriangle& triangle, const std::string& by, const std::pair<double, double>& range) {
+  if (by == "grain" || by == "plain") {
+    const Colour colour = by == "plain" ? grey : grain_colour(triangle.grain);
     return {colour, colour, colour};
   }
   CornerColours colours;
@@ -73,7 +71,7 @@ bool lies_in(const CutAway& away, const Eigen::Vector3d& x) {
 } // namespace
 
 const std::vector<std::string>& colour_names() {
-  static const std::vector<std::string> names = {"von-mises", "plastic-strain", "pressure", "damage", "grain"};
+  static const std::vector<std::string> names = {"von-mises", "plastic-strain", "pressure", "damage", "grain", "plain"};
   return names;
 }
 
@@ -119,6 +117,23 @@ double thin_radius(const Snapshot& snapshot) {
 }
 
 } // namespace
+
+Colour rod_colour(RodKind kind) {
+  return kind == RodKind::intact    ? Colour{0, 115, 179}
+         : kind == RodKind::damaged ? Colour{240, 227, 66}
+         : kind == RodKind::broken  ? Colour{214, 94, 0}
+                                    : Colour{158, 158, 158};
+}
+
+std::vector<KeyEntry> bond_key() {
+  return {{rod_colour(RodKind::intact), "intact bond"},
+          {rod_colour(RodKind::damaged), "more than half broken"},
+          {rod_colour(RodKind::broken), "broken"}};
+}
+
+std::vector<KeyEntry> contact_key() {
+  return {{rod_colour(RodKind::contact), "contact, thickness by force"}};
+}
 
 std::vector<PairRod> contact_rods(const schema::FileReader& file, const Snapshot& snapshot, const CutAway& away) {
   namespace run = schema::run;
@@ -208,17 +223,19 @@ PictureScene make_scene(const Snapshot& snapshot, const SceneRequest& request) {
     throw InputError(fmt::format("--cut {}: the cut at --cut-at {} removes all grains", request.cut, request.cut_at));
   const auto range = request.range.value_or(range_of(scene.triangles, field));
   scene.colours.reserve(scene.triangles.size());
-  for (const SolidTriangle& t : scene.triangles)
-    scene.colours.push_back(colours_of(t, request.colour == "grain", range));
+  for (const SolidTriangle& t : scene.triangles) scene.colours.push_back(colours_of(t, request.colour, range));
   scene.first_of_tools = scene.triangles.size();
   add_tools(scene, snapshot, request);
   scene.box_low = vector_of(snapshot.box_low);
   scene.box_high = vector_of(snapshot.box_high);
-  scene.towards_camera = towards_camera(request.camera);
+  scene.camera = request.camera;
   scene.title = request.title.empty() ? title_of(snapshot) : request.title;
   const Eigen::Vector3d box = scene.box_high - scene.box_low;
   scene.note = fmt::format("box {:.3g} × {:.3g} × {:.3g} mm", box[0], box[1], box[2]);
-  if (request.colour != "grain") scene.bar = ColourBar{range, with_unit(field_label(field.name), field.unit)};
+  if (field.name == "grain") return scene;
+  scene.bar = ColourBar{range, with_unit(field_label(field.name), field.unit)};
+  for (std::size_t t = 0; t < scene.first_of_tools; ++t)
+    for (const SolidVertex& vertex : scene.triangles[t].corner) scene.bar->add(vertex.value);
   return scene;
 }
 

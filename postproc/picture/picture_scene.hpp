@@ -65,6 +65,19 @@ std::vector<PairRod> bond_rods(const schema::FileReader& file, const Snapshot& s
 /// Colours of a triangle's corners.
 using CornerColours = std::array<Colour, 3>;
 
+/// A colour and what it means.
+struct KeyEntry {
+  Colour colour{};
+  std::string text;
+};
+
+/// The colour of rods of a kind: of Okabe and Ito (2008), distinct for all kinds of colour vision.
+Colour rod_colour(RodKind kind);
+
+/// What the colours of bonds mean, and that of contacts.
+std::vector<KeyEntry> bond_key();
+std::vector<KeyEntry> contact_key();
+
 /// Everything that a picture shows, in numbers.
 struct PictureScene {
   std::vector<SolidTriangle> triangles; ///< of grains, then of tools, which are numbered after the grains
@@ -72,8 +85,9 @@ struct PictureScene {
   std::size_t first_of_tools = 0;       ///< index of the first triangle of a tool
   std::vector<PairRod> rods;
   Eigen::Vector3d box_low, box_high; ///< mm
-  Eigen::Vector3d towards_camera;
-  std::string title, note; ///< note: size of the box, and meaning of the rods' colours
+  std::array<double, 2> camera{};    ///< of the request
+  std::string title, note;           ///< note: size of the box
+  std::vector<KeyEntry> key;         ///< of the rods' colours
   std::optional<ColourBar> bar;
 };
 

@@ -2,6 +2,8 @@
 // Parallel projection of space onto a picture.
 
 #include <array>
+#include <optional>
+#include <vector>
 
 #include <Eigen/Core>
 
@@ -24,11 +26,20 @@ struct ViewFrame {
   Eigen::Vector2d pixel_of(const Eigen::Vector3d& x) const;
 };
 
-/// The largest scale that shows all of `shown` below the title and, where there is a bar, left of it.
-ViewFrame frame_view(const ShownBox& shown, const Eigen::Vector3d& towards_camera, const PictureSize& size,
-                     bool with_bar);
+/// What a picture leaves free for others than grains: the share of its height at the top, and room for a colour bar.
+struct FreeRoom {
+  double top = 0.11;
+  bool bar = false;
+};
 
-/// Pixels of the names x, y and z of the box's edges: each outside the middle of an edge at the picture's rim.
-std::array<Eigen::Vector2d, 3> axis_names_places(const ViewFrame& view, const ShownBox& box);
+/// The largest scale that shows all of `shown` in the rest of the picture. `camera`: azimuth and elevation, degrees.
+/// The z axis points up; seen from straight above it points away from the camera's azimuth.
+ViewFrame frame_view(const ShownBox& shown, const std::array<double, 2>& camera, const PictureSize& size,
+                     const FreeRoom& room);
+
+/// Pixels of the names x, y and z of the box's edges: each outside the middle of an edge at the picture's rim, beyond
+/// the triangles that lie in its way. None for an edge that is seen from its end.
+std::array<std::optional<Eigen::Vector2d>, 3> axis_names_places(const ViewFrame& view, const ShownBox& box,
+                                                                const std::vector<SolidTriangle>& triangles = {});
 
 } // namespace mpfem

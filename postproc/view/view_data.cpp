@@ -119,6 +119,10 @@ void add_field(ViewData& data, const std::vector<Snapshot>& snapshots, const std
       whole.push_back(shown.sparse ? quantised_or_none(value, shown.range.first, shown.range.second)
                                    : quantised<std::uint8_t>(value, shown.range.first, shown.range.second));
   }
+  ColourBar bar{shown.range, ""};
+  for (const auto& of_snapshot : values)
+    for (const double value : of_snapshot) bar.add(value);
+  shown.ends = bar.end_texts();
   data.fields.push_back(std::move(shown));
 }
 

@@ -16,6 +16,7 @@ struct QuantisedField {
   std::string name, unit;
   std::pair<double, double> range;
   bool sparse = false;
+  std::array<std::string, 2> ends{}; ///< what is written at the ends of the scale (ColourBar)
 };
 
 /// One snapshot.

@@ -66,7 +66,8 @@ nlohmann::json head_of(const ViewData& data) {
   for (const QuantisedField& field : data.fields)
     head["fields"].push_back({{"label", with_unit(field_label(field.name), field.unit)},
                               {"range", {field.range.first, field.range.second}},
-                              {"sparse", field.sparse}});
+                              {"sparse", field.sparse},
+                              {"ends", field.ends}});
   for (const ViewState& state : data.states)
     head["states"].push_back({{"relative_density", state.relative_density},
                               {"mean_stress", state.mean_stress},

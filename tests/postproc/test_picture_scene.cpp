@@ -6,6 +6,7 @@
 #include <catch2/catch.hpp>
 
 #include "bonded_run.hpp"
+#include "postproc/picture/heading.hpp"
 #include "postproc/picture/view_frame.hpp"
 #include "small_run.hpp"
 #include "tests/support/folder.hpp"
@@ -138,7 +139,7 @@ TEST_CASE("all of the bounds lie in the picture for any direction of the camera"
   const PictureSize size{800, 600};
   for (const double azimuth : {-180.0, -55.0, 0.0, 30.0, 90.0})
     for (const double elevation : {-90.0, -30.0, 0.0, 25.0, 90.0}) {
-      const ViewFrame view = frame_view(bounds, towards_camera({azimuth, elevation}), size, true);
+      const ViewFrame view = frame_view(bounds, {azimuth, elevation}, size, {.bar = true});
       CHECK(std::abs(view.right.cross(view.up).dot(view.towards_camera) - 1) < 1e-12); // right-handed
       for (int c = 0; c < 8; ++c) {
         const Eigen::Vector2d pixel = view.pixel_of({c & 1 ? 1.0 : 0.0, c & 2 ? 2.0 : 0.0, c & 4 ? 0.5 : 0.0});
@@ -146,4 +147,36 @@ TEST_CASE("all of the bounds lie in the picture for any direction of the camera"
         CHECK((pixel[1] > 0 && pixel[1] < 0.91 * size.height)); // and the title there
       }
     }
+}
+
+TEST_CASE("a camera that rises to straight above does not turn the picture") {
+  const ShownBox bounds{{0, 0, 0}, {1, 2, 0.5}};
+  for (const double azimuth : {-55.0, 0.0, 120.0}) {
+    const ViewFrame below = frame_view(bounds, {azimuth, 89.99}, {800, 600}, {}),
+                    above = frame_view(bounds, {azimuth, 90.0}, {800, 600}, {});
+    CHECK((below.right - above.right).norm() < 1e-3);
+    CHECK((below.up - above.up).norm() < 1e-3);
+  }
+}
+
+TEST_CASE("a title is broken between words, a word that is longer than a line is cut") {
+  CHECK(text_lines("aa bb cc", 5) == std::vector<std::string>{"aa bb", "cc"});
+  CHECK(text_lines("abcdefgh", 3) == std::vector<std::string>{"abc", "def", "gh"});
+  PictureScene scene;
+  scene.title = std::string(400, 'x');
+  scene.note = "grains and bonds and contacts and grains and bonds and contacts and grains";
+  const Heading heading = heading_of(scene, {400, 300});
+  CHECK(heading.title.size() <= 3);
+  for (const std::string& line : heading.title) CHECK(text_width(line, heading.title_height) < 400);
+  for (const std::string& line : heading.note) CHECK(text_width(line, heading.note_height) < 400);
+}
+
+TEST_CASE("the ends of a colour scale say that values lie beyond them") {
+  ColourBar bar{{0, 20}, "stress (MPa)"};
+  for (const double value : {0.0, 12.0, 20.01}) bar.add(value);
+  CHECK(bar.end_texts() == std::array<std::string, 2>{"", ""});
+  bar.add(25);
+  CHECK(bar.end_texts() == std::array<std::string, 2>{"", "≥ 20"});
+  bar.add(-1);
+  CHECK(bar.end_texts()[0] == "≤ 0");
 }
