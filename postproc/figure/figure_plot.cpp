@@ -118,8 +118,14 @@ public:
     add(as_beside(s));
     data_ = own;
     has_beside_ = true;
+    beside_joined_ = beside_joined_ || s.style.find("lines") != std::string::npos;
   }
   bool has_beside() const { return has_beside_; }
+  /// How series of other results look in the key.
+  std::string beside_sample() const {
+    return beside_joined_ ? std::string("linespoints linetype 8 pointtype 6") + dashed
+                          : std::string("points linetype 8 pointtype 6");
+  }
   const std::string& blocks() const { return blocks_; }
   std::string drawings() const { return fmt::format("{}", fmt::join(drawings_, ", \\\n  ")); }
   bool empty() const { return drawings_.empty(); }
@@ -251,6 +257,7 @@ private:
   const PlotSpec& plot_;
   FigureData* data_;
   bool has_beside_ = false;
+  bool beside_joined_ = false; ///< whether lines join points of other results
   std::string folder_;
   int packings_ = 0, count_ = 0, spreads_ = 0;
   std::string blocks_;
@@ -412,8 +419,7 @@ std::string plot_script(const PlotSpec& plot, FigureData& data, const std::strin
   text += script.blocks();
   if (plot.inset) text += "set multiplot\n";
   text += "plot " + script.drawings() + reference_lines(plot);
-  if (script.has_beside())
-    text += ", \\\n  NaN with linespoints linetype 8 pointtype 6 dashtype 2" + title_text(beside->name);
+  if (script.has_beside()) text += ", \\\n  NaN with " + script.beside_sample() + title_text(beside->name);
   text += "\n";
   if (!plot.inset) return text;
   const InsetSpec& inset = *plot.inset;

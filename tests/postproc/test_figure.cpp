@@ -455,6 +455,12 @@ series = [
   CHECK_THAT(both, Contains("1 30 10 \n2 NaN 20 \n") && Contains("EOD\n1 40 10 \n"));
   CHECK_THAT(both, Contains("linetype 1 dashtype (12, 10) pointtype 6") && Contains("title 'finer'"));
   CHECK(script.find("finer") == std::string::npos);
+  // The key shows a line only where there is one.
+  CHECK_THAT(both, Contains("NaN with linespoints"));
+  PlotSpec loose = figure.plots[0];
+  std::erase_if(loose.series, [](const SeriesSpec& s) { return s.style.find("lines") != std::string::npos; });
+  REQUIRE_FALSE(loose.series.empty());
+  CHECK_THAT(plot_script(loose, data, folder, "svg", "p.svg", 0, &other), Contains("NaN with points linetype 8"));
   OtherResults nothing{"nothing", FigureData(figure, toolkit.path("nothing"))};
   CHECK(plot_script(figure.plots[0], data, folder, "svg", "p.svg", 0, &nothing) == script);
   write_text(folder + "/strength.csv", "name,density [1],strength [MPa]\na,,\n");
