@@ -50,8 +50,13 @@ void for_each_tet_array(Visitor&& visit) {
 /// The same for arrays with one number for each grain.
 template <class Steps, class ContactType, class Visitor>
 void for_each_grain_array(Steps& steps, ContactType& contact, Visitor&& visit) {
-  visit(check::grain_step, steps.whole);
+  visit(check::grain_step, steps.step);
+  visit(check::grain_step_contact_share, steps.contact_share);
+  visit(check::grain_step_strain, steps.strain);
+  visit(check::grain_step_whole, steps.whole);
   visit(check::grain_step_growth, steps.growth);
+  visit(check::grain_step_rate, steps.rate);
+  visit(check::grain_step_estimates, steps.estimates);
   visit(check::grain_travel, contact.travel);
   visit(check::grain_travel_at_search, contact.travel_at_search);
 }

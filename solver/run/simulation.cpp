@@ -114,7 +114,7 @@ void Simulation::advance() {
   box_.move_to(plan.cell);
   tools_.move(stage_run_->control().tool_velocities(), plan.step);
   move_and_strain(update);
-  const double strain = add_up_step();
+  const StepEstimate::StrainOfStep strain = add_up_step();
   stage_run_->advance(plan);
   state_.time += plan.step;
   state_.last_step = plan.step;
@@ -320,18 +320,19 @@ void Simulation::move_and_strain(std::span<const std::int32_t> grains, const Adv
     bounds_[at(grain)] = update_surface(model_, grain);
     watch.mark(Part::surface);
     sums.elements = element_forces(model_, grain, update.step);
+    sums.strain_since_estimate = step_estimate_.add_strain(grain, sums.elements.largest_strain);
     watch.mark(Part::elements);
   });
 }
 
-/// Adds up what the grains did in a step; returns the largest strain of a tet in it.
-double Simulation::add_up_step() {
+/// Adds up what the grains did in a step; returns the largest strains of all grains.
+StepEstimate::StrainOfStep Simulation::add_up_step() {
   const auto total = total_of<MotionSums>(*ranks_, model_.own(), motion_sums_);
   if (!total.elements.admissible) report_bad_grain();
   energies_.add_step(total.elements, total.advance);
   state_.damping_force = total.advance.damping_force;
   travel_since_search_ = total.travel;
-  return total.elements.largest_strain;
+  return {total.elements.largest_strain, total.strain_since_estimate};
 }
 
 void Simulation::renew_step_estimate(const Box& box, bool anew) {

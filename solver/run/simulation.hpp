@@ -77,13 +77,14 @@ struct ForceSums {
 struct MotionSums {
   AdvanceSums advance;
   ElementSums elements;
-  double travel = 0; ///< mm, largest path of a node since the search
+  double travel = 0;                ///< mm, largest path of a node since the search
+  double strain_since_estimate = 0; ///< sum of the largest strains of a tet in each step
 
   template <class Self, class Visitor>
   static void for_each_term(Self& s, Visitor&& visit) {
     AdvanceSums::for_each_term(s.advance, visit);
     ElementSums::for_each_term(s.elements, visit);
-    visit.largest(s.travel);
+    visit.largest(s.travel), visit.largest(s.strain_since_estimate);
   }
 };
 
@@ -181,7 +182,7 @@ private:
   Advance velocity_update(const StepPlan& plan) const;
   void move_and_strain(const Advance& update);
   void move_and_strain(std::span<const std::int32_t> grains, const Advance& update);
-  double add_up_step();
+  StepEstimate::StrainOfStep add_up_step();
   void update_surfaces();
   void change_walls(const Axes& withdrawn);
   void change_tools();

@@ -6,6 +6,7 @@
 #include <limits>
 #include <queue>
 
+#include "common/index.hpp"
 #include "solver/kernels/largest_frequency.hpp"
 #include "solver/parallel/grain_values.hpp"
 
@@ -13,15 +14,17 @@ namespace mpfem {
 
 namespace {
 
-// The estimate of the stable step is renewed when tets may have strained by this much since, or after so many steps. A
-// strain e changes a tet's gradients by e and its volume by up to 1.7 e, so its frequency, which goes with the
+// The stable step of a grain is estimated again when its tets may have strained by this much since, or after so many
+// steps. A strain e changes a tet's gradients by e and its volume by up to 1.7 e, so its frequency, which goes with the
 // gradients and the root of the volume, by less than 2 e = 4 %: well within the 10 % that time_step_factor leaves.
 constexpr double strain_between_estimates = 0.02;
 constexpr int steps_between_estimates = 50;
-/// The frequencies of all whole grains are computed once in so many estimates: some twenty products with the stiffness
-/// each. In between, a grain's squared frequency is assumed to grow as that of its fastest growing tet, plus the growth
-/// of contact at its nodes. If that would shorten the packing's step, it is computed again, unless it has grown by less
-/// than this.
+/// When a grain is due by its strain, those that have strained by this share of the limit are estimated with it, so
+/// that they do not come one after another.
+constexpr double share_of_limit_to_join = 0.5;
+/// The frequency of a whole grain is computed once in so many of its estimates: some twenty products with the stiffness.
+/// In between, its square is assumed to grow as that of the grain's fastest growing tet, plus the growth of contact at
+/// its nodes. If that would shorten the packing's step, it is computed again, unless it has grown by less than this.
 constexpr int estimates_between_spectra = 10;
 constexpr double growth_worth_a_spectrum = 1.01;
 
@@ -36,113 +39,138 @@ double largest_quadratic_damping(const Model& model, double rate) {
 } // namespace
 
 StepEstimate::StepEstimate(const Model& model, const NumericsParameters& numerics, const Communicator& ranks)
-    : ranks_(&ranks), numerics_(numerics), of_tets_(static_cast<std::size_t>(model.grains)),
-      stiffness_rate_(static_cast<std::size_t>(model.nodes()), model.pages()) {
-  const auto grains = static_cast<std::size_t>(model.grains);
-  grain_steps_ = {std::vector<double>(grains), std::vector<double>(grains),
-                  LazyArray<double>(static_cast<std::size_t>(model.nodes()), model.pages())};
+    : ranks_(&ranks), numerics_(numerics),
+      grain_steps_(static_cast<std::size_t>(model.grains), static_cast<std::size_t>(model.nodes()), model.pages()),
+      stiffness_rate_(static_cast<std::size_t>(model.nodes()), model.pages()) {}
+
+double StepEstimate::add_strain(std::int32_t grain, double strain) {
+  return grain_steps_.strain[at(grain)] += strain;
 }
 
-bool StepEstimate::is_due_after(double strain, double step) {
-  state_.strain_rate = strain / step;
-  state_.strain_since_estimate += strain;
-  return ++state_.steps_since_estimate >= steps_between_estimates ||
-         state_.strain_since_estimate > strain_between_estimates;
+bool StepEstimate::is_due_after(const StrainOfStep& strain, double step) {
+  state_.strain_rate = strain.largest / step;
+  ++state_.steps_since_estimate;
+  return all_are_due() || strain.since_estimate > strain_between_estimates;
+}
+
+bool StepEstimate::all_are_due() const {
+  return state_.steps_since_estimate >= steps_between_estimates;
 }
 
 void StepEstimate::renew_after_next_step() {
   state_.steps_since_estimate = steps_between_estimates - 1;
 }
 
-/// s, by the frequency of the whole grain.
-double StepEstimate::renew_grain(const Model& model, int grain, double rate) {
-  const auto g = static_cast<std::size_t>(grain);
-  const double squared = largest_frequency(model, grain, stiffness_rate_, of_tets_[g].step, rate).squared;
+/// What contact, walls and tools add to the frequencies of a grain's nodes.
+void StepEstimate::set_stiffness_rate(const Surroundings& now, std::int32_t grain) {
+  contact_stiffness_rate(now.model, now.contact, grain, stiffness_rate_);
+  now.boundaries.box.add_stiffness_rate(now.model, now.bounds[at(grain)], grain, stiffness_rate_);
+  now.boundaries.tools.add_stiffness_rate(now.model, now.bounds[at(grain)], grain, stiffness_rate_);
+  raise_to_expected_rate(now.model, now.contact, grain, stiffness_rate_);
+}
+
+/// Whether the frequency of the whole grain is to be computed in this estimate.
+bool StepEstimate::spectrum_is_due(const Model& model, std::size_t grain, double rate) const {
+  if (grain_steps_.estimates[grain] + 1 >= estimates_between_spectra) return true;
+  // In an impact quadratic viscosity grows within one estimate.
+  return rate > 2 * grain_steps_.rate[grain] && largest_quadratic_damping(model, rate) > 0.01;
+}
+
+/// 1/s^2, squared frequency of the whole grain; `step` (s) that of its tets.
+double StepEstimate::compute_spectrum(const Model& model, std::int32_t grain, double step, double rate) {
+  const std::size_t g = at(grain);
+  const double squared = largest_frequency(model, grain, stiffness_rate_, step, rate).squared;
   grain_steps_.whole[g] = 2.0 / std::sqrt(squared);
+  grain_steps_.growth[g] = 1;
+  grain_steps_.rate[g] = rate;
+  grain_steps_.estimates[g] = 0;
   std::copy(stiffness_rate_.begin() + model.node_offset[g], stiffness_rate_.begin() + model.node_offset[g + 1],
             grain_steps_.contact.begin() + model.node_offset[g]);
-  grain_steps_.growth[g] = 1;
-  return std::max(of_tets_[g].step, grain_steps_.whole[g]);
+  return squared;
 }
 
-/// 1/s^2, bound on the grain's squared frequency from what has grown since it was computed.
-double StepEstimate::bound_since_spectrum(const Model& model, int grain, double found) const {
-  const auto g = static_cast<std::size_t>(grain);
+/// 1/s^2, bound on the squared frequency of the whole grain from what has grown since it was computed; `growth`: of the
+/// tets' since the last estimate.
+double StepEstimate::bound_since_spectrum(const Model& model, std::int32_t grain, double growth) {
+  const std::size_t g = at(grain);
+  ++grain_steps_.estimates[g];
+  grain_steps_.growth[g] *= growth;
   double contact = 0;
-  for (auto n = static_cast<std::size_t>(model.node_offset[g]); n < static_cast<std::size_t>(model.node_offset[g + 1]);
-       ++n)
+  for (std::size_t n = at(model.node_offset[g]); n < at(model.node_offset[g + 1]); ++n)
     contact = std::max(contact, stiffness_rate_[n] - grain_steps_.contact[n]);
-  return found * grain_steps_.growth[g] + contact;
+  return 4.0 / (grain_steps_.whole[g] * grain_steps_.whole[g]) * grain_steps_.growth[g] + contact;
 }
 
-/// Whether the frequencies of whole grains are to be found in this estimate. `rate`: volumetric, 1/s.
-bool StepEstimate::spectra_are_due(const Model& model, double rate) {
-  if (++state_.estimates_since_spectrum >= estimates_between_spectra) return true;
-  // In an impact quadratic viscosity grows within one estimate.
-  return rate > 2 * state_.spectrum_rate && largest_quadratic_damping(model, rate) > 0.01;
+/// Estimates the stable step of a grain. `anew`: by the frequency of the whole grain as it is now.
+void StepEstimate::estimate(const Surroundings& now, std::int32_t grain, double rate, bool anew) {
+  const std::size_t g = at(grain);
+  set_stiffness_rate(now, grain);
+  const StableStep of_tets = mpfem::stable_step(now.model, grain, stiffness_rate_, rate);
+  grain_steps_.step[g] = of_tets.step;
+  grain_steps_.contact_share[g] = of_tets.step / of_tets.step_no_contact;
+  grain_steps_.strain[g] = 0;
+  if (numerics_.step_estimate != StepEstimateMethod::grain) return;
+  const double squared = anew || spectrum_is_due(now.model, g, rate)
+                             ? compute_spectrum(now.model, grain, of_tets.step, rate)
+                             : bound_since_spectrum(now.model, grain, of_tets.growth);
+  grain_steps_.step[g] = std::max(of_tets.step, 2.0 / std::sqrt(squared));
 }
 
-/// What contact, walls and tools add to the frequencies of a grain's nodes.
-void StepEstimate::set_stiffness_rate(const Model& model, const Contact& contact, const Boundaries& boundaries,
-                                      const Bounds& bounds, int grain) {
-  contact_stiffness_rate(model, contact, grain, stiffness_rate_);
-  boundaries.box.add_stiffness_rate(model, bounds, grain, stiffness_rate_);
-  boundaries.tools.add_stiffness_rate(model, bounds, grain, stiffness_rate_);
-  raise_to_expected_rate(model, contact, grain, stiffness_rate_);
+/// The last estimate of a grain.
+StepEstimate::GrainStep StepEstimate::last_estimate(std::int32_t grain) const {
+  const std::size_t g = at(grain);
+  const bool computed = numerics_.step_estimate != StepEstimateMethod::grain ||
+                        grain_steps_.step[g] > grain_steps_.whole[g] / std::sqrt(growth_worth_a_spectrum);
+  return {grain_steps_.step[g], grain_steps_.contact_share[g], computed ? 1.0 : 0.0};
 }
 
-/// The step of a grain whose tets have just been estimated.
-StepEstimate::GrainStep StepEstimate::step_of_grain(const Model& model, int grain, double rate, bool anew) {
-  const auto g = static_cast<std::size_t>(grain);
-  if (numerics_.step_estimate != StepEstimateMethod::grain) return {of_tets_[g].step, true};
-  if (anew) return {renew_grain(model, grain, rate), true};
-  const double then = 4.0 / (grain_steps_.whole[g] * grain_steps_.whole[g]);
-  grain_steps_.growth[g] *= of_tets_[g].growth;
-  const double now = bound_since_spectrum(model, grain, then);
-  return {std::max(of_tets_[g].step, 2.0 / std::sqrt(now)), now < growth_worth_a_spectrum * then};
+/// Own grains that take part in this estimate.
+std::vector<std::int32_t> StepEstimate::due_grains(const Model& model, bool all) const {
+  std::vector<std::int32_t> due;
+  for (const std::int32_t grain : model.own())
+    if (all || grain_steps_.strain[at(grain)] > share_of_limit_to_join * strain_between_estimates) due.push_back(grain);
+  return due;
 }
 
 /// Collective. The grain with the shortest step: it must set the step by its computed frequency, not by a bound on it.
-/// `steps` [grains].
-std::size_t StepEstimate::compute_shortest(const Model& model, double rate, std::span<GrainStep> steps) {
-  using Candidate = std::pair<double, std::size_t>; // step and grain
+StepEstimate::GrainStep StepEstimate::shortest_step(const Surroundings& now, double rate) {
+  const Ownership& ownership = now.model.ownership;
+  std::vector<GrainStep> steps(grain_steps_.step.size());
+  for (const std::int32_t grain : ownership.own) steps[at(grain)] = last_estimate(grain);
+  share_of_grains(*ranks_, ownership, std::span(steps));
+
+  using Candidate = std::pair<double, std::int32_t>; // step and grain
   std::vector<Candidate> candidates;
-  for (std::size_t grain = 0; grain < steps.size(); ++grain) candidates.emplace_back(steps[grain].step, grain);
+  for (std::size_t grain = 0; grain < steps.size(); ++grain)
+    candidates.emplace_back(steps[grain].step, static_cast<std::int32_t>(grain));
   std::priority_queue<Candidate, std::vector<Candidate>, std::greater<>> shortest({}, std::move(candidates));
-  while (!steps[shortest.top().second].computed) {
-    const std::size_t grain = shortest.top().second;
+  while (true) {
+    const std::int32_t grain = shortest.top().second;
+    GrainStep& step = steps[at(grain)];
+    if (step.computed > 0) return step;
     shortest.pop();
-    const bool own = model.ownership.owns(static_cast<std::int32_t>(grain));
-    const double of_owner = own ? renew_grain(model, static_cast<int>(grain), rate) : 0.0;
-    steps[grain] = {ranks_->largest(of_owner), true};
-    shortest.emplace(steps[grain].step, grain);
+    if (ownership.owns(grain)) {
+      estimate(now, grain, rate, true);
+      step = last_estimate(grain);
+    } else {
+      step = {};
+    }
+    step = {ranks_->largest(step.step), ranks_->largest(step.contact_share), 1};
+    shortest.emplace(step.step, grain);
   }
-  return shortest.top().second;
 }
 
 void StepEstimate::renew(Model& model, const Contact& contact, const Boundaries& boundaries,
                          std::span<const Bounds> bounds, ThreadTeam& team, bool anew) {
-  // |tr e| <= sqrt(3) |e|
-  const double rate = std::sqrt(3.0) * state_.strain_rate;
-  anew = anew || spectra_are_due(model, rate);
-  if (anew) state_.estimates_since_spectrum = 0, state_.spectrum_rate = rate;
-
-  std::vector<GrainStep> steps(of_tets_.size());
-  team.for_each(static_cast<int>(model.own().size()), [&](int item, int) {
-    const std::int32_t grain = model.own()[static_cast<std::size_t>(item)];
-    const auto g = static_cast<std::size_t>(grain);
-    set_stiffness_rate(model, contact, boundaries, bounds[g], grain);
-    of_tets_[g] = mpfem::stable_step(model, grain, stiffness_rate_, rate);
-    steps[g] = step_of_grain(model, grain, rate, anew);
-  });
-  share_of_grains(*ranks_, model.ownership, std::span(steps));
-  share_of_grains(*ranks_, model.ownership, std::span(of_tets_));
-
-  const std::size_t g = compute_shortest(model, rate, steps);
-  state_.stable_step = numerics_.time_step_factor * steps[g].step;
-  state_.controlled_by_contact = of_tets_[g].step < 0.95 * of_tets_[g].step_no_contact;
-  state_.steps_since_estimate = 0;
-  state_.strain_since_estimate = 0;
+  const Surroundings now{model, contact, boundaries, bounds};
+  const double rate = std::sqrt(3.0) * state_.strain_rate; // |tr e| <= sqrt(3) |e|
+  const bool all = anew || all_are_due();
+  const std::vector<std::int32_t> due = due_grains(model, all);
+  team.for_each(static_cast<int>(due.size()), [&](int item, int) { estimate(now, due[at(item)], rate, anew); });
+  const GrainStep shortest = shortest_step(now, rate);
+  state_.stable_step = numerics_.time_step_factor * shortest.step;
+  state_.controlled_by_contact = shortest.contact_share < 0.95;
+  if (all) state_.steps_since_estimate = 0;
 }
 
 } // namespace mpfem

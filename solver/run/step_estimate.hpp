@@ -30,20 +30,15 @@ struct Boundaries {
 class StepEstimate {
 public:
   struct State {
-    double stable_step = 0;             ///< s, estimate times safety factor
-    bool controlled_by_contact = false; ///< contact lowers the step by more than 5 %
-    double strain_rate = 0;             ///< 1/s, largest in the last step
-    double strain_since_estimate = 0;
-    std::int64_t steps_since_estimate = 0;
-    double spectrum_rate = 0; ///< 1/s, volumetric, when the frequencies of whole grains were last found
-    std::int64_t estimates_since_spectrum = 0;
+    double stable_step = 0;                ///< s, estimate times safety factor
+    bool controlled_by_contact = false;    ///< contact lowers the step by more than 5 %
+    double strain_rate = 0;                ///< 1/s, largest in the last step
+    std::int64_t steps_since_estimate = 0; ///< since all grains were estimated
 
     template <class Self, class Visitor>
     static void for_each_field(Self& s, Visitor&& visit) {
       visit("step.stable", s.stable_step), visit("step.controlled_by_contact", s.controlled_by_contact);
-      visit("step.strain_rate", s.strain_rate), visit("step.strain_since_estimate", s.strain_since_estimate);
-      visit("step.steps_since_estimate", s.steps_since_estimate), visit("step.spectrum_rate", s.spectrum_rate);
-      visit("step.estimates_since_spectrum", s.estimates_since_spectrum);
+      visit("step.strain_rate", s.strain_rate), visit("step.steps_since_estimate", s.steps_since_estimate);
     }
   };
 
@@ -53,10 +48,18 @@ public:
   const GrainSteps& grain_steps() const { return grain_steps_; }
   double stable_step() const { return state_.stable_step; }
 
-  /// Takes in the largest strain of a step (s). True when the estimate is to be renewed.
-  bool is_due_after(double strain, double step);
-  /// Collective. Estimates the stable step of the current state; sets the tets' lengths in the model. `anew`: finds the
-  /// frequencies of whole grains even if they were found recently.
+  /// Takes in the largest strain of a grain's tets in a step; returns their sum since the grain's estimate. For grains
+  /// that differ, it may be called from several threads at once.
+  double add_strain(std::int32_t grain, double strain);
+  /// The largest of all grains.
+  struct StrainOfStep {
+    double largest;        ///< of a tet in the last step
+    double since_estimate; ///< what add_strain() returned
+  };
+  /// True after a step (s) if the estimate is to be renewed.
+  bool is_due_after(const StrainOfStep& strain, double step);
+  /// Collective. Estimates the stable step of the grains that are due; sets their tets' lengths in the model. `anew`:
+  /// of all grains, by the frequency of each as it is now.
   void renew(Model& model, const Contact& contact, const Boundaries& boundaries, std::span<const Bounds> bounds,
              ThreadTeam& team, bool anew);
   /// The next step is followed by an estimate: nothing has touched yet.
@@ -66,24 +69,33 @@ public:
   void restore(GrainSteps grain_steps) { grain_steps_ = std::move(grain_steps); }
 
 private:
-  /// The step of a grain, s, and whether it is set by a computed frequency, not by a bound on what has grown since.
-  struct GrainStep {
-    double step;
-    bool computed;
+  /// What a grain's estimate depends on.
+  struct Surroundings {
+    Model& model;
+    const Contact& contact;
+    const Boundaries& boundaries;
+    std::span<const Bounds> bounds;
   };
-  bool spectra_are_due(const Model& model, double rate);
-  void set_stiffness_rate(const Model& model, const Contact& contact, const Boundaries& boundaries,
-                          const Bounds& bounds, int grain);
-  GrainStep step_of_grain(const Model& model, int grain, double rate, bool anew);
-  double renew_grain(const Model& model, int grain, double rate);
-  double bound_since_spectrum(const Model& model, int grain, double found) const;
-  std::size_t compute_shortest(const Model& model, double rate, std::span<GrainStep> steps);
+  /// An estimate as ranks exchange it.
+  struct GrainStep {
+    double step;          ///< s
+    double contact_share; ///< as in GrainSteps
+    double computed;      ///< 1: set by a computed frequency, 0: by a bound on what has grown since
+  };
+  bool all_are_due() const;
+  std::vector<std::int32_t> due_grains(const Model& model, bool all) const;
+  void set_stiffness_rate(const Surroundings& now, std::int32_t grain);
+  bool spectrum_is_due(const Model& model, std::size_t grain, double rate) const;
+  double compute_spectrum(const Model& model, std::int32_t grain, double step, double rate);
+  double bound_since_spectrum(const Model& model, std::int32_t grain, double growth);
+  void estimate(const Surroundings& now, std::int32_t grain, double rate, bool anew);
+  GrainStep last_estimate(std::int32_t grain) const;
+  GrainStep shortest_step(const Surroundings& now, double rate);
 
   const Communicator* ranks_;
   NumericsParameters numerics_;
   State state_;
   GrainSteps grain_steps_;
-  std::vector<StableStep> of_tets_;  ///< [grains]
   LazyArray<double> stiffness_rate_; ///< 1/s^2, [nodes], of contact and walls
 };
 

@@ -20,7 +20,7 @@ using namespace mpfem::test;
 namespace {
 
 /// A few roundings of floats, each up to 6e-8 of the number.
-constexpr double few_roundings = 1e-6;
+constexpr double few_single_roundings = 1e-6;
 
 Scenario compaction(Precision precision, ElementType element) {
   Scenario scenario = holding_scenario(1, HardeningLaw::power);
@@ -82,11 +82,11 @@ TEST_CASE("every lane of a pack of floats gives the scalar answer within a few r
                             {of(increment.rotation.x), of(increment.rotation.y), of(increment.rotation.z)}});
       // The trial stress is the largest number of all: its rounding is that of what comes of it.
       const double scale = 25 + 6 * moduli.shear * size;
-      CHECK(std::abs(of(pack.deviator.xx) - scalar.deviator.xx) < few_roundings * scale);
-      CHECK(std::abs(of(pack.deviator.zx) - scalar.deviator.zx) < few_roundings * scale);
-      CHECK(std::abs(of(pack.hardening.flow_stress) - scalar.hardening.flow_stress) < 2 * few_roundings * scale);
+      CHECK(std::abs(of(pack.deviator.xx) - scalar.deviator.xx) < few_single_roundings * scale);
+      CHECK(std::abs(of(pack.deviator.zx) - scalar.deviator.zx) < few_single_roundings * scale);
+      CHECK(std::abs(of(pack.hardening.flow_stress) - scalar.hardening.flow_stress) < 2 * few_single_roundings * scale);
       CHECK(std::abs(of(pack.hardening.plastic_strain) - scalar.hardening.plastic_strain) <
-            few_roundings * (scale / (3 * moduli.shear) + 0.1));
+            few_single_roundings * (scale / (3 * moduli.shear) + 0.1));
     }
   }
 }
@@ -126,7 +126,7 @@ TEST_CASE("the energy of a small change of volume is resolved") {
     const double ratio = static_cast<double>(static_cast<float>(1 + x)), y = ratio - 1;
     series = 0;
     for (int n = 30; n >= 2; --n) series += (n % 2 == 0 ? 1 : -1) * std::pow(y, n) / (n * (n - 1.0));
-    if (y != 0) CHECK(within(volumetric_energy(moduli, S(ratio))[0], series, few_roundings));
+    if (y != 0) CHECK(within(volumetric_energy(moduli, S(ratio))[0], series, few_single_roundings));
   }
 }
 
