@@ -1,6 +1,7 @@
 #include "solver/kernels/contact_candidates.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <utility>
 
@@ -227,6 +228,11 @@ void add_pairs(const Model& model, const ContactCandidates& others, Contact& con
     ++next.pair;
   }
   take_over(std::move(joined), model.grains, contact);
+}
+
+double travel_in_step(const Contact& contact, const Advance& update, double relative_speed) {
+  const double rate = std::max({std::abs(update.rate[0]), std::abs(update.rate[1]), std::abs(update.rate[2])});
+  return (relative_speed + 0.5 * rate * contact.margin) * update.step;
 }
 
 double travel_since_search(const Contact& contact, std::size_t grain) {

@@ -5,6 +5,7 @@
 
 #include "solver/kernels/contact_state.hpp"
 #include "solver/model/model.hpp"
+#include "solver/physics/damping.hpp"
 
 namespace mpfem {
 
@@ -20,9 +21,15 @@ struct SearchRange {
 /// of grains in range.near.
 void renew_candidates(const Model& model, const SearchRange& range, ThreadTeam& team, Contact& contact);
 
-/// mm, bound of the path length of any node of a grain since the search.
+/// mm, by which the travel of a grain grows in a step: half of the largest distance by which two points can approach
+/// each other that are no farther apart than the margin, if the nodes of both grains move at up to `relative_speed`
+/// (mm/s) relative to the affine velocity field v(x). Its strain rate brings such points together at up to
+/// max |dv/dx| times the margin. So grains that follow the walls do not count as travelling, however large the box.
+double travel_in_step(const Contact& contact, const Advance& update, double relative_speed);
+
+/// mm, since the search.
 double travel_since_search(const Contact& contact, std::size_t grain);
-/// True when two nodes may have approached by more than the candidates' margin; `travel` (mm) is the largest of all
+/// True when two points may have approached by more than the candidates' margin; `travel` (mm) is the largest of all
 /// grains since the search.
 bool search_is_due(const Contact& contact, double travel);
 

@@ -35,9 +35,9 @@ struct Contact {
   ContactCandidates candidates;
   double margin = 0;                     ///< mm, of the search that made the candidates
   std::vector<std::int32_t> point_facet; ///< [points]: closest facet when last looked at, -1 none
-  // A gap cannot close faster than both grains travel. So a point that is open by 10 um need not be looked at before
-  // the travel of the two grains has grown by 10 um; nor can another facet become the closest before they have
-  // travelled half of its lead.
+  // A gap up to the margin cannot close faster than both grains travel (travel_in_step). So a point that is open by
+  // 10 um need not be looked at before the travel of the two grains has grown by 10 um; nor can another facet become
+  // the closest before they have travelled half of its lead.
   std::vector<double> point_open_until;  ///< [points], mm: open until the two grains' travel adds up to this
   std::vector<double> point_facet_until; ///< [points], mm: point_facet is the closest until travel adds up to this
   std::vector<ContactForce> force;       ///< [points]: active points first within every pair's range
@@ -55,7 +55,7 @@ struct Contact {
   /// mJ that friction has dissipated so far at points that are no longer candidates, by ordered pair of grains.
   std::map<std::pair<std::int32_t, std::int32_t>, double> friction_of_former_points;
   double last_step = 0;                 ///< s, of the step to the current positions; shows where points came in
-  std::vector<double> travel;           ///< [grains], mm: bound of any node's path length since the run began
+  std::vector<double> travel;           ///< [grains], mm, since the run began: see travel_in_step
   std::vector<double> travel_at_search; ///< [grains], mm
 
   bool bonding() const { return !bond_laws.empty(); }

@@ -10,13 +10,13 @@ namespace mpfem {
 
 /// Sums over the nodes of one grain in one velocity update.
 struct AdvanceSums {
-  double damping_work = 0;  ///< mJ dissipated in this update
-  double damping_force = 0; ///< N, sum of nodal magnitudes
-  double largest_speed = 0; ///< mm/s
+  double damping_work = 0;           ///< mJ dissipated in this update
+  double damping_force = 0;          ///< N, sum of nodal magnitudes
+  double largest_relative_speed = 0; ///< mm/s, relative to the affine velocity field of the walls
 
   template <class Self, class Visitor>
   static void for_each_term(Self& s, Visitor&& visit) {
-    visit.sum(s.damping_work), visit.sum(s.damping_force), visit.largest(s.largest_speed);
+    visit.sum(s.damping_work), visit.sum(s.damping_force), visit.largest(s.largest_relative_speed);
   }
 };
 

@@ -14,11 +14,13 @@ namespace mpfem {
 
 /// What the velocity update needs besides the forces.
 struct Advance {
-  double step_mean = 0;           ///< s, from the half step before now to the one after
-  double step = 0;                ///< s, for the update of positions
-  double damping_rate = 0;        ///< c, 1/s
-  std::array<double, 3> centre{}; ///< of the affine velocity field, mm
-  std::array<double, 3> rate{};   ///< of the affine velocity field, 1/s
+  double step_mean = 0;    ///< s, from the half step before now to the one after
+  double step = 0;         ///< s, for the update of positions
+  double damping_rate = 0; ///< c, 1/s
+  // The affine velocity field of the walls.
+  std::array<double, 3> centre{};   ///< mm
+  std::array<double, 3> velocity{}; ///< mm/s, at the centre
+  std::array<double, 3> rate{};     ///< 1/s, of stretching along each axis
 };
 
 /// Coefficients of the damped update v+ = keep v- + gain f/m + pull t.
@@ -45,7 +47,7 @@ inline DampedUpdate damped_update(const Advance& p) {
 
 /// Component `axis` of the affine velocity field (mm/s) at `coordinate` (mm).
 inline double affine_velocity(const Advance& p, std::size_t axis, double coordinate) {
-  return p.rate[axis] * (coordinate - p.centre[axis]);
+  return p.velocity[axis] + p.rate[axis] * (coordinate - p.centre[axis]);
 }
 
 } // namespace mpfem

@@ -291,6 +291,7 @@ Advance Simulation::velocity_update(const StepPlan& plan) const {
   update.damping_rate = damping_rate_;
   for (std::size_t axis = 0; axis < 3; ++axis) {
     update.centre[axis] = box_.cell().centre(axis);
+    update.velocity[axis] = (plan.cell.centre(axis) - box_.cell().centre(axis)) / plan.step;
     update.rate[axis] = (plan.cell.length(axis) / box_.cell().length(axis) - 1.0) / plan.step;
   }
   return update;
@@ -314,7 +315,7 @@ void Simulation::move_and_strain(std::span<const std::int32_t> grains, const Adv
     MotionSums& sums = motion_sums_[at(grain)];
     Stopwatch watch(profile_, thread);
     sums.advance = mpfem::advance(model_, grain, update);
-    contact_.travel[at(grain)] += sums.advance.largest_speed * update.step;
+    contact_.travel[at(grain)] += travel_in_step(contact_, update, sums.advance.largest_relative_speed);
     sums.travel = travel_since_search(contact_, at(grain));
     watch.mark(Part::integration);
     bounds_[at(grain)] = update_surface(model_, grain);

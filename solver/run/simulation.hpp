@@ -77,7 +77,7 @@ struct ForceSums {
 struct MotionSums {
   AdvanceSums advance;
   ElementSums elements;
-  double travel = 0;                ///< mm, largest path of a node since the search
+  double travel = 0;                ///< mm, largest of a grain since the search
   double strain_since_estimate = 0; ///< sum of the largest strains of a tet in each step
 
   template <class Self, class Visitor>

@@ -31,6 +31,13 @@ TEST_CASE("damping leaves a node alone that moves with the affine velocity field
   CHECK(after < target + 8);
 }
 
+TEST_CASE("damping draws towards walls that move all together, as in a die that is lifted") {
+  const Advance p{.damping_rate = 1e8, .centre = {1, 2, 3}, .velocity = {0, 0, 40}, .rate = {0, 0, -10}};
+  CHECK(affine_velocity(p, 0, 5) == 0);
+  CHECK(within(affine_velocity(p, 2, 3), 40, rounding));
+  CHECK(within(affine_velocity(p, 2, 5), 20, rounding));
+}
+
 TEST_CASE("free motion decays as exp(-c t), with an error of second order in the step") {
   constexpr double rate = 1e6, time = 2e-6; // 1/s, s
   const auto error = [&](int steps) {
