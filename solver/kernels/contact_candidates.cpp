@@ -134,15 +134,23 @@ void carry_friction(const ContactCandidates& now, Contact& contact) {
   contact.point_friction = std::move(carried);
 }
 
+/// Makes `records` this long; what they hold does not matter. Where they do not fit, the old ones are freed before more
+/// memory is allocated: never both at once.
+void make_room(std::size_t points, std::vector<ContactForce>& records) {
+  if (points > records.capacity()) {
+    records = {};
+    records.reserve(points + points / 16); // the number of points grows by little from one search to the next
+  }
+  records.resize(points);
+}
+
 /// Memory for the records of forces of all points.
 void make_room_for_forces(Contact& contact) {
   const std::size_t points = contact.candidates.point_node.size(), pairs = contact.candidates.pair_first.size();
-  contact.force = {}; // freed before the new one is allocated: never both in memory
-  contact.force.resize(points);
+  make_room(points, contact.force);
   contact.active.assign(pairs, 0);
   if (!contact.bonding()) return;
-  contact.bond_force = {};
-  contact.bond_force.resize(points);
+  make_room(points, contact.bond_force);
   contact.pulling.assign(pairs, 0);
 }
 

@@ -34,7 +34,7 @@ public:
   }
   /// Call this when it is the turn of point i.
   void prefetch_ahead_of(std::size_t i) const {
-    constexpr std::size_t ahead = 4;
+    constexpr std::size_t ahead = 8;
     if (i + ahead >= points_.size()) return;
     const std::int32_t point = points_[i + ahead], facet = contact_.point_facet[at(point)];
     prefetch_nodes(facet);
@@ -53,7 +53,6 @@ private:
     for (std::size_t c = 0; c < 3; ++c) {
       const std::size_t node = at(model_.facet[3 * at(facet) + c]);
       __builtin_prefetch(&model_.position[4 * node]);
-      __builtin_prefetch(&model_.normal[4 * node]);
     }
   }
   const Model& model_;
