@@ -22,9 +22,10 @@ constexpr int steps_between_estimates = 50;
 /// When a grain is due by its strain, those that have strained by this share of the limit are estimated with it, so
 /// that they do not come one after another.
 constexpr double share_of_limit_to_join = 0.5;
-/// The frequency of a whole grain is computed once in so many of its estimates: some twenty products with the stiffness.
-/// In between, its square is assumed to grow as that of the grain's fastest growing tet, plus the growth of contact at
-/// its nodes. If that would shorten the packing's step, it is computed again, unless it has grown by less than this.
+/// The frequency of a whole grain is computed once in so many of its estimates: some twenty products with the
+/// stiffness. In between, its square is assumed to grow as that of the grain's fastest growing tet, plus the growth of
+/// contact at its nodes. If that would shorten the packing's step, it is computed again, unless it has grown by less
+/// than this.
 constexpr int estimates_between_spectra = 10;
 constexpr double growth_worth_a_spectrum = 1.01;
 
