@@ -53,6 +53,7 @@ private:
     for (std::size_t c = 0; c < 3; ++c) {
       const std::size_t node = at(model_.facet[3 * at(facet) + c]);
       __builtin_prefetch(&model_.position[4 * node]);
+      __builtin_prefetch(&model_.normal[4 * node]);
     }
   }
   const Model& model_;
