@@ -71,19 +71,20 @@ void StepEstimate::set_stiffness_rate(const Surroundings& now, std::int32_t grai
 }
 
 /// Whether the frequency of the whole grain is to be computed in this estimate.
-bool StepEstimate::spectrum_is_due(const Model& model, std::size_t grain, double rate) const {
+bool StepEstimate::spectrum_is_due(const Surroundings& now, std::size_t grain) const {
   if (grain_steps_.estimates[grain] + 1 >= estimates_between_spectra) return true;
   // In an impact quadratic viscosity grows within one estimate.
-  return rate > 2 * grain_steps_.rate[grain] && largest_quadratic_damping(model, rate) > 0.01;
+  return now.rate > 2 * grain_steps_.rate[grain] && now.quadratic_damping > 0.01;
 }
 
 /// 1/s^2, squared frequency of the whole grain; `step` (s) that of its tets.
-double StepEstimate::compute_spectrum(const Model& model, std::int32_t grain, double step, double rate) {
+double StepEstimate::compute_spectrum(const Surroundings& now, std::int32_t grain, double step) {
   const std::size_t g = at(grain);
-  const double squared = largest_frequency(model, grain, stiffness_rate_, step, rate).squared;
+  const Model& model = now.model;
+  const double squared = largest_frequency(model, grain, stiffness_rate_, step, now.rate).squared;
   grain_steps_.whole[g] = 2.0 / std::sqrt(squared);
   grain_steps_.growth[g] = 1;
-  grain_steps_.rate[g] = rate;
+  grain_steps_.rate[g] = now.rate;
   grain_steps_.estimates[g] = 0;
   std::copy(stiffness_rate_.begin() + model.node_offset[g], stiffness_rate_.begin() + model.node_offset[g + 1],
             grain_steps_.contact.begin() + model.node_offset[g]);
@@ -103,17 +104,16 @@ double StepEstimate::bound_since_spectrum(const Model& model, std::int32_t grain
 }
 
 /// Estimates the stable step of a grain. `anew`: by the frequency of the whole grain as it is now.
-void StepEstimate::estimate(const Surroundings& now, std::int32_t grain, double rate, bool anew) {
+void StepEstimate::estimate(const Surroundings& now, std::int32_t grain, bool anew) {
   const std::size_t g = at(grain);
   set_stiffness_rate(now, grain);
-  const StableStep of_tets = mpfem::stable_step(now.model, grain, stiffness_rate_, rate);
+  const StableStep of_tets = mpfem::stable_step(now.model, grain, stiffness_rate_, now.rate);
   grain_steps_.step[g] = of_tets.step;
   grain_steps_.contact_share[g] = of_tets.step / of_tets.step_no_contact;
   grain_steps_.strain[g] = 0;
   if (numerics_.step_estimate != StepEstimateMethod::grain) return;
-  const double squared = anew || spectrum_is_due(now.model, g, rate)
-                             ? compute_spectrum(now.model, grain, of_tets.step, rate)
-                             : bound_since_spectrum(now.model, grain, of_tets.growth);
+  const double squared = anew || spectrum_is_due(now, g) ? compute_spectrum(now, grain, of_tets.step)
+                                                         : bound_since_spectrum(now.model, grain, of_tets.growth);
   grain_steps_.step[g] = std::max(of_tets.step, 2.0 / std::sqrt(squared));
 }
 
@@ -134,7 +134,7 @@ std::vector<std::int32_t> StepEstimate::due_grains(const Model& model, bool all)
 }
 
 /// Collective. The grain with the shortest step: it must set the step by its computed frequency, not by a bound on it.
-StepEstimate::GrainStep StepEstimate::shortest_step(const Surroundings& now, double rate) {
+StepEstimate::GrainStep StepEstimate::shortest_step(const Surroundings& now) {
   const Ownership& ownership = now.model.ownership;
   std::vector<GrainStep> steps(grain_steps_.step.size());
   for (const std::int32_t grain : ownership.own) steps[at(grain)] = last_estimate(grain);
@@ -151,7 +151,7 @@ StepEstimate::GrainStep StepEstimate::shortest_step(const Surroundings& now, dou
     if (step.computed > 0) return step;
     shortest.pop();
     if (ownership.owns(grain)) {
-      estimate(now, grain, rate, true);
+      estimate(now, grain, true);
       step = last_estimate(grain);
     } else {
       step = {};
@@ -163,12 +163,12 @@ StepEstimate::GrainStep StepEstimate::shortest_step(const Surroundings& now, dou
 
 void StepEstimate::renew(Model& model, const Contact& contact, const Boundaries& boundaries,
                          std::span<const Bounds> bounds, ThreadTeam& team, bool anew) {
-  const Surroundings now{model, contact, boundaries, bounds};
   const double rate = std::sqrt(3.0) * state_.strain_rate; // |tr e| <= sqrt(3) |e|
+  const Surroundings now{model, contact, boundaries, bounds, rate, largest_quadratic_damping(model, rate)};
   const bool all = anew || all_are_due();
   const std::vector<std::int32_t> due = due_grains(model, all);
-  team.for_each(static_cast<int>(due.size()), [&](int item, int) { estimate(now, due[at(item)], rate, anew); });
-  const GrainStep shortest = shortest_step(now, rate);
+  team.for_each(static_cast<int>(due.size()), [&](int item, int) { estimate(now, due[at(item)], anew); });
+  const GrainStep shortest = shortest_step(now);
   state_.stable_step = numerics_.time_step_factor * shortest.step;
   state_.controlled_by_contact = shortest.contact_share < 0.95;
   if (all) state_.steps_since_estimate = 0;

@@ -75,6 +75,8 @@ private:
     const Contact& contact;
     const Boundaries& boundaries;
     std::span<const Bounds> bounds;
+    double rate;              ///< 1/s, largest volumetric rate
+    double quadratic_damping; ///< share of the critical damping that quadratic bulk viscosity may reach at that rate
   };
   /// An estimate as ranks exchange it.
   struct GrainStep {
@@ -85,12 +87,12 @@ private:
   bool all_are_due() const;
   std::vector<std::int32_t> due_grains(const Model& model, bool all) const;
   void set_stiffness_rate(const Surroundings& now, std::int32_t grain);
-  bool spectrum_is_due(const Model& model, std::size_t grain, double rate) const;
-  double compute_spectrum(const Model& model, std::int32_t grain, double step, double rate);
+  bool spectrum_is_due(const Surroundings& now, std::size_t grain) const;
+  double compute_spectrum(const Surroundings& now, std::int32_t grain, double step);
   double bound_since_spectrum(const Model& model, std::int32_t grain, double growth);
-  void estimate(const Surroundings& now, std::int32_t grain, double rate, bool anew);
+  void estimate(const Surroundings& now, std::int32_t grain, bool anew);
   GrainStep last_estimate(std::int32_t grain) const;
-  GrainStep shortest_step(const Surroundings& now, double rate);
+  GrainStep shortest_step(const Surroundings& now);
 
   const Communicator* ranks_;
   NumericsParameters numerics_;
