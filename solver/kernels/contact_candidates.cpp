@@ -247,6 +247,13 @@ double travel_since_search(const Contact& contact, std::size_t grain) {
   return contact.travel[grain] - contact.travel_at_search[grain];
 }
 
+double largest_travel_since_search(const Contact& contact) {
+  double largest = 0;
+  for (std::size_t grain = 0; grain < contact.travel.size(); ++grain)
+    largest = std::max(largest, travel_since_search(contact, grain));
+  return largest;
+}
+
 bool search_is_due(const Contact& contact, double travel) {
   return 2.0 * travel > 0.9 * contact.margin;
 }

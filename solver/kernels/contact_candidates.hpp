@@ -29,6 +29,8 @@ double travel_in_step(const Contact& contact, const Advance& update, double rela
 
 /// mm, since the search.
 double travel_since_search(const Contact& contact, std::size_t grain);
+/// mm, the largest of all grains.
+double largest_travel_since_search(const Contact& contact);
 /// True when two points may have approached by more than the candidates' margin; `travel` (mm) is the largest of all
 /// grains since the search.
 bool search_is_due(const Contact& contact, double travel);

@@ -495,9 +495,7 @@ Grips* Simulation::prepare_grips() {
 
 void Simulation::set_grain_steps(GrainSteps grain_steps) {
   step_estimate_.restore(std::move(grain_steps));
-  travel_since_search_ = 0; // of all grains, which a checkpoint has
-  for (std::size_t grain = 0; grain < contact_.travel.size(); ++grain)
-    travel_since_search_ = std::max(travel_since_search_, travel_since_search(contact_, grain));
+  travel_since_search_ = largest_travel_since_search(contact_); // a checkpoint has that of all grains
   update_surfaces();
   ghosts_.share_pairs(model_, contact_);
   order_grains();
