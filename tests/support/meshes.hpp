@@ -119,4 +119,15 @@ inline Scenario holding_scenario(double duration, HardeningLaw law = HardeningLa
   return scenario;
 }
 
+/// The same material between walls that compact it (mm/s) to a relative density.
+inline Scenario compaction_scenario(double relative_density, double wall_speed) {
+  Scenario scenario = holding_scenario(1, HardeningLaw::power);
+  scenario.walls = true;
+  Stage stage;
+  stage.name = "compaction";
+  stage.type = IsotropicCompaction{.relative_density = relative_density, .wall_speed = wall_speed};
+  scenario.stages = {stage};
+  return scenario;
+}
+
 } // namespace mpfem::test

@@ -45,13 +45,6 @@ std::vector<double> forces_of(Model& model, Contact& contact) {
   return {model.force.begin(), model.force.end()};
 }
 
-double largest_travel(const Contact& contact) {
-  double largest = 0;
-  for (std::size_t grain = 0; grain < contact.travel.size(); ++grain)
-    largest = std::max(largest, travel_since_search(contact, grain));
-  return largest;
-}
-
 } // namespace
 
 TEST_CASE("grains that follow the walls travel by the strain of the contact margin, however far they move") {
@@ -75,13 +68,8 @@ TEST_CASE("grains that follow the walls travel by the strain of the contact marg
 TEST_CASE("contact that leaves out open gaps finds the forces of a fresh search, as walls carry the grains along") {
   const bool carried = GENERATE(false, true);
   const ContactSurface surface = GENERATE(ContactSurface::facets, ContactSurface::smooth);
-  Scenario scenario = holding_scenario(1e-6, HardeningLaw::power);
-  scenario.walls = true;
+  Scenario scenario = compaction_scenario(0.75, 2e4);
   scenario.contact.surface = surface;
-  Stage stage;
-  stage.name = "compaction";
-  stage.type = IsotropicCompaction{.relative_density = 0.75, .wall_speed = 2e4};
-  scenario.stages = {stage};
   ThreadTeam team(2);
   Simulation simulation(build_model(eight_grains(4), scenario, "test"), scenario, team);
   if (carried) {
@@ -96,8 +84,8 @@ TEST_CASE("contact that leaves out open gaps finds the forces of a fresh search,
   while (!simulation.stage_complete()) {
     simulation.evaluate_forces();
     simulation.advance();
-    if (simulation.state().step % 10 != 0 || search_is_due(simulation.contact(), largest_travel(simulation.contact())))
-      continue;
+    const double travel = largest_travel_since_search(simulation.contact());
+    if (simulation.state().step % 10 != 0 || search_is_due(simulation.contact(), travel)) continue;
     Model model = simulation.model();
     Contact contact = simulation.contact(), fresh = searched_afresh(model, contact, team);
     const std::vector<double> found = forces_of(model, contact), wanted = forces_of(model, fresh);

@@ -15,16 +15,6 @@ using namespace mpfem::test;
 
 namespace {
 
-Scenario compaction(double wall_speed, double relative_density) {
-  Scenario scenario = holding_scenario(1e-6, HardeningLaw::power);
-  scenario.walls = true;
-  Stage stage;
-  stage.name = "compaction";
-  stage.type = IsotropicCompaction{.relative_density = relative_density, .wall_speed = wall_speed};
-  scenario.stages = {stage};
-  return scenario;
-}
-
 /// s, the stable step of the state as it is, every grain's frequency computed.
 double step_computed_afresh(const Simulation& simulation, const Scenario& scenario, ThreadTeam& team) {
   Model model = simulation.model();
@@ -41,7 +31,7 @@ double step_computed_afresh(const Simulation& simulation, const Scenario& scenar
 // Frequencies are known to 2 % in their squares, they are bounds between computations, and between estimates strains of
 // 2 % change them by 4 %; what contact adds since the last estimate of all grains is covered by time_step_factor.
 TEST_CASE("the step stays near that of an estimate of all grains, though only those that have strained are estimated") {
-  const Scenario scenario = compaction(4000, 0.8);
+  const Scenario scenario = compaction_scenario(0.8, 4000);
   ThreadTeam team(2);
   Simulation simulation(build_model(eight_grains(4), scenario, "test"), scenario, team);
   int compared = 0, partial = 0;
