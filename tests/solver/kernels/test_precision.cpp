@@ -23,15 +23,10 @@ namespace {
 constexpr double few_single_roundings = 1e-6;
 
 Scenario compaction(Precision precision, ElementType element) {
-  Scenario scenario = holding_scenario(1, HardeningLaw::power);
+  Scenario scenario = compaction_scenario(0.75, 20000);
   scenario.numerics.precision = precision;
   scenario.numerics.element = element;
   scenario.numerics.own_pressure = usual_own_pressure(element);
-  scenario.walls = true;
-  Stage stage;
-  stage.name = "compaction";
-  stage.type = IsotropicCompaction{.relative_density = 0.75, .wall_speed = 20000};
-  scenario.stages = {stage};
   return scenario;
 }
 

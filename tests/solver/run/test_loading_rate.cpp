@@ -40,13 +40,8 @@ struct Compaction {
   LoadingRateState rate;
 };
 Compaction compact(std::optional<QuasiStatic> quasi_static, double wall_speed) {
-  Scenario scenario = holding_scenario(1e-6, HardeningLaw::power);
-  scenario.walls = true;
-  Stage stage;
-  stage.name = "compaction";
-  stage.type = IsotropicCompaction{.relative_density = 0.75, .wall_speed = wall_speed};
-  stage.quasi_static = quasi_static;
-  scenario.stages = {stage};
+  Scenario scenario = compaction_scenario(0.75, wall_speed);
+  scenario.stages.front().quasi_static = quasi_static;
   ThreadTeam team(2);
   Simulation simulation(build_model(eight_grains(3), scenario, "test"), scenario, team);
   Compaction result;
