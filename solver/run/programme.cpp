@@ -123,6 +123,7 @@ std::vector<StageForecast> forecast(const Scenario& scenario, std::int64_t first
       const auto control = make_stage_control(stage, {f.cell, 0.0, sample});
       f.duration = time_factor(stage.type) * control->expected_duration();
       f.description = control->describe();
+      if (const std::string why = control->unreachable_end(); f.end_is_known && !why.empty()) throw InputError(why);
       if (!std::isfinite(control->duration())) f.end_is_known = false;
       control->expect_end(f.cell);
     }

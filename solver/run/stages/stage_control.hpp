@@ -63,6 +63,8 @@ public:
   virtual double expected_duration() const = 0;
   /// Changes the cell to what is expected of it when the stage ends.
   virtual void expect_end(Cell& cell) const = 0;
+  /// A message that says why the stage cannot come to its end from this start; empty where it can, or is there already.
+  virtual std::string unreachable_end() const { return {}; }
   /// The grips that the stage moves, where it moves grips.
   virtual const GripMotion* grips() const { return nullptr; }
 

@@ -26,7 +26,7 @@ bool has_passed(double target, double start, double now) {
 } // namespace
 
 ToolLoadingControl::ToolLoadingControl(const ToolLoading& stage, const StageLabel& label, const StageStart& start)
-    : stage_(stage), name_(label.name), start_(start), transit_(wave_transit(start.sample, start.cell)),
+    : stage_(stage), label_(label), start_(start), transit_(wave_transit(start.sample, start.cell)),
       held_(stage.drives.size()) {
   ToolEnds& ends = stage_.ends;
   if (ends.height) ends.relative_density = start.sample.solid_volume / (start.cell.area(2) * *ends.height);
@@ -60,14 +60,51 @@ const ToolDrive* ToolLoadingControl::drive_of(std::size_t tool) const {
   return found != stage_.drives.end() ? &*found : nullptr;
 }
 
-/// mm/s, by which the container's height shrinks at full speed.
+bool ToolLoadingControl::is_away(std::size_t tool) const {
+  return std::find(stage_.away.begin(), stage_.away.end(), tool) != stage_.away.end();
+}
+
+/// mm/s, by which the container's height shrinks at full speed. It keeps its height while a punch is away.
 double ToolLoadingControl::closing_speed() const {
-  if (!stage_.container) return 0;
+  if (!stage_.container || is_away(stage_.container->lower) || is_away(stage_.container->upper)) return 0;
   const auto upwards = [&](std::size_t tool) {
     const ToolDrive* drive = drive_of(tool);
     return drive != nullptr ? drive->velocity[2] : 0.0;
   };
   return upwards(stage_.container->lower) - upwards(stage_.container->upper);
+}
+
+/// Whether the density follows from the speeds of both punches: no push is held at them, and no lateral plane is driven.
+/// (A die that encloses the container stands for all four lateral walls.)
+bool ToolLoadingControl::only_punches_change_density() const {
+  const ContainerParameters& parts = *stage_.container;
+  const auto holds_push = [&](std::size_t tool) {
+    const ToolDrive* drive = drive_of(tool);
+    return drive != nullptr && drive->holds_push();
+  };
+  const bool planes = parts.wall[0] != parts.wall[1];
+  return !holds_push(parts.lower) && !holds_push(parts.upper) &&
+         !(planes && std::any_of(parts.wall.begin(), parts.wall.end(),
+                                 [&](std::size_t wall) { return drive_of(wall) != nullptr; }));
+}
+
+std::string ToolLoadingControl::unreachable_end() const {
+  const ToolEnds& ends = stage_.ends;
+  if (!ends.relative_density || !only_punches_change_density()) return {};
+  const double now = start_.sample.solid_volume / start_.cell.volume(), change = *ends.relative_density / now - 1,
+               closing = closing_speed();
+  if (std::abs(change) <= already_there || change * closing > 0) return {};
+  const bool ends_otherwise = ends.axial_stress || ends.travel || ends.force || ends.force_drop || ends.duration;
+  if (closing == 0 && ends_otherwise) return {};
+  const char* key = ends.height ? "height" : "relative_density";
+  const auto of_cell = [&](double height, double density) { return ends.height ? height : density; };
+  const double height = start_.sample.solid_volume / (start_.cell.area(2) * *ends.relative_density);
+  const std::string found = fmt::format(
+      "{}stage '{}': key '{}': found {:g}{} at a start of {:.4g}", label_.places.prefix(key), label_.name, key,
+      of_cell(height, *ends.relative_density), ends.height ? " mm" : "", of_cell(start_.cell.length(2), now));
+  if (closing == 0) return found + ", but the punches keep their distance, allowed: with drives that change it";
+  return fmt::format("{}, but the punches move {}, allowed: {} than at the start", found,
+                     closing > 0 ? "together" : "apart", (closing > 0) == !ends.height ? "more" : "less");
 }
 
 void ToolLoadingControl::expect_end(Cell& cell) const {
@@ -92,6 +129,7 @@ void ToolLoadingControl::begin(const Seen& seen) {
   state_.start_stress = seen.axial_stress;
   state_.start_push = seen.push;
   state_.start_density = seen.density;
+  if (const std::string why = unreachable_end(); !why.empty()) throw SimulationError(why);
 }
 
 /// Part of the full speed that is wanted now; `left` (mm) to travel, of the fastest tool.
@@ -166,16 +204,13 @@ void ToolLoadingControl::observe(const StageObservation& observation) {
     throw SimulationError(
         fmt::format("stage '{}': its end was not reached after {:g} times the expected time: relative density "
                     "{:.4f}, axial stress {:.4g} MPa, force on the watched tool {:.4g} N",
-                    name_, longest_time, seen.density, seen.axial_stress, seen.push));
+                    label_.name, longest_time, seen.density, seen.axial_stress, seen.push));
 }
 
 void ToolLoadingControl::move(Cell& cell, double /*time*/, double /*clock_step*/, double step) const {
   if (!stage_.container) return;
   const auto velocity_of = [&](std::size_t tool, std::size_t axis) {
     return tool < velocity_.size() ? velocity_[tool][axis] : 0.0;
-  };
-  const auto is_away = [&](std::size_t tool) {
-    return std::find(stage_.away.begin(), stage_.away.end(), tool) != stage_.away.end();
   };
   const ContainerParameters& parts = *stage_.container;
   for (std::size_t axis = 0; axis < 2; ++axis) {
@@ -194,8 +229,10 @@ ToolEnd ToolLoadingControl::find_end(const Seen& seen) const {
   const ToolEnds& ends = stage_.ends;
   if (ends.travel && state_.travelled >= *ends.travel * (1 - arrived)) return ToolEnd::travel;
   if (ends.relative_density) {
-    const double change = *ends.relative_density - state_.start_density;
-    if ((change < 0 ? -1 : 1) * (seen.density - *ends.relative_density) >= -arrived) return ToolEnd::relative_density;
+    // A stage that begins a little beyond its end is there.
+    const double closing = closing_speed(),
+                 denser = closing != 0 ? closing : *ends.relative_density - state_.start_density;
+    if ((denser < 0 ? -1 : 1) * (seen.density - *ends.relative_density) >= -arrived) return ToolEnd::relative_density;
   }
   if (ends.axial_stress && has_passed(*ends.axial_stress, state_.start_stress, seen.axial_stress))
     return ToolEnd::axial_stress;

@@ -21,6 +21,7 @@ public:
   std::string describe() const override;
   double expected_duration() const override { return expected_duration_; }
   void expect_end(Cell& cell) const override;
+  std::string unreachable_end() const override;
   void observe(const StageObservation& seen) override;
   void move(Cell& cell, double time, double clock_step, double step) const override;
   std::span<const std::array<double, 3>> tool_velocities() const override { return velocity_; }
@@ -45,6 +46,8 @@ private:
   ToolEnd find_end(const Seen& seen) const;
   double find_fraction_done(const Seen& seen) const;
   double closing_speed() const;
+  bool is_away(std::size_t tool) const;
+  bool only_punches_change_density() const;
   const ToolDrive* drive_of(std::size_t tool) const;
 
   /// State of a loading by tools.
@@ -70,7 +73,7 @@ private:
   };
 
   ToolLoading stage_;
-  std::string name_;
+  StageLabel label_;
   StageStart start_;
   double transit_;               ///< s
   double ramp_ = 0;              ///< s, to full speed
