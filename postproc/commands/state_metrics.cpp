@@ -83,7 +83,7 @@ public:
     add_numbers(options(), "--densities", densities_, 0, relative_densities, "",
                 "Relative densities, separated by commas, ascending")
         ->required();
-    add_output("--data", data_, "CSV file to write: one row per density");
+    add_output("--data", data_, "CSV file to write: one row per density, with the contact area");
     add_input("--reference", reference_,
               "CSV file with relative_density, mean_stress_MPa: the run is compared with it in --data");
   }

@@ -17,11 +17,13 @@ namespace {
 
 constexpr double reached = 1e-6; ///< tolerance of a relative density
 
-std::vector<std::optional<double>> stresses(const HistoryTable& history, const std::vector<double>& wanted) {
+/// The values of a column of the history at these relative densities.
+std::vector<std::optional<double>> at_densities(const HistoryTable& history, const std::vector<double>& wanted,
+                                                const char* column) {
   if (wanted.empty() || std::adjacent_find(wanted.begin(), wanted.end(), std::greater_equal<>()) != wanted.end())
     throw InputError(fmt::format("--densities: found '{}', allowed: one or more, each larger than the one before",
                                  fmt::join(wanted, ",")));
-  return stress_at_densities(history["relative_density"], history["mean_stress"], wanted);
+  return values_at_densities(history["relative_density"], history[column], wanted);
 }
 
 Measurement of_rows(const char* metric, const HistoryTable& history, std::size_t first) {
@@ -38,8 +40,8 @@ Measurement of_rows(const char* metric, const HistoryTable& history, std::size_t
 
 } // namespace
 
-std::vector<std::optional<double>> stress_at_densities(const std::vector<double>& density,
-                                                       const std::vector<double>& stress,
+std::vector<std::optional<double>> values_at_densities(const std::vector<double>& density,
+                                                       const std::vector<double>& values,
                                                        const std::vector<double>& wanted) {
   std::vector<std::optional<double>> found(wanted.size());
   std::size_t next = 0;
@@ -48,15 +50,15 @@ std::vector<std::optional<double>> stress_at_densities(const std::vector<double>
       if (row == 0 && density[row] > wanted[next] + reached) continue; // the run began denser
       const double before = row > 0 ? density[row - 1] : density[row];
       const double share = density[row] > before ? std::min(1.0, (wanted[next] - before) / (density[row] - before)) : 1;
-      const double from = row > 0 ? stress[row - 1] : stress[row];
-      found[next] = from + share * (stress[row] - from);
+      const double from = row > 0 ? values[row - 1] : values[row];
+      found[next] = from + share * (values[row] - from);
     }
   return found;
 }
 
 Measurement measure_stress_at_densities(const schema::FileReader& file, const std::vector<double>& wanted) {
   const HistoryTable history(file);
-  const auto found = stresses(history, wanted);
+  const auto found = at_densities(history, wanted, "mean_stress");
   Measurement m = of_rows("stress-at-densities", history, 0);
   m.unit = "MPa";
   m.uncertainty_meaning = "none: between two rows of the history";
@@ -85,14 +87,15 @@ CompactionCurve read_compaction_curve(const std::string& path) {
 
 std::string stress_at_densities_csv(const schema::FileReader& file, const std::vector<double>& wanted,
                                     const std::optional<CompactionCurve>& reference) {
-  const auto found = stresses(HistoryTable(file), wanted);
+  const HistoryTable history(file);
+  const auto found = at_densities(history, wanted, "mean_stress"), area = at_densities(history, wanted, "contact_area");
   std::vector<std::optional<double>> expected(wanted.size());
-  if (reference) expected = stress_at_densities(reference->relative_density, reference->mean_stress, wanted);
-  std::string text = fmt::format("name,relative_density [1],mean_stress [MPa]{}\n",
+  if (reference) expected = values_at_densities(reference->relative_density, reference->mean_stress, wanted);
+  std::string text = fmt::format("name,relative_density [1],mean_stress [MPa],contact_area [mm^2]{}\n",
                                  reference ? ",reference [MPa],over_reference [1]" : "");
   const auto cell = [](const std::optional<double>& value) { return value ? fmt::format("{:.10g}", *value) : ""; };
   for (std::size_t i = 0; i < wanted.size(); ++i) {
-    text += fmt::format("D{0:.2f},{0:.2f},{1}", wanted[i], cell(found[i]));
+    text += fmt::format("D{0:.2f},{0:.2f},{1},{2}", wanted[i], cell(found[i]), cell(area[i]));
     const bool comparable = found[i] && expected[i] && *expected[i] != 0;
     if (reference) text += fmt::format(",{},{}", cell(expected[i]), comparable ? cell(*found[i] / *expected[i]) : "");
     text += '\n';

@@ -1,5 +1,6 @@
 #pragma once
-// The curve of mean stress over relative density of a compaction, read at given densities, and its quality.
+// The curves of mean stress and contact area over relative density of a compaction, read at given densities, and its
+// quality.
 
 #include <optional>
 #include <string>
@@ -10,11 +11,11 @@
 
 namespace mpfem {
 
-/// Mean stress (MPa) where each of these relative densities (ascending) is first reached, linear between the two rows
-/// around it; empty for one that the run has not passed. A run that ends less than 1e-6 (rounding) below a density has
-/// reached it.
-std::vector<std::optional<double>> stress_at_densities(const std::vector<double>& density,
-                                                       const std::vector<double>& stress,
+/// `values` (one for each row) where each of these relative densities (ascending) is first reached, linear between the
+/// two rows around it; empty for one that the run has not passed. A run that ends less than 1e-6 (rounding) below a
+/// density has reached it.
+std::vector<std::optional<double>> values_at_densities(const std::vector<double>& density,
+                                                       const std::vector<double>& values,
                                                        const std::vector<double>& wanted);
 
 /// The value is the stress (MPa) at the last of these densities; the details hold each as "at_0.80", the density with
@@ -29,8 +30,8 @@ struct CompactionCurve {
 /// Reads a CSV file with the columns relative_density and mean_stress_MPa. Throws InputError.
 CompactionCurve read_compaction_curve(const std::string& path);
 
-/// CSV with the columns "name,relative_density [1],mean_stress [MPa]"; the cell of a density that was not reached is
-/// empty. With a reference there are two more: its stress, and the run's stress over it.
+/// CSV with the columns "name,relative_density [1],mean_stress [MPa],contact_area [mm^2]"; cells of a density that was
+/// not reached are empty. With a reference there are two more: its stress, and the run's stress over it.
 std::string stress_at_densities_csv(const schema::FileReader& file, const std::vector<double>& wanted,
                                     const std::optional<CompactionCurve>& reference = {});
 

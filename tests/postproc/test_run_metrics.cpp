@@ -106,9 +106,9 @@ TEST_CASE("a section's damage is weighted by length, and what was never bonded d
   CHECK(s.share_above == Approx(0.25).epsilon(1e-12));
 }
 
-TEST_CASE("the stress at a density lies between the rows around it, and there is none where it was not passed") {
-  const std::vector<double> density = {0.62, 0.7, 0.7, 0.8}, stress = {1, 5, 6, 16};
-  const auto found = stress_at_densities(density, stress, {0.60, 0.62, 0.66, 0.75, 0.8000005, 0.9});
+TEST_CASE("a value at a density lies between the rows around it, and there is none where it was not passed") {
+  const std::vector<double> density = {0.62, 0.7, 0.7, 0.8}, values = {1, 5, 6, 16};
+  const auto found = values_at_densities(density, values, {0.60, 0.62, 0.66, 0.75, 0.8000005, 0.9});
   CHECK_FALSE(found[0]); // it began denser
   CHECK(*found[1] == 1);
   CHECK(*found[2] == Approx(3).epsilon(1e-12));
@@ -121,18 +121,19 @@ TEST_CASE(
     "stresses at densities are numbers by name and rows of a table; a last density that is not reached is reported") {
   const Folder folder;
   history_of(folder,
-             run_of({{.axial_stress = 3, .relative_density = 0.6}, {.axial_stress = 9, .relative_density = 0.8}}));
+             run_of({{.axial_stress = 3, .relative_density = 0.6, .contact_area = 10},
+                     {.axial_stress = 9, .relative_density = 0.8, .contact_area = 20}}));
   const schema::FileReader file(folder / "run.h5");
   const Measurement m = measure_stress_at_densities(file, {0.5, 0.7, 0.8});
   CHECK(m.value == Approx(3).epsilon(1e-12));
   CHECK(m.details["at_0.70"].get<double>() == Approx(2).epsilon(1e-12));
   CHECK(m.details["at_0.50"].is_null());
   CHECK(stress_at_densities_csv(file, {0.5, 0.7}) ==
-        "name,relative_density [1],mean_stress [MPa]\nD0.50,0.50,\nD0.70,0.70,2\n");
+        "name,relative_density [1],mean_stress [MPa],contact_area [mm^2]\nD0.50,0.50,,\nD0.70,0.70,2,15\n");
   write_text(folder / "r.csv", "relative_density,mean_stress_MPa\n0.6,2\n0.8,6\n");
   CHECK(stress_at_densities_csv(file, {0.5, 0.7}, read_compaction_curve(folder / "r.csv")) ==
-        "name,relative_density [1],mean_stress [MPa],reference [MPa],over_reference [1]\nD0.50,0.50,,,\n"
-        "D0.70,0.70,2,4,0.5\n");
+        "name,relative_density [1],mean_stress [MPa],contact_area [mm^2],reference [MPa],over_reference [1]\n"
+        "D0.50,0.50,,,,\nD0.70,0.70,2,15,4,0.5\n");
   write_text(folder / "r.csv", "relative_density,mean_stress_MPa\n0.8,6\n0.6,2\n");
   CHECK_THROWS_WITH(read_compaction_curve(folder / "r.csv"), Catch::Contains("each denser than the one before"));
   write_text(folder / "r.csv", "relative_density,stress\n0.8,6\n");
