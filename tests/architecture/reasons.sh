@@ -1,11 +1,13 @@
 #!/usr/bin/env bash
 # reasons.sh: every kept statement that differs from the paper gives a reason of one of these kinds. Statements stand
-# one a line in studies/results/MESH/figNN/verdict.json.
+# one a line in studies/results/MESH/figNN/verdict.json and in own/finest-mesh, which judges two of fig08 and fig09.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/../.."
 
 kinds="mended|the paper's choice, found: |the paper's error, shown by |open: "
-differing() { grep -E '"agrees": ?false' studies/results/*/fig*/verdict.json; }
+differing() {
+  grep -E '"agrees": ?false' studies/results/*/fig*/verdict.json studies/results/own/finest-mesh/verdict.json
+}
 
 differing >/dev/null || { echo 'reasons.sh: no statement differs: nothing was checked' >&2 && exit 1; }
 if differing | grep -vE "\"why\": ?\"($kinds)"; then
