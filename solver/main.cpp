@@ -14,8 +14,10 @@
 #include "solver/hand_over.hpp"
 #include "solver/parallel/on_all_ranks.hpp"
 #include "solver/parallel/root.hpp"
+#include "solver/parallel/same_build.hpp"
 #include "solver/parallel/share_of_cores.hpp"
 #include "solver/run/bond_programme.hpp"
+#include "solver/run/build_text.hpp"
 #include "solver/run/check_scenario.hpp"
 #include "solver/run/interrupt.hpp"
 #include "solver/run/run_scenario.hpp"
@@ -178,6 +180,7 @@ void measure_steps(const Arguments& arguments, BenchOptions options, const Commu
 }
 
 int run_command(int argc, char** argv, const Communicator& ranks) {
+  refuse_different_builds(ranks, build_text());
   CLI::App app(help_text);
   app.set_version_flag("--version", "mpfem " + version_and_commit());
   app.require_subcommand(1);

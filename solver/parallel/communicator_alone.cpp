@@ -1,6 +1,9 @@
 // A build without MPI: every process is the only rank of its run.
 
+#include <cstdio>
 #include <cstdlib>
+
+#include <fmt/format.h>
 
 #include "solver/parallel/communicator.hpp"
 
@@ -17,7 +20,25 @@ Communicator::Communicator() = default;
 Communicator::Communicator(Communicator&&) noexcept = default;
 Communicator::~Communicator() = default;
 
+namespace {
+
+/// A number that a launcher has set in the environment under one of two names; `otherwise` if none has.
+int number_of_launcher(const char* of_open_mpi, const char* of_pmi, int otherwise) {
+  for (const char* name : {of_open_mpi, of_pmi})
+    if (const char* text = std::getenv(name)) return std::atoi(text);
+  return otherwise;
+}
+
+} // namespace
+
 Communicator Communicator::of_launcher(int&, char**&) {
+  // Otherwise only a message that another mpfem writes the same run would show what is wrong.
+  const int processes = number_of_launcher("OMPI_COMM_WORLD_SIZE", "PMI_SIZE", 1);
+  if (processes > 1 && number_of_launcher("OMPI_COMM_WORLD_RANK", "PMI_RANK", 0) == 0)
+    fmt::print(stderr,
+               "mpfem: warning: {} processes were started together, but this build has no MPI, so each is a run of its "
+               "own; ./bootstrap --mpi build makes one for several ranks\n",
+               processes);
   return {};
 }
 bool Communicator::has_mpi() {

@@ -59,4 +59,10 @@ int share_of_cores(const Communicator& ranks) {
   return own.cores.empty() ? available_cores() : share_of_cores(own, all);
 }
 
+int ranks_on_this_machine(const Communicator& ranks) {
+  const std::string own = machine_id();
+  const std::vector<Bytes> all = ranks.all_of(bytes_of(std::span<const char>(own)));
+  return static_cast<int>(std::ranges::count(all, all[static_cast<std::size_t>(ranks.rank())]));
+}
+
 } // namespace mpfem

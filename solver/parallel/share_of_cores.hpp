@@ -21,4 +21,7 @@ int share_of_cores(const RankPlace& own, std::span<const RankPlace> all);
 /// Collective. The same for this rank and all others.
 int share_of_cores(const Communicator& ranks);
 
+/// Collective. How many ranks run on the machine of this one.
+int ranks_on_this_machine(const Communicator& ranks);
+
 } // namespace mpfem

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
-#include <limits>
 
 #include <fmt/format.h>
 
@@ -12,6 +11,7 @@
 #include "solver/model/bond_resolution.hpp"
 #include "solver/output/checkpoint.hpp"
 #include "solver/parallel/root.hpp"
+#include "solver/parallel/share_of_cores.hpp"
 #include "solver/run/needs.hpp"
 #include "solver/run/plan_text.hpp"
 #include "solver/run/plausibility.hpp"
@@ -107,7 +107,7 @@ void print_tool(const ToolParameters& tool) {
 }
 
 /// What the packing is, and what it needs.
-void print_model(const Scenario& scenario, const Simulation& simulation, const Needs& needs) {
+void print_model(const Scenario& scenario, const Simulation& simulation, const Needs& needs, int ranks) {
   const Model& model = simulation.model();
   fmt::print("packing        {}: {} grains, {} tets, {} nodes, {} facets\n", scenario.packing_file, model.grains,
              model.tets(), model.nodes(), model.facets());
@@ -131,6 +131,9 @@ void print_model(const Scenario& scenario, const Simulation& simulation, const N
       "and {:.0f} MB of disk space\n",
       1e-6 * static_cast<double>(model.memory()), static_cast<double>(model.memory()) / model.tets(),
       1e-6 * needs.memory, 1e-6 * needs.disk);
+  if (ranks > 1)
+    fmt::print("               each of {} ranks needs at least {:.0f} MB of memory\n", ranks,
+               1e-6 * memory_of_ranks(needs.memory, 1, ranks));
 }
 
 void print_step(const StepEstimate::State& step) {
@@ -177,10 +180,10 @@ void print_stages(const Scenario& scenario, Simulation& simulation, int threads)
 void check_scenario(const Scenario& scenario, const CheckOptions& options, const Communicator& ranks) {
   Needs needs;
   std::vector<std::string> warnings;
-  root_does(ranks, [&] {
-    needs = needs_of(scenario);
-    const std::string scarce =
-        check_needs(scenario.packing_file, needs, {available_memory(), std::numeric_limits<double>::infinity()});
+  root_does(ranks, [&] { needs = needs_of(scenario); });
+  const double here = memory_of_ranks(ranks.largest(needs.memory), ranks_on_this_machine(ranks), ranks.size());
+  agree(ranks, [&] {
+    const std::string scarce = check_needs(scenario.packing_file, {.memory = here}, {.memory = available_memory()});
     if (!scarce.empty()) warnings.push_back(scarce);
   });
   std::ranges::copy(implausible_values(scenario), std::back_inserter(warnings));
@@ -191,7 +194,7 @@ void check_scenario(const Scenario& scenario, const CheckOptions& options, const
   std::ranges::copy(check_bonds(simulation.model(), scenario, ranks), std::back_inserter(warnings));
   const StepEstimate::State& step = simulation.step_estimate().state();
   check_programme(scenario, 0, simulation.stage_run().state().start, simulation.model(), step.stable_step);
-  if (!options.quiet) print_model(scenario, simulation, needs);
+  if (!options.quiet) print_model(scenario, simulation, needs, ranks.size());
   for (const std::string& warning : warnings) fmt::print("warning        {}\n", warning);
   if (options.quiet) return;
   print_step(step);

@@ -123,7 +123,7 @@ bool Continuation::restore_best(std::vector<std::string>& lost, std::string& dam
     if (!lost.empty())
       report_.warning_despite_quiet(
           fmt::format("{} is missing; the run continues from {} to write it", lost.front(), path));
-    report_.note(fmt::format("resumed {} at step {}", path, simulation_.state().step));
+    if (!options_.redistributed) report_.note(fmt::format("resumed {} at step {}", path, simulation_.state().step));
     return true;
   }
   return false;

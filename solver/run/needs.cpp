@@ -81,10 +81,10 @@ std::string compare(const std::string& purpose, const char* what, double needed,
   const std::string text = fmt::format("{}: the run needs about {} of {}, {} are available", purpose, size_text(needed),
                                        what, size_text(available));
   if (needed > (1 + margin) * available)
-    throw InputError(text +
-                     (what[0] == 'm'
-                          ? ", allowed: a coarser mesh, element.precision = \"mixed\", or a machine with more memory"
-                          : ", allowed: fewer checkpoints and snapshots, or an --output on another disk"));
+    throw InputError(text + (what[0] == 'm'
+                                 ? ", allowed: a coarser mesh, element.precision = \"mixed\", or more memory (also "
+                                   "that of more machines, with mpirun)"
+                                 : ", allowed: fewer checkpoints and snapshots, or an --output on another disk"));
   return text;
 }
 
@@ -100,6 +100,10 @@ Needs needs_of(const Scenario& scenario) {
   } catch (const InputError& error) {
     throw InputError(fmt::format("{}key 'packing': {}", scenario.places.prefix("packing"), error.what()));
   }
+}
+
+double memory_of_ranks(double of_one, int here, int ranks) {
+  return here * (of_program + (of_one - of_program) / ranks);
 }
 
 double available_disk_space(const std::string& file) {

@@ -20,6 +20,11 @@ Needs needs_of(const PackingCounts& packing, const Scenario& scenario);
 /// read as a packing.
 Needs needs_of(const Scenario& scenario);
 
+/// Bytes of memory that `here` of all `ranks` of a run need together at least, if one process alone would need
+/// `of_one`: each has the program, and its share of the rest. They need more if memory pages hold grains of several
+/// ranks.
+double memory_of_ranks(double of_one, int here, int ranks);
+
 /// Bytes that may be written to the folder of a file. Infinite if the system does not tell.
 double available_disk_space(const std::string& file);
 

@@ -11,6 +11,7 @@ struct RunOptions {
   std::string output;              ///< RUN.h5
   std::string scenario_file;       ///< never to be overwritten
   bool resume = false;             ///< go on from the rolling checkpoint if there is one
+  bool redistributed = false;      ///< with `resume`: only the owners of grains have changed; nobody has resumed it
   bool keeps_earlier_run = false;  ///< that is there when it begins afresh (earlier_run.hpp); not with --resume
   std::optional<std::string> from; ///< begin the first stage from this checkpoint's state
   int threads = 1;

@@ -11,6 +11,7 @@
 #include "solver/output/earlier_run.hpp"
 #include "solver/output/run_lock.hpp"
 #include "solver/parallel/root.hpp"
+#include "solver/parallel/share_of_cores.hpp"
 #include "solver/run/check_output.hpp"
 #include "solver/run/checkpoints.hpp"
 #include "solver/run/continuation.hpp"
@@ -74,13 +75,20 @@ void clear_way(const Continuation& continuation, const RunOptions& options, cons
   continuation.discard_unfinished_run();
 }
 
-/// Prepares a simulation where the run begins, and runs it. `needs` are those of the first rank.
+/// What goes on while the grains of a run change their owners.
+struct Whole {
+  RunReport report;
+  std::optional<PaceOrigin> origin{};
+  Needs needs{}; ///< of the first rank
+};
+
+/// Prepares a simulation where the run begins, and runs it.
 Outcome run_once(const Scenario& scenario, const RunOptions& options, const Communicator& ranks, const Owners& owners,
-                 const Needs& needs) {
+                 Whole& whole) {
   const auto begun = Profile::Clock::now();
   ThreadTeam team(options.threads);
   Simulation simulation(load_model(scenario, options, ranks, owners), scenario, team, options.from.has_value(), ranks);
-  RunReport report(ranks.is_root(), options.quiet);
+  RunReport& report = whole.report;
   RunRecord record;
   Continuation continuation(simulation, record, options, report);
   auto warnings = implausible_values(scenario);
@@ -91,14 +99,30 @@ Outcome run_once(const Scenario& scenario, const RunOptions& options, const Comm
   if (beginning == Beginning::complete) return {RunEnd::complete};
   check_programme(scenario, simulation.state().stage, simulation.stage_run().state().start, simulation.model(),
                   simulation.step_estimate().stable_step());
-  if (!owners) root_does(ranks, [&] { check_disk_space(scenario, options, needs.disk, report); });
-  report_beginning(report, warnings, simulation);
+  if (!owners) root_does(ranks, [&] { check_disk_space(scenario, options, whole.needs.disk, report); });
+  if (!owners) report_beginning(report, warnings, simulation);
   if (beginning == Beginning::fresh) root_does(ranks, [&] { clear_way(continuation, options, report); });
   RunRecords records(simulation, record, options);
   if (beginning == Beginning::fresh) records.pass_checkpoint_densities(); // those that the packing has from the start
-  TimeLoop loop(simulation, records, continuation, report, options, Profile::since(begun));
+  TimeLoop loop(simulation, records, continuation, report, options, Profile::since(begun), whole.origin);
   const Owners new_owners = loop.run();
   return {new_owners ? RunEnd::redistributed : RunEnd::complete, new_owners};
+}
+
+} // namespace
+
+namespace {
+
+/// Collective. Refuses a run that the memory of some machine cannot hold; the first rank warns if it is scarce there.
+void check_memory(const RunOptions& options, const Communicator& ranks, double of_one) {
+  const double whole = ranks.largest(of_one); // the root alone has read the packing's numbers
+  const int here = ranks_on_this_machine(ranks);
+  std::string scarce;
+  agree(ranks, [&] {
+    scarce = check_needs(options.output, {.memory = memory_of_ranks(whole, here, ranks.size())},
+                         {.memory = available_memory()});
+  });
+  if (!scarce.empty() && !options.quiet) fmt::print(stderr, "mpfem: warning: {}\n", scarce);
 }
 
 } // namespace
@@ -108,21 +132,22 @@ void run_scenario(const Scenario& scenario, const RunOptions& given, const Commu
   if (!ranks.is_root()) options.quiet = true;
   options.keeps_earlier_run = !given.resume;
   std::optional<RunLock> lock;
-  Needs needs;
+  Whole whole{.report = RunReport(ranks.is_root(), options.quiet)};
   root_does(ranks, [&] {
     check_output(scenario, options);
-    needs = needs_of(scenario);
+    whole.needs = needs_of(scenario);
     if (options.keeps_earlier_run) refuse_other_files(options.output);
-    const std::string scarce = check_needs(options.output, {.memory = needs.memory}, {.memory = available_memory()});
-    if (!scarce.empty() && !options.quiet) fmt::print(stderr, "mpfem: warning: {}\n", scarce);
+  });
+  check_memory(options, ranks, whole.needs.memory);
+  root_does(ranks, [&] {
     lock.emplace(options.output);
     remove_partial_files(scenario, options.output);
   });
   for (Owners owners;;) {
     const auto begun = Profile::Clock::now();
-    const Outcome outcome = run_once(scenario, options, ranks, owners, needs);
+    const Outcome outcome = run_once(scenario, options, ranks, owners, whole);
     if (outcome.end == RunEnd::complete) return;
-    options.resume = outcome.end == RunEnd::redistributed;
+    options.resume = options.redistributed = outcome.end == RunEnd::redistributed;
     owners = outcome.owners;
     if (options.time_limit > 0) options.time_limit = std::max(options.time_limit - Profile::since(begun), 1e-9);
   }

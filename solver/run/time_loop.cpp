@@ -8,10 +8,11 @@
 namespace mpfem {
 
 TimeLoop::TimeLoop(Simulation& simulation, RunRecords& records, const Continuation& continuation, RunReport& report,
-                   const RunOptions& options, double preparation)
+                   const RunOptions& options, double preparation, std::optional<PaceOrigin>& origin)
     : options_(options), ranks_(simulation.ranks()), simulation_(simulation), records_(records),
       continuation_(continuation), report_(report), energy_check_(simulation.model(), records.history()),
-      checkpoints_(simulation, records, options), pace_(simulation), redistribution_(simulation, report, preparation) {}
+      checkpoints_(simulation, records, options), pace_(simulation, origin),
+      redistribution_(simulation, report, preparation) {}
 
 Owners TimeLoop::run() {
   try {

@@ -18,9 +18,10 @@ namespace mpfem {
 /// Runs a prepared simulation. All arguments must outlive it.
 class TimeLoop {
 public:
-  /// `preparation`: s of wall-clock time that reading and preparing took. Times count from now on.
+  /// `preparation`: s of wall-clock time that reading and preparing took. Times count from now on, those of progress
+  /// from `origin`.
   TimeLoop(Simulation& simulation, RunRecords& records, const Continuation& continuation, RunReport& report,
-           const RunOptions& options, double preparation);
+           const RunOptions& options, double preparation, std::optional<PaceOrigin>& origin);
 
   /// Collective, to be called once. Runs to the end of the last stage and writes the run file: none is returned. Or to
   /// a checkpoint from which the run is to go on with the owners of grains that are returned. Throws as run_scenario().

@@ -98,6 +98,9 @@ mpfem 1 run loadings.toml -o undivided.h5 --threads 1 --quiet # a checkpoint eve
 mpfem 3 run loadings.toml -o divided.h5 --threads 1 2>log || { cat log >&2; fail "no run with new owners"; }
 grep -q 'redistributing grains' log || fail "three ranks with eleven grains keep their unequal shares"
 alike undivided divided
+! grep -q 'resumed' log || fail "a run that nobody has resumed says so"
+tr '\r' '\n' <log | sed -n 's/^mpfem *\([0-9.]*\) %.*/\1/p' >percentages
+sort -n percentages | cmp -s - percentages || { cat percentages >&2; fail "progress falls when grains change owners"; }
 echo "grains find new owners"
 
 # What one rank alone sees go wrong ends all ranks with the message of one process.

@@ -74,8 +74,8 @@ double ToolLoadingControl::closing_speed() const {
   return upwards(stage_.container->lower) - upwards(stage_.container->upper);
 }
 
-/// Whether the density follows from the speeds of both punches: no push is held at them, and no lateral plane is driven.
-/// (A die that encloses the container stands for all four lateral walls.)
+/// Whether the density follows from the speeds of both punches: no push is held at them, and no lateral plane is
+/// driven. (A die that encloses the container stands for all four lateral walls.)
 bool ToolLoadingControl::only_punches_change_density() const {
   const ContainerParameters& parts = *stage_.container;
   const auto holds_push = [&](std::size_t tool) {

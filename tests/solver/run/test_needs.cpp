@@ -11,6 +11,7 @@
 
 #include "common/errors.hpp"
 #include "solver/model/model.hpp"
+#include "solver/parallel/communicator.hpp"
 #include "solver/run/needs.hpp"
 #include "tests/support/folder.hpp"
 #include "tests/support/material_text.hpp"
@@ -143,6 +144,26 @@ TEST_CASE("a run that cannot fit is refused in one line that says what it needs 
   CHECK_THROWS_WITH(check_needs("run.h5", {1e9, 1e9}, {0.5e9, 2e9}),
                     Catch::StartsWith("run.h5: the run needs about 1 GB of memory, 500 MB are available"));
   CHECK_THROWS_WITH(check_needs("run.h5", {1e9, 1e9}, {2e9, 0.5e9}), Catch::Contains("of disk space"));
+}
+
+TEST_CASE("ranks divide the memory of a run, except that of the program") {
+  const double one = 2e9, program = 2 * memory_of_ranks(one, 1, 2) - one;
+  CHECK(program > 1e7);
+  CHECK(program < 1e8);
+  CHECK(memory_of_ranks(one, 1, 1) == one);
+  CHECK(memory_of_ranks(one, 4, 4) == Approx(one + 3 * program).epsilon(1e-12));
+  CHECK(memory_of_ranks(one, 2, 8) == Approx(2 * program + (one - program) / 4).epsilon(1e-12));
+}
+
+TEST_CASE("a build without MPI says so when a launcher starts several of it, and once") {
+  if (Communicator::has_mpi()) return;
+  const auto warnings = [](int rank) {
+    const std::string started =
+        fmt::format("OMPI_COMM_WORLD_SIZE=2 OMPI_COMM_WORLD_RANK={} '{}' check missing.toml", rank, MPFEM_EXECUTABLE);
+    return run_command(started).messages;
+  };
+  CHECK_THAT(warnings(0), Catch::Contains("2 processes") && Catch::Contains("no MPI"));
+  CHECK_THAT(warnings(1), !Catch::Contains("no MPI"));
 }
 
 TEST_CASE("a compaction takes the number of steps that check predicts") {

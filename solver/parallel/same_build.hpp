@@ -1,0 +1,13 @@
+#pragma once
+
+#include <string>
+
+#include "solver/parallel/communicator.hpp"
+
+namespace mpfem {
+
+/// Collective. Throws InputError if not all ranks are of one build. `own` describes that of this rank. Builds for other
+/// processors lay data out in another way, so their messages would be misread.
+void refuse_different_builds(const Communicator& ranks, const std::string& own);
+
+} // namespace mpfem
