@@ -85,10 +85,34 @@ Stage damped_rest(double duration, double rate) {
   return stage;
 }
 
-/// A body on the floor of a wide box.
-MeshedPacking on_the_floor(GrainMesh body, double lowest) {
+/// A body on the floor of a wide box, `length` mm long.
+MeshedPacking on_the_floor(GrainMesh body, double lowest, double length = 4) {
   move(body, {1, 1, lowest});
-  return pack({body}, {4, 2, 1});
+  return pack({body}, {length, 2, 1});
+}
+
+/// Nodes of two_cubes() by which they touch: of the whole face of the lower, and of the upper's what lies on that.
+std::array<std::vector<std::size_t>, 2> touching_nodes(const Model& m) {
+  std::array<std::vector<std::size_t>, 2> nodes;
+  const auto on_face = [&](std::size_t n) {
+    constexpr double edge = 1.01 * pair_radius;
+    return std::abs(m.position[4 * n] - 0.3) < edge && std::abs(m.position[4 * n + 1] - 0.3) < edge &&
+           std::abs(m.position[4 * n + 2] - 2 * pair_radius) < 0.01 * pair_radius;
+  };
+  for (std::size_t grain = 0; grain < 2; ++grain)
+    for (auto n = static_cast<std::size_t>(m.node_offset[grain]);
+         n < static_cast<std::size_t>(m.node_offset[grain + 1]); ++n)
+      if (on_face(n)) nodes[grain].push_back(n);
+  return nodes;
+}
+
+/// Mean of x (mm) over the contact points of the upper face less that over those of the lower.
+double offset_of_faces(const Model& m, const std::array<std::vector<std::size_t>, 2>& nodes) {
+  double mean[2] = {};
+  for (std::size_t grain = 0; grain < 2; ++grain)
+    for (const std::size_t n : nodes[grain])
+      mean[grain] += m.contact_coordinate(n, 0) / static_cast<double>(nodes[grain].size());
+  return mean[1] - mean[0];
 }
 
 GrainMesh cube_of(int n, double edge) {
@@ -117,7 +141,10 @@ TEST_CASE("cubes that are pressed together stick until their shear comes to mu N
       }
       return simulation.observe();
     };
+    const auto faces = touching_nodes(simulation.model());
+    REQUIRE((faces[0].size() == 25 && faces[1].size() == 9));
     const HistoryRow pressed = row_of_stage([] {});
+    const double offset = offset_of_faces(simulation.model(), faces);
     simulation.begin_next_stage();
     simulation.advance();
     Vector sum = Vector::Zero();
@@ -140,10 +167,12 @@ TEST_CASE("cubes that are pressed together stick until their shear comes to mu N
     CHECK(largest < 1.02 * mu);
     CHECK(std::abs(slid.energy_residual) < 0.01 * slid.external_work);
     CHECK(slid.friction_energy > 0);
-    // Before it slides, the shear of the cubes takes up some 10 % of the way.
+    // The shear of the cubes takes up the rest of the way of the grips.
     const double lost = slid.friction_dissipation - pressed.friction_dissipation;
-    CHECK(lost < force.norm() * way);
-    CHECK(within(lost, mu * std::abs(force.z()) * way, 0.2));
+    const double slip = std::abs(offset_of_faces(simulation.model(), faces) - offset);
+    CHECK(slip < way);
+    // The points of smooth cubes lie deeper at edges and corners, and slide less far there than the mean.
+    CHECK(within(lost, mu * std::abs(force.z()) * slip, surface == ContactSurface::facets ? 0.01 : 0.03));
   }
 }
 
@@ -184,14 +213,18 @@ TEST_CASE("shear far below mu N leaves every anchor of pressed cubes where it wa
 
 TEST_CASE(
     "bonded cubes that are sheared under a push bear mu N more than without friction, and spend no more on damage") {
+  constexpr double way = 0.04, speed = 500; // mm, mm/s
   double peak[2] = {}, push = 0, damage[2] = {}, area = 0;
+  double last_shear[2] = {}, last_push[2] = {}; // N, sums over the last fifth of the way
   for (const std::size_t with : {0U, 1U}) {
-    Scenario scenario = rubbing_scenario({grip("press", -2.1e-3, 500), grip("shear", 0, 500, {0.04, 0, 0})});
+    Scenario scenario = rubbing_scenario({grip("press", -2.1e-3, speed), grip("shear", 0, speed, {way, 0, 0})});
     scenario.walls = false;
     scenario.bond = table_1(0.1);
     scenario.contact.friction = with == 1 ? mu : 0.0;
     ThreadTeam team(1);
     Simulation simulation(build_model(two_cubes(4), scenario, "test"), scenario, team);
+    const auto faces = touching_nodes(simulation.model());
+    const double offset = offset_of_faces(simulation.model(), faces);
     double residual = 0, work = 0;
     for (int i = 0;; ++i) {
       simulation.evaluate_forces();
@@ -204,8 +237,10 @@ TEST_CASE(
       }
       if (i % 10 == 0) {
         const Vector force = force_on_first(simulation);
-        if (const double shear = std::hypot(force.x(), force.y()); shear > peak[with])
-          peak[with] = shear, push = std::abs(force.z());
+        const double shear = std::hypot(force.x(), force.y());
+        if (shear > peak[with]) peak[with] = shear, push = std::abs(force.z());
+        if (std::abs(offset_of_faces(simulation.model(), faces) - offset) > 0.8 * way)
+          last_shear[with] += shear, last_push[with] += std::abs(force.z());
       }
       simulation.advance();
     }
@@ -213,8 +248,12 @@ TEST_CASE(
     CHECK(within(damage[with], 0.1 * area, 0.01)); // sheared by seven times G^c/t: 0.1 % are left, and some at the rim
   }
   REQUIRE(push > 0.5); // N
-  // Edges of the faces fail before their middle, in both cases.
-  CHECK(within(peak[1] - peak[0], mu * push, 0.15));
+  // Edges of the faces fail before their middle, in both cases. At this speed the friction is 0.7 % off at the peak and
+  // 1.4 % at the end; in the slow slide above it is 0.3 % off.
+  CHECK(within(peak[1] - peak[0], mu * push, 0.02));
+  REQUIRE(last_push[1] > 0);
+  CHECK(within(last_shear[1], mu * last_push[1], 0.02));
+  CHECK(last_shear[0] < 0.01 * mu * last_push[0]);
 }
 
 TEST_CASE("balls dragged over each other keep momentum and angular momentum, and the ledger") {
@@ -374,14 +413,14 @@ TEST_CASE("a node dragged around a faceted ball has a mean friction force of mu 
 TEST_CASE(
     "a block on an incline rests for a million steps below the angle of friction and slides above it as it must") {
   constexpr double edge = 0.2, gravity = 3e9; // mm, mm/s^2: a pressure of 1 MPa
-  for (const double steepness : {0.9, 1.5}) { // tan(angle)/mu
+  for (const double steepness : {0.9, 2.0}) { // tan(angle)/mu
     const double angle = std::atan(steepness * mu);
     Scenario scenario = rubbing_scenario({damped_rest(4e-5, 1e6), holding_scenario(1).stages[0]});
     ThreadTeam team(1);
     // Low, so that it does not rock.
     GrainMesh slab = cube_of(2, edge);
     for (auto& x : slab.node) x[2] *= 0.5;
-    Simulation simulation(build_model(on_the_floor(slab, 0.25 * edge), scenario, "test"), scenario, team);
+    Simulation simulation(build_model(on_the_floor(slab, 0.25 * edge, 40), scenario, "test"), scenario, team);
     const Vector down(0, 0, -gravity * std::cos(angle)), along(gravity * std::sin(angle), 0, 0);
     const auto advance = [&](const Vector& body_force) {
       simulation.evaluate_forces();
@@ -389,20 +428,21 @@ TEST_CASE(
       add_body_force(simulation, body_force);
       simulation.advance();
     };
-    while (simulation.state().stage == 0) advance(steepness < 1 ? Vector(down + along) : down);
-    // What pushes the resting block so suddenly makes it chatter: the first steps are left out where it slides.
-    for (int i = 0; steepness > 1 && i < 1000; ++i) advance(down + along);
+    while (simulation.state().stage == 0) advance(down + along);
+    // Damped, the block slides so slowly that nodes stick and slip. They do so for some time afterwards.
+    for (int i = 0; steepness > 1 && i < 4000; ++i) advance(down + along);
     const Motion before = motion_of(simulation.model());
     const double start = simulation.state().time;
-    for (int i = 0; i < (steepness < 1 ? 1'000'000 : 4000); ++i) advance(down + along);
+    for (int i = 0; i < (steepness < 1 ? 1'000'000 : 24'000); ++i) advance(down + along);
     const Motion after = motion_of(simulation.model());
     if (steepness < 1) {
       CHECK(std::abs(after.centre.x() - before.centre.x()) < 1e-6 * simulation.model().element_size[0]);
     } else {
       const double acceleration =
           (after.momentum.x() - before.momentum.x()) / (after.mass * (simulation.state().time - start));
-      // Nodes that chatter come and go within some ten steps; the mean push is the weight to 1e-3.
-      CHECK(within(gravity * std::sin(angle) - acceleration, mu * gravity * std::cos(angle), 0.01));
+      // The push vibrates about the weight: in 24 runs with other angles, damping and times, the means over so many
+      // steps were within 0.3 % of the closed form.
+      CHECK(within(acceleration, gravity * (std::sin(angle) - mu * std::cos(angle)), 0.005));
     }
   }
 }
@@ -550,4 +590,49 @@ TEST_CASE("a branch may begin, change or leave friction") {
   // And from a checkpoint without friction into it.
   branch("smooth", "--set contact.friction=0 --set walls.friction=0");
   CHECK(branch("begun", "--from " + (folder / "smooth.D0.580.checkpoint.h5")));
+}
+
+namespace {
+
+/// Every value of a column, row by row.
+template <class Dataset>
+std::vector<double> values_of(const schema::FileReader& file, const Dataset& dataset) {
+  const auto values = file.read(dataset);
+  return {values.begin(), values.end()};
+}
+
+} // namespace
+
+TEST_CASE("a branch that changes nothing begins with the unbranched run's friction bitwise, and loses as much") {
+  // It is not that run bitwise afterwards: a branch estimates its step anew and begins with half a step.
+  namespace run = schema::run;
+  const Folder folder;
+  const std::string text = rubbing_bonded_text();
+  const std::size_t compaction = text.find("[[stages]]"), unloading = text.find("[[stages]]\nname = \"unloading\"");
+  prepare(folder, 4, text);
+  write_text(folder / "branch.toml", text.substr(0, compaction) + text.substr(unloading));
+  REQUIRE(mpfem_command(fmt::format("run {} -o {} --quiet", folder / "scenario.toml", folder / "run.h5")).exit_code ==
+          0);
+  const Outcome outcome = mpfem_command(fmt::format("run {} -o {} --quiet --from {}", folder / "branch.toml",
+                                                    folder / "branch.h5", folder / "run.compaction.checkpoint.h5"));
+  INFO(outcome.messages);
+  REQUIRE(outcome.exit_code == 0);
+  const schema::FileReader whole(folder / "run.h5", schema::FileKind::run),
+      branch(folder / "branch.h5", schema::FileKind::run);
+  const auto stage = values_of(whole, run::history_stage);
+  const auto first = static_cast<std::size_t>(std::upper_bound(stage.begin(), stage.end(), 0) - stage.begin()) - 1;
+  const auto check_first = [&](const auto& dataset) {
+    CHECK(values_of(branch, dataset).front() == values_of(whole, dataset)[first]);
+  };
+  check_first(run::history_time);
+  check_first(run::history_friction_energy);
+  check_first(run::history_friction_dissipation);
+  check_first(run::history_damage_dissipation);
+  check_first(run::history_plastic_dissipation);
+  check_first(run::history_external_work);
+  const auto lost = values_of(whole, run::history_friction_dissipation),
+             lost_in_branch = values_of(branch, run::history_friction_dissipation);
+  REQUIRE(lost.back() - lost[first] > 0.05 * lost[first]);
+  // Another step moves single slips of few grains: by 3e-4 of the loss here.
+  CHECK(within(lost_in_branch.back() - lost_in_branch.front(), lost.back() - lost[first], 5e-3));
 }

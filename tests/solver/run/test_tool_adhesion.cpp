@@ -1,9 +1,13 @@
 // Grains that stick to rigid tools: strength and energy of their bonds in closed form.
 
+#include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
+#include <random>
 #include <vector>
 
+#include <Eigen/Eigenvalues>
 #include <catch2/catch.hpp>
 
 #include "solver/run/simulation.hpp"
@@ -212,4 +216,109 @@ TEST_CASE("a broken bond to a tool forms again on contact only if its law says s
     CHECK(seen.area[3] == (again ? seen.largest_area : 0.0));
     CHECK(within(seen.lost.back(), (again ? 2 : 1) * bond.fracture_energy * area, 1e-9));
   }
+}
+
+namespace {
+
+constexpr std::size_t tried_node = 0; // on the surface of its grain
+constexpr Bounds everywhere{{-9, -9, -9}, {9, 9, 9}};
+
+/// Force (N) of the tools on the node where it is; what they remember is updated.
+Eigen::Vector3d force_on_node(Tools& tools, Model& model) {
+  std::fill(model.force.begin(), model.force.end(), 0.0);
+  tools.add_forces(model, everywhere, 0, 0);
+  return Eigen::Vector3d(&model.force[4 * tried_node]);
+}
+
+/// Largest stiffness (N/mm) of the tools at the node, by differences of their forces. History is frozen.
+double largest_stiffness(const Tools& tools, Model& model) {
+  constexpr double step = 1e-8; // mm; a drift is some 1e-4 mm
+  Eigen::Matrix3d stiffness;
+  for (Eigen::Index axis = 0; axis < 3; ++axis) {
+    double& x = model.position[4 * tried_node + static_cast<std::size_t>(axis)];
+    const double here = x;
+    Eigen::Vector3d force[2];
+    for (const int side : {0, 1}) {
+      x = here + (side == 0 ? -step : step);
+      Tools moved = tools;
+      force[side] = force_on_node(moved, model);
+    }
+    x = here;
+    stiffness.col(axis) = -(force[1] - force[0]) / (2 * step);
+  }
+  return Eigen::EigenSolver<Eigen::Matrix3d>(stiffness, false).eigenvalues().real().maxCoeff();
+}
+
+} // namespace
+
+TEST_CASE("no state of a node that rubs on a curved tool is stiffer than its bound, half damaged bonds included") {
+  // As in test_friction.cpp of physics, where both bodies have nodes. Sliding makes the stiffness unsymmetric.
+  Scenario scenario = holding_scenario(1);
+  scenario.contact.surface = ContactSurface::facets;
+  GrainMesh ball = ball_mesh(3, 0.1);
+  move(ball, {0.5, 0.5, 0.5});
+  Model model = build_model(pack({ball}, {1, 1, 1}), scenario, "test");
+  const double penalty = surface_penalty(model, tried_node, 0);
+  constexpr double radius = 0.3; // mm; the ball touches none of these
+  const ToolSurface surfaces[] = {
+      SphereSurface{{2, 0.5, 0.5}, radius, false}, SphereSurface{{0.5, 0.5, 0.5}, radius, true},
+      CylinderSurface{2, {0.5, 0.5, 0.5}, radius, true, std::numeric_limits<double>::infinity(), 0}};
+  std::mt19937 random(7);
+  std::normal_distribution<double> sidewards(0, 2e-4);
+  std::uniform_real_distribution<double> anywhere(-1, 1), depth(2e-4, 2e-3);
+  int half_damaged = 0, rubbing = 0, open = 0;
+  double largest = 0, excess = -1;
+  for (const ToolSurface& surface : surfaces)
+    for (const double ratio : {0.3, 1.0, 2.0})
+      for (int trial = 0; trial < 200; ++trial) {
+        const double b = ratio * penalty, strength = 1e-4 * b; // damage begins at 1e-4 mm
+        Tool tool{.name = "tool", .surface = surface, .friction = 0.3};
+        tool.adhesion = Adhesion{BondLaw{.stiffness = b,
+                                         .tensile_strength = strength,
+                                         .shear_strength = strength,
+                                         .fracture_energy = 1e-6 * b / 2,
+                                         .softening = SofteningLaw::energy}};
+        Tools tools({tool}, 1);
+        Eigen::Map<Eigen::Vector3d> place(&model.position[4 * tried_node]);
+        // Brings the node to a distance from the surface.
+        const auto bring_to = [&](double distance) {
+          std::visit(
+              [&](const auto& shape) {
+                const auto gap = shape.gap([&](std::size_t axis) { return place[static_cast<Eigen::Index>(axis)]; });
+                const Vector3<double> n = gap.normal.vector();
+                place += (distance - gap.distance) * Eigen::Vector3d(n.x, n.y, n.z);
+              },
+              surface);
+        };
+        const double inside = depth(random);
+        const bool outside = std::holds_alternative<SphereSurface>(surface) && !std::get<SphereSurface>(surface).inside;
+        place = outside ? Eigen::Vector3d(1.8, 0.5, 0.5) : Eigen::Vector3d(0.7, 0.5, 0.5);
+        place += 0.1 * Eigen::Vector3d(anywhere(random), anywhere(random), anywhere(random));
+        for (int i = 0; i < 8; ++i) {
+          place += Eigen::Vector3d(sidewards(random), sidewards(random), sidewards(random));
+          bring_to(-inside);
+          force_on_node(tools, model);
+        }
+        if (trial % 4 == 0) bring_to(1e-5), force_on_node(tools, model), ++open; // pulled off: only its bond is left
+        std::vector<double> rate(static_cast<std::size_t>(model.nodes()), 0.0);
+        tools.add_stiffness_rate(model, everywhere, 0, rate);
+        const double bound = rate[tried_node] / model.inverse_mass[tried_node];
+        const double remaining = tools.bonds(0, 0).front().remaining;
+        half_damaged += remaining > 0.05 && remaining < 0.95 ? 1 : 0;
+        rubbing += tools.anchors(0, 0).empty() ? 0 : 1;
+        if (bound == 0) { // open, and its bond is broken
+          CHECK(remaining == 0);
+          continue;
+        }
+        const double found = largest_stiffness(tools, model) / bound;
+        largest = std::max(largest, found);
+        excess = std::max(excess, found - 1 - inside / radius);
+      }
+  CHECK(half_damaged > 300);
+  CHECK(rubbing > 1000);
+  CHECK(open > 300);
+  // The push turns with the normal of the surface. The bound leaves that out: it is at most the penalty times the depth
+  // over the radius.
+  CHECK(excess < 0);
+  CHECK(largest > 0.9);
 }

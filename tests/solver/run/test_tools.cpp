@@ -100,7 +100,7 @@ TEST_CASE("a scenario may have gravity and masses scaled to a step") {
 
 TEST_CASE("a block on an inclined plane rests for a million steps below the angle of friction and slides above it") {
   constexpr double edge = 0.2, gravity = 3e9, mu = 0.3; // mm, mm/s^2: a pressure of 1 MPa
-  for (const double steepness : {0.9, 1.5}) {           // tan(angle)/mu
+  for (const double steepness : {0.9, 2.0}) {           // tan(angle)/mu
     const double angle = std::atan(steepness * mu), s = std::sin(angle), c = std::cos(angle);
     Scenario scenario = holding_scenario(1);
     scenario.gravity = {0, 0, -gravity};
@@ -119,9 +119,11 @@ TEST_CASE("a block on an inclined plane rests for a million steps below the angl
       simulation.advance();
     };
     while (simulation.state().stage == 0) advance();
+    // Damped, the block slides so slowly that nodes stick and slip. They do so for some time afterwards.
+    for (int i = 0; steepness > 1 && i < 4000; ++i) advance();
     const Motion before = motion_of(simulation.model());
     const double start = simulation.state().time;
-    for (int i = 0; i < (steepness < 1 ? 1'000'000 : 4000); ++i) advance();
+    for (int i = 0; i < (steepness < 1 ? 1'000'000 : 24'000); ++i) advance();
     const Motion after = motion_of(simulation.model());
     const Vector down(c, 0, -s);
     if (steepness < 1) {
@@ -133,7 +135,8 @@ TEST_CASE("a block on an inclined plane rests for a million steps below the angl
     } else {
       const double acceleration =
           (after.momentum - before.momentum).dot(down) / (after.mass * (simulation.state().time - start));
-      CHECK(within(gravity * s - acceleration, mu * gravity * c, 0.02)); // nodes chatter, as on the floor of the box
+      // The push vibrates about the weight, as on the floor of the box (test_friction.cpp).
+      CHECK(within(acceleration, gravity * (s - mu * c), 0.005));
     }
   }
 }
@@ -506,9 +509,11 @@ TEST_CASE("grains that stick to tools keep the ledger, and the history tells wha
   CHECK_FALSE(file.has(schema::run::history_tools_bonded_area, "upper"));
 }
 
-TEST_CASE("a press keeps the ledger, and its forces balance") {
+TEST_CASE("a press keeps the ledger, and its forces and their moments balance") {
+  // The upper punch, which does not rub, has its reference point 1 mm beside the axis of the die.
+  constexpr double arm = 1, axis = 0.21; // mm
   const Folder folder;
-  prepare(folder, 4, tablet_text);
+  prepare(folder, 4, replaced(tablet_text, "face = \"+z\"", "point = [1.21, 0.21, 0.42]\nnormal = [0, 0, -1]"));
   REQUIRE(mpfem_command(fmt::format("run {} -o {} --quiet", folder / "scenario.toml", folder / "run.h5")).exit_code ==
           0);
   CHECK(schema::validate(folder / "run.h5").empty());
@@ -538,6 +543,31 @@ TEST_CASE("a press keeps the ledger, and its forces balance") {
   CHECK(within(stress[6 * row], wall / (M_PI * 0.58 * lengths[3 * row + 2]), 1e-12));
   // Of eight grains of ball_mesh(4, 0.1).
   CHECK(within(file.read(schema::run::history_relative_density)[row], 0.45, 1e-6));
+  // Moments are about a point of a plane and the centre of the die, which move with them.
+  // Means over the hold, in which the grains still vibrate.
+  const auto hold = static_cast<std::size_t>(std::upper_bound(stage.begin(), stage.end(), 0) - stage.begin());
+  REQUIRE(row > hold + 10);
+  const auto vector = [&](const auto& dataset, const char* tool) {
+    const auto values = file.read(dataset, tool);
+    Vector total = Vector::Zero();
+    for (std::size_t i = hold; i <= row; ++i) total += Vector(values.data() + 3 * i);
+    return Vector(total / static_cast<double>(row + 1 - hold));
+  };
+  const double push = vector(schema::run::history_tools_force, "upper").z();
+  const Vector on_upper = vector(schema::run::history_tools_moment, "upper");
+  Vector moment = Vector::Zero(); // about a point of the axis
+  for (const auto& [tool, point] :
+       {std::pair{"upper", Vector(axis + arm, axis, 0.42)}, std::pair{"lower", Vector(axis, axis, 0)},
+        std::pair{"die", Vector(axis, axis, 0.15)}}) {
+    const Vector from_axis = point + vector(schema::run::history_tools_displacement, tool) - Vector(axis, axis, 0);
+    moment += vector(schema::run::history_tools_moment, tool) +
+              from_axis.cross(vector(schema::run::history_tools_force, tool));
+  }
+  CHECK(moment.norm() < 0.02 * push * 0.29); // the rest is vibration
+  // Eight grains that stand nearly evenly about the axis push nearly at it.
+  CHECK(within(on_upper.y(), arm * push, 0.02));
+  CHECK(std::abs(on_upper.x()) < 0.02 * arm * push);
+  CHECK(on_upper.z() == 0);
 }
 
 TEST_CASE("what tools do on the grains is all the work, and what rubs on tools and between grains all that is lost") {
