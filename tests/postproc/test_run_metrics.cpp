@@ -120,9 +120,8 @@ TEST_CASE("a value at a density lies between the rows around it, and there is no
 TEST_CASE(
     "stresses at densities are numbers by name and rows of a table; a last density that is not reached is reported") {
   const Folder folder;
-  history_of(folder,
-             run_of({{.axial_stress = 3, .relative_density = 0.6, .contact_area = 10},
-                     {.axial_stress = 9, .relative_density = 0.8, .contact_area = 20}}));
+  history_of(folder, run_of({{.axial_stress = 3, .relative_density = 0.6, .contact_area = 10},
+                             {.axial_stress = 9, .relative_density = 0.8, .contact_area = 20}}));
   const schema::FileReader file(folder / "run.h5");
   const Measurement m = measure_stress_at_densities(file, {0.5, 0.7, 0.8});
   CHECK(m.value == Approx(3).epsilon(1e-12));
