@@ -91,14 +91,14 @@ std::string stress_at_densities_csv(const schema::FileReader& file, const std::v
   const auto found = at_densities(history, wanted, "mean_stress"), area = at_densities(history, wanted, "contact_area");
   std::vector<std::optional<double>> expected(wanted.size());
   if (reference) expected = values_at_densities(reference->relative_density, reference->mean_stress, wanted);
-  std::string text = fmt::format("name,relative_density [1],mean_stress [MPa],contact_area [mm^2]{}\n",
+  std::string text = fmt::format("name,relative_density [1],mean_stress [MPa]{},contact_area [mm^2]\n",
                                  reference ? ",reference [MPa],over_reference [1]" : "");
   const auto cell = [](const std::optional<double>& value) { return value ? fmt::format("{:.10g}", *value) : ""; };
   for (std::size_t i = 0; i < wanted.size(); ++i) {
-    text += fmt::format("D{0:.2f},{0:.2f},{1},{2}", wanted[i], cell(found[i]), cell(area[i]));
+    text += fmt::format("D{0:.2f},{0:.2f},{1}", wanted[i], cell(found[i]));
     const bool comparable = found[i] && expected[i] && *expected[i] != 0;
     if (reference) text += fmt::format(",{},{}", cell(expected[i]), comparable ? cell(*found[i] / *expected[i]) : "");
-    text += '\n';
+    text += fmt::format(",{}\n", cell(area[i]));
   }
   return text;
 }

@@ -31,7 +31,7 @@ struct CompactionCurve {
 CompactionCurve read_compaction_curve(const std::string& path);
 
 /// CSV with the columns "name,relative_density [1],mean_stress [MPa],contact_area [mm^2]"; cells of a density that was
-/// not reached are empty. With a reference there are two more: its stress, and the run's stress over it.
+/// not reached are empty. With a reference, two stand before the area: its stress, and the run's stress over it.
 std::string stress_at_densities_csv(const schema::FileReader& file, const std::vector<double>& wanted,
                                     const std::optional<CompactionCurve>& reference = {});
 

@@ -131,8 +131,8 @@ TEST_CASE(
         "name,relative_density [1],mean_stress [MPa],contact_area [mm^2]\nD0.50,0.50,,\nD0.70,0.70,2,15\n");
   write_text(folder / "r.csv", "relative_density,mean_stress_MPa\n0.6,2\n0.8,6\n");
   CHECK(stress_at_densities_csv(file, {0.5, 0.7}, read_compaction_curve(folder / "r.csv")) ==
-        "name,relative_density [1],mean_stress [MPa],contact_area [mm^2],reference [MPa],over_reference [1]\n"
-        "D0.50,0.50,,,,\nD0.70,0.70,2,15,4,0.5\n");
+        "name,relative_density [1],mean_stress [MPa],reference [MPa],over_reference [1],contact_area [mm^2]\n"
+        "D0.50,0.50,,,,\nD0.70,0.70,2,4,0.5,15\n");
   write_text(folder / "r.csv", "relative_density,mean_stress_MPa\n0.8,6\n0.6,2\n");
   CHECK_THROWS_WITH(read_compaction_curve(folder / "r.csv"), Catch::Contains("each denser than the one before"));
   write_text(folder / "r.csv", "relative_density,stress\n0.8,6\n");
