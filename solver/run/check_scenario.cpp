@@ -6,12 +6,10 @@
 
 #include <fmt/format.h>
 
-#include "common/available_memory.hpp"
 #include "common/errors.hpp"
 #include "solver/model/bond_resolution.hpp"
 #include "solver/output/checkpoint.hpp"
 #include "solver/parallel/root.hpp"
-#include "solver/parallel/share_of_cores.hpp"
 #include "solver/run/needs.hpp"
 #include "solver/run/plan_text.hpp"
 #include "solver/run/plausibility.hpp"
@@ -181,11 +179,8 @@ void check_scenario(const Scenario& scenario, const CheckOptions& options, const
   Needs needs;
   std::vector<std::string> warnings;
   root_does(ranks, [&] { needs = needs_of(scenario); });
-  const double here = memory_of_ranks(ranks.largest(needs.memory), ranks_on_this_machine(ranks), ranks.size());
-  agree(ranks, [&] {
-    const std::string scarce = check_needs(scenario.packing_file, {.memory = here}, {.memory = available_memory()});
-    if (!scarce.empty()) warnings.push_back(scarce);
-  });
+  if (const std::string scarce = check_memory(scenario.packing_file, needs.memory, ranks); !scarce.empty())
+    warnings.push_back(scarce);
   std::ranges::copy(implausible_values(scenario), std::back_inserter(warnings));
   ThreadTeam team(options.threads);
   Simulation simulation(build_model(read_packing(scenario.packing_file, ranks), scenario, scenario.packing_file, ranks),

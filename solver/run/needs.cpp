@@ -10,8 +10,11 @@
 
 #include <fmt/format.h>
 
+#include "common/available_memory.hpp"
 #include "common/errors.hpp"
 #include "solver/model/model.hpp"
+#include "solver/parallel/agree.hpp"
+#include "solver/parallel/share_of_cores.hpp"
 #include "solver/run/simulation.hpp"
 
 namespace mpfem {
@@ -117,6 +120,13 @@ std::string check_needs(const std::string& purpose, const Needs& needs, const Ne
   const std::string memory = compare(purpose, "memory", needs.memory, available.memory),
                     disk = compare(purpose, "disk space", needs.disk, available.disk);
   return memory.empty() || disk.empty() ? memory + disk : memory + "; " + disk;
+}
+
+std::string check_memory(const std::string& purpose, double of_one, const Communicator& ranks) {
+  const double needed = memory_of_ranks(ranks.largest(of_one), ranks_on_this_machine(ranks), ranks.size());
+  std::string scarce;
+  agree(ranks, [&] { scarce = check_needs(purpose, {.memory = needed}, {.memory = available_memory()}); });
+  return scarce;
 }
 
 } // namespace mpfem

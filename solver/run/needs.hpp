@@ -4,6 +4,7 @@
 #include <string>
 
 #include "solver/model/packing_counts.hpp"
+#include "solver/parallel/communicator.hpp"
 #include "solver/scenario/scenario.hpp"
 
 namespace mpfem {
@@ -31,5 +32,9 @@ double available_disk_space(const std::string& file);
 /// Empty, or a warning if little or nothing is left over. Throws InputError if the run needs more than there is, by
 /// more than the error of the forecast. `purpose` is the beginning of the line: "RUN.h5".
 std::string check_needs(const std::string& purpose, const Needs& needs, const Needs& available);
+
+/// Collective. The same for the memory of this rank's machine, which all its ranks share; all ranks throw if that of
+/// one machine is too little. `of_one`: bytes that one process alone would need, known to the first rank, 0 on others.
+std::string check_memory(const std::string& purpose, double of_one, const Communicator& ranks);
 
 } // namespace mpfem

@@ -5,13 +5,11 @@
 
 #include <fmt/format.h>
 
-#include "common/available_memory.hpp"
 #include "common/errors.hpp"
 #include "solver/model/bond_resolution.hpp"
 #include "solver/output/earlier_run.hpp"
 #include "solver/output/run_lock.hpp"
 #include "solver/parallel/root.hpp"
-#include "solver/parallel/share_of_cores.hpp"
 #include "solver/run/check_output.hpp"
 #include "solver/run/checkpoints.hpp"
 #include "solver/run/continuation.hpp"
@@ -99,30 +97,16 @@ Outcome run_once(const Scenario& scenario, const RunOptions& options, const Comm
   if (beginning == Beginning::complete) return {RunEnd::complete};
   check_programme(scenario, simulation.state().stage, simulation.stage_run().state().start, simulation.model(),
                   simulation.step_estimate().stable_step());
-  if (!owners) root_does(ranks, [&] { check_disk_space(scenario, options, whole.needs.disk, report); });
-  if (!owners) report_beginning(report, warnings, simulation);
+  if (!owners) {
+    root_does(ranks, [&] { check_disk_space(scenario, options, whole.needs.disk, report); });
+    report_beginning(report, warnings, simulation);
+  }
   if (beginning == Beginning::fresh) root_does(ranks, [&] { clear_way(continuation, options, report); });
   RunRecords records(simulation, record, options);
   if (beginning == Beginning::fresh) records.pass_checkpoint_densities(); // those that the packing has from the start
   TimeLoop loop(simulation, records, continuation, report, options, Profile::since(begun), whole.origin);
   const Owners new_owners = loop.run();
   return {new_owners ? RunEnd::redistributed : RunEnd::complete, new_owners};
-}
-
-} // namespace
-
-namespace {
-
-/// Collective. Refuses a run that the memory of some machine cannot hold; the first rank warns if it is scarce there.
-void check_memory(const RunOptions& options, const Communicator& ranks, double of_one) {
-  const double whole = ranks.largest(of_one); // the root alone has read the packing's numbers
-  const int here = ranks_on_this_machine(ranks);
-  std::string scarce;
-  agree(ranks, [&] {
-    scarce = check_needs(options.output, {.memory = memory_of_ranks(whole, here, ranks.size())},
-                         {.memory = available_memory()});
-  });
-  if (!scarce.empty() && !options.quiet) fmt::print(stderr, "mpfem: warning: {}\n", scarce);
 }
 
 } // namespace
@@ -138,7 +122,9 @@ void run_scenario(const Scenario& scenario, const RunOptions& given, const Commu
     whole.needs = needs_of(scenario);
     if (options.keeps_earlier_run) refuse_other_files(options.output);
   });
-  check_memory(options, ranks, whole.needs.memory);
+  if (const std::string scarce = check_memory(options.output, whole.needs.memory, ranks);
+      !scarce.empty() && !options.quiet)
+    fmt::print(stderr, "mpfem: warning: {}\n", scarce);
   root_does(ranks, [&] {
     lock.emplace(options.output);
     remove_partial_files(scenario, options.output);
