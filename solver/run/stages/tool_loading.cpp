@@ -97,11 +97,11 @@ std::string ToolLoadingControl::unreachable_end() const {
   const bool ends_otherwise = ends.axial_stress || ends.travel || ends.force || ends.force_drop || ends.duration;
   if (closing == 0 && ends_otherwise) return {};
   const char* key = ends.height ? "height" : "relative_density";
-  const auto of_cell = [&](double height, double density) { return ends.height ? height : density; };
-  const double height = start_.sample.solid_volume / (start_.cell.area(2) * *ends.relative_density);
-  const std::string found = fmt::format(
-      "{}stage '{}': key '{}': found {:g}{} at a start of {:.4g}", label_.places.prefix(key), label_.name, key,
-      of_cell(height, *ends.relative_density), ends.height ? " mm" : "", of_cell(start_.cell.length(2), now));
+  const std::string values = ends.height
+                                 ? fmt::format("{:g} mm at a start of {:.4g}", *ends.height, start_.cell.length(2))
+                                 : fmt::format("{:g} at a start of {:.4g}", *ends.relative_density, now);
+  const std::string found =
+      fmt::format("{}stage '{}': key '{}': found {}", label_.places.prefix(key), label_.name, key, values);
   if (closing == 0) return found + ", but the punches keep their distance, allowed: with drives that change it";
   return fmt::format("{}, but the punches move {}, allowed: {} than at the start", found,
                      closing > 0 ? "together" : "apart", (closing > 0) == !ends.height ? "more" : "less");
