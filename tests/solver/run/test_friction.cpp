@@ -592,17 +592,6 @@ TEST_CASE("a branch may begin, change or leave friction") {
   CHECK(branch("begun", "--from " + (folder / "smooth.D0.580.checkpoint.h5")));
 }
 
-namespace {
-
-/// Every value of a column, row by row.
-template <class Dataset>
-std::vector<double> values_of(const schema::FileReader& file, const Dataset& dataset) {
-  const auto values = file.read(dataset);
-  return {values.begin(), values.end()};
-}
-
-} // namespace
-
 TEST_CASE("a branch that changes nothing begins with the unbranched run's friction bitwise, and loses as much") {
   // It is not that run bitwise afterwards: a branch estimates its step anew and begins with half a step.
   namespace run = schema::run;
@@ -619,10 +608,10 @@ TEST_CASE("a branch that changes nothing begins with the unbranched run's fricti
   REQUIRE(outcome.exit_code == 0);
   const schema::FileReader whole(folder / "run.h5", schema::FileKind::run),
       branch(folder / "branch.h5", schema::FileKind::run);
-  const auto stage = values_of(whole, run::history_stage);
+  const auto stage = whole.read(run::history_stage);
   const auto first = static_cast<std::size_t>(std::upper_bound(stage.begin(), stage.end(), 0) - stage.begin()) - 1;
   const auto check_first = [&](const auto& dataset) {
-    CHECK(values_of(branch, dataset).front() == values_of(whole, dataset)[first]);
+    CHECK(branch.read(dataset).front() == whole.read(dataset)[first]);
   };
   check_first(run::history_time);
   check_first(run::history_friction_energy);
@@ -630,8 +619,8 @@ TEST_CASE("a branch that changes nothing begins with the unbranched run's fricti
   check_first(run::history_damage_dissipation);
   check_first(run::history_plastic_dissipation);
   check_first(run::history_external_work);
-  const auto lost = values_of(whole, run::history_friction_dissipation),
-             lost_in_branch = values_of(branch, run::history_friction_dissipation);
+  const auto lost = whole.read(run::history_friction_dissipation),
+             lost_in_branch = branch.read(run::history_friction_dissipation);
   REQUIRE(lost.back() - lost[first] > 0.05 * lost[first]);
   // Another step moves single slips of few grains: by 3e-4 of the loss here.
   CHECK(within(lost_in_branch.back() - lost_in_branch.front(), lost.back() - lost[first], 5e-3));

@@ -5,7 +5,6 @@
 #include <catch2/catch.hpp>
 #include <fmt/format.h>
 
-#include "results-schema/file.hpp"
 #include "tests/support/small_runs.hpp"
 #include "tests/support/small_tablet.hpp"
 
