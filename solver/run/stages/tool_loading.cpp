@@ -33,7 +33,7 @@ ToolLoadingControl::ToolLoadingControl(const ToolLoading& stage, const StageLabe
   double travel = expected_strain * start.cell.length(2);
   if (ends.travel) travel = *ends.travel;
   if (ends.relative_density && closing_speed() != 0) {
-    const double height = start.sample.solid_volume / (start.cell.area(2) * *ends.relative_density);
+    const double height = height_at(*ends.relative_density, start.cell.area(2));
     travel = stage.speed * std::abs((start.cell.length(2) - height) / closing_speed());
   }
   constexpr double instant = 1e-12; // s
@@ -62,6 +62,11 @@ const ToolDrive* ToolLoadingControl::drive_of(std::size_t tool) const {
 
 bool ToolLoadingControl::is_away(std::size_t tool) const {
   return std::find(stage_.away.begin(), stage_.away.end(), tool) != stage_.away.end();
+}
+
+/// mm, of the container or cell at a relative density, with its section (mm^2) along z.
+double ToolLoadingControl::height_at(double density, double area) const {
+  return start_.sample.solid_volume / (area * density);
 }
 
 /// mm/s, by which the container's height shrinks at full speed. It keeps its height while a punch is away.
@@ -109,7 +114,7 @@ std::string ToolLoadingControl::unreachable_end() const {
 
 void ToolLoadingControl::expect_end(Cell& cell) const {
   if (!stage_.ends.relative_density) return;
-  cell.high[2] = cell.low[2] + start_.sample.solid_volume / (cell.area(2) * *stage_.ends.relative_density);
+  cell.high[2] = cell.low[2] + height_at(*stage_.ends.relative_density, cell.area(2));
 }
 
 ToolLoadingControl::Seen ToolLoadingControl::see(const StageObservation& observation) const {
@@ -138,7 +143,7 @@ double ToolLoadingControl::wanted_speed(const Seen& seen, double& left) const {
   left = std::numeric_limits<double>::infinity();
   if (ends.travel) left = std::min(left, std::max(*ends.travel - state_.travelled, 0.0));
   if (ends.relative_density && closing_speed() != 0) {
-    const double height = start_.sample.solid_volume / (seen.area * *ends.relative_density);
+    const double height = height_at(*ends.relative_density, seen.area);
     left = std::min(left, std::max((seen.height - height) / closing_speed(), 0.0) * stage_.speed);
   }
   // A travel that is known ends at rest, by constant deceleration.
