@@ -8,7 +8,7 @@ PlacedSurface place_surface(TriangleMesh mesh) {
   const Bounds bounds = bounds_of(mesh);
   PlacedSurface placed;
   placed.corner_in_file = {bounds.low[0], bounds.low[1], bounds.low[2]};
-  for (std::size_t k = 0; k < 3; ++k) placed.lengths[k] = bounds.high[k] - bounds.low[k];
+  placed.lengths = lengths_of(bounds);
   const Vector3<double> low{bounds.low[0], bounds.low[1], bounds.low[2]};
   for (Vector3<double>& corner : mesh.vertex) corner = corner - low;
   double volume = 0;
@@ -19,8 +19,10 @@ PlacedSurface place_surface(TriangleMesh mesh) {
   return placed;
 }
 
-PlacedSurface read_surface(const std::string& path, double scale) {
-  return place_surface(read_stl(path, scale).mesh);
+PlacedSurface read_surface(const std::string& path, const std::string& key, double scale) {
+  PlacedSurface placed = place_surface(read_stl(path, scale).mesh);
+  placed.size = {path, key, scale, placed.lengths};
+  return placed;
 }
 
 } // namespace mpfem

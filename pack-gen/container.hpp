@@ -9,6 +9,7 @@
 
 #include "pack-gen/tet_mesh.hpp"
 #include "results-schema/container.hpp"
+#include "surfaces/stl_size.hpp"
 #include "surfaces/triangulated_surface.hpp"
 
 namespace mpfem {
@@ -35,12 +36,14 @@ struct PlacedSurface {
   std::shared_ptr<const SurfaceContainer> container;
   Point lengths{};        ///< mm, of the box that bounds it
   Point corner_in_file{}; ///< mm: the point that is the origin of the packing
+  StlSize size{};         ///< for messages
 };
 
 /// Moves a closed surface to the origin. Throws InputError if it is not closed and oriented.
 PlacedSurface place_surface(TriangleMesh mesh);
-/// That of an STL file; `scale`: mm in its unit of length. Throws InputError as read_stl does.
-PlacedSurface read_surface(const std::string& path, double scale);
+/// That of an STL file; `scale`: mm in its unit of length, which the user gives as `key`. Throws InputError as read_stl
+/// does.
+PlacedSurface read_surface(const std::string& path, const std::string& key, double scale);
 
 /// A box that spans [0, lengths], the cylinder about z that touches its faces (then the first two lengths are the
 /// diameter), or the inside of a surface that touches them.

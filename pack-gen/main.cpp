@@ -214,7 +214,7 @@ ImportedSpheres imported(const Arguments& arguments) {
   std::optional<Point> box;
   if (!arguments.box.empty()) box = point(arguments.box);
   if (arguments.container == "surface")
-    return import_spheres(arguments.input, read_surface(arguments.surface, *arguments.scale));
+    return import_spheres(arguments.input, read_surface(arguments.surface, "--scale", *arguments.scale));
   if (arguments.container != "cylinder") return import_spheres(arguments.input, box);
   CylinderInTable cylinder{*arguments.diameter, *arguments.height, {}};
   cylinder.bottom_center = arguments.bottom_center.empty() ? Point{0.5 * cylinder.diameter, 0.5 * cylinder.diameter, 0}
@@ -223,8 +223,11 @@ ImportedSpheres imported(const Arguments& arguments) {
 }
 
 void import(const Arguments& arguments) {
-  const auto [packing, corner] = imported(arguments);
-  refuse_overlap(packing, arguments.input, corner);
+  const ImportedSpheres spheres = imported(arguments);
+  const SpherePacking& packing = spheres.packing;
+  refuse_overlap(spheres, arguments.input);
+  if (const std::string remark = implausible_surface(spheres); !remark.empty() && !arguments.quiet)
+    fmt::print(stderr, "pack-gen: warning: {}\n", remark);
   const PackingOrigin origin{{}, "imported from " + arguments.input, {}, {}};
   if (arguments.size > 0) return write_meshed(arguments, packing, origin);
   write_packing_file(arguments.output, packing, origin);

@@ -78,7 +78,7 @@ void read_distribution(TableReader table, const std::string& description_file, P
 /// A box of three edge lengths, a cylinder of a diameter and a height, or a surface from a file; the keys of the others
 /// are refused.
 PackingContainer read_container(TableReader& root, const std::string& description_file, bool without_box,
-                                std::vector<std::string>& files) {
+                                PackingDescription& description) {
   const std::string shape = root.choice_or("container", "box", {"box", "cylinder", "surface"});
   const auto refuse = [&](std::initializer_list<const char*> keys, const char* allowed) {
     for (const char* key : keys)
@@ -95,9 +95,10 @@ PackingContainer read_container(TableReader& root, const std::string& descriptio
     refuse({"box"}, shape == "cylinder" ? "diameter and height" : "surface_file and surface_scale");
   if (shape == "surface") {
     refuse({"diameter", "height"}, "surface_file and surface_scale");
-    const std::string path = named_file(root, "surface_file", description_file, files);
+    const std::string path = named_file(root, "surface_file", description_file, description.files);
     // No default: STL files do not state their unit.
-    const PlacedSurface placed = read_surface(path, root.number("surface_scale", length_of_unit));
+    const PlacedSurface placed = read_surface(path, "surface_scale", root.number("surface_scale", length_of_unit));
+    description.surface_size = placed.size;
     return {placed.lengths, ContainerShape::surface, placed.container};
   }
   refuse({"surface_file", "surface_scale"}, "diameter and height");
@@ -113,7 +114,7 @@ PackingDescription read_packing_description(const TomlDocument& document, bool w
   description.text = document.text();
   description.count = static_cast<int>(root.integer("count", Range::between(1, 1e7)));
   description.relative_density = root.number("relative_density", Range::between(1e-9, 0.74));
-  description.container = read_container(root, document.name(), without_box, description.files);
+  description.container = read_container(root, document.name(), without_box, description);
   description.smallest_gap = root.number("smallest_gap", positive_length);
   description.seed = static_cast<std::uint64_t>(root.integer_or("seed", 1, Range::non_negative()));
   description.size_scale_tolerance = root.number_or("size_scale_tolerance", 0.01, Range::between(0, 1));
@@ -134,6 +135,14 @@ std::vector<double> sampled(const PackingDescription& description) {
   }
 }
 
+/// Of a surface: its size, and that which the spheres need; empty for other containers.
+std::string surface_beside_need(const PackingDescription& description, double scale) {
+  if (description.container.shape != ContainerShape::surface || !description.surface_size) return {};
+  Point needed = description.surface_size->length;
+  for (double& length : needed) length /= scale;
+  return "; " + size_beside(*description.surface_size, "the spheres need", needed);
+}
+
 } // namespace
 
 DrawnSizes draw_sizes(const PackingDescription& description) {
@@ -145,11 +154,12 @@ DrawnSizes draw_sizes(const PackingDescription& description) {
     throw InputError(fmt::format(
         "{}key 'count': {} spheres of this size distribution at a relative_density of {:g} in this {} need "
         "sizes scaled by {:.4g}, allowed: {:g} … {:g} (size_scale_tolerance); or take {:.0f} spheres, or "
-        "a {} larger by {:.4g} along {}",
+        "a {} larger by {:.4g} along {}{}",
         description.places.prefix("count"), description.count, description.relative_density, name_of(container.shape),
         scale, 1 - description.size_scale_tolerance, 1 + description.size_scale_tolerance,
         description.count * scale * scale * scale, name_of(container.shape), 1 / scale,
-        container.shape == ContainerShape::cylinder ? "diameter and height" : "each edge"));
+        container.shape == ContainerShape::cylinder ? "diameter and height" : "each edge",
+        surface_beside_need(description, scale)));
   DrawnSizes sizes{{}, scale};
   for (const double d : diameter) sizes.radius.push_back(0.5 * scale * d);
   return sizes;

@@ -16,7 +16,8 @@ namespace mpfem {
 struct PackingDescription {
   int count = 0;
   double relative_density = 0;
-  PackingContainer container; ///< a box, a cylinder, or a surface
+  PackingContainer container;          ///< a box, a cylinder, or a surface
+  std::optional<StlSize> surface_size; ///< of a surface, for messages
   double smallest_gap = 0;
   std::uint64_t seed = 1;
   double size_scale_tolerance = 0; ///< largest distance from 1 of the factor on sizes that fits count to density

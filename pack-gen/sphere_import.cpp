@@ -23,10 +23,20 @@ std::string body(const SpherePacking& packing, int index, const Point& corner) {
   return fmt::format("sphere {} at ({:g}, {:g}, {:g})", index, c[0] + corner[0], c[1] + corner[1], c[2] + corner[2]);
 }
 
-} // namespace
+/// Box around all spheres; there is at least one.
+Bounds bounds_of(const SpherePacking& packing) {
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  Bounds bounds{{infinity, infinity, infinity}, {-infinity, -infinity, -infinity}};
+  for (std::size_t i = 0; i < packing.radius.size(); ++i)
+    for (std::size_t k = 0; k < 3; ++k) {
+      bounds.low[k] = std::min(bounds.low[k], packing.center[i][k] - packing.radius[i]);
+      bounds.high[k] = std::max(bounds.high[k], packing.center[i][k] + packing.radius[i]);
+    }
+  return bounds;
+}
 
-void refuse_overlap(const SpherePacking& packing, const std::string& name, const Point& corner) {
-  // Touching spheres overlap by the rounding of the numbers.
+/// An overlap of two spheres or a wall by more than the rounding of the numbers, as which touching spheres overlap.
+std::optional<SphereGap> overlap_of(const SpherePacking& packing) {
   double largest = 0;
   for (std::size_t i = 0; i < packing.radius.size(); ++i) {
     largest = std::max(largest, packing.radius[i]);
@@ -35,9 +45,38 @@ void refuse_overlap(const SpherePacking& packing, const std::string& name, const
   const double rounding = 8 * std::numeric_limits<double>::epsilon() * largest;
   SphereGap gap = smallest_wall_gap(packing);
   if (!(gap.gap < -rounding)) gap = smallest_gap_of_pairs(packing.center, packing.radius, -rounding);
-  if (gap.gap < -rounding)
-    throw InputError(fmt::format("{}: {} and {} overlap by {:.4g} mm, allowed: no overlap", shown_path(name),
-                                 body(packing, gap.first, corner), body(packing, gap.second, corner), -gap.gap));
+  if (gap.gap < -rounding) return gap;
+  return {};
+}
+
+[[noreturn]] void refuse(const SphereGap& overlap, const ImportedSpheres& spheres, const std::string& name,
+                         const std::string& more) {
+  const auto shown = [&](int index) { return body(spheres.packing, index, spheres.corner_in_table); };
+  throw InputError(fmt::format("{}: {} and {} overlap by {:.4g} mm, allowed: no overlap{}", shown_path(name),
+                               shown(overlap.first), shown(overlap.second), -overlap.gap, more));
+}
+
+std::string surface_beside_spheres(const ImportedSpheres& spheres) {
+  return size_beside(*spheres.surface_size, "the spheres", lengths_of(bounds_of(spheres.packing)));
+}
+
+} // namespace
+
+void refuse_overlap(const SpherePacking& packing, const std::string& name) {
+  if (const auto overlap = overlap_of(packing)) refuse(*overlap, {packing}, name, "");
+}
+
+void refuse_overlap(const ImportedSpheres& spheres, const std::string& name) {
+  const auto overlap = overlap_of(spheres.packing);
+  if (!overlap) return;
+  const bool at_surface = spheres.surface_size && std::min(overlap->first, overlap->second) < 0;
+  refuse(*overlap, spheres, name, at_surface ? "; " + surface_beside_spheres(spheres) : "");
+}
+
+std::string implausible_surface(const ImportedSpheres& spheres) {
+  if (!spheres.surface_size) return {};
+  const Point lengths = lengths_of(bounds_of(spheres.packing));
+  return mean_ratio(*spheres.surface_size, lengths) > unlikely_ratio ? surface_beside_spheres(spheres) : "";
 }
 
 namespace {
@@ -57,28 +96,20 @@ SpherePacking read_table(CsvReader table) {
 ImportedSpheres moved_to_origin(SpherePacking packing, const Point& corner) {
   for (Point& center : packing.center)
     for (std::size_t k = 0; k < 3; ++k) center[k] -= corner[k];
-  return {std::move(packing), corner};
+  return {.packing = std::move(packing), .corner_in_table = corner};
 }
 
 } // namespace
 
 ImportedSpheres import_spheres(CsvReader table, const std::optional<Point>& box) {
   SpherePacking packing = read_table(std::move(table));
-  Point corner{};
   if (box) {
     packing.box = *box;
-    return {std::move(packing), corner};
+    return {.packing = std::move(packing)};
   }
-  for (std::size_t k = 0; k < 3; ++k) {
-    double low = packing.center[0][k] - packing.radius[0], high = packing.center[0][k] + packing.radius[0];
-    for (std::size_t i = 1; i < packing.radius.size(); ++i) {
-      low = std::min(low, packing.center[i][k] - packing.radius[i]);
-      high = std::max(high, packing.center[i][k] + packing.radius[i]);
-    }
-    packing.box[k] = high - low;
-    corner[k] = low;
-  }
-  return moved_to_origin(std::move(packing), corner);
+  const Bounds bounds = bounds_of(packing);
+  packing.box = lengths_of(bounds);
+  return moved_to_origin(std::move(packing), bounds.low);
 }
 
 ImportedSpheres import_spheres(const std::string& path, const std::optional<Point>& box) {
@@ -99,7 +130,9 @@ ImportedSpheres import_spheres(const std::string& path, const PlacedSurface& sur
   packing.shape = ContainerShape::surface;
   packing.surface = surface.container;
   packing.box = surface.lengths;
-  return moved_to_origin(std::move(packing), surface.corner_in_file);
+  ImportedSpheres spheres = moved_to_origin(std::move(packing), surface.corner_in_file);
+  spheres.surface_size = surface.size;
+  return spheres;
 }
 
 } // namespace mpfem

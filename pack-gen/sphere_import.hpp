@@ -12,13 +12,17 @@ namespace mpfem {
 /// Spheres of a table, moved so that the box around their container begins at the origin.
 struct ImportedSpheres {
   SpherePacking packing;
-  Point corner_in_table{}; ///< mm, where that box begins in the table
+  Point corner_in_table{};               ///< mm, where that box begins in the table
+  std::optional<StlSize> surface_size{}; ///< of a surface, for messages
 };
 
 /// Throws InputError, naming the spheres and the overlap, if two spheres or a sphere and a wall overlap by more than
-/// the rounding of their numbers. Ends at the first overlap of two spheres. `corner`: of the container's box in the
-/// file, whose coordinates the message states.
-void refuse_overlap(const SpherePacking& packing, const std::string& name, const Point& corner = {});
+/// the rounding of their numbers. Ends at the first overlap of two spheres.
+void refuse_overlap(const SpherePacking& packing, const std::string& name);
+/// The same with the coordinates of the table, and with the size of a surface that a sphere reaches through.
+void refuse_overlap(const ImportedSpheres& spheres, const std::string& name);
+/// One line if the surface is so large beside the spheres that its scale is probably wrong; else empty.
+std::string implausible_surface(const ImportedSpheres& spheres);
 
 /// Spheres of a CSV table with the columns x, y, z, radius (mm). Without a box: the tightest around all spheres.
 /// Throws InputError.

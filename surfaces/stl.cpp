@@ -33,6 +33,7 @@ std::string place(const Vector3<double>& x) {
 struct Checked {
   TriangleMesh& mesh;
   std::vector<std::int32_t>& partner;
+  const std::vector<std::size_t>& number; ///< [triangles], from 1: in the file
   const std::string& name;
 
   [[noreturn]] void fail(const std::string& message) const {
@@ -40,7 +41,8 @@ struct Checked {
   }
   std::string place_of_edge(std::int32_t edge) const {
     const auto t = static_cast<std::size_t>(edge / 3), k = static_cast<std::size_t>(edge % 3);
-    return fmt::format("from {} to {}", place(mesh.corner(t, k)), place(mesh.corner(t, (k + 1) % 3)));
+    return fmt::format("of triangle {} from {} to {}", number[t], place(mesh.corner(t, k)),
+                       place(mesh.corner(t, (k + 1) % 3)));
   }
 };
 
@@ -87,8 +89,14 @@ std::size_t count_other_normals(const std::vector<StlFacet>& facets) {
 }
 
 /// Leaves out triangles with two corners at one vertex. Their other two edges coincide, so that no hole remains.
-std::size_t drop_collapsed(TriangleMesh& mesh) {
-  return std::erase_if(mesh.triangle, [](const auto& v) { return v[0] == v[1] || v[1] == v[2] || v[2] == v[0]; });
+/// Returns the numbers in the file of those that are left.
+std::vector<std::size_t> drop_collapsed(TriangleMesh& mesh) {
+  std::vector<std::size_t> number;
+  const auto is_collapsed = [](const auto& v) { return v[0] == v[1] || v[1] == v[2] || v[2] == v[0]; };
+  for (std::size_t t = 0; t < mesh.triangle.size(); ++t)
+    if (!is_collapsed(mesh.triangle[t])) number.push_back(t + 1);
+  std::erase_if(mesh.triangle, is_collapsed);
+  return number;
 }
 
 void check_closed(const Checked& surface, const EdgePairs& pairs) {
@@ -104,10 +112,12 @@ void check_closed(const Checked& surface, const EdgePairs& pairs) {
 
 std::size_t flip_all_slivers(const Checked& surface, double length) {
   const SliverFlips slivers = flip_slivers(surface.mesh, surface.partner, sliver_share * length * length);
-  if (slivers.left > 0)
-    surface.fail(fmt::format("found {} triangles without area, one at {}, allowed: from {:.3g} mm^2", slivers.left,
-                             place(surface.mesh.corner(static_cast<std::size_t>(slivers.example), 0)),
+  if (slivers.left > 0) {
+    const auto example = static_cast<std::size_t>(slivers.example);
+    surface.fail(fmt::format("found {} triangles without area, one is triangle {} at {}, allowed: from {:.3g} mm^2",
+                             slivers.left, surface.number[example], place(surface.mesh.corner(example, 0)),
                              sliver_share * length * length));
+  }
   // Two edges may now coincide.
   if (slivers.flipped > 0) check_closed(surface, pair_edges(surface.mesh));
   return slivers.flipped;
@@ -142,9 +152,10 @@ void check_nesting(const Checked& surface, std::span<const std::vector<std::size
     constexpr double slack = 0.75; // where shells touch, the winding number is not whole
     if (std::abs(winding - (is_cavity ? 1 : 0)) > slack)
       surface.fail(fmt::format(
-          "found {} shells of which the one at {} {}, allowed: bodies side by side, and cavities in "
+          "found {} shells of which the one of triangle {} at {} {}, allowed: bodies side by side, and cavities in "
           "them",
-          shell.size(), place(x), is_cavity ? "is turned inside out" : "lies in another one or runs through it"));
+          shell.size(), surface.number[shell[s].front()], place(x),
+          is_cavity ? "is turned inside out" : "lies in another one or runs through it"));
   }
 }
 
@@ -192,9 +203,10 @@ StlBody stl_body(std::string_view bytes, const std::string& name, double scale) 
   StlFindings& findings = body.findings;
   findings.binary = file.binary;
   findings.other_normals = count_other_normals(file.facet);
-  findings.dropped = drop_collapsed(body.mesh);
+  const std::vector<std::size_t> number = drop_collapsed(body.mesh);
+  findings.dropped = file.facet.size() - number.size();
   EdgePairs pairs = pair_edges(body.mesh);
-  const Checked surface{body.mesh, pairs.partner, name};
+  const Checked surface{body.mesh, pairs.partner, number, name};
   check_closed(surface, pairs);
   findings.flipped = flip_all_slivers(surface, length);
   check_volume(surface, length, findings);

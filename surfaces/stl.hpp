@@ -34,9 +34,9 @@ struct StlBody {
 };
 
 /// `scale`: the file's unit of length in mm (1 for mm, 1000 for m, 25.4 for inches). Throws InputError, one line with
-/// the file and a place in mm: not an STL file, no extent, coordinates beyond 1e9 mm, triangles without area that no
-/// flip repairs, edges that are not shared by two triangles in opposite directions, no volume, contradictory shells
-/// (one inside out, or one inside another).
+/// the file, the number of a triangle and its place in mm: not an STL file, no extent, coordinates beyond 1e9 mm,
+/// triangles without area that no flip repairs, edges that are not shared by two triangles in opposite directions, no
+/// volume, contradictory shells (one inside out, or one inside another).
 StlBody read_stl(const std::string& path, double scale);
 /// The same for a file's bytes; `name` is used in messages.
 StlBody stl_body(std::string_view bytes, const std::string& name, double scale);

@@ -36,8 +36,8 @@ Container::Container(const Parts& parts, const Tools& tools) : parts_(parts) {
     die_ = section_of_prism(*body->mesh, low, high);
     if (!die_)
       throw InputError(fmt::format("container.wall: the cross-section of '{}' changes between the punches (z = {:g} to "
-                                   "{:g} mm), allowed: a die with one cross-section over this height",
-                                   wall.name, low, high));
+                                   "{:g} mm), allowed: a die with one cross-section over this height; {}",
+                                   wall.name, low, high, wall.size));
     const double x = die_->high[0] - die_->low[0], y = die_->high[1] - die_->low[1];
     section_share_ = die_->area / (x * y);
     perimeter_over_width_ = {die_->perimeter / y, die_->perimeter / x};

@@ -243,14 +243,14 @@ void Tools::return_tool(Tool& tool, const Model& model, const Communicator& rank
   for (std::size_t axis = 0; axis < 3; ++axis) tool.moved[axis] -= deepest * plane->normal[axis];
 }
 
-std::optional<std::pair<std::string, double>> Tools::behind(const Model& model, std::size_t node) const {
-  std::optional<std::pair<std::string, double>> found;
-  for (const Tool& tool : tools_) {
-    if (tool.away) continue;
-    const double depth = -with_surface(tool, [&](const auto& surface) {
+std::optional<std::pair<std::size_t, double>> Tools::behind(const Model& model, std::size_t node) const {
+  std::optional<std::pair<std::size_t, double>> found;
+  for (std::size_t tool = 0; tool < size(); ++tool) {
+    if (tools_[tool].away) continue;
+    const double depth = -with_surface(tools_[tool], [&](const auto& surface) {
       return surface.gap(NodePoint{model, node}).distance;
     });
-    if (depth > 0 && (!found || depth > found->second)) found = {tool.name, depth};
+    if (depth > 0 && (!found || depth > found->second)) found = {tool, depth};
   }
   return found;
 }

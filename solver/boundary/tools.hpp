@@ -50,6 +50,7 @@ struct Tool {
   double friction = 0;                ///< mu
   std::optional<Adhesion> adhesion{}; ///< none: nothing sticks to it
   std::uint64_t triangles = 0;        ///< hash of the triangles of an STL file; 0 for other shapes
+  std::string size{};                 ///< of an STL file's body beside the packing, for messages; else empty
   bool away = false;                  ///< it touches nothing
   std::array<double, 3> moved{};      ///< mm, since the start of the run
   std::array<double, 3> movement{};   ///< mm, in the step that led to the present
@@ -105,8 +106,8 @@ public:
   /// SimulationError if another tool would return inside grains.
   double set_away(std::span<const std::size_t> away, Model& model, std::span<const Bounds> bounds, double last_step,
                   const Communicator& ranks);
-  /// Name and depth (mm) of the tool that a surface node is deepest behind; none where it is behind none.
-  std::optional<std::pair<std::string, double>> behind(const Model& model, std::size_t node) const;
+  /// Index and depth (mm) of the tool that a surface node is deepest behind; none where it is behind none.
+  std::optional<std::pair<std::size_t, double>> behind(const Model& model, std::size_t node) const;
 
   // ---- checkpoints
   template <class Writer>

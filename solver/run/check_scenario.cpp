@@ -10,6 +10,7 @@
 #include "solver/model/bond_resolution.hpp"
 #include "solver/output/checkpoint.hpp"
 #include "solver/parallel/root.hpp"
+#include "solver/run/make_tools.hpp"
 #include "solver/run/needs.hpp"
 #include "solver/run/plan_text.hpp"
 #include "solver/run/plausibility.hpp"
@@ -186,6 +187,7 @@ void check_scenario(const Scenario& scenario, const CheckOptions& options, const
   Simulation simulation(build_model(read_packing(scenario.packing_file, ranks), scenario, scenario.packing_file, ranks),
                         scenario, team, options.from.has_value(), ranks);
   if (options.from) begin_branch(*options.from, simulation, ranks);
+  std::ranges::copy(implausible_sizes(scenario, simulation.model(), simulation.tools()), std::back_inserter(warnings));
   std::ranges::copy(check_bonds(simulation.model(), scenario, ranks), std::back_inserter(warnings));
   const StepEstimate::State& step = simulation.step_estimate().state();
   check_programme(scenario, 0, simulation.stage_run().state().start, simulation.model(), step.stable_step);

@@ -123,10 +123,13 @@ void check_clear_of_tools(const Model& model, const Tools& tools, const std::str
   for_own_grains(model, ranks, [&](std::int32_t grain) {
     const auto g = static_cast<std::size_t>(grain);
     for (std::int32_t n = model.node_offset[g]; n < model.node_offset[g] + model.surface_node_count[g]; ++n)
-      if (const auto found = tools.behind(model, static_cast<std::size_t>(n)); found && found->second > rounding)
+      if (const auto found = tools.behind(model, static_cast<std::size_t>(n)); found && found->second > rounding) {
+        const Tool& tool = tools[found->first];
         throw InputError(fmt::format("{}: grain {} reaches {:.4g} mm into the tool '{}' at the start, allowed: no "
-                                     "overlap; move the tool, or pack with a larger smallest_gap",
-                                     packing_file, g, found->second, found->first));
+                                     "overlap; move the tool, or pack with a larger smallest_gap{}{}",
+                                     packing_file, g, found->second, tool.name, tool.size.empty() ? "" : "; ",
+                                     tool.size));
+      }
   });
 }
 

@@ -4,9 +4,12 @@
 #include <cmath>
 #include <limits>
 
+#include <fmt/format.h>
+
 #include "common/hash.hpp"
 #include "solver/model/material.hpp"
 #include "surfaces/stl.hpp"
+#include "surfaces/stl_size.hpp"
 
 namespace mpfem {
 
@@ -59,6 +62,17 @@ BodySurface body_of(const StlShape& shape) {
           std::make_shared<const TriangleMesh>(body.mesh)};
 }
 
+/// Size of the body of an STL tool; none for other shapes.
+std::optional<StlSize> size_of(const ToolShape& shape, const ToolSurface& surface) {
+  const auto* stl = std::get_if<StlShape>(&shape);
+  if (stl == nullptr) return {};
+  return StlSize{stl->file, "scale", stl->scale, lengths_of(std::get<BodySurface>(surface).triangles->bounds())};
+}
+
+std::array<double, 3> box_of(const Model& model) {
+  return lengths_of({model.box_low, model.box_high});
+}
+
 /// Identifies the triangles of a surface.
 std::uint64_t hash_of(const TriangleMesh& mesh) {
   static_assert(sizeof(Vector3<double>) == 3 * sizeof(double)); // no padding
@@ -86,11 +100,27 @@ Tools make_tools(const Scenario& scenario, const Model& model) {
               .surface = make_surface(parameters.shape, model.box_low, model.box_high),
               .friction = parameters.friction};
     if (const auto* body = std::get_if<BodySurface>(&tool.surface)) tool.triangles = hash_of(*body->mesh);
+    if (const auto size = size_of(parameters.shape, tool.surface))
+      tool.size = size_beside(*size, "the packing's box", box_of(model));
     if (const auto& adhesion = parameters.adhesion)
       tool.adhesion = {law_of_bonds(*adhesion, scenario.contact), adhesion->rebond_on_contact};
     tools.push_back(std::move(tool));
   }
   return {std::move(tools), model.grains};
+}
+
+std::vector<std::string> implausible_sizes(const Scenario& scenario, const Model& model, const Tools& tools) {
+  std::vector<std::string> remarks;
+  for (std::size_t tool = 0; tool < tools.size(); ++tool) {
+    const auto size = size_of(scenario.tools[tool].shape, tools[tool].surface);
+    if (!size) continue;
+    const bool encloses = std::get<StlShape>(scenario.tools[tool].shape).inside;
+    const double ratio = mean_ratio(*size, box_of(model));
+    if (encloses ? ratio > unlikely_ratio : 1 / ratio > unlikely_ratio)
+      remarks.push_back(fmt::format("tool '{}' is far {} than the packing: {}", tools[tool].name,
+                                    encloses ? "larger" : "smaller", tools[tool].size));
+  }
+  return remarks;
 }
 
 } // namespace mpfem

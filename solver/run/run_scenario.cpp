@@ -14,6 +14,7 @@
 #include "solver/run/checkpoints.hpp"
 #include "solver/run/continuation.hpp"
 #include "solver/run/interrupt.hpp"
+#include "solver/run/make_tools.hpp"
 #include "solver/run/needs.hpp"
 #include "solver/run/plan_text.hpp"
 #include "solver/run/plausibility.hpp"
@@ -90,6 +91,7 @@ Outcome run_once(const Scenario& scenario, const RunOptions& options, const Comm
   RunRecord record;
   Continuation continuation(simulation, record, options, report);
   auto warnings = implausible_values(scenario);
+  std::ranges::copy(implausible_sizes(scenario, simulation.model(), simulation.tools()), std::back_inserter(warnings));
   std::ranges::copy(check_bonds(simulation.model(), scenario, ranks), std::back_inserter(warnings));
   const Beginning beginning = continuation.begin();
   if (beginning == Beginning::must_start_again) return {RunEnd::must_start_again};

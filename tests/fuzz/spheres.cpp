@@ -7,10 +7,10 @@
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace mpfem;
   fuzz::read_or_refuse([&] {
-    const auto [packing, corner] =
+    const ImportedSpheres spheres =
         import_spheres(CsvReader::from_text(std::string(fuzz::text_of(data, size)), "spheres.csv"), std::nullopt);
-    refuse_overlap(packing, "spheres.csv", corner);
-    for (const double length : packing.box)
+    refuse_overlap(spheres, "spheres.csv");
+    for (const double length : spheres.packing.box)
       if (!(length > 0 && length < 1e12)) std::abort();
   });
   return 0;

@@ -102,7 +102,8 @@ TEST_CASE("a surface from an STL file is filled, meshed, exported and imported w
 
   const Outcome outside = import(surface + " --scale 900"); // the L is smaller and elsewhere
   CHECK(outside.exit_code == 2);
-  CHECK_THAT(outside.messages, Catch::Contains("surface"));
+  CHECK_THAT(outside.messages, Catch::Contains("l.stl spans 0.45 x 0.45 x 0.27 mm with --scale = 900, the spheres 0."));
+  CHECK(outside.one_error_line("pack-gen"));
   CHECK(import(surface).exit_code == 2); // without a scale
   CHECK(import("--surface l.stl --scale 1").exit_code == 2);
   CHECK(import(surface + " --scale 1000 --box 1,1,1").exit_code == 2);
@@ -139,7 +140,7 @@ TEST_CASE("surfaces that are open, too small or without a scale are not filled")
     std::string text = l_description;
     text.replace(text.find(from), from.size(), to);
     write_text(folder / "pack.toml", text);
-    const Outcome outcome = pack_gen(fmt::format("spheres {} -o {}", folder / "pack.toml", folder / "s.h5"));
+    const Outcome outcome = pack_gen(fmt::format("spheres {} --quiet -o {}", folder / "pack.toml", folder / "s.h5"));
     CHECK(outcome.exit_code == 2);
     CHECK(std::count(outcome.messages.begin(), outcome.messages.end(), '\n') <= 1);
     return outcome.messages;
@@ -153,4 +154,37 @@ TEST_CASE("surfaces that are open, too small or without a scale are not filled")
   open.pop_back();
   write_text(folder / "open.stl", text_stl(open));
   CHECK_THAT(refusal("l.stl", "open.stl"), Catch::Contains("open.stl"));
+}
+
+TEST_CASE("a surface in other units than its scale is refused with its size, that which is needed, and the scale") {
+  const Folder folder;
+  write_l_shape(folder / "l.stl");
+  for (const auto& [scale, length] : {std::pair("1", "0.0005 x 0.0005 x 0.0003 mm"), {"1e6", "500 x 500 x 300 mm"}}) {
+    std::string text = l_description;
+    text.replace(text.find("1000"), 4, scale);
+    text.replace(text.find("tolerance = 1"), 13, "tolerance = 0.5");
+    write_text(folder / "pack.toml", text);
+    const Outcome outcome = pack_gen(fmt::format("spheres {} -o {}", folder / "pack.toml", folder / "s.h5"));
+    INFO(outcome.messages);
+    CHECK(outcome.exit_code == 2);
+    CHECK(outcome.one_error_line("pack-gen"));
+    CHECK_THAT(outcome.messages, Catch::Contains(fmt::format("l.stl spans {} with surface_scale = ", length)));
+    CHECK_THAT(outcome.messages, Catch::Contains("the spheres need 0.") && Catch::Contains("surface_scale is the mm"));
+  }
+}
+
+TEST_CASE("spheres that are lost in a surface far larger than they are imported with a warning that names the scale") {
+  const Folder folder;
+  write_text(folder / "cube.stl", text_stl(moved(unit_cube(), {-0.5, -0.5, -0.5})));
+  write_text(folder / "s.csv", "x,y,z,radius\n0,0,0,0.1\n0.25,0,0,0.1\n");
+  for (const auto& [scale, is_implausible] : {std::pair("1", false), {"25.4", true}, {"1000", true}}) {
+    const Outcome outcome = pack_gen(fmt::format("import {} --container surface --surface {} --scale {} -o {}",
+                                                 folder / "s.csv", folder / "cube.stl", scale, folder / "s.h5"));
+    INFO(outcome.messages);
+    CHECK(outcome.exit_code == 0);
+    CHECK((outcome.messages.find("warning: ") != std::string::npos) == is_implausible);
+    if (is_implausible)
+      CHECK_THAT(outcome.messages,
+                 Catch::Contains(fmt::format("with --scale = {}, the spheres 0.45 x 0.2 x 0.2 mm", scale)));
+  }
 }

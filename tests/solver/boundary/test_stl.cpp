@@ -191,13 +191,23 @@ TEST_CASE("a surface that is not closed and oriented is refused with the number 
   LooseTriangles cube = unit_cube();
   const auto last = cube.back();
   cube.pop_back();
-  contains(refusal(text_stl(cube)), "found 3 edges that belong to one triangle only, one from (");
+  contains(refusal(text_stl(cube)), "found 3 edges that belong to one triangle only, one of triangle ");
   cube.push_back({last[0], last[2], last[1]});
   contains(refusal(text_stl(cube)),
-           "found 3 edges that have two triangles that run along them the same way, one from (");
+           "found 3 edges that have two triangles that run along them the same way, one of triangle ");
   cube.back() = last;
   contains(refusal(text_stl(together(cube, moved(unit_cube(), {1, 1, 0})))),
-           "found 1 edges that belong to more than two triangles, one from (1, 1, ");
+           "found 1 edges that belong to more than two triangles, one of triangle ");
+}
+
+TEST_CASE("a faulty triangle has the number that it has in the file, also behind triangles that are left out") {
+  const Point a{0, 0, 0}, b{1, 0, 0}, c{0, 1, 0}, d{0, 0, 1};
+  const LooseTriangles open{{a, c, b}, {a, b, d}, {b, c, d}}; // without the face c a d
+  contains(refusal(text_stl(open)), "one of triangle 1 from (0, 0, 0) mm to (0, 1, 0) mm");
+  contains(refusal(text_stl(together({{a, a, b}, {b, c, b}}, open))), "one of triangle 3 from (0, 0, 0) mm to (0, 1");
+  const LooseTriangles closed = together(open, {{c, a, d}});
+  contains(refusal(text_stl(together(unit_cube(), inside_out(moved(closed, {3, 0, 0}))))),
+           "the one of triangle 13 at (3, 0, 0)");
 }
 
 TEST_CASE("bodies without volume, shells inside out and bodies in bodies are refused") {

@@ -62,6 +62,13 @@ lower = "lower"
 upper = "upper"
 )";
 
+/// Tools at rest.
+const std::string holding = R"([[stages]]
+name = "hold"
+type = "tools"
+duration = 1e-7
+)";
+
 std::string pressing_to(const std::string& end) {
   return fmt::format(R"([[stages]]
 name = "press"
@@ -195,4 +202,39 @@ TEST_CASE("walls of a container that are no die are refused with what was expect
              Catch::Contains("with the grains inside"));
   CHECK_THAT(refused(die_of_triangles, moved(ball(8, 16, 0.6), {0.21, 0.21, 0.21})),
              Catch::Contains("the cross-section of 'die' changes between the punches"));
+}
+
+TEST_CASE("a die in other units than its scale is refused or warned of, with its size, the packing's and the scale") {
+  const auto run = [](double scale, const char* grains = "inside", const std::string& container = "") {
+    const Folder folder;
+    const std::string die = fmt::format("[[tools]]\nname = \"die\"\ntype = \"stl\"\nfile = \"die.stl\"\n"
+                                        "scale = {}\ngrains = \"{}\"\n",
+                                        scale, grains);
+    prepare(folder, 4, material_text + punches + die + container + holding);
+    // Around the packing's box of 0.42 mm, or far from it.
+    const double low = std::string(grains) == "inside" ? 0 : 3;
+    write_text(folder / "die.stl", text_stl(moved(prism(square, -0.2, 0.7), {low, low, low})));
+    return mpfem_command(fmt::format("run {} -o {}", folder / "scenario.toml", folder / "run.h5"));
+  };
+  const std::string container = "[container]\nwall = \"die\"\nlower = \"lower\"\nupper = \"upper\"\n";
+  for (const std::string& parts : {std::string(), container}) {
+    const Outcome small = run(0.001, "inside", parts);
+    CHECK(small.exit_code == 2);
+    CHECK_THAT(small.messages, Catch::Contains("die.stl spans 0.00042 x 0.00042 x 0.0009 mm with scale = 0.001, the "
+                                               "packing's box 0.42 x 0.42 x 0.42 mm (STL files state no unit: scale "));
+    const Outcome large = run(1000, "inside", parts);
+    CHECK(large.exit_code == 0);
+    CHECK_THAT(large.messages,
+               Catch::Contains("warning: tool 'die' is far larger than the packing: ") &&
+                   Catch::Contains("die.stl spans 420 x 420 x 900 mm with scale = 1000, the packing's"));
+  }
+  const Outcome body = run(0.01, "outside");
+  CHECK(body.exit_code == 0);
+  CHECK_THAT(body.messages, Catch::Contains("warning: tool 'die' is far smaller than the packing: "));
+  for (const char* grains : {"inside", "outside"}) {
+    const Outcome fitting = run(1, grains);
+    INFO(fitting.messages);
+    CHECK(fitting.exit_code == 0);
+    CHECK_THAT(fitting.messages, !Catch::Contains("far "));
+  }
 }
