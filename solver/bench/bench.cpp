@@ -7,7 +7,6 @@
 #include <array>
 #include <cmath>
 #include <filesystem>
-#include <numeric>
 #include <utility>
 #include <vector>
 
@@ -78,6 +77,14 @@ void set_initial_hardening(Model& model) {
       model.blocks);
 }
 
+/// Calls f(position, velocity) for all nodes of the rank's own grains.
+template <class F>
+void for_own_nodes(Model& model, F&& f) {
+  for (const std::int32_t grain : model.own())
+    for (std::size_t n = 4 * at(model.node_offset[at(grain)]); n < 4 * at(model.node_offset[at(grain) + 1]); n += 4)
+      f(&model.position[n], &model.velocity[n]);
+}
+
 /// Walls and grains move inwards by one affine motion from the start.
 void approach_affinely(Simulation& simulation, Scenario& scenario) {
   Model& model = simulation.model_to_disturb();
@@ -85,10 +92,9 @@ void approach_affinely(Simulation& simulation, Scenario& scenario) {
   std::get<IsotropicCompaction>(scenario.stages[0].type).wall_speed =
       0.5 * rate * *std::max_element(model.box_high.begin(), model.box_high.end());
   simulation.begin_stage(0);
-  for (const std::int32_t grain : model.own())
-    for (std::size_t n = 4 * at(model.node_offset[at(grain)]); n < 4 * at(model.node_offset[at(grain) + 1]); n += 4)
-      for (std::size_t axis = 0; axis < 3; ++axis)
-        model.velocity[n + axis] = -rate * (model.position[n + axis] - 0.5 * model.box_high[axis]);
+  for_own_nodes(model, [&](const double* x, double* v) {
+    for (std::size_t axis = 0; axis < 3; ++axis) v[axis] = -rate * (x[axis] - 0.5 * model.box_high[axis]);
+  });
 }
 
 /// The median of three segments of the steps.
@@ -126,36 +132,53 @@ double median_time(int repetitions, const Body& body) {
   return median(seconds);
 }
 
-/// Gives all nodes the velocities of a shear at the rate of the warm-up (isochoric stretching along x).
-void shear(Model& model, double step) {
-  const double rate = strain_per_step / step;
-  for (std::size_t i = 0; i < model.position.size(); i += 4) {
-    const double* x = &model.position[i];
-    double* v = &model.velocity[i];
-    v[0] = rate * x[0], v[1] = -0.5 * rate * x[1], v[2] = -0.5 * rate * x[2];
-  }
+/// Collective. The sum over the ranks of a number, rounded to an integer on each.
+double total(double own, const Communicator& ranks) {
+  std::array<std::int64_t, 1> sum{std::llround(own)};
+  ranks.combine(sum, {});
+  return static_cast<double>(sum[0]);
 }
 
-/// Plastic strains of all tets.
+/// Gives all own nodes the velocities of a shear at the rate of the warm-up (isochoric stretching along x).
+void shear(Model& model, double step) {
+  const double rate = strain_per_step / step;
+  for_own_nodes(model, [&](const double* x, double* v) {
+    v[0] = rate * x[0], v[1] = -0.5 * rate * x[1], v[2] = -0.5 * rate * x[2];
+  });
+}
+
+/// Plastic strains of all own tets.
 std::vector<double> plastic_strains(const Model& model) {
   std::vector<double> all;
   for_each_tet(model, [&](const auto& block, int lane, std::size_t) { all.push_back(block.plastic_strain[lane]); });
   return all;
 }
 
-ElementCost measure_elements(Model& model, double step, ThreadTeam& team) {
+/// Collective. The time is that of the slowest rank while all compute.
+ElementCost measure_elements(Model& model, double step, ThreadTeam& team, const Communicator& ranks) {
   shear(model, step);
-  const auto pass = [&] { team.for_each(model.grains, [&](int g, int) { element_forces(model, g, step); }); };
+  const std::vector<std::int32_t>& own = model.own();
+  const auto pass = [&] {
+    team.for_each(static_cast<int>(own.size()), [&](int i, int) { element_forces(model, own[at(i)], step); });
+  };
   for (int i = 0; i < 200; ++i) pass();
   ElementCost cost;
-  cost.nanoseconds = 1e9 * median_time(31, pass) / model.tets();
+  cost.nanoseconds = 1e9 * ranks.largest(median_time(31, pass)) / model.tets();
   const std::vector<double> before = plastic_strains(model);
   pass();
   const std::vector<double> after = plastic_strains(model);
   std::size_t moved = 0;
   for (std::size_t i = 0; i < before.size(); ++i) moved += after[i] > before[i] ? 1U : 0U;
-  cost.hardening = static_cast<double>(moved) / static_cast<double>(before.size());
+  cost.hardening = total(static_cast<double>(moved), ranks) / model.tets();
   return cost;
+}
+
+/// Collective. What all ranks do at the same time.
+MachineLimits measure_machine(ThreadTeam& team, const Communicator& ranks) {
+  ranks.largest(0); // begin together
+  const double triad = measure_triad(team);
+  ranks.largest(0);
+  return {1e-9 * total(1e9 * triad, ranks), 1e-9 * total(1e9 * measure_fma(team), ranks)};
 }
 
 double peak_memory() {
@@ -193,10 +216,25 @@ OutputCost measure_output(Simulation& simulation, const Scenario& scenario) {
   return cost;
 }
 
-/// To be called between the forces and the advance of a step.
+/// Contact points of nodes of the rank's own grains.
+struct OwnPoints {
+  double active = 0;
+  std::int64_t candidates = 0;
+};
+OwnPoints count_own_points(const Model& model, const Contact& contact) {
+  OwnPoints own;
+  for (std::size_t pair = 0; pair < contact.active.size(); ++pair) {
+    if (!model.ownership.owns(contact.candidates.pair_first[pair])) continue;
+    own.active += contact.active[pair];
+    own.candidates += contact.candidates.pair_point_offset[pair + 1] - contact.candidates.pair_point_offset[pair];
+  }
+  return own;
+}
+
+/// Collective. To be called between the forces and the advance of a step.
 BenchScene describe(Simulation& simulation, const Scenario& scenario, const BenchOptions& options) {
   const Model& model = simulation.model();
-  const Contact& contact = simulation.contact();
+  const OwnPoints points = count_own_points(model, simulation.contact());
   const HistoryRow row = simulation.observe();
   return {.element = element_name(scenario.numerics.element),
           .precision = precision_name(scenario.numerics.precision),
@@ -208,8 +246,9 @@ BenchScene describe(Simulation& simulation, const Scenario& scenario, const Benc
           .steps = options.steps,
           .relative_density = row.relative_density,
           .bonds = row.bonds,
-          .contact_points = std::accumulate(contact.active.begin(), contact.active.end(), 0.0),
-          .candidate_points = contact.candidates.point_node.size()};
+          .contact_points = total(points.active, simulation.ranks()),
+          .candidate_points =
+              static_cast<std::int64_t>(total(static_cast<double>(points.candidates), simulation.ranks()))};
 }
 
 /// The model to measure. Sets the scenario; if the packing is built in, also its end.
@@ -246,17 +285,22 @@ void prepare(const BenchOptions& options, Scenario& scenario, Simulation& simula
   }
 }
 
-/// What is measured with one rank only.
+/// Collective. What a step consists of. Searches and the work of contact are measured with one rank only: several ranks
+/// send each other what these need.
 template <class Say>
-void measure_alone(Simulation& simulation, ThreadTeam& team, BenchResult& result, const Say& say) {
+void measure_parts(Simulation& simulation, ThreadTeam& team, BenchResult& result, const Say& say) {
   const Model& model = simulation.model();
-  result.contact = work_of_contact(simulation.contact());
-  result.search_work = work_of_search(model, simulation.contact().candidates);
-  result.search = measure_search(simulation, team);
+  const Communicator& ranks = simulation.ranks();
+  if (ranks.alone()) {
+    result.contact = work_of_contact(simulation.contact());
+    result.search_work = work_of_search(model, simulation.contact().candidates);
+    result.search = measure_search(simulation, team);
+  }
   say("measuring the element forces");
-  result.elements = measure_elements(simulation.model_to_disturb(), simulation.step_estimate().stable_step(), team);
+  const double step = simulation.step_estimate().stable_step();
+  result.elements = measure_elements(simulation.model_to_disturb(), step, team, ranks);
   say("measuring the machine");
-  result.machine = {measure_triad(team), measure_fma(team)};
+  result.machine = measure_machine(team, ranks);
   result.tet = work_of_tet(model);
   result.integration = work_of_integration(model);
 }
@@ -284,8 +328,9 @@ void run_bench(const BenchOptions& options, const Communicator& ranks) {
   simulation.evaluate_forces();
   result.scene = describe(simulation, scenario, options);
   result.output = measure_output(simulation, scenario);
-  result.memory = peak_memory(); // before the arrays of the triad, which may be larger than the packing
-  if (ranks.alone()) measure_alone(simulation, team, result, say);
+  result.memory_of_root = peak_memory(); // before the arrays of the triad, which may be larger than the packing
+  result.memory = total(result.memory_of_root, ranks);
+  measure_parts(simulation, team, result, say);
   fmt::print("{}", options.json ? json_text(result) : table_text(result));
 }
 

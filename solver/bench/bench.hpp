@@ -26,8 +26,8 @@ struct BenchOptions {
   bool quiet = false;
 };
 
-/// Collective. Measures and prints a table, or one object with `json`. With several ranks only the step and the output
-/// are measured; times of parts are those of the first rank. Throws InputError.
+/// Collective. Measures and prints a table, or one object with `json`. With several ranks, times of parts of a step are
+/// those of the first rank, and contact searches are not measured alone. Throws InputError.
 void run_bench(const BenchOptions& options, const Communicator& ranks = Communicator());
 
 } // namespace mpfem

@@ -98,6 +98,7 @@ void add_element_fields(Fields& fields, const BenchResult& r) {
 void add_contact_fields(Fields& fields, const BenchResult& r) {
   const double contact = r.step.of(Part::contact), search = r.search_per_step();
   fields.push_back(number("contact_ns_per_point", r.per_point(contact)));
+  if (!r.alone()) return;
   add_rate(fields, "contact", contact_rate(r));
   fields.push_back(number("search_ns_per_tet_step", search));
   fields.push_back(number("search_ns_per_point_step", r.per_point(search)));
@@ -120,23 +121,22 @@ void add_rest_fields(Fields& fields, const BenchResult& r) {
 
 void add_fields_of_ranks(Fields& fields, const BenchResult& r) {
   fields.push_back(number("sent_bytes_per_step", r.sent));
-  fields.push_back(number("memory_bytes_of_first_rank", r.memory));
+  fields.push_back(number("memory_bytes_of_first_rank", r.memory_of_root));
 }
 
-std::string scene_of_ranks_text(const BenchResult& r) {
-  const BenchScene& s = r.scene;
+std::string ranks_text(const BenchResult& r) {
   return fmt::format(
-             "scene          {} ranks of {} threads; {} {} tets ({} precision) in {} grains, relative density {:.3f}\n",
-             s.ranks, s.threads, s.tets, s.element, s.precision, s.grains, s.relative_density) +
-         fmt::format("memory         {:.2f} GB at most in the first rank\n", 1e-9 * r.memory) +
-         fmt::format("messages       {:.1f} kB per step from the rank that sends most\n\n", 1e-3 * r.sent);
+      "ranks          {} of them, {:.2f} GB at most in the first; {:.1f} kB of messages per step from the "
+      "one that sends most\n",
+      r.scene.ranks, 1e-9 * r.memory_of_root, 1e-3 * r.sent);
 }
 
 std::string scene_text(const BenchResult& r) {
   const BenchScene& s = r.scene;
   return fmt::format("machine        {} threads, vectors of {} doubles: memory {:.1f} GB/s (triad), arithmetic {:.1f} "
                      "GFlop/s\n",
-                     s.threads, native_lanes, r.machine.triad, r.machine.fma) +
+                     s.ranks * s.threads, native_lanes, r.machine.triad, r.machine.fma) +
+         (r.alone() ? "" : ranks_text(r)) +
          fmt::format("scene          {} {} tetrahedra ({} precision, vectors of {}) in {} grains, relative density "
                      "{:.3f}, {:.0f} contact points in touch out of {} found by the search, {:.0f} bonds\n",
                      s.tets, s.element, s.precision, s.lanes, s.grains, s.relative_density, s.contact_points,
@@ -177,16 +177,18 @@ std::string rate_text(const BenchResult& r) {
                          100 * rate.bytes / r.machine.triad, rate.operations, 100 * rate.operations / r.machine.fma);
   };
   line("element forces alone", element_rate(r));
-  line("contact forces", contact_rate(r));
-  line("contact search", search_rate(r));
+  if (r.alone()) {
+    line("contact forces", contact_rate(r));
+    line("contact search", search_rate(r));
+  }
   line("integration", integration_rate(r));
+  table += fmt::format("per tetrahedron: {:.0f} bytes, {:.0f} operations", r.tet.bytes, r.tet.operations);
   const double points = r.scene.contact_points;
-  table += fmt::format(
-      "per tetrahedron: {:.0f} bytes, {:.0f} operations; per contact point with its bond and the open points near it: "
-      "{:.0f} bytes, {:.0f} operations for its penalty force\n\n",
-      r.tet.bytes, r.tet.operations, points > 0 ? r.contact.bytes / points : 0.0,
-      points > 0 ? r.contact.operations / points : 0.0);
-  return table;
+  if (r.alone())
+    table += fmt::format("; per contact point with its bond and the open points near it: {:.0f} bytes, {:.0f} "
+                         "operations for its penalty force",
+                         points > 0 ? r.contact.bytes / points : 0.0, points > 0 ? r.contact.operations / points : 0.0);
+  return table + "\n\n";
 }
 
 } // namespace
@@ -203,13 +205,10 @@ double BenchResult::output_per_step() const {
 std::string json_text(const BenchResult& result) {
   Fields fields = scene_fields(result.scene);
   add_step_fields(fields, result.step);
-  if (result.scene.ranks == 1) {
-    add_element_fields(fields, result);
-    add_contact_fields(fields, result);
-    add_rest_fields(fields, result);
-  } else {
-    add_fields_of_ranks(fields, result);
-  }
+  add_element_fields(fields, result);
+  add_contact_fields(fields, result);
+  add_rest_fields(fields, result);
+  if (!result.alone()) add_fields_of_ranks(fields, result);
   std::string object = "{";
   for (std::size_t i = 0; i < fields.size(); ++i)
     object += fmt::format("{}\n  \"{}\": {}", i > 0 ? "," : "", fields[i].first, fields[i].second);
@@ -217,13 +216,13 @@ std::string json_text(const BenchResult& result) {
 }
 
 std::string table_text(const BenchResult& r) {
-  if (r.scene.ranks > 1) return scene_of_ranks_text(r) + cost_text(r);
-  return scene_text(r) + cost_text(r) + rate_text(r) +
-         fmt::format(
-             "contact search {:.2f} ms, valid for {:.0f} steps; history row {:.2f} ms; checkpoint {:.2f} s, {:.0f} "
-             "bytes per tetrahedron, {:.2f} GB/s\n",
-             1e3 * r.search.seconds, r.search.steps, 1e3 * r.output.row_seconds, r.output.checkpoint_seconds,
-             r.output.checkpoint_bytes / r.scene.tets, checkpoint_speed(r));
+  const std::string search = r.alone() ? fmt::format("contact search {:.2f} ms, valid for {:.0f} steps; ",
+                                                     1e3 * r.search.seconds, r.search.steps)
+                                       : "";
+  return scene_text(r) + cost_text(r) + rate_text(r) + search +
+         fmt::format("history row {:.2f} ms; checkpoint {:.2f} s, {:.0f} bytes per tetrahedron, {:.2f} GB/s\n",
+                     1e3 * r.output.row_seconds, r.output.checkpoint_seconds, r.output.checkpoint_bytes / r.scene.tets,
+                     checkpoint_speed(r));
 }
 
 } // namespace mpfem

@@ -23,7 +23,7 @@ struct BenchScene {
   double relative_density = 0;
   double bonds = 0;
   double contact_points = 0;
-  std::size_t candidate_points = 0;
+  std::int64_t candidate_points = 0;
 };
 
 /// Cost of a step, in ns per tet and step.
@@ -39,7 +39,7 @@ struct ElementCost {
   double hardening = 0;   ///< fraction of the tets that yielded in the last pass
 };
 
-/// A contact search.
+/// A contact search. All 0 with several ranks.
 struct SearchCost {
   double seconds = 0;
   double steps = 0; ///< that one search lasts at the current speeds of the grains
@@ -51,7 +51,7 @@ struct OutputCost {
   double steps_per_row = 0, checkpoint_interval = 0; ///< s
 };
 
-/// The best that the machine does.
+/// The best that the machine does, or that the machines of all ranks do.
 struct MachineLimits {
   double triad = 0; ///< GB/s
   double fma = 0;   ///< GFlop/s
@@ -65,10 +65,13 @@ struct BenchResult {
   SearchCost search;
   OutputCost output;
   MachineLimits machine;
-  Work tet, contact, search_work, integration; ///< for a tet; all points; a search; all nodes
-  double memory = 0;                           ///< bytes, the peak of the first rank
-  double sent = 0;                             ///< bytes per step, of the rank that sends most
+  Work tet, integration;     ///< for a tet; all nodes
+  Work contact, search_work; ///< for all points; a search. Of one rank only
+  double memory = 0;         ///< bytes, the peaks of all ranks added up
+  double memory_of_root = 0; ///< bytes, the peak of the first rank
+  double sent = 0;           ///< bytes per step, of the rank that sends most
 
+  bool alone() const { return scene.ranks == 1; }
   /// ns per tet, of some seconds.
   double per_tet(double seconds) const { return 1e9 * seconds / scene.tets; }
   /// ns per contact point, of ns per tet; 0 without contact.
