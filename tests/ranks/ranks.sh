@@ -54,6 +54,15 @@ done
 run 13 1 friction crowd
 alike friction-alone crowd
 
+# Another law of bonds, another precision and another element.
+for setting in bond.softening=energy element.precision=mixed element.type=tet4-patch; do
+  run 1 1 loadings one --set "$setting"
+  run 2 1 loadings two --set "$setting"
+  alike one two
+  rm -f one.* two.*
+  echo "$setting: runs of one and two ranks are alike"
+done
+
 # A checkpoint is one file: three ranks begin, one and two go on; four branch from what two have written.
 for scenario in loadings friction tools die shapes; do
   for share in 3 1 2; do
@@ -65,32 +74,66 @@ for scenario in loadings friction tools die shapes; do
   alike "$scenario-alone" parts
   rm -rf parts*
 done
-run 1 1 branch branch-alone --from loadings-alone.cycles.checkpoint.h5
-run 4 1 branch branch-four --from loadings-two.cycles.checkpoint.h5
-alike branch-alone branch-four
 echo "checkpoints go on with other numbers of ranks"
 
-# A rank that is killed takes the others along, and the next call goes on.
-run 2 1 loadings killed >log 2>&1 &
-launcher=$!
-until [[ -e killed.checkpoint.h5 ]]; do sleep 0.02; done
-pkill -KILL -n -f "mpfem run loadings.toml -o killed.h5" || true
-code=0
-wait "$launcher" || code=$?
-[[ $code != 0 ]] || fail "a run with a killed rank ends well"
-run 2 1 loadings killed --resume
-alike loadings-alone killed
+# branches SCENARIO PARENT STAGE OPTIONS...: begin at the end of a stage of PARENT, from what one, two and four ranks
+# have written.
+branches() {
+  local from=$2 stage=$3.checkpoint.h5
+  run 1 1 "$1" branch-alone --from "$from-alone.$stage" "${@:4}"
+  run 4 1 "$1" branch-four --from "$from-two.$stage" "${@:4}"
+  run 2 2 "$1" branch-two --from "$from-four.$stage" "${@:4}"
+  alike branch-alone branch-four
+  alike branch-alone branch-two
+  rm -f branch-*
+}
+branches branch loadings cycles
+branches friction friction compaction --set stages.0.relative_density=0.65
+branches tools tools press
+branches die die press --set stages.0.axial_stress=60
+branches shapes shapes press --set stages.0.axial_stress=45
+echo "branches are alike, with friction and tools too"
 
-# mpirun passes SIGUSR1 on: all save their state together.
-run 2 1 loadings asked >log 2>&1 &
-launcher=$!
-until [[ -e asked.checkpoint.h5 ]]; do sleep 0.02; done
-kill -USR1 "$(pgrep -n -f "$mpiexec -n 2 $bin/mpfem run loadings.toml -o asked.h5")"
-code=0
-wait "$launcher" || code=$?
-[[ $code == 5 ]] || { cat log >&2; fail "exit code $code after SIGUSR1"; }
-run 1 1 loadings asked --resume
-alike loadings-alone asked
+# process_of RANK NAME: the process of one rank of a run.
+process_of() {
+  local process
+  for process in $(pgrep -f "^$bin/mpfem run loadings.toml -o $2.h5 "); do
+    if grep -qzx "OMPI_COMM_WORLD_RANK=$1" "/proc/$process/environ"; then echo "$process"; fi
+  done
+}
+# stopped SIGNAL RANK|launcher CODE TEXT [RANKS]: two ranks run, and one of them or the launcher gets a signal. The run
+# ends with an exit code and a text, no rank is left, and the next call goes on with RANKS (2).
+often=(--set output.checkpoint_interval=0.05) # the first one is there long before the end
+run 1 1 loadings unstopped "${often[@]}"
+stopped() {
+  local name=stopped-$1-$2 launcher process code=0
+  run 2 1 loadings "$name" "${often[@]}" >log 2>&1 &
+  launcher=$!
+  until [[ -e $name.checkpoint.h5 ]]; do
+    kill -0 "$launcher" 2>/dev/null || { cat log >&2; fail "no checkpoint before the end of $name"; }
+    sleep 0.02
+  done
+  if [[ $2 == launcher ]]; then
+    process=$(pgrep -f "^$mpiexec -n 2 $bin/mpfem run loadings.toml -o $name.h5 ")
+  else
+    process=$(process_of "$2" "$name")
+  fi
+  kill "-$1" "$process"
+  wait "$launcher" || code=$?
+  [[ $code == "$3" ]] || { cat log >&2; fail "exit code $code instead of $3 after SIG$1 to $2"; }
+  grep -q "$4" log || { cat log >&2; fail "no '$4' after SIG$1 to $2"; }
+  [[ -z $(pgrep -f "^$bin/mpfem run loadings.toml -o $name.h5 ") ]] || fail "a rank is left after SIG$1 to $2"
+  run "${5:-2}" 1 loadings "$name" "${often[@]}" --resume
+  alike unstopped "$name"
+}
+
+# A rank that is killed takes the other along.
+stopped KILL 0 137 'process rank 0 .* exited on signal 9'
+stopped KILL 1 137 'process rank 1 .* exited on signal 9'
+# All save their state together if one is asked to stop, or the launcher, which passes SIGUSR1 on.
+stopped TERM 0 5 '^mpfem: error: '
+stopped TERM 1 5 '^mpfem: error: '
+stopped USR1 launcher 5 '^mpfem: error: ' 1
 echo "what ends one rank ends all, and the run goes on"
 
 # Grains that find new owners while the run goes on leave no trace.
@@ -138,3 +181,15 @@ ends 2 run 2 1 loadings bad --set packing=packing-cut.h5
 [[ $(mpfem 2 check loadings.toml | grep -c '^packing ') == 1 ]] || fail "check prints more than once"
 [[ $(mpfem 2 bench --tets 2000 --grains 8 --steps 6 --quiet | grep -c '^total ') == 1 ]] || fail "bench fails"
 echo "mistakes are told once"
+
+# What bench tells of several ranks: the packing of one, and every cost but those of a search and the work of contact.
+for ranks in 1 2; do mpfem "$ranks" bench --tets 2000 --grains 8 --steps 6 --json >"bench-$ranks"; done
+packing='"(tets|grains|relative_density|bonds|contact_points|candidate_points|flop_per_tet_step)": '
+diff <(grep -E "$packing" bench-1) <(grep -E "$packing" bench-2) || fail "bench counts otherwise on two ranks"
+keys() { awk -F'"' 'NF > 1 { print $2 }' "$1" | sort; }
+[[ $(comm -23 <(keys bench-1) <(keys bench-2) | grep -vcE '^(contact_G|search_|steps_per_search)') == 0 ]] ||
+  fail "bench leaves out costs of two ranks"
+costs='element_pass_ns|contact_ns|output_ns|history_row|checkpoint_|memory|triad|fma'
+awk -F'[:,]' -v costs="$costs" '$1 ~ costs && !($2 > 0) { print; bad = 1 } END { exit bad }' bench-2 >&2 ||
+  fail "bench measures nothing"
+echo "bench measures ranks too"
