@@ -1,5 +1,6 @@
 #include "solver/boundary/container.hpp"
 
+#include <algorithm>
 #include <numbers>
 
 #include <fmt/format.h>
@@ -23,11 +24,26 @@ CrossSection section_of_bore(const CylinderSurface& bore) {
           2 * std::numbers::pi * r};
 }
 
+/// Throws InputError where the die leaves so much of the space between the punches open that grains would spread. Some
+/// powder may stand above it.
+void check_encloses(const CylinderSurface& bore, const std::string& name, double low, double high) {
+  constexpr double least = 0.75;
+  const double from = bore.centre.z - bore.half_length, to = bore.centre.z + bore.half_length;
+  if (std::min(to, high) - std::max(from, low) >= least * (high - low)) return;
+  throw InputError(
+      fmt::format("container.wall: the tool '{}' reaches from z = {:g} to {:g} mm, but the punches stand at "
+                  "z = {:g} and {:g} mm at the start, allowed: an extent with at least {:g} % of the space "
+                  "between them",
+                  name, from, to, low, high, 100 * least));
+}
+
 } // namespace
 
 Container::Container(const Parts& parts, const Tools& tools) : parts_(parts) {
   const Tool& wall = tools[parts.wall[0]];
   if (const auto* bore = std::get_if<CylinderSurface>(&wall.surface)) {
+    check_encloses(*bore, wall.name, position_of_plane(tools[parts.lower], 2),
+                   position_of_plane(tools[parts.upper], 2));
     die_ = section_of_bore(*bore);
     section_share_ = std::numbers::pi / 4;
     perimeter_over_width_ = {std::numbers::pi, std::numbers::pi};

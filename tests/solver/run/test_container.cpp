@@ -204,6 +204,20 @@ TEST_CASE("walls of a container that are no die are refused with what was expect
              Catch::Contains("the cross-section of 'die' changes between the punches"));
 }
 
+TEST_CASE("a round die that leaves much of the space between the punches open is refused with both places") {
+  const auto die = [](const std::string& extent) {
+    return "[[tools]]\nname = \"die\"\ntype = \"cylinder\"\nextent = [" + extent +
+           "]\n[container]\nwall = \"die\"\nlower = \"lower\"\nupper = \"upper\"\n";
+  };
+  for (const char* extent : {"5, 6", "0.1, 0.3", "-1, 0.2"}) {
+    const Press press(die(extent), "relative_density = 0.6");
+    CHECK(press.outcome.exit_code == 2);
+    CHECK(press.outcome.one_error_line("mpfem"));
+    CHECK_THAT(press.outcome.messages,
+               Catch::Contains("'die' reaches from z = ") && Catch::Contains("the punches stand at z = 0 and 0.42 mm"));
+  }
+}
+
 TEST_CASE("a die in other units than its scale is refused or warned of, with its size, the packing's and the scale") {
   const auto run = [](double scale, const char* grains = "inside", const std::string& container = "") {
     const Folder folder;
