@@ -13,6 +13,7 @@ struct StageResult {
   double hold_error = 0;            ///< MPa, largest deviation of a held stress, averaged over a transit of the box
   double hold_stress = 0;           ///< MPa, the largest stress to be held
   double hold_root_mean_square = 0; ///< MPa, root mean square of the deviation at every step
+  std::string missed{};             ///< the forces of tools that were never reached, and what the tools bear instead
 };
 
 } // namespace mpfem

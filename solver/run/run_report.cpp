@@ -30,7 +30,7 @@ std::vector<double> internal_energy(const std::vector<HistoryRow>& history) {
 std::string stage_end_text(const StageResult& result) {
   std::string text = "ended by " + result.ended_by;
   if (result.overshoot > 0) text += fmt::format("; target stress exceeded by {:.3g} MPa", result.overshoot);
-  if (result.hold_stress > 0)
+  if (result.hold_stress > 0 && result.missed.empty())
     text += fmt::format("; stresses held within {:.3g} MPa ({:.2g} %), {:.3g} MPa root mean square", result.hold_error,
                         100 * result.hold_error / result.hold_stress, result.hold_root_mean_square);
   return text;
@@ -98,6 +98,11 @@ void RunReport::row(const std::vector<HistoryRow>& history, const RowReport& abo
 void RunReport::stage_end(const StageResult& result, const std::vector<HistoryRow>& history, bool damped) const {
   if (quiet_) return;
   note(fmt::format("stage '{}' {}{}", result.name, stage_end_text(result), damped ? damping_text(history) : ""));
+  if (!result.missed.empty())
+    warning(
+        fmt::format("stage '{}' ended before these tools reached the force that they hold: {}; use a longer stage or "
+                    "a larger servo_speed",
+                    result.name, result.missed));
 }
 
 void RunReport::progress(double fraction, const RunPosition& position) {

@@ -172,6 +172,21 @@ HoldQuality ToolLoadingControl::hold_quality() const {
   return quality;
 }
 
+/// "'upper' 12 N instead of 40 N", for the drives that have never reached their push; empty if all have.
+std::string ToolLoadingControl::missed_pushes(const Tools& tools) const {
+  std::string text;
+  for (std::size_t i = 0; i < stage_.drives.size(); ++i) {
+    const ToolDrive& drive = stage_.drives[i];
+    if (!drive.holds_push() || held_[i].reached) continue;
+    const double push = push_along(drive.direction, tools.load(drive.tool));
+    const double per = drive.stress ? start_.cell.area(2) : 1.0;
+    text += fmt::format("{}'{}' {:.3g} {unit} instead of {:g} {unit}", text.empty() ? "" : ", ", tools[drive.tool].name,
+                        push / per, drive.stress ? *drive.stress : *drive.force,
+                        fmt::arg("unit", drive.stress ? "MPa" : "N"));
+  }
+  return text;
+}
+
 void ToolLoadingControl::set_velocities(const StageObservation& observation, double part) {
   for (std::size_t i = 0; i < stage_.drives.size(); ++i) {
     const ToolDrive& drive = stage_.drives[i];
@@ -270,6 +285,7 @@ double ToolLoadingControl::fraction_done(double /*time*/, double /*mean_stress*/
 StageResult ToolLoadingControl::result(const StageObservation& last) const {
   const ToolEnds& ends = stage_.ends;
   StageResult result = with_hold_quality({}, hold_quality());
+  result.missed = missed_pushes(*last.tools);
   switch (state_.ended_by) {
   case ToolEnd::none:
     result.ended_by = "not ended";

@@ -45,6 +45,7 @@ private:
   void set_velocities(const StageObservation& observation, double part);
   ToolEnd find_end(const Seen& seen) const;
   double find_fraction_done(const Seen& seen) const;
+  std::string missed_pushes(const Tools& tools) const;
   double height_at(double density, double area) const;
   double closing_speed() const;
   bool is_away(std::size_t tool) const;

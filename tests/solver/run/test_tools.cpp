@@ -183,11 +183,13 @@ TEST_CASE("The hold error of a tool counts from when it has reached its force, o
   };
   const StageResult held = result_after(6e-5);
   CHECK(within(held.hold_stress, force, rounding));
+  CHECK(held.missed.empty());
   CHECK(held.hold_error > 0); // the ram meets the block at its full speed
   // On the way there the whole force is missing, for 2e-5 of 6e-5 s: that alone would give 0.58.
   CHECK(held.hold_root_mean_square < 0.3 * force);
   const StageResult missed = result_after(1.5e-5);
   CHECK(within(missed.hold_stress, force, rounding));
+  CHECK(missed.missed == "'ram' 0 N instead of 0.4 N");
   CHECK(within(missed.hold_error, force, 0.01)); // an average over a transit, a tenth of that time
 }
 
