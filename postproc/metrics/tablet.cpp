@@ -312,6 +312,10 @@ void add_out_of_die(Tablet& tablet) {
   tablet.add("volume_loss_out_of_die", "1", 1 - filled / density, filled / (density * density) * uncertainty);
   tablet.add("axial_recovery", "1", h.value / tablet.smallest_height - 1, h.half_width / tablet.smallest_height);
   tablet.add("radial_recovery", "1", d.value / tablet.diameter - 1, d.half_width / tablet.diameter);
+  if (density > 1 || h.value < tablet.smallest_height)
+    tablet.note(fmt::format("out of the die the grains seem {}: they lie loose or have rearranged, and thickness, "
+                            "diameter, density and recovery are not those of a tablet",
+                            density > 1 ? "denser than solid" : "flatter than in it"));
   if (shape->grains_lost > 0)
     tablet.note(fmt::format("{} grains have moved by more than half a grain's diameter relative to the others; they "
                             "do not count in thickness and diameter",

@@ -406,6 +406,23 @@ TEST_CASE("numbers that do not follow from a tablet's run are null, and a note s
     CHECK(std::isnan(number(unborne, name)));
 }
 
+TEST_CASE("a note says that grains which lie flatter or denser out of the die than is possible are no tablet") {
+  const Folder folder;
+  TabletCase flat;
+  flat.axial = -0.05;
+  CHECK_THAT(tablet_of(folder, flat, near_faces()).measurement.notes,
+             Catch::VectorContains(std::string("out of the die the grains seem flatter than in it: they lie loose or "
+                                               "have rearranged, and thickness, diameter, "
+                                               "density and recovery are not those of a tablet")));
+  TabletCase dense;
+  dense.axial = -0.2;
+  const TabletMeasurement tablet = tablet_of(folder, dense, near_faces());
+  REQUIRE(number(tablet, "relative_density_out_of_die") > 1);
+  REQUIRE(tablet.measurement.notes.size() == 1);
+  CHECK_THAT(tablet.measurement.notes[0], Catch::Contains("denser than solid"));
+  CHECK(tablet_of(folder, {}, near_faces()).measurement.notes.empty());
+}
+
 TEST_CASE("postproc tablet writes JSON and a table, and refuses what it does not find") {
   const Folder folder;
   write_run(folder / "tablet.h5", tablet_run({}));
