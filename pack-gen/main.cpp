@@ -286,7 +286,8 @@ void add_material(CLI::App& command, StepMaterial& material) {
 }
 
 constexpr const char* help_text =
-    "pack-gen: packs spheres of a size distribution in a box or a cylinder, and meshes them with tetrahedra.\n"
+    "pack-gen: packs spheres of a size distribution in a box, a cylinder or a closed surface, and meshes them with "
+    "tetrahedra.\n"
     "Examples:\n"
     "  pack-gen spheres powder.toml -o spheres.h5 --seed 2\n"
     "  pack-gen spheres powder.toml --container cylinder --diameter 1 --height 1.2 -o spheres.h5\n"

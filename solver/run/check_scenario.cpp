@@ -118,8 +118,8 @@ void print_model(const Scenario& scenario, const Simulation& simulation, const N
                  ? "the grains' smooth surfaces"
                  : fmt::format("the smooth surfaces of {} grains, facets of the others", model.smooth_grains));
   if (scenario.has_friction())
-    fmt::print("friction       {:g} between grains, {:g} at walls\n", scenario.contact.friction,
-               scenario.wall_friction);
+    fmt::print("friction       {:g} between grains{}\n", scenario.contact.friction,
+               scenario.walls ? fmt::format(", {:g} at walls", scenario.wall_friction) : "");
   for (const MaterialPair& pair : scenario.contact.pairs)
     fmt::print("               {:g} between materials {} and {}\n", pair.friction, pair.materials[0],
                pair.materials[1]);
