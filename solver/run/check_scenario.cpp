@@ -125,14 +125,11 @@ void print_model(const Scenario& scenario, const Simulation& simulation, const N
                pair.materials[1]);
   for (const ToolParameters& tool : scenario.tools) print_tool(tool);
   fmt::print("density        {:.4f} (relative density at the start)\n", simulation.relative_density());
-  fmt::print(
-      "memory         {:.1f} MB of model data ({:.0f} bytes per tetrahedron); the run needs about {:.0f} MB at most, "
-      "and {:.0f} MB of disk space\n",
-      1e-6 * static_cast<double>(model.memory()), static_cast<double>(model.memory()) / model.tets(),
-      1e-6 * needs.memory, 1e-6 * needs.disk);
-  if (ranks > 1)
-    fmt::print("               each of {} ranks needs at least {:.0f} MB of memory\n", ranks,
-               1e-6 * memory_of_ranks(needs.memory, 1, ranks));
+  fmt::print("memory         {:.1f} MB of model data ({:.0f} bytes per tetrahedron); {} needs about {:.0f} MB at most, "
+             "and the "
+             "run {:.0f} MB of disk space\n",
+             1e-6 * static_cast<double>(model.memory()), static_cast<double>(model.memory()) / model.tets(),
+             ranks > 1 ? fmt::format("each of {} ranks", ranks) : "the run", 1e-6 * needs.memory, 1e-6 * needs.disk);
 }
 
 void print_step(const StepEstimate::State& step) {
@@ -155,7 +152,7 @@ void print_bonds(const Scenario& scenario, const Simulation& simulation) {
 }
 
 /// The stages, and how long they take on this machine. Advances the simulation by some steps.
-void print_stages(const Scenario& scenario, Simulation& simulation, int threads) {
+void print_stages(const Scenario& scenario, Simulation& simulation, int threads, int ranks) {
   const auto forecasts = forecast(scenario, 0, simulation.stage_run().state().start, simulation.model());
   const auto works = work_of_stages(scenario, forecasts, simulation);
   StageWork all;
@@ -168,10 +165,11 @@ void print_stages(const Scenario& scenario, Simulation& simulation, int threads)
   }
   const MeasuredTimes measured = measure(simulation);
   const double rows = scenario.output.history_rows * static_cast<double>(works.size()) * measured.row;
-  fmt::print("estimate       {:.3g} ms per step measured here on {} threads; {:.0f} steps: {}, with an average step "
+  const std::string of_ranks = ranks > 1 ? fmt::format(" of each of {} ranks", ranks) : "";
+  fmt::print("estimate       {:.3g} ms per step measured here on {} thread{}{}; {:.0f} steps: {}, with an average step "
              "of {:.3g} ms and {:.2g} s for the history\n",
-             1e3 * measured.step, threads, all.steps, wall_time_text(all.cost * measured.step + rows),
-             1e3 * measured.step * all.cost / all.steps, rows);
+             1e3 * measured.step, threads, threads == 1 ? "" : "s", of_ranks, all.steps,
+             wall_time_text(all.cost * measured.step + rows), 1e3 * measured.step * all.cost / all.steps, rows);
 }
 
 } // namespace
@@ -179,7 +177,7 @@ void print_stages(const Scenario& scenario, Simulation& simulation, int threads)
 void check_scenario(const Scenario& scenario, const CheckOptions& options, const Communicator& ranks) {
   Needs needs;
   std::vector<std::string> warnings;
-  root_does(ranks, [&] { needs = needs_of(scenario); });
+  root_does(ranks, [&] { needs = needs_of(scenario, ranks.size()); });
   if (const std::string scarce = check_memory(scenario.packing_file, needs.memory, ranks); !scarce.empty())
     warnings.push_back(scarce);
   std::ranges::copy(implausible_values(scenario), std::back_inserter(warnings));
@@ -198,7 +196,7 @@ void check_scenario(const Scenario& scenario, const CheckOptions& options, const
   if (const std::string text = mass_scaling_text(scenario, simulation.model()); !text.empty())
     fmt::print("masses         {}\n", text);
   print_bonds(scenario, simulation);
-  print_stages(scenario, simulation, options.threads);
+  print_stages(scenario, simulation, options.threads, ranks.size());
 }
 
 } // namespace mpfem

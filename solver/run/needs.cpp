@@ -44,20 +44,40 @@ std::string size_text(double bytes) {
   return bytes < 1e9 ? fmt::format("{:.0f} MB", 1e-6 * bytes) : fmt::format("{:.3g} GB", 1e-9 * bytes);
 }
 
-double memory_of(const PackingCounts& packing, const Scenario& scenario) {
+/// Share of all grains that one of `ranks` holds, its ghosts included: those of the layer around its own, without that
+/// at the packing's surface (docs/performance.md has the ghosts of 10,000 grains).
+double share_of_grains_held(double grains, int ranks) {
+  const double own = grains / ranks, around = 6 * std::min(own, std::pow(own, 2.0 / 3.0));
+  return std::min(1.0, (own + around * (1 - std::pow(ranks, -1.0 / 3.0))) / grains);
+}
+
+/// Share of an array's memory pages that a rank touches if it holds this share of the grains, each with so many bytes
+/// of the array. Grains are numbered without regard to their places, so a page has grains of several ranks.
+double share_of_pages(double held, double bytes_of_grain) {
+  constexpr double page = 4096; // bytes
+  return 1 - std::pow(1 - held, 1 + page / bytes_of_grain);
+}
+
+/// Bytes of one rank.
+double memory_of(const PackingCounts& packing, const Scenario& scenario, int ranks) {
   const NumericsParameters& numerics = scenario.numerics;
   // Position, velocity, force and normal; inverse mass, reference area, number in the file; volume and mean of averaged
   // pressure; the inner node and its share where contact is by the smooth surface.
-  double node = 4 * 4 * sizeof(double) + 2 * sizeof(double) + sizeof(std::int32_t);
+  constexpr double row = 4 * sizeof(double);
+  double node = 4 * row + 2 * sizeof(double) + sizeof(std::int32_t);
   if (numerics.element == ElementType::tet4_anp) node += 2 * sizeof(double);
   if (scenario.contact.surface != ContactSurface::facets) node += sizeof(std::int32_t) + sizeof(double);
+  const double block = numerics.precision == Precision::mixed ? bytes_of_tet<float>() : bytes_of_tet<double>();
   // Its number in the file, and the copy of one array for a checkpoint.
-  const double tet = (numerics.precision == Precision::mixed ? bytes_of_tet<float>() : bytes_of_tet<double>()) +
-                     sizeof(std::int32_t) + sizeof(double);
+  const double tet = block + sizeof(std::int32_t) + sizeof(double);
   const double facet = 3 * sizeof(std::int32_t) + of_contact + (scenario.bond ? of_bonds : 0.0) +
                        (scenario.contact.has_friction() ? of_friction : 0.0);
   const double rows = scenario.output.history_rows * static_cast<double>(scenario.stages.size());
-  return of_program + tet * number(packing.all_tets()) + node * number(packing.nodes) + facet * packing.facets() +
+  const double tets = number(packing.all_tets()), nodes = number(packing.nodes);
+  const double grains = std::max(1.0, static_cast<double>(packing.tets.size()));
+  const double held = share_of_grains_held(grains, ranks);
+  return of_program + tet * tets * share_of_pages(1.0 / ranks, block * tets / grains) +
+         node * nodes * share_of_pages(held, row * nodes / grains) + facet * packing.facets() * held +
          2 * sizeof(HistoryRow) * rows;
 }
 
@@ -93,20 +113,16 @@ std::string compare(const std::string& purpose, const char* what, double needed,
 
 } // namespace
 
-Needs needs_of(const PackingCounts& packing, const Scenario& scenario) {
-  return {memory_of(packing, scenario), disk_of(packing, scenario)};
+Needs needs_of(const PackingCounts& packing, const Scenario& scenario, int ranks) {
+  return {memory_of(packing, scenario, ranks), disk_of(packing, scenario)};
 }
 
-Needs needs_of(const Scenario& scenario) {
+Needs needs_of(const Scenario& scenario, int ranks) {
   try {
-    return needs_of(read_packing_counts(scenario.packing_file), scenario);
+    return needs_of(read_packing_counts(scenario.packing_file), scenario, ranks);
   } catch (const InputError& error) {
     throw InputError(fmt::format("{}key 'packing': {}", scenario.places.prefix("packing"), error.what()));
   }
-}
-
-double memory_of_ranks(double of_one, int here, int ranks) {
-  return here * (of_program + (of_one - of_program) / ranks);
 }
 
 double available_disk_space(const std::string& file) {
@@ -122,8 +138,8 @@ std::string check_needs(const std::string& purpose, const Needs& needs, const Ne
   return memory.empty() || disk.empty() ? memory + disk : memory + "; " + disk;
 }
 
-std::string check_memory(const std::string& purpose, double of_one, const Communicator& ranks) {
-  const double needed = memory_of_ranks(ranks.largest(of_one), ranks_on_this_machine(ranks), ranks.size());
+std::string check_memory(const std::string& purpose, double of_rank, const Communicator& ranks) {
+  const double needed = ranks_on_this_machine(ranks) * ranks.largest(of_rank);
   std::string scarce;
   agree(ranks, [&] { scarce = check_needs(purpose, {.memory = needed}, {.memory = available_memory()}); });
   return scarce;

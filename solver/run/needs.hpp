@@ -11,20 +11,16 @@ namespace mpfem {
 
 /// Bytes.
 struct Needs {
-  double memory = 0; ///< the most that is resident at a time
+  double memory = 0; ///< of one rank: the most that is resident at a time
   double disk = 0;   ///< the most that the run's files take at a time
 };
-/// What a run of the scenario needs at most, in the dense packing.
-Needs needs_of(const PackingCounts& packing, const Scenario& scenario);
+/// What a run of the scenario needs at most, in the dense packing, on `ranks` of equal shares. Of several ranks each
+/// needs more than its share, because memory pages hold grains of more than one.
+Needs needs_of(const PackingCounts& packing, const Scenario& scenario, int ranks = 1);
 
 /// The same, with the numbers of the scenario's packing. Throws InputError at the key 'packing' if its file cannot be
 /// read as a packing.
-Needs needs_of(const Scenario& scenario);
-
-/// Bytes of memory that `here` of all `ranks` of a run need together at least, if one process alone would need
-/// `of_one`: each has the program, and its share of the rest. They need more if memory pages hold grains of several
-/// ranks.
-double memory_of_ranks(double of_one, int here, int ranks);
+Needs needs_of(const Scenario& scenario, int ranks = 1);
 
 /// Bytes that may be written to the folder of a file. Infinite if the system does not tell.
 double available_disk_space(const std::string& file);
@@ -34,7 +30,7 @@ double available_disk_space(const std::string& file);
 std::string check_needs(const std::string& purpose, const Needs& needs, const Needs& available);
 
 /// Collective. The same for the memory of this rank's machine, which all its ranks share; all ranks throw if that of
-/// one machine is too little. `of_one`: bytes that one process alone would need, known to the first rank, 0 on others.
-std::string check_memory(const std::string& purpose, double of_one, const Communicator& ranks);
+/// one machine is too little. `of_rank`: bytes that each rank needs, known to the first rank, 0 on others.
+std::string check_memory(const std::string& purpose, double of_rank, const Communicator& ranks);
 
 } // namespace mpfem

@@ -121,7 +121,7 @@ void run_scenario(const Scenario& scenario, const RunOptions& given, const Commu
   Whole whole{.report = RunReport(ranks.is_root(), options.quiet)};
   root_does(ranks, [&] {
     check_output(scenario, options);
-    whole.needs = needs_of(scenario);
+    whole.needs = needs_of(scenario, ranks.size());
     if (options.keeps_earlier_run) refuse_other_files(options.output);
   });
   if (const std::string scarce = check_memory(options.output, whole.needs.memory, ranks);
