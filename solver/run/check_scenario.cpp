@@ -126,10 +126,10 @@ void print_model(const Scenario& scenario, const Simulation& simulation, const N
   for (const ToolParameters& tool : scenario.tools) print_tool(tool);
   fmt::print("density        {:.4f} (relative density at the start)\n", simulation.relative_density());
   fmt::print("memory         {:.1f} MB of model data ({:.0f} bytes per tetrahedron); {} needs about {:.0f} MB at most, "
-             "and the "
-             "run {:.0f} MB of disk space\n",
+             "and {}{:.0f} MB of disk space\n",
              1e-6 * static_cast<double>(model.memory()), static_cast<double>(model.memory()) / model.tets(),
-             ranks > 1 ? fmt::format("each of {} ranks", ranks) : "the run", 1e-6 * needs.memory, 1e-6 * needs.disk);
+             ranks > 1 ? fmt::format("each of {} ranks", ranks) : "the run", 1e-6 * needs.memory,
+             ranks > 1 ? "all together " : "", 1e-6 * needs.disk);
 }
 
 void print_step(const StepEstimate::State& step) {
