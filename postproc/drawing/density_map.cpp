@@ -149,7 +149,7 @@ void write_density_picture(const std::string& path, const DensityMap& map, const
                        {.view = {{0, 0}, {map.radius, map.height}},
                         .title = title.empty() ? fmt::format("solid fraction {:.3f}", map.density) : title,
                         .x_label = "distance from the axis (mm)",
-                        .y_label = "height above the lower punch (mm)",
+                        .y_label = "height (mm)",
                         .bar = ColourBar{{low, high}, "solid fraction"},
                         .pixels = pixels});
 }
