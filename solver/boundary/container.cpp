@@ -41,14 +41,13 @@ void check_encloses(const CylinderSurface& bore, const std::string& name, double
 
 Container::Container(const Parts& parts, const Tools& tools) : parts_(parts) {
   const Tool& wall = tools[parts.wall[0]];
+  const double low = position_of_plane(tools[parts.lower], 2), high = position_of_plane(tools[parts.upper], 2);
   if (const auto* bore = std::get_if<CylinderSurface>(&wall.surface)) {
-    check_encloses(*bore, wall.name, position_of_plane(tools[parts.lower], 2),
-                   position_of_plane(tools[parts.upper], 2));
+    check_encloses(*bore, wall.name, low, high);
     die_ = section_of_bore(*bore);
     section_share_ = std::numbers::pi / 4;
     perimeter_over_width_ = {std::numbers::pi, std::numbers::pi};
   } else if (const auto* body = std::get_if<BodySurface>(&wall.surface)) {
-    const double low = position_of_plane(tools[parts.lower], 2), high = position_of_plane(tools[parts.upper], 2);
     die_ = section_of_prism(*body->mesh, low, high);
     if (!die_)
       throw InputError(fmt::format("container.wall: the cross-section of '{}' changes between the punches (z = {:g} to "
