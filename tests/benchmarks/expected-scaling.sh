@@ -42,10 +42,11 @@ table() { # STEP ELEMENTS
     function inside(n) { return n > at_border(n) / 2 ? tets * elements * (n - at_border(n) / 2) : 0 }'
 }
 
+measured=(3.4 1.8)
 if [[ ${1-} == --check ]]; then
-  table 3.4 1.8 | grep '^| efficiency' | while IFS= read -r row; do
+  table "${measured[@]}" | grep '^| efficiency' | while IFS= read -r row; do
     grep -qxF -- "$row" "$2" || { echo "expected-scaling.sh: $2 has not the row $row" >&2; exit 1; }
   done
 else
-  table "${1:-3.4}" "${2:-1.8}"
+  table "${1:-${measured[0]}}" "${2:-${measured[1]}}"
 fi
