@@ -152,6 +152,10 @@ CLI::App* add_run(CLI::App& app, Arguments& arguments) {
   run->add_option("-o,--output", arguments.run.output, "Run file to write (HDF5)")->required();
   run->add_flag("--resume", arguments.run.resume, "Continue from the run's checkpoint if there is one");
   run->add_option("--from", arguments.from, "Start from the state in this checkpoint")->check(existing_file());
+  add_choice(
+      *run, "--redistribute", arguments.run.redistribute,
+      {{"when-it-pays", Redistribute::when_it_pays}, {"never", Redistribute::never}, {"always", Redistribute::always}},
+      "Whether grains change ranks at checkpoints: by measured work; never; all of them, as a trial");
   add_number(*run, "--time-limit", arguments.run.time_limit, Range::between(1e-9, 1e9), "s",
              "Stop after this wall-clock time of steps; reading the packing comes before. --resume continues");
   return run;

@@ -2,6 +2,7 @@
 // Whether the ranks have equal shares of the measured work, and how the grains are redistributed if not.
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "solver/model/model.hpp"
@@ -22,8 +23,13 @@ Balance measure_balance(const Communicator& ranks, const Model& model, double bu
 /// weight of a grain is what its tets have cost its current owner.
 std::vector<std::int32_t> redistribute(const Communicator& ranks, const Model& model, const Balance& balance);
 
-/// Whether redistributing pays: it saves more than twice what it costs (`reload`, s). `remaining`: s that the rest of
+/// Busy time of the busiest rank over the mean if the grains belonged to `owner` ([grains]), and their tets cost what
+/// they have cost so far.
+double expected_imbalance(const Model& model, const Balance& balance, std::span<const std::int32_t> owner);
+
+/// Whether redistributing pays: the busiest rank then has less work by more than `balance` is known to, and that saves
+/// more than twice what it costs (`reload`, s). `expected`: the imbalance afterwards. `remaining`: s that the rest of
 /// the run takes if nothing changes.
-bool pays(const Balance& balance, double remaining, double reload);
+bool pays(const Balance& balance, double expected, double remaining, double reload);
 
 } // namespace mpfem

@@ -6,6 +6,13 @@
 
 namespace mpfem {
 
+/// When grains change their owners while several ranks run (redistribution.hpp).
+enum class Redistribute {
+  when_it_pays, ///< by the measured work of the ranks
+  never,
+  always ///< all of them at every checkpoint in between: a trial that results do not depend on owners
+};
+
 /// Options of `mpfem run`.
 struct RunOptions {
   std::string output;              ///< RUN.h5
@@ -16,6 +23,7 @@ struct RunOptions {
   std::optional<std::string> from; ///< begin the first stage from this checkpoint's state
   int threads = 1;
   bool quiet = false;
+  Redistribute redistribute = Redistribute::when_it_pays;
   double time_limit = 0; ///< s of wall-clock time from the first step on, 0 none
 };
 

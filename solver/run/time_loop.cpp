@@ -12,7 +12,7 @@ TimeLoop::TimeLoop(Simulation& simulation, RunRecords& records, const Continuati
     : options_(options), ranks_(simulation.ranks()), simulation_(simulation), records_(records),
       continuation_(continuation), report_(report), energy_check_(simulation.model(), records.history()),
       checkpoints_(simulation, records, options), pace_(simulation, origin),
-      redistribution_(simulation, report, preparation) {}
+      redistribution_(simulation, report, options.redistribute, preparation) {}
 
 Owners TimeLoop::run() {
   try {

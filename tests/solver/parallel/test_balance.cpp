@@ -40,12 +40,24 @@ TEST_CASE("The imbalance of ranks is the largest share of the work over the mean
   REQUIRE(ranks > 1);
   const Balance even = measure_balance(test_ranks(), model, 2.0);
   CHECK(within(even.imbalance, 1, rounding));
-  CHECK_FALSE(pays(even, 1e9, 0));
+  CHECK_FALSE(pays(even, 1, 1e9, 0));
   // The first rank works three times as long: 3 over (3 + (n - 1)) / n.
   const Balance uneven = measure_balance(test_ranks(), model, test_ranks().is_root() ? 3.0 : 1.0);
   CHECK(within(uneven.imbalance, 3.0 * ranks / (2 + ranks), rounding));
-  CHECK(pays(uneven, 100, 1));
-  CHECK_FALSE(pays(uneven, 1, 1));
+  CHECK(pays(uneven, 1, 100, 1));
+  CHECK_FALSE(pays(uneven, 1, 1, 1));
+  CHECK_FALSE(pays(uneven, uneven.imbalance, 1e9, 0));
+}
+
+TEST_CASE("Grains that cannot be divided more evenly stay where they are", "[.several-ranks]") {
+  const Model model = model_of_eight_grains();
+  // Equal grains with equal costs: three ranks have 3, 3 and 2 of eight, which no division betters.
+  const double own = static_cast<double>(model.own().size());
+  const Balance balance = measure_balance(test_ranks(), model, own);
+  const auto owner = redistribute(test_ranks(), model, balance);
+  CHECK(within(expected_imbalance(model, balance, model.ownership.owner), balance.imbalance, rounding));
+  CHECK(expected_imbalance(model, balance, owner) >= balance.imbalance * (1 - rounding));
+  CHECK_FALSE(pays(balance, expected_imbalance(model, balance, owner), 1e9, 0));
 }
 
 TEST_CASE("A rank that is three times as slow hands over work", "[.several-ranks]") {
@@ -64,6 +76,8 @@ TEST_CASE("A rank that is three times as slow hands over work", "[.several-ranks
     return *std::ranges::max_element(busy);
   };
   CHECK(busiest(owner) <= busiest(model.ownership.owner));
+  CHECK(within(expected_imbalance(model, balance, owner) / balance.imbalance,
+               busiest(owner) / busiest(model.ownership.owner), rounding));
   // Two ranks: grains of weight 3, 3, 3, 3, 1, 1, 1, 1 are cut to at most 9 of 16.
   if (ranks == 2) CHECK(busiest(owner) <= 0.75 * busiest(model.ownership.owner) * (1 + rounding));
 }
