@@ -227,3 +227,11 @@ TEST_CASE("triangles without area that no flip mends are refused") {
   folded.push_back({b, a, m});
   contains(refusal(text_stl(folded)), "edges that belong to more than two triangles");
 }
+
+TEST_CASE("a flip that lays two triangles on two others is refused") {
+  // A tetrahedron without height: its triangle a b m has no area, and the edge m d that a flip makes is there already.
+  const Point a{0, 0, 0}, b{1, 0, 0}, d{0, 0, 1}, m{0.5, 0, 0};
+  const LooseTriangles flat{{a, b, m}, {b, a, d}, {m, b, d}, {a, m, d}};
+  contains(refusal(text_stl(together(unit_cube(), moved(flat, {3, 0, 0})))),
+           "found 1 edges that belong to more than two triangles, one of triangle ");
+}
