@@ -14,7 +14,7 @@
 #include "solver/hand_over.hpp"
 #include "solver/parallel/on_all_ranks.hpp"
 #include "solver/parallel/root.hpp"
-#include "solver/parallel/same_build.hpp"
+#include "solver/parallel/same_on_all_ranks.hpp"
 #include "solver/parallel/share_of_cores.hpp"
 #include "solver/run/bond_programme.hpp"
 #include "solver/run/build_text.hpp"
@@ -174,6 +174,13 @@ CLI::App* add_check(CLI::App& app, Arguments& arguments) {
   return check;
 }
 
+/// What all ranks of a run have to agree on, line by line; each may have its own number of threads.
+std::string orders(const Arguments& arguments, const Scenario& scenario) {
+  return fmt::format("--output '{}'\n--from '{}'\n--resume {}\n--time-limit {}\n--redistribute {}\n{}",
+                     arguments.run.output, arguments.from, arguments.run.resume, arguments.run.time_limit,
+                     static_cast<int>(arguments.run.redistribute), scenario.text);
+}
+
 void measure_steps(const Arguments& arguments, BenchOptions options, const Communicator& ranks) {
   if (!arguments.scenario.empty()) options.scenario = load_scenario(arguments);
   if (!arguments.from.empty()) options.from = arguments.from;
@@ -203,6 +210,7 @@ int run_command(int argc, char** argv, const Communicator& ranks) {
   if (bench->parsed()) measure_steps(arguments, bench_options, ranks);
   if (!run->parsed() && !check->parsed()) return 0;
   const Scenario scenario = load_scenario(arguments);
+  refuse_differences(ranks, orders(arguments, scenario), "one scenario and one command on all ranks");
   if (!arguments.from.empty()) arguments.run.from = arguments.from;
   arguments.run.scenario_file = arguments.scenario;
   if (run->parsed()) run_scenario(scenario, arguments.run, ranks);
