@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "common/errors.hpp"
+#include "postproc/drawing/ticks.hpp"
 #include "postproc/files/gnuplot.hpp"
 #include "postproc/files/text_file.hpp"
 
@@ -32,6 +33,12 @@ std::string bar_script(const ColourBar& bar, const View& place, double letter_he
       script += fmt::format("set label {} at screen {},{} center noenhanced\n", gnuplot_string(text),
                             0.5 * (left + right), y);
   return script;
+}
+
+/// Ticks of an axis that is `pixels` long, so that each has `room` (pixels) for its label.
+std::string ticks_script(const std::string& axis, std::pair<double, double> range, int pixels, int room) {
+  constexpr int most = 8;
+  return fmt::format("set {}tics {:g}\n", axis, tick_distance(range, std::clamp(pixels / room, 1, most)));
 }
 
 } // namespace
@@ -70,7 +77,11 @@ void write_raster_picture(const std::string& path, const Raster& raster, const F
   script += fmt::format(
       "set lmargin at screen {}\nset rmargin at screen {}\nset bmargin at screen {}\nset tmargin at screen {}\n",
       left / width, (left + raster.width) / width, bottom / height, (bottom + raster.height) / height);
+  // A label is up to five letters wide. gnuplot does not see where labels meet.
+  script += ticks_script("x", {view.low[0], view.high[0]}, raster.width, scaled(95));
+  script += ticks_script("y", {view.low[1], view.high[1]}, raster.height, scaled(45));
   if (frame.bar) {
+    script += ticks_script("cb", frame.bar->range, raster.height, scaled(45));
     const double bar_left = left + raster.width + scaled(35), bar_right = bar_left + scaled(40);
     script += bar_script(*frame.bar,
                          {{bar_left / width, bottom / height}, {bar_right / width, (bottom + raster.height) / height}},

@@ -8,6 +8,7 @@
 #include <fmt/ranges.h>
 
 #include "common/errors.hpp"
+#include "postproc/drawing/ticks.hpp"
 #include "postproc/figure/key_place.hpp"
 #include "postproc/files/gnuplot.hpp"
 
@@ -339,14 +340,6 @@ std::string reference_lines(const PlotSpec& plot) {
   return text;
 }
 
-/// A round distance between ticks, so that about three fit.
-std::string few_ticks(double low, double high) {
-  const double third = (high - low) / 3, power = std::pow(10, std::floor(std::log10(third)));
-  for (const double digit : {1, 2, 5})
-    if (third <= digit * power) return fmt::format("{:g}", digit * power);
-  return fmt::format("{:g}", 10 * power);
-}
-
 /// The x axis of an inset. Limits that are not given come from the rows that the inset shows, with a margin.
 AxisSpec inset_x(const PlotSpec& plot, FigureData& data) {
   AxisSpec axis = plot.inset->x;
@@ -364,7 +357,7 @@ AxisSpec inset_x(const PlotSpec& plot, FigureData& data) {
   const double margin = 0.08 * (*high - *low);
   axis.low = axis.low.value_or((*low - margin) * s.x_scale);
   axis.high = axis.high.value_or((*high + margin) * s.x_scale);
-  if (axis.ticks.empty() && *axis.high > *axis.low) axis.ticks = few_ticks(*axis.low, *axis.high);
+  if (axis.ticks.empty() && *axis.high > *axis.low) axis.ticks = fmt::format("{:g}", tick_distance({*axis.low, *axis.high}, 3));
   return axis;
 }
 

@@ -32,6 +32,7 @@
 
 #include "common/errors.hpp"
 #include "common/output_file.hpp"
+#include "postproc/drawing/ticks.hpp"
 #include "postproc/picture/heading.hpp"
 #include "postproc/picture/offscreen_window.hpp"
 

@@ -256,15 +256,4 @@ ShownBox united(const ShownBox& a, const ShownBox& b) {
   return {a.low.cwiseMin(b.low), a.high.cwiseMax(b.high)};
 }
 
-std::vector<double> round_ticks(std::pair<double, double> range, int most) {
-  const double width = range.second - range.first;
-  double step = std::pow(10.0, std::floor(std::log10(width / most)));
-  for (const double factor : {2.0, 2.5, 2.0}) // 1, 2, 5, 10
-    if (width / step > most) step *= factor;
-  std::vector<double> ticks;
-  for (double k = std::ceil(range.first / step - 1e-9); k * step <= range.second + 1e-9 * width; ++k)
-    ticks.push_back(k * step + 0.0); // no -0
-  return ticks;
-}
-
 } // namespace mpfem

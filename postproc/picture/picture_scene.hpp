@@ -109,7 +109,4 @@ ShownBox bounds_of(const PictureScene& scene);
 /// The smallest box around both.
 ShownBox united(const ShownBox& a, const ShownBox& b);
 
-/// Round values for the ticks of a scale, spaced by 1, 2 or 5 times a power of ten; at most `most` + 1 of them.
-std::vector<double> round_ticks(std::pair<double, double> range, int most);
-
 } // namespace mpfem

@@ -23,6 +23,7 @@ postproc/picture: common results-schema postproc/run_data postproc/files postpro
 postproc/view: common results-schema postproc/run_data postproc/files postproc/drawing postproc/picture
 postproc/watch: common results-schema postproc/run_data
 postproc/figure: common results-schema postproc/fits postproc/run_data postproc/files postproc/metrics postproc/view
+postproc/figure: postproc/drawing
 postproc/commands: common results-schema postproc/fits postproc/run_data postproc/files postproc/metrics
 postproc/commands: postproc/drawing postproc/view postproc/watch
 solver/physics:

@@ -6,6 +6,7 @@
 #include <catch2/catch.hpp>
 
 #include "bonded_run.hpp"
+#include "postproc/drawing/ticks.hpp"
 #include "postproc/picture/heading.hpp"
 #include "postproc/picture/view_frame.hpp"
 #include "small_run.hpp"
