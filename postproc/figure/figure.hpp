@@ -84,7 +84,7 @@ struct TableSpec {
   std::vector<std::string> curves; ///< runs whose histories are joined in this order; empty: one row per case
   std::string list;                ///< "RUN/METRIC": all rows of the CSV file that the metric writes next to its JSON
   std::vector<Filter> keep;        ///< by columns; other rows are left out
-  std::optional<int> stage;        ///< of the curves; empty: all rows
+  std::vector<int> stages;         ///< of the curves; empty: all rows
   int digits = 6;                  ///< significant digits of the curves' numbers
   bool distinct = false;           ///< equal rows, or curves of the same runs, appear once
   std::string file;                ///< a CSV file with these columns, instead of all the above

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <fstream>
 #include <functional>
+#include <set>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -188,13 +189,14 @@ void add_curve(TextTable& table, const TableSpec& spec, const Words& values, con
   const schema::FileReader file(path, schema::FileKind::run);
   const HistoryTable history(file);
   const auto stages = stages_of(history, scenario_facts(file));
-  const StageRows* stage = spec.stage ? &stage_by_number(stages, *spec.stage, path) : nullptr;
+  std::set<int> wanted;
+  for (const int stage : spec.stages) wanted.insert(stage_by_number(stages, stage, path).number);
   std::vector<std::function<double(const HistoryRow&)>> sources;
   for (const ColumnSpec& column : spec.columns)
     sources.push_back(column.history.empty() ? nullptr : curve_column(history, column.history, spec.place));
   const auto& number = history["stage"];
   for (std::size_t row = 0; row < history.rows(); ++row) {
-    if (stage && number[row] != stage->number) continue;
+    if (!wanted.empty() && !wanted.contains(static_cast<int>(number[row]))) continue;
     std::size_t begin = 0;
     for (const StageRows& s : stages)
       if (s.number == number[row]) begin = s.first;

@@ -88,6 +88,17 @@ std::vector<std::string> with_lists(const std::vector<std::string>& columns, con
   return texts;
 }
 
+/// The stages whose rows a table of curves has: `stage = N` or `stages = [N, …]`; empty: all.
+std::vector<int> read_stages(TableReader& reader) {
+  constexpr Range whole_numbers = Range::between(-1e6, 1e6);
+  if (reader.has("stage")) return {static_cast<int>(reader.integer("stage", whole_numbers))};
+  std::vector<int> stages;
+  if (reader.has("stages"))
+    for (const std::int64_t number : reader.integers("stages", whole_numbers))
+      stages.push_back(static_cast<int>(number));
+  return stages;
+}
+
 } // namespace
 
 TableSpec read_table(Texts& t, const ColumnLists& lists) {
@@ -100,7 +111,7 @@ TableSpec read_table(Texts& t, const ColumnLists& lists) {
   spec.curves = t.list("curves");
   spec.list = t.optional("list");
   spec.keep = t.filters("keep");
-  if (t.reader().has("stage")) spec.stage = static_cast<int>(t.reader().integer("stage"));
+  spec.stages = read_stages(t.reader());
   spec.digits = static_cast<int>(t.reader().integer_or("digits", 6, Range::between(1, 17)));
   spec.distinct = t.reader().boolean_or("distinct", false);
   spec.spread = t.list("spread");

@@ -287,6 +287,38 @@ columns = ["p [MPa] = mean_stress", "ke [1] = kinetic_ratio", "axial [MPa] = axi
   CHECK(within(*make_table(figure, figure.tables[0], toolkit.results()).rows[2][1].number, 0.02 / 8, 1e-6));
 }
 
+TEST_CASE("a curve has the rows of the stages that its table lists") {
+  const Toolkit toolkit;
+  const auto stages_of_rows = [&](const std::string& stages) {
+    const Figure figure = toolkit.figure(fmt::format(R"(title = "x"
+[[cases]]
+sample = ["a"]
+[[runs]]
+name = "pressed"
+folder = "{{sample}}"
+programme = "press"
+[[tables]]
+name = "t"
+curves = ["pressed"]
+columns = ["stage [1] = stage"]
+{}
+)",
+                                                     stages));
+    std::vector<double> rows;
+    for (const auto& row : make_table(figure, figure.tables[0], toolkit.results()).rows) rows.push_back(*row[0].number);
+    return rows;
+  };
+  RunContents run = small_run();
+  run.numbers["/history/stage"] = {0, 1, 2};
+  std::filesystem::create_directories(toolkit.path("out/a"));
+  write_run(toolkit.path("out/a/run.h5"), run);
+  CHECK(stages_of_rows("") == std::vector<double>{0, 1, 2});
+  CHECK(stages_of_rows("stage = 1") == std::vector<double>{1});
+  CHECK(stages_of_rows("stages = [0, -1]") == std::vector<double>{0, 2});
+  CHECK_THROWS_WITH(stages_of_rows("stages = [0, 3]"), Contains("found 3, allowed: 0, 1, 2"));
+  CHECK_THROWS_WITH(stages_of_rows("stage = 0\nstages = [1]"), Contains("unknown key 'tables.0.stages'"));
+}
+
 TEST_CASE("a table has the numbers of its runs, and an empty cell for what could not be measured") {
   const Toolkit toolkit;
   const Figure figure = toolkit.figure(tablets);
