@@ -193,8 +193,46 @@ double Tools::remove_forces_on_all_grains(Model& model, std::size_t index, std::
   });
 }
 
-double Tools::set_away(std::span<const std::size_t> away, Model& model, std::span<const Bounds> bounds,
-                       double last_step, const Communicator& ranks) {
+namespace {
+
+/// Collective. mm, depth of the deepest node behind a tool.
+double depth_of_grains(const Tool& tool, const Model& model, const Communicator& ranks) {
+  double deepest = 0;
+  with_surface(tool, [&](const auto& surface) {
+    for (const std::int32_t grain : model.own())
+      for_each_node_behind(model, surface, grain,
+                           [&](std::size_t, const auto& gap) { deepest = std::max(deepest, -gap.distance); });
+  });
+  return ranks.largest(deepest);
+}
+
+/// Collective. Where a tool stands that returns (mm, since the start of the run): back along its way in, or a plane's
+/// normal, as far as it needs to touch no grain. Throws SimulationError if that does not free it.
+std::array<double, 3> free_place(Tool tool, const std::array<double, 3>& way, const Model& model,
+                                 const Communicator& ranks) {
+  constexpr double rounding = 1e-9; // mm, depth that is left
+  constexpr int most_moves = 100;   // one for a plane; where the surface is oblique to the way, each leaves a part
+  std::array<double, 3> out = way;
+  if (const auto* plane = std::get_if<OrientedPlane>(&tool.surface))
+    for (std::size_t axis = 0; axis < 3; ++axis) out[axis] = plane->normal[axis];
+  double deepest = depth_of_grains(tool, model, ranks);
+  const double first = deepest;
+  for (int move = 0; deepest > rounding && move < most_moves; ++move) {
+    for (std::size_t axis = 0; axis < 3; ++axis) tool.moved[axis] -= deepest * out[axis];
+    deepest = depth_of_grains(tool, model, ranks);
+  }
+  if (deepest > rounding)
+    throw SimulationError(fmt::format(
+        "tool '{}' would stand {:.4g} mm inside grains, allowed: a place where it touches none; move it, "
+        "let the grains move out of its way first, or drive it along a direction away from which it is free",
+        tool.name, first));
+  return tool.moved;
+}
+
+} // namespace
+
+double Tools::set_away(std::span<const std::size_t> away, std::span<const std::array<double, 3>> ways, Model& model,
+                       std::span<const Bounds> bounds, double last_step, const Communicator& ranks) {
   double taken = 0;
   for (std::size_t index = 0; index < size(); ++index) {
     Tool& tool = tools_[index];
@@ -212,7 +250,7 @@ double Tools::set_away(std::span<const std::size_t> away, Model& model, std::spa
         bonds_[slot(grain, index)].clear();
       }
     }
-    if (!leaves && tool.away) return_tool(tool, model, ranks);
+    if (!leaves && tool.away) tool.moved = free_place(tool, ways[index], model, ranks);
     tool.away = leaves;
   }
   return taken;
@@ -223,24 +261,6 @@ void Tools::refuse_triangles(std::size_t tool) const {
       fmt::format("tool '{}': its STL file is another one than that with which the checkpoint was written, "
                   "allowed: the same triangles at the same place",
                   tools_[tool].name));
-}
-
-void Tools::return_tool(Tool& tool, const Model& model, const Communicator& ranks) {
-  double deepest = 0;
-  with_surface(tool, [&](const auto& surface) {
-    for (const std::int32_t grain : model.own())
-      for_each_node_behind(model, surface, grain,
-                           [&](std::size_t, const auto& gap) { deepest = std::max(deepest, -gap.distance); });
-  });
-  deepest = ranks.largest(deepest);
-  if (deepest == 0) return;
-  const auto* plane = std::get_if<OrientedPlane>(&tool.surface);
-  if (plane == nullptr)
-    throw SimulationError(
-        fmt::format("tool '{}' would stand {:.4g} mm inside grains, allowed: a place where it touches none; move it, "
-                    "or let the grains move out of its way first",
-                    tool.name, deepest));
-  for (std::size_t axis = 0; axis < 3; ++axis) tool.moved[axis] -= deepest * plane->normal[axis];
 }
 
 std::optional<std::pair<std::size_t, double>> Tools::behind(const Model& model, std::size_t node) const {

@@ -102,10 +102,11 @@ public:
   /// Collective. From now on these tools and no others are away, and bonds to them are cut. The forces that leaving
   /// tools exert at this time level are taken out of model.force; `last_step` (s) led to it. Returns the energy (mJ)
   /// that they take along: what they store, and the part of the kinetic energy (node_motion.hpp) that goes with their
-  /// forces. Planes that return stand where they touch no grain. `bounds` [grains], of their surfaces. Throws
-  /// SimulationError if another tool would return inside grains.
-  double set_away(std::span<const std::size_t> away, Model& model, std::span<const Bounds> bounds, double last_step,
-                  const Communicator& ranks);
+  /// forces. Tools that return stand where they touch no grain: planes along their normal, others back along `ways`
+  /// ([tools], unit vectors; 0: none). `bounds` [grains], of their surfaces. Throws SimulationError if a tool would
+  /// return inside grains.
+  double set_away(std::span<const std::size_t> away, std::span<const std::array<double, 3>> ways, Model& model,
+                  std::span<const Bounds> bounds, double last_step, const Communicator& ranks);
   /// Index and depth (mm) of the tool that a surface node is deepest behind; none where it is behind none.
   std::optional<std::pair<std::size_t, double>> behind(const Model& model, std::size_t node) const;
 
@@ -143,7 +144,6 @@ private:
   double remove_forces_on_grain(Model& model, std::size_t tool, const Bounds& bounds, double last_step, int grain);
   double remove_forces_on_all_grains(Model& model, std::size_t tool, std::span<const Bounds> bounds, double last_step,
                                      const Communicator& ranks);
-  void return_tool(Tool& tool, const Model& model, const Communicator& ranks);
 
   int grains_ = 0;
   std::vector<Tool> tools_;

@@ -399,9 +399,13 @@ void Simulation::change_walls(const Axes& withdrawn) {
 void Simulation::change_tools() {
   const auto* loading = std::get_if<ToolLoading>(&scenario_->stages[static_cast<std::size_t>(state_.stage)].type);
   std::span<const std::size_t> away;
-  if (loading != nullptr) away = loading->away;
+  std::vector<std::array<double, 3>> ways(tools_.size()); // along which tools are driven
+  if (loading != nullptr) {
+    away = loading->away;
+    for (const ToolDrive& drive : loading->drives) ways[drive.tool] = drive.direction;
+  }
   const bool punch_was_away = container_ && container_->punch_is_away(tools_);
-  energies_.external_work -= tools_.set_away(away, model_, bounds_, state_.last_step, *ranks_);
+  energies_.external_work -= tools_.set_away(away, ways, model_, bounds_, state_.last_step, *ranks_);
   // In other stages the cell may have moved without the tools, as with grips.
   if (container_ && (loading != nullptr || punch_was_away)) box_.set_cell(container_->cell(tools_, box_.cell()));
 }

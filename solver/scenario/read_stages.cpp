@@ -171,11 +171,14 @@ ToolEnds read_tool_ends(TableReader& table, const StageContext& context, const T
   ends.travel = table.optional_number("travel", positive_length);
   ends.force = table.optional_number("force", stress_or_zero);
   ends.force_drop = table.optional_number("force_drop", {.low = 0, .high = 1, .low_open = true, .high_open = true});
+  ends.forces_reached = table.boolean_or("forces_reached", false);
   ends.duration = table.optional_number("duration", positive_time);
   if (!ends.relative_density && !ends.height && !ends.axial_stress && !ends.travel && !ends.force && !ends.force_drop &&
-      !ends.duration)
+      !ends.forces_reached && !ends.duration)
     table.fail("type", "found 'tools' without an end, allowed: at least one of relative_density, height, axial_stress, "
-                       "travel, force, force_drop and duration");
+                       "travel, force, force_drop, forces_reached and duration");
+  if (ends.forces_reached && std::ranges::none_of(loading.drives, &ToolDrive::holds_push))
+    table.fail("forces_reached", "found no tool that holds a force or stress, allowed: with one");
   if (ends.height && ends.relative_density)
     table.fail("height", "found together with 'relative_density', allowed: one of the two; each determines the other");
   for (const char* key : {"relative_density", "height", "axial_stress"})
@@ -258,7 +261,7 @@ const std::vector<StageKeyword>& stage_keywords() {
        alone(read_stress_cycles)},
       {"tools",
        {"drive", "away", "ramp_fraction", "relative_density", "height", "axial_stress", "travel", "force", "force_drop",
-        "smallest_peak", "watch", "duration"},
+        "smallest_peak", "watch", "forces_reached", "duration"},
        read_tool_loading},
   };
   return keywords;

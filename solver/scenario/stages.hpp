@@ -120,6 +120,7 @@ struct ToolEnds {
   std::optional<double> force{};            ///< N, push of the watched tool along its direction
   std::optional<double> force_drop{};       ///< fall of that push below its peak, over the peak
   double smallest_peak = 0;                 ///< N, the smallest peak that counts
+  bool forces_reached = false;              ///< every tool that holds a force or stress has reached it once
   std::optional<double> duration{};         ///< s
   std::size_t watched = 0;                  ///< the tool of `force` and `force_drop`
   std::array<double, 3> watched_direction{}; ///< unit vector along which the push of that tool is taken

@@ -99,7 +99,8 @@ std::string ToolLoadingControl::unreachable_end() const {
   const double now = start_.sample.solid_volume / start_.cell.volume(), change = *ends.relative_density / now - 1,
                closing = closing_speed();
   if (std::abs(change) <= already_there || change * closing > 0) return {};
-  const bool ends_otherwise = ends.axial_stress || ends.travel || ends.force || ends.force_drop || ends.duration;
+  const bool ends_otherwise =
+      ends.axial_stress || ends.travel || ends.force || ends.force_drop || ends.forces_reached || ends.duration;
   if (closing == 0 && ends_otherwise) return {};
   const char* key = ends.height ? "height" : "relative_density";
   const std::string values = ends.height
@@ -245,6 +246,12 @@ void ToolLoadingControl::move(Cell& cell, double /*time*/, double /*clock_step*/
   cell.high[2] += velocity_of(upper, 2) * step;
 }
 
+bool ToolLoadingControl::forces_are_reached() const {
+  for (std::size_t i = 0; i < held_.size(); ++i)
+    if (stage_.drives[i].holds_push() && !held_[i].reached) return false;
+  return true;
+}
+
 ToolEnd ToolLoadingControl::find_end(const Seen& seen) const {
   const ToolEnds& ends = stage_.ends;
   if (ends.travel && state_.travelled >= *ends.travel * (1 - arrived)) return ToolEnd::travel;
@@ -259,6 +266,7 @@ ToolEnd ToolLoadingControl::find_end(const Seen& seen) const {
   if (ends.force && has_passed(*ends.force, state_.start_push, seen.push)) return ToolEnd::force;
   if (ends.force_drop && state_.peak > ends.smallest_peak && state_.watched <= (1 - *ends.force_drop) * state_.peak)
     return ToolEnd::force_drop;
+  if (ends.forces_reached && forces_are_reached()) return ToolEnd::forces_reached;
   if (ends.duration && seen.time >= *ends.duration) return ToolEnd::duration;
   return ToolEnd::none;
 }
@@ -306,6 +314,9 @@ StageResult ToolLoadingControl::result(const StageObservation& last) const {
     break;
   case ToolEnd::force_drop:
     result.ended_by = fmt::format("force drop of {:g} from a peak of {:.4g} N", *ends.force_drop, state_.peak);
+    break;
+  case ToolEnd::forces_reached:
+    result.ended_by = "all forces reached";
     break;
   case ToolEnd::duration:
     result.ended_by = fmt::format("duration {:g} s", *ends.duration);

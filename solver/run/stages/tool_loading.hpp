@@ -11,7 +11,7 @@
 namespace mpfem {
 
 /// Why a loading by tools ended.
-enum class ToolEnd { none, relative_density, axial_stress, travel, force, force_drop, duration };
+enum class ToolEnd { none, relative_density, axial_stress, travel, force, force_drop, forces_reached, duration };
 
 /// Velocities of the tools until one of the stage's ends is reached.
 class ToolLoadingControl final : public StageControl {
@@ -48,6 +48,7 @@ private:
   std::string missed_pushes(const Tools& tools) const;
   double height_at(double density, double area) const;
   double closing_speed() const;
+  bool forces_are_reached() const;
   bool is_away(std::size_t tool) const;
   bool only_punches_change_density() const;
   const ToolDrive* drive_of(std::size_t tool) const;

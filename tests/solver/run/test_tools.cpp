@@ -219,6 +219,39 @@ TEST_CASE("rounded jaws that hold a force across their axes bear it on opposite 
   CHECK(simulation.tools()[1].moved[0] < -gap);
 }
 
+TEST_CASE("jaws that come back into a ball stand where they just touch it, and the stage ends when both push") {
+  constexpr double force = 0.02, radius = 0.1, jaw_radius = 1.5 * radius, depth = 0.3 * radius; // N, mm
+  Scenario scenario = holding_scenario(1);
+  const auto jaw = [&](const std::string& name, double surface, double towards) {
+    return ToolParameters{
+        .name = name,
+        .shape = CylinderShape{
+            .axis = 2, .centre = {{surface + towards * jaw_radius, 0.5, 0}}, .radius = jaw_radius, .inside = true}};
+  };
+  // The left one would stand inside the ball, the right one has half of a radius to go.
+  scenario.tools = {jaw("left", 0.5 - radius + depth, 1), jaw("right", 0.5 + 1.5 * radius, -1)};
+  const ToolDrive left{.tool = 0, .direction = {1, 0, 0}, .force = force, .servo_speed = 2000};
+  const ToolDrive right{.tool = 1, .direction = {-1, 0, 0}, .force = force, .servo_speed = 2000};
+  Stage away = driven({}, 1e-8), seat = driven({left, right}, 1e-3, 1e6);
+  std::get<ToolLoading>(away.type).away = {0, 1};
+  std::get<ToolLoading>(seat.type).ends.forces_reached = true;
+  scenario.stages = {away, seat};
+  GrainMesh ball = ball_mesh(4, radius);
+  move(ball, {0.5, 0.5, 0.5});
+  ThreadTeam team(1);
+  Simulation simulation(build_model(pack({ball}, {1, 1, 1}), scenario, "test"), scenario, team);
+  finish_stage(simulation);
+  simulation.begin_next_stage();
+  // The ball's outermost nodes lie on its surface, so this is the way out.
+  CHECK(within(simulation.tools()[0].moved[0], -depth, 1e-3));
+  CHECK(simulation.tools()[1].moved[0] == 0);
+  finish_stage(simulation);
+  CHECK(simulation.stage_result().ended_by == "all forces reached");
+  CHECK(simulation.stage_result().missed.empty());
+  CHECK(-simulation.tools()[0].force[0] > 0);
+  CHECK(simulation.tools()[1].force[0] >= force);
+}
+
 TEST_CASE("a direction lets every shape but a plane be driven by speed and force, and be watched along it") {
   const auto stage_of = [&](const std::string& shape, const std::string& keys) {
     const std::string text = replaced(replaced(tablet_text, "type = \"plane\"\nface = \"+x\"", shape),
@@ -885,6 +918,8 @@ TEST_CASE("mistakes in tools are refused with the key and what is allowed") {
   const auto driven_so = [&](const std::string& keys) {
     return refusal("drive.plate.speed = 10000", "drive.plate = { " + keys + " }");
   };
+  CHECK_THAT(refusal("drive.plate.speed = 10000", "drive.plate.speed = 10000\nforces_reached = true"),
+             Catch::Contains("forces_reached") && Catch::Contains("no tool that holds a force or stress"));
   CHECK_THAT(driven_so("speed = 1, directon = [1, 0, 0]"), Catch::Contains("did you mean 'direction'?"));
   CHECK_THAT(driven_so("speed = 1, direction = [1, 0, 0]"), Catch::Contains("moves along its normal"));
   CHECK_THAT(refusal("drive.lower.velocity = [0, 0, 20000]", "drive.lower.speed = 20000\n"
