@@ -357,7 +357,8 @@ AxisSpec inset_x(const PlotSpec& plot, FigureData& data) {
   const double margin = 0.08 * (*high - *low);
   axis.low = axis.low.value_or((*low - margin) * s.x_scale);
   axis.high = axis.high.value_or((*high + margin) * s.x_scale);
-  if (axis.ticks.empty() && *axis.high > *axis.low) axis.ticks = fmt::format("{:g}", tick_distance({*axis.low, *axis.high}, 3));
+  if (axis.ticks.empty() && *axis.high > *axis.low)
+    axis.ticks = fmt::format("{:g}", tick_distance({*axis.low, *axis.high}, 3));
   return axis;
 }
 
