@@ -211,14 +211,16 @@ double depth_of_grains(const Tool& tool, const Model& model, const Communicator&
 std::array<double, 3> free_place(Tool tool, const std::array<double, 3>& way, const Model& model,
                                  const Communicator& ranks) {
   constexpr double rounding = 1e-9; // mm, depth that is left
-  constexpr int most_moves = 100;   // one for a plane; where the surface is oblique to the way, each leaves a part
+  constexpr double most = 10;       // times the depth: a surface along the way is not left by going on and on
   std::array<double, 3> out = way;
   if (const auto* plane = std::get_if<OrientedPlane>(&tool.surface))
     for (std::size_t axis = 0; axis < 3; ++axis) out[axis] = plane->normal[axis];
   double deepest = depth_of_grains(tool, model, ranks);
   const double first = deepest;
-  for (int move = 0; deepest > rounding && move < most_moves; ++move) {
+  // One move for a plane; where the surface is oblique to the way, each leaves a part.
+  for (double moved = 0; deepest > rounding && moved < most * first && out != std::array<double, 3>{};) {
     for (std::size_t axis = 0; axis < 3; ++axis) tool.moved[axis] -= deepest * out[axis];
+    moved += deepest;
     deepest = depth_of_grains(tool, model, ranks);
   }
   if (deepest > rounding)

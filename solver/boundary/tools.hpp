@@ -102,9 +102,9 @@ public:
   /// Collective. From now on these tools and no others are away, and bonds to them are cut. The forces that leaving
   /// tools exert at this time level are taken out of model.force; `last_step` (s) led to it. Returns the energy (mJ)
   /// that they take along: what they store, and the part of the kinetic energy (node_motion.hpp) that goes with their
-  /// forces. Tools that return stand where they touch no grain: planes along their normal, others back along `ways`
-  /// ([tools], unit vectors; 0: none). `bounds` [grains], of their surfaces. Throws SimulationError if a tool would
-  /// return inside grains.
+  /// forces. Tools that return stand where they touch no grain: planes along their normal, others back along the way in
+  /// which the stage drives them (`ways` [tools], unit vectors; 0: none). `bounds` [grains], of their surfaces. Throws
+  /// SimulationError if a tool would return inside grains.
   double set_away(std::span<const std::size_t> away, std::span<const std::array<double, 3>> ways, Model& model,
                   std::span<const Bounds> bounds, double last_step, const Communicator& ranks);
   /// Index and depth (mm) of the tool that a surface node is deepest behind; none where it is behind none.

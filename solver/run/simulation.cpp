@@ -395,6 +395,17 @@ void Simulation::change_walls(const Axes& withdrawn) {
   wall_friction_.forget(withdrawn);
 }
 
+namespace {
+
+/// Unit vector along which a stage drives a tool; 0 where it does not.
+std::array<double, 3> way_of(const ToolDrive& drive) {
+  const double speed = std::hypot(drive.velocity[0], drive.velocity[1], drive.velocity[2]);
+  if (drive.holds_push() || speed == 0) return drive.direction;
+  return {drive.velocity[0] / speed, drive.velocity[1] / speed, drive.velocity[2] / speed};
+}
+
+} // namespace
+
 /// In stages of other types all tools are in place.
 void Simulation::change_tools() {
   const auto* loading = std::get_if<ToolLoading>(&scenario_->stages[static_cast<std::size_t>(state_.stage)].type);
@@ -402,7 +413,7 @@ void Simulation::change_tools() {
   std::vector<std::array<double, 3>> ways(tools_.size()); // along which tools are driven
   if (loading != nullptr) {
     away = loading->away;
-    for (const ToolDrive& drive : loading->drives) ways[drive.tool] = drive.direction;
+    for (const ToolDrive& drive : loading->drives) ways[drive.tool] = way_of(drive);
   }
   const bool punch_was_away = container_ && container_->punch_is_away(tools_);
   energies_.external_work -= tools_.set_away(away, ways, model_, bounds_, state_.last_step, *ranks_);
