@@ -1,5 +1,6 @@
 // mpfem: explicit finite-strain elasto-plastic finite elements of every grain of a packing.
 
+#include <algorithm>
 #include <filesystem>
 
 #include <malloc.h>
@@ -142,6 +143,9 @@ constexpr const char* help_text =
     "Exit codes: 0 done, 2 bad usage or input, 3 simulation failed (state saved), 4 storage failed, "
     "5 interrupted (resumable).";
 
+const std::vector<std::pair<std::string, Redistribute>> redistribute_words = {
+    {"when-it-pays", Redistribute::when_it_pays}, {"never", Redistribute::never}, {"always", Redistribute::always}};
+
 CLI::App* add_run(CLI::App& app, Arguments& arguments) {
   CLI::App* run = app.add_subcommand("run", "Run a scenario.\n"
                                             "Without --resume, a run file that is already there is kept as RUN.h5~.\n"
@@ -152,10 +156,8 @@ CLI::App* add_run(CLI::App& app, Arguments& arguments) {
   run->add_option("-o,--output", arguments.run.output, "Run file to write (HDF5)")->required();
   run->add_flag("--resume", arguments.run.resume, "Continue from the run's checkpoint if there is one");
   run->add_option("--from", arguments.from, "Start from the state in this checkpoint")->check(existing_file());
-  add_choice(
-      *run, "--redistribute", arguments.run.redistribute,
-      {{"when-it-pays", Redistribute::when_it_pays}, {"never", Redistribute::never}, {"always", Redistribute::always}},
-      "Whether grains change ranks at checkpoints: by measured work; never; all of them, as a trial");
+  add_choice(*run, "--redistribute", arguments.run.redistribute, redistribute_words,
+             "Whether grains change ranks at checkpoints: by measured work; never; all of them, as a trial");
   add_number(*run, "--time-limit", arguments.run.time_limit, Range::between(1e-9, 1e9), "s",
              "Stop after this wall-clock time of steps; reading the packing comes before. --resume continues");
   return run;
@@ -176,9 +178,11 @@ CLI::App* add_check(CLI::App& app, Arguments& arguments) {
 
 /// What all ranks of a run have to agree on, line by line; each may have its own number of threads.
 std::string orders(const Arguments& arguments, const Scenario& scenario) {
+  const auto redistribute =
+      std::ranges::find(redistribute_words, arguments.run.redistribute, &std::pair<std::string, Redistribute>::second);
   return fmt::format("--output '{}'\n--from '{}'\n--resume {}\n--time-limit {}\n--redistribute {}\n{}",
                      arguments.run.output, arguments.from, arguments.run.resume, arguments.run.time_limit,
-                     static_cast<int>(arguments.run.redistribute), scenario.text);
+                     redistribute->first, scenario.text);
 }
 
 void measure_steps(const Arguments& arguments, BenchOptions options, const Communicator& ranks) {

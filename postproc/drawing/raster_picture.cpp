@@ -37,8 +37,9 @@ std::string bar_script(const ColourBar& bar, const View& place, double letter_he
 
 /// Ticks of an axis that is `pixels` long, so that each has `room` (pixels) for its label.
 std::string ticks_script(const std::string& axis, std::pair<double, double> range, int pixels, int room) {
-  constexpr int most = 8;
-  return fmt::format("set {}tics {:g}\n", axis, tick_distance(range, std::clamp(pixels / room, 1, most)));
+  int most = std::clamp(pixels / room, 1, 8);
+  while (round_ticks(range, most).empty()) ++most;
+  return fmt::format("set {}tics {:g}\n", axis, tick_distance(range, most));
 }
 
 } // namespace

@@ -90,12 +90,15 @@ std::vector<std::string> with_lists(const std::vector<std::string>& columns, con
 
 /// The stages whose rows a table of curves has: `stage = N` or `stages = [N, …]`; empty: all.
 std::vector<int> read_stages(TableReader& reader) {
+  if (reader.has("stage") && reader.has("stages"))
+    reader.fail("stages", "found together with 'stage', allowed: one of the two");
   constexpr Range whole_numbers = Range::between(-1e6, 1e6);
   if (reader.has("stage")) return {static_cast<int>(reader.integer("stage", whole_numbers))};
   std::vector<int> stages;
   if (reader.has("stages"))
     for (const std::int64_t number : reader.integers("stages", whole_numbers))
       stages.push_back(static_cast<int>(number));
+  if (reader.has("stages") && stages.empty()) reader.fail("stages", "found an empty list, allowed: a number or more");
   return stages;
 }
 

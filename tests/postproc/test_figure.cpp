@@ -316,7 +316,8 @@ columns = ["stage [1] = stage"]
   CHECK(stages_of_rows("stage = 1") == std::vector<double>{1});
   CHECK(stages_of_rows("stages = [0, -1]") == std::vector<double>{0, 2});
   CHECK_THROWS_WITH(stages_of_rows("stages = [0, 3]"), Contains("found 3, allowed: 0, 1, 2"));
-  CHECK_THROWS_WITH(stages_of_rows("stage = 0\nstages = [1]"), Contains("unknown key 'tables.0.stages'"));
+  CHECK_THROWS_WITH(stages_of_rows("stages = []"), Contains("empty list"));
+  CHECK_THROWS_WITH(stages_of_rows("stage = 0\nstages = [1]"), Contains("together with 'stage'"));
 }
 
 TEST_CASE("a table has the numbers of its runs, and an empty cell for what could not be measured") {

@@ -116,6 +116,8 @@ TEST_CASE("colours and ticks: grey where there is no value, round numbers inside
   near(round_ticks({0, 1}, 6), {0, 0.2, 0.4, 0.6, 0.8, 1});
   near(round_ticks({0, 123.4}, 6), {0, 50, 100});
   near(round_ticks({-3, 9}, 6), {-2, 0, 2, 4, 6, 8});
+  near(round_ticks({1.1, 1.9}, 1), {}); // 0 and 2 lie outside
+  near(round_ticks({1.1, 1.9}, 2), {1.5});
   request.colour = "height";
   CHECK_THROWS_WITH(make_scene(snapshot, request), Catch::Contains("--color: found 'height', allowed: von-mises"));
 }
