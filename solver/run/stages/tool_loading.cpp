@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <ranges>
 
 #include <fmt/format.h>
 
@@ -162,11 +163,16 @@ double ToolLoadingControl::wanted_stress(const ToolDrive& drive) const {
   return drive.stress ? *drive.stress : *drive.force / start_.cell.area(2);
 }
 
+/// Whether a drive holds a push and has never reached it.
+bool ToolLoadingControl::misses_push(std::size_t drive) const {
+  return stage_.drives[drive].holds_push() && !held_[drive].reached;
+}
+
 /// A push that was never reached is missing as its servo says.
 HoldQuality ToolLoadingControl::hold_quality() const {
   HoldQuality quality = quality_;
   for (std::size_t i = 0; i < stage_.drives.size(); ++i) {
-    if (!stage_.drives[i].holds_push() || held_[i].reached) continue;
+    if (!misses_push(i)) continue;
     quality.largest_error = std::max(quality.largest_error, std::abs(held_[i].servo.error));
     quality.largest_stress = std::max(quality.largest_stress, std::abs(wanted_stress(stage_.drives[i])));
   }
@@ -178,7 +184,7 @@ std::string ToolLoadingControl::missed_pushes(const Tools& tools) const {
   std::string text;
   for (std::size_t i = 0; i < stage_.drives.size(); ++i) {
     const ToolDrive& drive = stage_.drives[i];
-    if (!drive.holds_push() || held_[i].reached) continue;
+    if (!misses_push(i)) continue;
     const double push = push_along(drive.direction, tools.load(drive.tool));
     const double per = drive.stress ? start_.cell.area(2) : 1.0;
     text += fmt::format("{}'{}' {:.3g} {unit} instead of {:g} {unit}", text.empty() ? "" : ", ", tools[drive.tool].name,
@@ -246,12 +252,6 @@ void ToolLoadingControl::move(Cell& cell, double /*time*/, double /*clock_step*/
   cell.high[2] += velocity_of(upper, 2) * step;
 }
 
-bool ToolLoadingControl::forces_are_reached() const {
-  for (std::size_t i = 0; i < held_.size(); ++i)
-    if (stage_.drives[i].holds_push() && !held_[i].reached) return false;
-  return true;
-}
-
 ToolEnd ToolLoadingControl::find_end(const Seen& seen) const {
   const ToolEnds& ends = stage_.ends;
   if (ends.travel && state_.travelled >= *ends.travel * (1 - arrived)) return ToolEnd::travel;
@@ -266,7 +266,9 @@ ToolEnd ToolLoadingControl::find_end(const Seen& seen) const {
   if (ends.force && has_passed(*ends.force, state_.start_push, seen.push)) return ToolEnd::force;
   if (ends.force_drop && state_.peak > ends.smallest_peak && state_.watched <= (1 - *ends.force_drop) * state_.peak)
     return ToolEnd::force_drop;
-  if (ends.forces_reached && forces_are_reached()) return ToolEnd::forces_reached;
+  const auto drives = std::views::iota(std::size_t{0}, held_.size());
+  if (ends.forces_reached && std::ranges::none_of(drives, [&](std::size_t i) { return misses_push(i); }))
+    return ToolEnd::forces_reached;
   if (ends.duration && seen.time >= *ends.duration) return ToolEnd::duration;
   return ToolEnd::none;
 }

@@ -48,7 +48,7 @@ private:
   std::string missed_pushes(const Tools& tools) const;
   double height_at(double density, double area) const;
   double closing_speed() const;
-  bool forces_are_reached() const;
+  bool misses_push(std::size_t drive) const;
   bool is_away(std::size_t tool) const;
   bool only_punches_change_density() const;
   const ToolDrive* drive_of(std::size_t tool) const;
