@@ -94,12 +94,10 @@ std::vector<int> read_stages(TableReader& reader) {
     reader.fail("stages", "found together with 'stage', allowed: one of the two");
   constexpr Range whole_numbers = Range::between(-1e6, 1e6);
   if (reader.has("stage")) return {static_cast<int>(reader.integer("stage", whole_numbers))};
-  std::vector<int> stages;
-  if (reader.has("stages"))
-    for (const std::int64_t number : reader.integers("stages", whole_numbers))
-      stages.push_back(static_cast<int>(number));
-  if (reader.has("stages") && stages.empty()) reader.fail("stages", "found an empty list, allowed: a number or more");
-  return stages;
+  if (!reader.has("stages")) return {};
+  const std::vector<std::int64_t> stages = reader.integers("stages", whole_numbers);
+  if (stages.empty()) reader.fail("stages", "found an empty list, allowed: a number or more");
+  return {stages.begin(), stages.end()};
 }
 
 } // namespace
