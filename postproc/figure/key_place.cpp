@@ -23,7 +23,7 @@ std::size_t shown_characters(const std::string& text) {
 }
 
 /// The distance between the ticks that gnuplot chooses.
-double tick_distance(double range) {
+double gnuplot_tick_distance(double range) {
   const double power = std::pow(10, std::floor(std::log10(range))), first = range / power;
   return power * (first < 2 ? 0.2 : first < 5 ? 0.5 : 1);
 }
@@ -35,7 +35,7 @@ public:
     low_ = of(axis.low.value_or(smallest));
     high_ = of(axis.high.value_or(largest));
     if (!(high_ > low_)) high_ = low_ + 1;
-    const double tick = logarithmic_ ? 1 : tick_distance(high_ - low_);
+    const double tick = logarithmic_ ? 1 : gnuplot_tick_distance(high_ - low_);
     if (!axis.low) low_ = tick * std::floor(low_ / tick);
     if (!axis.high) high_ = tick * std::ceil(high_ / tick);
   }
