@@ -257,9 +257,10 @@ TEST_CASE("make is told what a table, a metric and a run are made from, and rewr
   CHECK_THAT(make_rules({figure}, request), !Contains(fmt::format("{}.settings: FORCE", run)));
 }
 
-TEST_CASE("a curve has the columns of the history and what follows from them, row by row") {
-  const Toolkit toolkit;
-  const Figure figure = toolkit.figure(R"(title = "x"
+namespace {
+
+/// A table of curves of one run, that of the sample a; `keys` of the table follow.
+const std::string curves_of_a = R"(title = "x"
 [[cases]]
 sample = ["a"]
 [[runs]]
@@ -269,11 +270,21 @@ programme = "press"
 [[tables]]
 name = "t"
 curves = ["pressed"]
-columns = ["p [MPa] = mean_stress", "ke [1] = kinetic_ratio", "axial [MPa] = axial_stress"]
-)");
-  RunContents run = small_run();
+)";
+
+void write_run_of_a(const Toolkit& toolkit, const RunContents& run) {
   std::filesystem::create_directories(toolkit.path("out/a"));
   write_run(toolkit.path("out/a/run.h5"), run);
+}
+
+} // namespace
+
+TEST_CASE("a curve has the columns of the history and what follows from them, row by row") {
+  const Toolkit toolkit;
+  const Figure figure = toolkit.figure(
+      curves_of_a + R"(columns = ["p [MPa] = mean_stress", "ke [1] = kinetic_ratio", "axial [MPa] = axial_stress"])");
+  RunContents run = small_run();
+  write_run_of_a(toolkit, run);
   const TextTable table = make_table(figure, figure.tables[0], toolkit.results());
   REQUIRE(table.rows.size() == 3);
   CHECK(table.rows[1][0].number == 5);
@@ -283,35 +294,21 @@ columns = ["p [MPa] = mean_stress", "ke [1] = kinetic_ratio", "axial [MPa] = axi
   CHECK(within(*table.rows[2][2].number, 11.5, 1e-6));
   // Damage is internal energy too.
   run.numbers["/history/damage_dissipation"] = {0, 2, 4};
-  write_run(toolkit.path("out/a/run.h5"), run);
+  write_run_of_a(toolkit, run);
   CHECK(within(*make_table(figure, figure.tables[0], toolkit.results()).rows[2][1].number, 0.02 / 8, 1e-6));
 }
 
 TEST_CASE("a curve has the rows of the stages that its table lists") {
   const Toolkit toolkit;
   const auto stages_of_rows = [&](const std::string& stages) {
-    const Figure figure = toolkit.figure(fmt::format(R"(title = "x"
-[[cases]]
-sample = ["a"]
-[[runs]]
-name = "pressed"
-folder = "{{sample}}"
-programme = "press"
-[[tables]]
-name = "t"
-curves = ["pressed"]
-columns = ["stage [1] = stage"]
-{}
-)",
-                                                     stages));
+    const Figure figure = toolkit.figure(curves_of_a + "columns = [\"stage [1] = stage\"]\n" + stages);
     std::vector<double> rows;
     for (const auto& row : make_table(figure, figure.tables[0], toolkit.results()).rows) rows.push_back(*row[0].number);
     return rows;
   };
   RunContents run = small_run();
   run.numbers["/history/stage"] = {0, 1, 2};
-  std::filesystem::create_directories(toolkit.path("out/a"));
-  write_run(toolkit.path("out/a/run.h5"), run);
+  write_run_of_a(toolkit, run);
   CHECK(stages_of_rows("") == std::vector<double>{0, 1, 2});
   CHECK(stages_of_rows("stage = 1") == std::vector<double>{1});
   CHECK(stages_of_rows("stages = [0, -1]") == std::vector<double>{0, 2});
