@@ -193,24 +193,40 @@ TEST_CASE("The hold error of a tool counts from when it has reached its force, o
   CHECK(within(missed.hold_error, force, 0.01)); // an average over a transit, a tenth of that time
 }
 
-TEST_CASE("rounded jaws that hold a force across their axes bear it on opposite sides of a ball") {
-  constexpr double force = 0.2, radius = 0.1, jaw_radius = 1.5 * radius, gap = 1e-4; // N, mm
-  Scenario scenario = holding_scenario(1);
-  const auto jaw = [&](const std::string& name, double surface, double towards) {
-    return ToolParameters{
-        .name = name,
-        .shape = CylinderShape{
-            .axis = 2, .centre = {{surface + towards * jaw_radius, 0.5, 0}}, .radius = jaw_radius, .inside = true}};
-  };
-  scenario.tools = {jaw("left", 0.5 - radius - gap, 1), jaw("right", 0.5 + radius + gap, -1)};
-  const ToolDrive left{.tool = 0, .direction = {1, 0, 0}, .force = force, .servo_speed = 500};
-  const ToolDrive right{.tool = 1, .direction = {-1, 0, 0}, .force = force, .servo_speed = 500};
-  scenario.stages = {driven({left, right}, 4e-5, 1e6)};
-  GrainMesh ball = ball_mesh(4, radius);
+namespace {
+
+constexpr double jaw_ball_radius = 0.1; // mm, of a ball in the middle of the box
+
+/// A rounded jaw beside the ball: its surface begins at x = `surface` (mm) and it is hollow `towards` +x or -x.
+ToolParameters jaw(const std::string& name, double surface, double towards) {
+  constexpr double radius = 1.5 * jaw_ball_radius;
+  return {.name = name,
+          .shape = CylinderShape{
+              .axis = 2, .centre = {{surface + towards * radius, 0.5, 0}}, .radius = radius, .inside = true}};
+}
+
+/// The left jaw and the right one push on the ball with this force (N).
+std::vector<ToolDrive> jaws_that_push(double force, double servo_speed) {
+  return {{.tool = 0, .direction = {1, 0, 0}, .force = force, .servo_speed = servo_speed},
+          {.tool = 1, .direction = {-1, 0, 0}, .force = force, .servo_speed = servo_speed}};
+}
+
+Model ball_between_jaws(const Scenario& scenario) {
+  GrainMesh ball = ball_mesh(4, jaw_ball_radius);
   move(ball, {0.5, 0.5, 0.5});
+  return build_model(pack({ball}, {1, 1, 1}), scenario, "test");
+}
+
+} // namespace
+
+TEST_CASE("rounded jaws that hold a force across their axes bear it on opposite sides of a ball") {
+  constexpr double force = 0.2, radius = jaw_ball_radius, gap = 1e-4; // N, mm
+  Scenario scenario = holding_scenario(1);
+  scenario.tools = {jaw("left", 0.5 - radius - gap, 1), jaw("right", 0.5 + radius + gap, -1)};
+  scenario.stages = {driven(jaws_that_push(force, 500), 4e-5, 1e6)};
   ThreadTeam team(1);
-  Simulation simulation(build_model(pack({ball}, {1, 1, 1}), scenario, "test"), scenario, team);
-  for (simulation.evaluate_forces(); !simulation.stage_complete(); simulation.evaluate_forces()) simulation.advance();
+  Simulation simulation(ball_between_jaws(scenario), scenario, team);
+  finish_stage(simulation);
   // The grain's force on a jaw is the reverse of the jaw's push; damping at 1e6/s leaves 2 % of vibration at most.
   CHECK(within(-simulation.tools()[0].force[0], force, 0.02));
   CHECK(within(simulation.tools()[1].force[0], force, 0.02));
@@ -220,26 +236,16 @@ TEST_CASE("rounded jaws that hold a force across their axes bear it on opposite 
 }
 
 TEST_CASE("jaws that come back into a ball stand where they just touch it, and the stage ends when both push") {
-  constexpr double force = 0.02, radius = 0.1, jaw_radius = 1.5 * radius, depth = 0.3 * radius; // N, mm
+  constexpr double force = 0.02, radius = jaw_ball_radius, depth = 0.3 * radius; // N, mm
   Scenario scenario = holding_scenario(1);
-  const auto jaw = [&](const std::string& name, double surface, double towards) {
-    return ToolParameters{
-        .name = name,
-        .shape = CylinderShape{
-            .axis = 2, .centre = {{surface + towards * jaw_radius, 0.5, 0}}, .radius = jaw_radius, .inside = true}};
-  };
   // The left one would stand inside the ball, the right one has half of a radius to go.
   scenario.tools = {jaw("left", 0.5 - radius + depth, 1), jaw("right", 0.5 + 1.5 * radius, -1)};
-  const ToolDrive left{.tool = 0, .direction = {1, 0, 0}, .force = force, .servo_speed = 2000};
-  const ToolDrive right{.tool = 1, .direction = {-1, 0, 0}, .force = force, .servo_speed = 2000};
-  Stage away = driven({}, 1e-8), seat = driven({left, right}, 1e-3, 1e6);
+  Stage away = driven({}, 1e-8), seat = driven(jaws_that_push(force, 2000), 1e-3, 1e6);
   std::get<ToolLoading>(away.type).away = {0, 1};
   std::get<ToolLoading>(seat.type).ends.forces_reached = true;
   scenario.stages = {away, seat};
-  GrainMesh ball = ball_mesh(4, radius);
-  move(ball, {0.5, 0.5, 0.5});
   ThreadTeam team(1);
-  Simulation simulation(build_model(pack({ball}, {1, 1, 1}), scenario, "test"), scenario, team);
+  Simulation simulation(ball_between_jaws(scenario), scenario, team);
   finish_stage(simulation);
   simulation.begin_next_stage();
   // The ball's outermost nodes lie on its surface, so this is the way out.
