@@ -22,6 +22,7 @@
 #include "pack-gen/settle.hpp"
 #include "pack-gen/sphere_file.hpp"
 #include "pack-gen/sphere_import.hpp"
+#include "pack-gen/sphere_order.hpp"
 
 namespace {
 
@@ -93,7 +94,7 @@ void spheres(const Arguments& arguments) {
   refuse_overwriting_any(arguments, description.files);
   const DrawnSizes sizes = draw_sizes(description);
   Progress progress("pack-gen", arguments.quiet);
-  const SpherePacking packing = naming_file(arguments.input, [&] {
+  const SpherePacking packing = numbered(naming_file(arguments.input, [&] {
     return pack_spheres({.box = description.container.lengths,
                          .shape = description.container.shape,
                          .surface = description.container.surface,
@@ -101,7 +102,7 @@ void spheres(const Arguments& arguments) {
                          .smallest_gap = description.smallest_gap,
                          .seed = description.seed,
                          .progress = [&](const std::string& state) { progress.update(0, state); }});
-  });
+  }));
   PackingOrigin origin{static_cast<std::int64_t>(description.seed), description.text, {}, {}};
   tabulate_target(*description.distribution, sizes.scale, origin);
   write_packing_file(arguments.output, packing, origin);

@@ -11,6 +11,7 @@
 #include "common/errors.hpp"
 #include "common/hash.hpp"
 #include "common/index.hpp"
+#include "common/morton_key.hpp"
 #include "solver/model/boundary_faces.hpp"
 #include "solver/model/check_packing.hpp"
 #include "solver/model/model.hpp"
@@ -154,7 +155,8 @@ std::vector<Index> order_nodes(const PackedMesh& mesh, const std::vector<char>& 
   std::vector<std::pair<std::uint64_t, Index>> keys;
   for (Index n = mesh.first_node; n < mesh.end_node(); ++n) {
     const std::uint64_t interior = on_surface[at(n - mesh.first_node)] ? 0U : 1U;
-    keys.emplace_back((interior << 40U) | morton_key(mesh.point(n), low, size), n);
+    const Vector3<double> x = mesh.point(n) - low;
+    keys.emplace_back((interior << 40U) | morton_key({x.x / size, x.y / size, x.z / size}), n);
   }
   std::sort(keys.begin(), keys.end());
   std::vector<Index> order;

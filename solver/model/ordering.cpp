@@ -4,22 +4,13 @@
 #include <utility>
 
 #include "common/index.hpp"
+#include "common/morton_key.hpp"
 #include "solver/parallel/grain_values.hpp"
 #include "solver/physics/tet4_patch.hpp"
 
 namespace mpfem {
 
 using Index = std::int32_t;
-
-std::uint64_t morton_key(const Vector3<double>& x, const Vector3<double>& low, double size) {
-  std::uint64_t key = 0;
-  const double scaled[3] = {(x.x - low.x) / size, (x.y - low.y) / size, (x.z - low.z) / size};
-  for (int axis = 0; axis < 3; ++axis) {
-    auto cell = static_cast<std::uint64_t>(std::clamp(scaled[axis], 0.0, 1.0) * 1023.0);
-    for (int bit = 0; bit < 10; ++bit) key |= ((cell >> bit) & 1U) << (3 * bit + axis);
-  }
-  return key;
-}
 
 void order_in_patches(std::span<Index> tets, const std::function<const Vector3<double>&(Index)>& centre) {
   const auto count = static_cast<Index>(tets.size());
@@ -54,7 +45,7 @@ std::vector<Index> spatial_order(const Model& model, const Communicator& ranks) 
     Vector3<double> centre{0, 0, 0};
     for (std::size_t n = first; n < first + count; ++n)
       centre = centre + (1.0 / static_cast<double>(count)) * model.point(n);
-    key[at(g)] = morton_key(centre, {0, 0, 0}, size);
+    key[at(g)] = morton_key({centre.x / size, centre.y / size, centre.z / size});
   }
   share_of_grains(ranks, model.ownership, std::span(key));
   std::vector<std::pair<std::uint64_t, Index>> order;

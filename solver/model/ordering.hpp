@@ -10,9 +10,6 @@
 
 namespace mpfem {
 
-/// Key of a point x on a Morton curve through the cube of edge length `size` (mm) at `low`. 30 bits.
-std::uint64_t morton_key(const Vector3<double>& x, const Vector3<double>& low, double size);
-
 /// Orders tets so that every eight consecutive ones lie together. The set is halved into whole groups of eight across
 /// the longest side of the box of its centres, and so are the halves, down to single groups. Only the last group may
 /// have fewer.

@@ -52,7 +52,8 @@ double share_of_grains_held(double grains, int ranks) {
 }
 
 /// Share of an array's memory pages that a rank touches if it holds this share of the grains, each with so many bytes
-/// of the array. Grains are numbered without regard to their places, so a page has grains of several ranks.
+/// of the array. Imported grains may be numbered without regard to their places, so that a page has grains of several
+/// ranks; those of pack-gen need less.
 double share_of_pages(double held, double bytes_of_grain) {
   constexpr double page = 4096; // bytes
   return 1 - std::pow(1 - held, 1 + page / bytes_of_grain);

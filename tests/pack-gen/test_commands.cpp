@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "pack-gen/sphere_file.hpp"
+#include "pack-gen/sphere_order.hpp"
 #include "results-schema/file.hpp"
 #include "run_pack_gen.hpp"
 #include "tests/support/folder.hpp"
@@ -72,6 +73,21 @@ std::string cylinder_description() {
 }
 
 } // namespace
+
+TEST_CASE("more than a thousand spheres are numbered along a curve, fewer as they were packed") {
+  const Folder folder;
+  for (const std::size_t count : {1000U, 1001U}) {
+    const double edge = 0.4 * std::cbrt(static_cast<double>(count) / 11);
+    std::string many = replaced(description, "count = 11", fmt::format("count = {}", count));
+    many = replaced(many, "[0.4, 0.4, 0.4]", fmt::format("[{0}, {0}, {0}]", edge));
+    write_text(folder / "pack.toml", many);
+    const std::string spheres = folder / fmt::format("{}.h5", count);
+    REQUIRE(pack_gen(fmt::format("spheres {} -o {}", folder / "pack.toml", spheres)).exit_code == 0);
+    const SpherePacking packing = read_spheres(spheres).packing;
+    REQUIRE(packing.radius.size() == count);
+    CHECK((along_a_curve(packing).center == packing.center) == (count > any_order_up_to));
+  }
+}
 
 TEST_CASE("a cylinder goes through spheres, mesh, quality, export and import with its shape and volume") {
   const Folder folder;

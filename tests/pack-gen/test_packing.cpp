@@ -1,14 +1,18 @@
 // Packings: gaps, densities, reproducibility.
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
 #include <catch2/catch.hpp>
 
 #include "common/errors.hpp"
+#include "pack-gen/neighbours.hpp"
+#include "pack-gen/overlap_minimiser.hpp"
 #include "pack-gen/packing.hpp"
 #include "pack-gen/settle.hpp"
 #include "pack-gen/size_distribution.hpp"
+#include "pack-gen/sphere_order.hpp"
 #include "tests/support/tolerances.hpp"
 #include "tests/support/triangle_meshes.hpp"
 
@@ -99,6 +103,28 @@ TEST_CASE("the message about a sphere beyond a cylinder's wall names the round w
   CHECK(test::within(gap.gap, 0.5 - 0.1 - 0.3 * std::sqrt(2.0), test::rounding));
   CHECK(gap.first == 1);
   CHECK(wall_name(-1 - gap.second) == "round wall");
+}
+
+TEST_CASE("spheres are numbered along a curve: the next one is near, and none is lost") {
+  const SpherePacking packed = pack_spheres(request(300, 0.5, 3)), numbered = along_a_curve(packed);
+  const auto sorted = [](const SpherePacking& packing) {
+    std::vector<std::pair<Point, double>> spheres;
+    for (std::size_t i = 0; i < packing.radius.size(); ++i) spheres.emplace_back(packing.center[i], packing.radius[i]);
+    std::sort(spheres.begin(), spheres.end());
+    return spheres;
+  };
+  CHECK(sorted(numbered) == sorted(packed));
+
+  // Two random points of a cube are 0.66 edges apart on average. Two of these spheres that touch are 0.15 apart; jumps
+  // of the curve make its mean step longer than that, but not twice as long.
+  const auto mean_step = [](const SpherePacking& packing) {
+    double sum = 0;
+    for (std::size_t i = 1; i < packing.center.size(); ++i)
+      sum += point_distance(packing.center[i - 1], packing.center[i]) / packing.box[0];
+    return sum / static_cast<double>(packing.center.size() - 1);
+  };
+  CHECK(mean_step(packed) > 0.6);
+  CHECK(mean_step(numbered) < 0.3);
 }
 
 TEST_CASE("the same seed gives the same packing, another seed another one") {
