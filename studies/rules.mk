@@ -71,7 +71,7 @@ ifneq ($(call others_than,0-9,THREADS)$(filter 0%,$(THREADS)),)
   $(error THREADS=$(value THREADS): allowed: a whole number from 1)
 endif
 #: BIN=FOLDER       folder of the executables (default: build/bin, or that of the installation)
-BIN ?= $(if $(wildcard $(toolkit)/../../bin/postproc),$(toolkit)/../../bin,$(source)build/bin)
+BIN ?= $(if $(filter $(toolkit),$(studies)),$(source)build/bin,$(toolkit)/../../bin)
 ifneq ($(words $(BIN)),1)
   $(error BIN=$(BIN): allowed: a path without spaces)
 endif

@@ -42,4 +42,19 @@ study[1]="$work/my studies/studies/rules.mk"
 refused "${study[1]}: allowed: a path without spaces" "${study[@]}"
 study[1]=$here/studies/rules.mk
 make -n "${study[@]}" SEEDS='2 3' THREADS=2 BIN="$bin" >plan 2>&1 || { cat plan && code=1; }
+
+# A source tree takes its own build, whatever lies in a folder bin beside it; an installation takes its own programs.
+mkdir -p bin tree share/mpfem
+printf '#!/bin/sh\necho "bin beside" >&2\nexit 1\n' >bin/postproc
+chmod +x bin/postproc
+cp -r "$here/studies" tree/
+cp "$here/studies/rules.mk" share/mpfem/Makefile.studies
+# takes WORDS MAKEFILE
+takes() {
+  local message
+  message=$(make -f "$2" study STUDY=my.toml 2>&1) || true
+  [[ $message == *"$1"* ]] || { echo "settings.sh: make -f $2 says: $message" && code=1; }
+}
+takes 'tree/build/bin/postproc is not built' tree/studies/rules.mk
+takes 'bin beside' share/mpfem/Makefile.studies
 exit "$code"
