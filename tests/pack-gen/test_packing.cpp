@@ -7,7 +7,6 @@
 #include <catch2/catch.hpp>
 
 #include "common/errors.hpp"
-#include "pack-gen/neighbours.hpp"
 #include "pack-gen/overlap_minimiser.hpp"
 #include "pack-gen/packing.hpp"
 #include "pack-gen/settle.hpp"
