@@ -12,8 +12,9 @@ namespace {
 
 /// Positions of a grain's nodes, and their displacements in the step, in pairs (mm); valid until the next call of this
 /// thread.
-const double* moving_nodes(const Model& model, int grain, double time_step) {
-  thread_local RowPairs pairs;
+template <class Real>
+const Real* moving_nodes(const Model& model, int grain, double time_step) {
+  thread_local RowPairs<Real> pairs;
   const auto g = static_cast<std::size_t>(grain);
   const auto first = static_cast<std::size_t>(model.node_offset[g]);
   return pairs.place(model.position.data() + 4 * first, model.velocity.data() + 4 * first, time_step,
@@ -27,7 +28,7 @@ MPFEM_FLATTEN ElementSums element_pass(Model& model, int grain, double time_step
   constexpr int W = TetBlock<Real>::lanes;
   const auto g = static_cast<std::size_t>(grain);
   const std::int32_t first_node = model.node_offset[g];
-  const double* moving = moving_nodes(model, grain, time_step);
+  const Real* moving = moving_nodes<Real>(model, grain, time_step);
   double* force = model.force.data() + 4 * first_node;
   std::fill(force, force + 4 * (model.node_offset[g + 1] - first_node), 0.0);
 

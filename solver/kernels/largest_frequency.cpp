@@ -36,8 +36,8 @@ MPFEM_FLATTEN void add_product(const Model& model, int grain, const LinearRespon
   using S = Pack<W, Real>;
   const auto g = static_cast<std::size_t>(grain);
   const auto first = static_cast<std::size_t>(model.node_offset[g]);
-  thread_local RowPairs both;
-  const double* pairs =
+  thread_local RowPairs<Real> both;
+  const Real* pairs =
       both.place(model.position.data() + 4 * first, x, 1.0, static_cast<std::size_t>(model.node_offset[g + 1]) - first);
   for (std::int32_t b = model.block_offset[g]; b < model.block_offset[g + 1]; ++b) {
     const TetBlock<Real>& block = model.block<Real>(b);
