@@ -43,13 +43,14 @@ std::vector<double> disc_force(std::span<const double> a, std::span<const double
   return force;
 }
 
-FirstPeak first_peak(const std::vector<double>& values, double drop, double smallest) {
+FirstPeak first_peak(const std::vector<double>& values, double drop, double smallest, std::size_t begin) {
   const double least = std::max(smallest, 0.1 * *std::max_element(values.begin(), values.end()));
-  FirstPeak peak;
-  for (std::size_t row = 0; row < values.size(); ++row) {
+  FirstPeak peak{begin};
+  for (std::size_t row = begin; row < values.size(); ++row) {
     if (values[row] > values[peak.row]) peak.row = row;
     if (values[peak.row] >= least && values[row] <= (1 - drop) * values[peak.row]) {
       peak.falls = true;
+      peak.fallen = row;
       return peak;
     }
   }
@@ -279,11 +280,32 @@ private:
   DiscGeometry disc_;
 };
 
-/// Adds where bonds have broken up to the snapshot nearest to a row's time, or null.
-void add_crack(Measurement& m, const schema::FileReader& file, const HistoryTable& history, const Test& test,
-               const DiametralRule& rule, double diameter, std::size_t row) {
-  const std::optional<DiscCrack> crack =
-      CrackSince(file, history, test, rule.disc_axis, diameter).until(snapshot_at(file, history["time"][row], true));
+/// Number of the first snapshot not before a time, otherwise of the last.
+std::optional<int> snapshot_after(const schema::FileReader& file, double time) {
+  int number = -1;
+  for (const std::string& name : file.snapshots()) {
+    ++number;
+    if (file.read_scalar(schema::run::snapshots_time, name) >= time * (1 - 1e-9)) break;
+  }
+  return number < 0 ? std::nullopt : std::optional(number);
+}
+
+/// The first peak after which the crack has reached the centre, if the rule demands it; otherwise the first peak.
+FirstPeak peak_of(const std::vector<double>& force, const DiametralRule& rule, const schema::FileReader& file,
+                  std::span<const double> times, const CrackSince& crack_since) {
+  FirstPeak peak = first_peak(force, rule.drop, rule.smallest_peak);
+  const auto reaches_centre = [&](std::size_t row) {
+    const auto crack = crack_since.until(snapshot_after(file, times[row]));
+    return crack && crack->in_centre > rule.crack_in_centre * crack->in_centre_if_even;
+  };
+  while (rule.crack_in_centre > 0 && peak.falls && !reaches_centre(peak.fallen))
+    peak = first_peak(force, rule.drop, rule.smallest_peak, peak.fallen);
+  return peak;
+}
+
+/// Adds where bonds have broken up to the snapshot nearest to a time, or null.
+void add_crack(Measurement& m, const schema::FileReader& file, const CrackSince& crack_since, double time) {
+  const std::optional<DiscCrack> crack = crack_since.until(snapshot_at(file, time, true));
   const auto number = [&](double DiscCrack::*member) {
     return crack ? nlohmann::ordered_json((*crack).*member) : nlohmann::ordered_json();
   };
@@ -341,24 +363,32 @@ std::string disc_crack_csv(const schema::FileReader& file, const HistoryTable& h
 Measurement measure_diametral(const schema::FileReader& file, const HistoryTable& history, const DiametralRule& rule) {
   const Test test = read_test(file, history, rule);
   const std::vector<double> smooth = smoothed(test.force);
-  const FirstPeak peak = first_peak(smooth, rule.drop, rule.smallest_peak);
-  if (!(smooth[peak.row] > 0) || smooth[peak.row] < rule.smallest_peak)
+  const double largest = *std::max_element(smooth.begin(), smooth.end());
+  if (!(largest > 0) || largest < rule.smallest_peak)
     throw InputError(
         fmt::format("{}: stage {}: found a force of at most {:.3g} N on the plates, allowed: a disc between "
                     "them, with a peak of {:g} N or more",
-                    one_line(file.path()), test.stage.number, smooth[peak.row], rule.smallest_peak));
+                    one_line(file.path()), test.stage.number, largest, rule.smallest_peak));
   const Disc disc = disc_of(file, history, test, rule);
-  const std::size_t row = test.stage.first + peak.row;
+  const CrackSince crack_since(file, history, test, rule.disc_axis, disc.diameter);
+  const std::span<const double> times = test.stage.rows().of(history["time"]);
+  const FirstPeak peak = peak_of(smooth, rule, file, times, crack_since);
+  const bool splits = peak.falls || rule.crack_in_centre == 0;
+  const double to_stress = diametral_stress(1, disc.diameter, disc.thickness),
+               unknown = std::numeric_limits<double>::quiet_NaN();
   Measurement m;
   m.metric = "diametral";
-  m.value = diametral_stress(smooth[peak.row], disc.diameter, disc.thickness);
+  m.value = splits ? to_stress * smooth[peak.row] : unknown;
   m.unit = "MPa";
-  m.uncertainty = diametral_stress(ringing(test.force, peak.row), disc.diameter, disc.thickness);
+  m.uncertainty = splits ? to_stress * ringing(test.force, peak.row) : unknown;
   m.uncertainty_meaning = "twice the scatter of the rows about parabolas over twice as many rows";
   m.method = fmt::format("2 F / (pi D t), F the largest smoothed force of the plates before its first fall by {:g} %",
                          100 * rule.drop);
+  if (rule.crack_in_centre > 0)
+    m.method +=
+        fmt::format(" with broken bonds in the centre, over {:g} of the area that an even crack would have there",
+                    rule.crack_in_centre);
   const RowRange about = ringing_rows(peak.row, test.force.size());
-  const double to_stress = diametral_stress(1, disc.diameter, disc.thickness);
   const auto force = range_of(test.force, about.first, about.last);
   m.window = {test.stage.number,
               test.stage.type,
@@ -368,16 +398,26 @@ Measurement measure_diametral(const schema::FileReader& file, const HistoryTable
               range_of(history["axial_strain"], test.stage.first + about.first, test.stage.first + about.last),
               "diametral_stress",
               {to_stress * force[0], to_stress * force[1]}};
-  m.details = {{"criterion", peak.falls ? "peak" : "largest"},
-               {"force_N", smooth[peak.row]},
-               {"force_uncertainty_N", ringing(test.force, peak.row)},
+  const auto known = [&](double number) { return splits ? nlohmann::ordered_json(number) : nlohmann::ordered_json(); };
+  m.details = {{"criterion", peak.falls ? "peak"
+                             : splits   ? "largest"
+                                        : "none"},
+               {"force_N", known(smooth[peak.row])},
+               {"force_uncertainty_N", known(ringing(test.force, peak.row))},
                {"diameter_mm", disc.diameter},
                {"thickness_mm", disc.thickness},
                {"plates", test.plates},
                {"load_axis", std::string(1, "xyz"[static_cast<std::size_t>(test.axis)])}};
+  if (!splits) {
+    m.notes.push_back(fmt::format("no strength: the force, of at most {:.4g} N, does not fall by {:g} % with a crack "
+                                  "through the centre of the disc",
+                                  largest, 100 * rule.drop));
+    return m;
+  }
   m.brief = fmt::format("F = {:.4g} N", smooth[peak.row]);
-  add_flats(m, half_angle_at(file, history, test, rule, disc.diameter, row), one_line(file.path()));
-  add_crack(m, file, history, test, rule, disc.diameter, row);
+  add_flats(m, half_angle_at(file, history, test, rule, disc.diameter, test.stage.first + peak.row),
+            one_line(file.path()));
+  add_crack(m, file, crack_since, times[peak.row]);
   if (!peak.falls)
     m.notes.push_back(
         fmt::format("no failure: after its largest value the force does not fall by {:g} %", 100 * rule.drop));

@@ -30,10 +30,11 @@ std::vector<double> disc_force(std::span<const double> a, std::span<const double
 /// of the largest of all, or below `smallest`, do not count: there the disc seats.
 struct FirstPeak {
   std::size_t row = 0;
-  bool falls = false; ///< false: the largest of all values, no such fall after it
+  bool falls = false;     ///< false: the largest of all values, no such fall after it
+  std::size_t fallen = 0; ///< the row in which they have fallen by that share
 };
-/// Finds that peak among the values of a stage, one per row.
-FirstPeak first_peak(const std::vector<double>& values, double drop, double smallest = 0);
+/// Finds that peak among the values of a stage, one per row, from row `begin` on.
+FirstPeak first_peak(const std::vector<double>& values, double drop, double smallest = 0, std::size_t begin = 0);
 
 /// One state of the disc, for flat_half_angle.
 struct DiscState {
@@ -56,10 +57,13 @@ double disc_thickness(std::span<const float> node, int load_axis, int disc_axis,
 
 /// How a diametral test is read.
 struct DiametralRule {
-  std::vector<std::string> plates;           ///< two tools; default: the only two of the run
-  std::optional<int> stage;                  ///< default: the last
-  double drop = 0.1;                         ///< share of the peak force by which the force must fall after it
-  double smallest_peak = 0;                  ///< N, smaller peaks do not count
+  std::vector<std::string> plates; ///< two tools; default: the only two of the run
+  std::optional<int> stage;        ///< default: the last
+  double drop = 0.1;               ///< share of the peak force by which the force must fall after it
+  double smallest_peak = 0;        ///< N, smaller peaks do not count
+  /// Falls do not count before the crack has reached the centre: before bonds have broken there, over this share of the
+  /// area that an even crack would have there (DiscCrack). 0: all count.
+  double crack_in_centre = 0;
   int disc_axis = 2;                         ///< 0, 1, 2 for x, y, z
   std::optional<double> diameter, thickness; ///< mm; default: extent along the load and disc_thickness before the test
   std::optional<double> flat_angle;          ///< degrees, 2 alpha; default: from the snapshot nearest to the peak
@@ -67,7 +71,7 @@ struct DiametralRule {
 };
 
 /// The value is 2 F / (pi D t) (MPa), F the peak of the mean force of both plates along the axis on which they
-/// approach. Throws InputError: no two plates, plates that do not move across the disc's axis, too few rows, no force
+/// approach; NaN where `crack_in_centre` is given and the force does not fall after that. Throws InputError: no two plates, plates that do not move across the disc's axis, too few rows, no force
 /// of `smallest_peak`, no snapshot before the test for a missing diameter or thickness, flats wider than 30 degrees.
 Measurement measure_diametral(const schema::FileReader& file, const HistoryTable& history, const DiametralRule& rule);
 

@@ -1,6 +1,7 @@
 #include "postproc/run_data/measurement.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include <fmt/format.h>
 
@@ -59,6 +60,7 @@ nlohmann::ordered_json to_json(const Measurement& m) {
 }
 
 std::string to_text(const Measurement& m) {
+  if (std::isnan(m.value)) return fmt::format("{}: none\n", m.metric);
   return fmt::format("{}: {:.5g} ± {:.2g}{}{}{} ({})\n", m.metric, m.value, m.uncertainty,
                      m.unit == "1" ? "" : fmt::format(" {}", m.unit), m.brief.empty() ? "" : "; ", m.brief,
                      window_text(m));

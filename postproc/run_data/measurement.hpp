@@ -34,7 +34,7 @@ struct SnapshotWindow {
 /// A number read from a run, with everything that is needed to judge it.
 struct Measurement {
   std::string metric;
-  double value = 0;
+  double value = 0; ///< NaN (null in the file) where the run has no such number; a note says why
   std::string unit = "1";
   double uncertainty = 0;          ///< in the value's unit
   std::string uncertainty_meaning; ///< what it covers

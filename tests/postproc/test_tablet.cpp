@@ -489,6 +489,11 @@ TEST_CASE("the peak of a disc is the largest force before its first fall by a te
   const FirstPeak none = first_peak({0, 3, 6, 10, 9.5, 9.2}, 0.1);
   CHECK(none.row == 3);
   CHECK_FALSE(none.falls);
+  const std::vector<double> chip{0, 10, 6, 7, 20, 12, 9};
+  REQUIRE(first_peak(chip, 0.2).fallen == 2);
+  const FirstPeak second = first_peak(chip, 0.2, 0, 2); // the search goes on where the force has fallen
+  CHECK(second.row == 4);
+  CHECK(second.fallen == 5);
 }
 
 TEST_CASE("a disc is as thick as its faces are apart, whatever sticks out of them or has come off") {
@@ -589,6 +594,49 @@ TEST_CASE("postproc diametral finds plates, axis, peak and disc, and corrects fo
   const auto given = nlohmann::json::parse(read_text(folder / "d.json"));
   CHECK(given["value"].get<double>() == Approx(2 * 50 / (pi * 3 * 0.5)).epsilon(5e-3));
   CHECK(given["corrected_strength_MPa"].is_null());
+}
+
+TEST_CASE("postproc diametral takes the first peak with a crack through the centre, if there is one") {
+  // A grain breaks off at 30 N (row 25), the disc splits at 50 N (row 45). The bond of a corner breaks first.
+  RunContents run = disc_run();
+  for (int i = 10; i <= 70; ++i) {
+    const double force = i <= 25   ? 2 * (i - 10)
+                         : i <= 30 ? 30 - 3 * (i - 25)
+                         : i <= 45 ? 15 + 35.0 / 15 * (i - 30)
+                                   : 50 - 1.5 * (i - 45);
+    for (const auto& [name, sign] : {std::pair{"left", -1.0}, {"right", 1.0}})
+      run.numbers[fmt::format("/history/tools/{}/force", name)][static_cast<std::size_t>(3 * i)] = sign * force;
+  }
+  run.snapshots = {"0000", "0001", "0002"};
+  run.extents["*bonds"] = 2;
+  run.numbers["/snapshots/0001/time"] = {35e-6};
+  run.numbers["/snapshots/0002/time"] = {60e-6};
+  run.numbers["/snapshots/*/bond_node"] = {13, 0}; // in the middle of the cube, and at a corner
+  run.numbers["/snapshots/*/bond_grain"] = {1, 1};
+  run.numbers["/snapshots/*/bond_area"] = {1, 1};
+  run.numbers["/snapshots/*/bond_damage"] = {0, 0};
+  run.numbers["/snapshots/0001/bond_damage"] = {0, 1};
+  run.numbers["/snapshots/0002/bond_damage"] = {1, 1};
+  const Folder folder;
+  const auto measured = [&](const std::string& options) {
+    write_run(folder / "disc.h5", run);
+    const Outcome outcome =
+        postproc(fmt::format("diametral {} --flat-angle 0 {} -o {}", folder / "disc.h5", options, folder / "d.json"));
+    INFO(outcome.messages);
+    REQUIRE(outcome.exit_code == 0);
+    return nlohmann::json::parse(read_text(folder / "d.json"));
+  };
+  // Smoothing rounds the corners of the curve by less than a tenth.
+  CHECK(within(measured("")["force_N"].get<double>(), 30, 0.1));
+  const auto split = measured("--crack-in-centre 0.25");
+  CHECK(within(split["force_N"].get<double>(), 50, 0.1));
+  CHECK(split["criterion"] == "peak");
+  run.numbers["/snapshots/0002/bond_damage"] = {0, 1}; // it does not split
+  const auto none = measured("--crack-in-centre 0.25");
+  CHECK(none["criterion"] == "none");
+  CHECK(none["value"].is_null());
+  CHECK(none["force_N"].is_null());
+  CHECK_THAT(none["notes"].dump(), Catch::Contains("no strength"));
 }
 
 TEST_CASE("postproc diametral refuses wrong plates, axes and wide flats, and tells where bonds broke") {
