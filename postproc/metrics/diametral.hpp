@@ -71,8 +71,9 @@ struct DiametralRule {
 };
 
 /// The value is 2 F / (pi D t) (MPa), F the peak of the mean force of both plates along the axis on which they
-/// approach; NaN where `crack_in_centre` is given and the force does not fall after that. Throws InputError: no two plates, plates that do not move across the disc's axis, too few rows, no force
-/// of `smallest_peak`, no snapshot before the test for a missing diameter or thickness, flats wider than 30 degrees.
+/// approach; NaN where `crack_in_centre` is given and no fall of the force counts. Throws InputError: no two plates,
+/// plates that do not move across the disc's axis, too few rows, no force of `smallest_peak`, no snapshot before the
+/// test for a missing diameter or thickness, flats wider than 30 degrees.
 Measurement measure_diametral(const schema::FileReader& file, const HistoryTable& history, const DiametralRule& rule);
 
 /// CSV: where bonds have broken up to each snapshot of the stage (disc_crack.hpp), with the force on the disc. Throws
