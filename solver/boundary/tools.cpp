@@ -236,6 +236,7 @@ std::array<double, 3> free_place(Tool tool, const std::array<double, 3>& way, co
 double Tools::set_away(std::span<const std::size_t> away, std::span<const std::array<double, 3>> ways, Model& model,
                        std::span<const Bounds> bounds, double last_step, const Communicator& ranks) {
   double taken = 0;
+  moved_back_.clear();
   for (std::size_t index = 0; index < size(); ++index) {
     Tool& tool = tools_[index];
     const bool leaves = std::find(away.begin(), away.end(), index) != away.end();
@@ -252,7 +253,14 @@ double Tools::set_away(std::span<const std::size_t> away, std::span<const std::a
         bonds_[slot(grain, index)].clear();
       }
     }
-    if (!leaves && tool.away) tool.moved = free_place(tool, ways[index], model, ranks);
+    if (!leaves && tool.away) {
+      const std::array<double, 3> place = free_place(tool, ways[index], model, ranks);
+      const double back = std::hypot(place[0] - tool.moved[0], place[1] - tool.moved[1], place[2] - tool.moved[2]);
+      if (back > 0)
+        moved_back_.push_back(
+            fmt::format("tool '{}' begins {:.3g} mm farther back, where it touches no grain", tool.name, back));
+      tool.moved = place;
+    }
     tool.away = leaves;
   }
   return taken;

@@ -107,6 +107,8 @@ public:
   /// SimulationError if a tool would return inside grains.
   double set_away(std::span<const std::size_t> away, std::span<const std::array<double, 3>> ways, Model& model,
                   std::span<const Bounds> bounds, double last_step, const Communicator& ranks);
+  /// In words, which tools the last set_away() has moved back, and how far.
+  std::span<const std::string> moved_back() const { return moved_back_; }
   /// Index and depth (mm) of the tool that a surface node is deepest behind; none where it is behind none.
   std::optional<std::pair<std::size_t, double>> behind(const Model& model, std::size_t node) const;
 
@@ -147,6 +149,7 @@ private:
 
   int grains_ = 0;
   std::vector<Tool> tools_;
+  std::vector<std::string> moved_back_;
   std::vector<ToolLoad> of_grain_;                  ///< [grains * tools]
   std::vector<ToolLoad> load_;                      ///< [tools]
   std::vector<std::vector<SurfaceAnchor>> anchors_; ///< [grains * tools]

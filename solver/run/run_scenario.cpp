@@ -57,6 +57,7 @@ void report_beginning(const RunReport& report, const std::vector<std::string>& w
   for (const std::string& text :
        {mass_scaling_text(simulation.scenario(), simulation.model()), earlier_bonds_text(simulation.contact())})
     if (!text.empty()) report.note(text);
+  for (const std::string& text : simulation.tools().moved_back()) report.note(text);
 }
 
 /// A warning, if there is one. Space that earlier files of the same run take is free for it, unless they are kept.

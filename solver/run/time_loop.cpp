@@ -49,6 +49,7 @@ bool TimeLoop::in_last_stage() const {
 void TimeLoop::begin_next_stage() {
   try {
     simulation_.begin_next_stage();
+    for (const std::string& text : simulation_.tools().moved_back()) report_.note(text);
     records_.begin_stage();
   } catch (const InputError& error) {
     throw SimulationError(error.what());

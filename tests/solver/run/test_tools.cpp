@@ -251,6 +251,9 @@ TEST_CASE("jaws that come back into a ball stand where they just touch it, and t
   // The ball's outermost nodes lie on its surface, so this is the way out.
   CHECK(within(simulation.tools()[0].moved[0], -depth, 1e-3));
   CHECK(simulation.tools()[1].moved[0] == 0);
+  const auto notes = simulation.tools().moved_back();
+  REQUIRE(notes.size() == 1);
+  CHECK_THAT(notes[0], Catch::Contains(fmt::format("tool 'left' begins {:.3g} mm farther back", depth)));
   finish_stage(simulation);
   CHECK(simulation.stage_result().ended_by == "all forces reached");
   CHECK(simulation.stage_result().missed.empty());
