@@ -93,8 +93,8 @@ public:
                "Smaller peaks of the force do not count: while the disc settles, a plate may bounce off")
         ->capture_default_str();
     add_number(options(), "--crack-in-centre", rule_.crack_in_centre, Range::between(0, 1), "",
-               "A fall of the force counts only with a crack through the centre: broken bonds there over this share of "
-               "the area that an even crack along the loaded diameter would have there (0: every fall)")
+               "A fall of the force counts only with a crack through the centre, where this share of the bonds, by "
+               "area, is broken (0: every fall counts)")
         ->capture_default_str();
     options()
         .add_option("--disc-axis", disc_axis_, "Axis of the disc, along its thickness")

@@ -43,14 +43,14 @@ std::vector<double> disc_force(std::span<const double> a, std::span<const double
   return force;
 }
 
-FirstPeak first_peak(const std::vector<double>& values, double drop, double smallest, std::size_t begin) {
+FirstPeak first_peak(const std::vector<double>& values, double drop, double smallest,
+                     const std::function<bool(std::size_t)>& counts) {
   const double least = std::max(smallest, 0.1 * *std::max_element(values.begin(), values.end()));
-  FirstPeak peak{begin};
-  for (std::size_t row = begin; row < values.size(); ++row) {
+  FirstPeak peak;
+  for (std::size_t row = 0; row < values.size(); ++row) {
     if (values[row] > values[peak.row]) peak.row = row;
-    if (values[peak.row] >= least && values[row] <= (1 - drop) * values[peak.row]) {
+    if (values[peak.row] >= least && values[row] <= (1 - drop) * values[peak.row] && counts(row)) {
       peak.falls = true;
-      peak.fallen = row;
       return peak;
     }
   }
@@ -258,6 +258,9 @@ public:
     }
   }
 
+  /// Whether the snapshot before the test has bonds.
+  bool known() const { return !bonds_.empty(); }
+
   CrackSince(const CrackSince&) = delete;
   CrackSince& operator=(const CrackSince&) = delete;
 
@@ -280,27 +283,36 @@ private:
   DiscGeometry disc_;
 };
 
-/// Number of the first snapshot not before a time, otherwise of the last.
+/// Number of the first snapshot not before a time; empty if there is none.
 std::optional<int> snapshot_after(const schema::FileReader& file, double time) {
-  int number = -1;
+  int number = 0;
   for (const std::string& name : file.snapshots()) {
+    if (file.read_scalar(schema::run::snapshots_time, name) >= time * (1 - 1e-9)) return number;
     ++number;
-    if (file.read_scalar(schema::run::snapshots_time, name) >= time * (1 - 1e-9)) break;
   }
-  return number < 0 ? std::nullopt : std::optional(number);
+  return {};
 }
 
-/// The first peak after which the crack has reached the centre, if the rule demands it; otherwise the first peak.
+/// The first peak, if the rule demands it one with a crack through the centre in the snapshot after the fall. Throws
+/// InputError where no snapshots with bonds show that.
 FirstPeak peak_of(const std::vector<double>& force, const DiametralRule& rule, const schema::FileReader& file,
-                  std::span<const double> times, const CrackSince& crack_since) {
-  FirstPeak peak = first_peak(force, rule.drop, rule.smallest_peak);
-  const auto reaches_centre = [&](std::size_t row) {
-    const auto crack = crack_since.until(snapshot_after(file, times[row]));
-    return crack && crack->in_centre > rule.crack_in_centre * crack->in_centre_if_even;
-  };
-  while (rule.crack_in_centre > 0 && peak.falls && !reaches_centre(peak.fallen))
-    peak = first_peak(force, rule.drop, rule.smallest_peak, peak.fallen);
-  return peak;
+                  const Test& test, std::span<const double> times, const CrackSince& crack_since) {
+  if (rule.crack_in_centre == 0) return first_peak(force, rule.drop, rule.smallest_peak);
+  if (!crack_since.known() || !snapshot_after(file, times.front() * (1 + 1e-9)))
+    throw InputError(fmt::format("{}: stage {}: --crack-in-centre {:g}: found no bonds in snapshots before and in the "
+                                 "stage, allowed: a run with bonds, and 'snapshots' in the stage",
+                                 one_line(file.path()), test.stage.number, rule.crack_in_centre));
+  std::map<int, bool> split; // by snapshot
+  return first_peak(force, rule.drop, rule.smallest_peak, [&](std::size_t row) {
+    const std::optional<int> number = snapshot_after(file, times[row]);
+    if (!number) return false;
+    const auto [found, is_new] = split.try_emplace(*number, false);
+    if (is_new) {
+      const auto crack = crack_since.until(number);
+      found->second = crack && crack->of_centre >= rule.crack_in_centre;
+    }
+    return found->second;
+  });
 }
 
 /// Adds where bonds have broken up to the snapshot nearest to a time, or null.
@@ -313,26 +325,23 @@ void add_crack(Measurement& m, const schema::FileReader& file, const CrackSince&
   m.details["broken_share_near_loaded_diameter"] = number(&DiscCrack::near_diameter);
   m.details["broken_share_in_centre"] = number(&DiscCrack::in_centre);
   m.details["broken_share_in_centre_if_even"] = number(&DiscCrack::in_centre_if_even);
+  m.details["broken_share_of_centre"] = number(&DiscCrack::of_centre);
 }
 
-void add_flats(Measurement& m, std::optional<double> half_angle, const std::string& path) {
+void add_flats(Measurement& m, std::optional<double> half_angle) {
   m.details["flat_angle_degrees"] = nullptr;
   m.details["corrected_strength_MPa"] = nullptr;
   m.details["corrected_strength_uncertainty_MPa"] = nullptr;
-  if (!half_angle) {
-    m.notes.emplace_back("no snapshot of the stage shows pressed flats: their angle and the corrected strength are not "
-                         "known; --flat-angle gives it");
-    return;
-  }
+  if (!half_angle) return;
   const double degrees = 2 * *half_angle * 180 / std::numbers::pi, factor = flat_correction(*half_angle);
-  if (degrees > largest_flat_angle)
-    throw InputError(fmt::format("{}: found flats of 2 alpha = {:.3g} degrees at the peak, allowed: up to {:g}, beyond "
-                                 "which a disc does not break from its centre",
-                                 path, degrees, largest_flat_angle));
   m.details["flat_angle_degrees"] = degrees;
   m.details["corrected_strength_MPa"] = factor * m.value;
   m.details["corrected_strength_uncertainty_MPa"] = factor * m.uncertainty;
   m.brief += fmt::format(", {:.4g} MPa with flats of {:.3g} degrees", factor * m.value, degrees);
+}
+
+bool too_wide(std::optional<double> half_angle) {
+  return half_angle && 2 * *half_angle * 180 / std::numbers::pi > largest_flat_angle;
 }
 
 } // namespace
@@ -342,7 +351,7 @@ std::string disc_crack_csv(const schema::FileReader& file, const HistoryTable& h
   const CrackSince crack_since(file, history, test, rule.disc_axis, disc_of(file, history, test, rule).diameter);
   const std::span<const double> times = test.stage.rows().of(history["time"]);
   std::string text = "snapshot,time [s],force [N],broken_bond_area [mm^2],broken_share_near_loaded_diameter [1],"
-                     "broken_share_in_centre [1],broken_share_in_centre_if_even [1]\n";
+                     "broken_share_in_centre [1],broken_share_in_centre_if_even [1],broken_share_of_centre [1]\n";
   int number = -1;
   for (const std::string& name : file.snapshots()) {
     ++number;
@@ -352,44 +361,49 @@ std::string disc_crack_csv(const schema::FileReader& file, const HistoryTable& h
     const auto row = static_cast<std::size_t>(after - times.begin());
     text += fmt::format("{},{:.6g},{:.6g}", number, time, test.force[std::min(row, times.size() - 1)]);
     if (const auto crack = crack_since.until(number))
-      text += fmt::format(",{:.6g},{:.4g},{:.4g},{:.4g}\n", crack->area, crack->near_diameter, crack->in_centre,
-                          crack->in_centre_if_even);
+      text += fmt::format(",{:.6g},{:.4g},{:.4g},{:.4g},{:.4g}\n", crack->area, crack->near_diameter, crack->in_centre,
+                          crack->in_centre_if_even, crack->of_centre);
     else
-      text += ",0,,,\n";
+      text += ",0,,,,\n";
   }
   return text;
 }
 
 Measurement measure_diametral(const schema::FileReader& file, const HistoryTable& history, const DiametralRule& rule) {
   const Test test = read_test(file, history, rule);
+  const std::string path = one_line(file.path());
   const std::vector<double> smooth = smoothed(test.force);
   const double largest = *std::max_element(smooth.begin(), smooth.end());
   if (!(largest > 0) || largest < rule.smallest_peak)
     throw InputError(
         fmt::format("{}: stage {}: found a force of at most {:.3g} N on the plates, allowed: a disc between "
                     "them, with a peak of {:g} N or more",
-                    one_line(file.path()), test.stage.number, largest, rule.smallest_peak));
+                    path, test.stage.number, largest, rule.smallest_peak));
   const Disc disc = disc_of(file, history, test, rule);
   const CrackSince crack_since(file, history, test, rule.disc_axis, disc.diameter);
   const std::span<const double> times = test.stage.rows().of(history["time"]);
-  const FirstPeak peak = peak_of(smooth, rule, file, times, crack_since);
-  const bool splits = peak.falls || rule.crack_in_centre == 0;
-  const double to_stress = diametral_stress(1, disc.diameter, disc.thickness),
-               unknown = std::numeric_limits<double>::quiet_NaN();
+  const FirstPeak peak = peak_of(smooth, rule, file, test, times, crack_since);
+  const auto half_angle = half_angle_at(file, history, test, rule, disc.diameter, test.stage.first + peak.row);
+  const bool wide = too_wide(half_angle), only_split = rule.crack_in_centre > 0;
+  if (wide && !only_split)
+    throw InputError(fmt::format("{}: found flats of 2 alpha = {:.3g} degrees at the peak, allowed: up to {:g}, beyond "
+                                 "which a disc does not break from its centre",
+                                 path, 2 * *half_angle * 180 / std::numbers::pi, largest_flat_angle));
+  const bool none = only_split && (wide || !peak.falls);
+  const double unknown = std::numeric_limits<double>::quiet_NaN(), force = none ? unknown : smooth[peak.row],
+               force_uncertainty = none ? unknown : ringing(test.force, peak.row);
   Measurement m;
   m.metric = "diametral";
-  m.value = splits ? to_stress * smooth[peak.row] : unknown;
+  m.value = diametral_stress(force, disc.diameter, disc.thickness);
   m.unit = "MPa";
-  m.uncertainty = splits ? to_stress * ringing(test.force, peak.row) : unknown;
+  m.uncertainty = diametral_stress(force_uncertainty, disc.diameter, disc.thickness);
   m.uncertainty_meaning = "twice the scatter of the rows about parabolas over twice as many rows";
   m.method = fmt::format("2 F / (pi D t), F the largest smoothed force of the plates before its first fall by {:g} %",
                          100 * rule.drop);
-  if (rule.crack_in_centre > 0)
-    m.method +=
-        fmt::format(" with broken bonds in the centre, over {:g} of the area that an even crack would have there",
-                    rule.crack_in_centre);
+  if (only_split) m.method += fmt::format(" with {:g} % of the bonds in the centre broken", 100 * rule.crack_in_centre);
   const RowRange about = ringing_rows(peak.row, test.force.size());
-  const auto force = range_of(test.force, about.first, about.last);
+  const double to_stress = diametral_stress(1, disc.diameter, disc.thickness);
+  const auto forces = range_of(test.force, about.first, about.last);
   m.window = {test.stage.number,
               test.stage.type,
               test.stage.first + about.first,
@@ -397,28 +411,31 @@ Measurement measure_diametral(const schema::FileReader& file, const HistoryTable
               "axial_strain",
               range_of(history["axial_strain"], test.stage.first + about.first, test.stage.first + about.last),
               "diametral_stress",
-              {to_stress * force[0], to_stress * force[1]}};
-  const auto known = [&](double number) { return splits ? nlohmann::ordered_json(number) : nlohmann::ordered_json(); };
-  m.details = {{"criterion", peak.falls ? "peak"
-                             : splits   ? "largest"
-                                        : "none"},
-               {"force_N", known(smooth[peak.row])},
-               {"force_uncertainty_N", known(ringing(test.force, peak.row))},
+              {to_stress * forces[0], to_stress * forces[1]}};
+  m.details = {{"criterion", none         ? "none"
+                             : peak.falls ? "peak"
+                                          : "largest"},
+               {"force_N", force},
+               {"force_uncertainty_N", force_uncertainty},
                {"diameter_mm", disc.diameter},
                {"thickness_mm", disc.thickness},
                {"plates", test.plates},
                {"load_axis", std::string(1, "xyz"[static_cast<std::size_t>(test.axis)])}};
-  if (!splits) {
-    m.notes.push_back(fmt::format("no strength: the force, of at most {:.4g} N, does not fall by {:g} % with a crack "
-                                  "through the centre of the disc",
-                                  largest, 100 * rule.drop));
-    return m;
-  }
-  m.brief = fmt::format("F = {:.4g} N", smooth[peak.row]);
-  add_flats(m, half_angle_at(file, history, test, rule, disc.diameter, test.stage.first + peak.row),
-            one_line(file.path()));
+  m.brief = fmt::format("F = {:.4g} N", force);
+  add_flats(m, half_angle);
   add_crack(m, file, crack_since, times[peak.row]);
-  if (!peak.falls)
+  if (!half_angle)
+    m.notes.emplace_back("no snapshot of the stage shows pressed flats: their angle and the corrected strength are not "
+                         "known; --flat-angle gives it");
+  if (only_split && !peak.falls)
+    m.notes.push_back(fmt::format("no strength: the force, of at most {:.4g} N, does not fall by {:g} % with {:g} % of "
+                                  "the bonds in the centre broken",
+                                  largest, 100 * rule.drop, 100 * rule.crack_in_centre));
+  else if (none)
+    m.notes.push_back(fmt::format("no strength: the flats span {:.3g} degrees at the peak of {:.4g} N; beyond {:g} a "
+                                  "disc does not break from its centre",
+                                  2 * *half_angle * 180 / std::numbers::pi, smooth[peak.row], largest_flat_angle));
+  else if (!peak.falls)
     m.notes.push_back(
         fmt::format("no failure: after its largest value the force does not fall by {:g} %", 100 * rule.drop));
   return m;

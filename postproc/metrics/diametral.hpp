@@ -1,6 +1,7 @@
 #pragma once
 // Tensile strength of a disc by diametral compression (Brazilian test) between two plates.
 
+#include <functional>
 #include <optional>
 #include <span>
 #include <string>
@@ -30,11 +31,12 @@ std::vector<double> disc_force(std::span<const double> a, std::span<const double
 /// of the largest of all, or below `smallest`, do not count: there the disc seats.
 struct FirstPeak {
   std::size_t row = 0;
-  bool falls = false;     ///< false: the largest of all values, no such fall after it
-  std::size_t fallen = 0; ///< the row in which they have fallen by that share
+  bool falls = false; ///< false: the largest of all values, no such fall after it
 };
-/// Finds that peak among the values of a stage, one per row, from row `begin` on.
-FirstPeak first_peak(const std::vector<double>& values, double drop, double smallest = 0, std::size_t begin = 0);
+/// Finds that peak among the values of a stage, one per row. Only rows for which `counts` is true can have fallen.
+FirstPeak first_peak(
+    const std::vector<double>& values, double drop, double smallest = 0,
+    const std::function<bool(std::size_t row)>& counts = [](std::size_t) { return true; });
 
 /// One state of the disc, for flat_half_angle.
 struct DiscState {
@@ -61,8 +63,8 @@ struct DiametralRule {
   std::optional<int> stage;        ///< default: the last
   double drop = 0.1;               ///< share of the peak force by which the force must fall after it
   double smallest_peak = 0;        ///< N, smaller peaks do not count
-  /// Falls do not count before the crack has reached the centre: before bonds have broken there, over this share of the
-  /// area that an even crack would have there (DiscCrack). 0: all count.
+  /// Falls of the force count only with a crack through the centre: when bonds over this share of the area in the centre
+  /// have broken (DiscCrack::of_centre). 0: all count.
   double crack_in_centre = 0;
   int disc_axis = 2;                         ///< 0, 1, 2 for x, y, z
   std::optional<double> diameter, thickness; ///< mm; default: extent along the load and disc_thickness before the test
@@ -71,9 +73,10 @@ struct DiametralRule {
 };
 
 /// The value is 2 F / (pi D t) (MPa), F the peak of the mean force of both plates along the axis on which they
-/// approach; NaN where `crack_in_centre` is given and no fall of the force counts. Throws InputError: no two plates,
-/// plates that do not move across the disc's axis, too few rows, no force of `smallest_peak`, no snapshot before the
-/// test for a missing diameter or thickness, flats wider than 30 degrees.
+/// approach. It is NaN where `crack_in_centre` is given and no fall of the force counts, or flats are wider than 30
+/// degrees. Throws InputError: no two plates, plates that do not move across the disc's axis, too few rows, no force of
+/// `smallest_peak`, no snapshot before the test for a missing diameter or thickness, wider flats without
+/// `crack_in_centre`, `crack_in_centre` without bonds or snapshots of the stage.
 Measurement measure_diametral(const schema::FileReader& file, const HistoryTable& history, const DiametralRule& rule);
 
 /// CSV: where bonds have broken up to each snapshot of the stage (disc_crack.hpp), with the force on the disc. Throws

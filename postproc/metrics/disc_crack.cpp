@@ -49,6 +49,7 @@ std::optional<DiscCrack> disc_crack(const std::vector<BondRow>& before, const st
   if (!(crack.area > 0)) return {};
   crack.near_diameter = near_diameter / crack.area;
   crack.in_centre = in_centre / crack.area;
+  if (whole_in_centre > 0) crack.of_centre = in_centre / whole_in_centre;
   if (whole_near > 0) crack.in_centre_if_even = crack.near_diameter * whole_in_centre / whole_near;
   return crack;
 }

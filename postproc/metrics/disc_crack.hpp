@@ -26,6 +26,9 @@ struct DiscCrack {
   /// What `in_centre` would be if the bonds within D/8 of the loaded diameter had broken evenly along it. A crack that
   /// begins in the centre has more there, one that begins under the plates has less.
   double in_centre_if_even = 0;
+  /// Share of the area that the bonds of the centre (both limits above) had before the test. A disc that splits has a
+  /// large share there, one of which a grain breaks off has none.
+  double of_centre = 0;
 };
 
 /// A bond's place is that of its node before the test. Empty where none broke.

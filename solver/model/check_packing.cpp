@@ -52,6 +52,18 @@ void check_tet(const PackedMesh& mesh, Index tet, std::size_t grain, const std::
                                  name, tet, grain, volume));
 }
 
+/// mm, along the axis in which the nodes of a grain reach farthest.
+double largest_extent(const PackedMesh& mesh) {
+  double largest = 0;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    double low = mesh.node[axis], high = low;
+    for (std::size_t i = axis; i < mesh.node.size(); i += 3)
+      low = std::min(low, mesh.node[i]), high = std::max(high, mesh.node[i]);
+    largest = std::max(largest, high - low);
+  }
+  return largest;
+}
+
 } // namespace
 
 void check_packing(const MeshedPacking& packing, const std::string& name) {
@@ -72,8 +84,11 @@ void check_packing(const MeshedPacking& packing, const std::string& name) {
 
 void refuse_sizes_beyond_floats(const MeshedPacking& packing, std::span<const Index> grains, const std::string& name) {
   constexpr double least = 1e-4, most = 1e4; // mm
+  // Floats are measured from the middle of a grain: an edge of this share of it is known to 3e-5.
+  constexpr double least_share = 1e-3;
   for (const Index grain : grains) {
     const PackedMesh mesh = packing.mesh_of(grain);
+    const double extent = largest_extent(mesh);
     for (Index t = mesh.first_tet; t < mesh.end_tet(); ++t) {
       const auto corner = mesh.corners(t);
       double longest = 0;
@@ -83,6 +98,10 @@ void refuse_sizes_beyond_floats(const MeshedPacking& packing, std::span<const In
         throw InputError(fmt::format("{}: tetrahedron {} has an edge of {:.3g} mm, allowed: {:g} … {:g} mm with "
                                      "element.precision = 'mixed'; 'double' has no limit",
                                      name, t, longest, least, most));
+      if (longest < least_share * extent)
+        throw InputError(fmt::format("{}: tetrahedron {} of {:.3g} mm lies in a grain of {:.3g} mm, allowed: at least "
+                                     "{:g} of the grain with element.precision = 'mixed'; 'double' has no limit",
+                                     name, t, longest, extent, least_share));
     }
   }
 }

@@ -12,7 +12,8 @@ namespace mpfem {
 void check_packing(const MeshedPacking& packing, const std::string& name);
 
 /// If tets are in single precision, they must be 1e-4 … 1e4 mm large (the longest edge at their first corner): eighth
-/// powers of lengths (the step estimate) and inverse sixth powers must fit into floats. Checks `grains`.
+/// powers of lengths (the step estimate) and inverse sixth powers must fit into floats. They must also be at least a
+/// thousandth of their grain, since floats are measured from its middle. Checks `grains`.
 void refuse_sizes_beyond_floats(const MeshedPacking& packing, std::span<const std::int32_t> grains,
                                 const std::string& name);
 

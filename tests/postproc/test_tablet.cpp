@@ -489,11 +489,15 @@ TEST_CASE("the peak of a disc is the largest force before its first fall by a te
   const FirstPeak none = first_peak({0, 3, 6, 10, 9.5, 9.2}, 0.1);
   CHECK(none.row == 3);
   CHECK_FALSE(none.falls);
-  const std::vector<double> chip{0, 10, 6, 7, 20, 12, 9};
-  REQUIRE(first_peak(chip, 0.2).fallen == 2);
-  const FirstPeak second = first_peak(chip, 0.2, 0, 2); // the search goes on where the force has fallen
-  CHECK(second.row == 4);
-  CHECK(second.fallen == 5);
+  // Falls that do not count are passed over; the peak stays the largest value of all before the one that counts.
+  const auto peak_from = [](const std::vector<double>& values, std::size_t counted) {
+    return first_peak(values, 0.2, 0, [=](std::size_t row) { return row >= counted; });
+  };
+  CHECK(peak_from({0, 10, 6, 7, 20, 12, 9}, 5).row == 4);
+  const FirstPeak late = peak_from({0, 10, 20, 30, 40, 50, 39, 30, 20, 10}, 8);
+  CHECK(late.row == 5);
+  CHECK(late.falls);
+  CHECK_FALSE(peak_from({0, 10, 6, 7, 20, 12, 9}, 7).falls);
 }
 
 TEST_CASE("a disc is as thick as its faces are apart, whatever sticks out of them or has come off") {
@@ -546,6 +550,8 @@ TEST_CASE("bonds that break in a disc are counted by their position before, and 
   CHECK(crack->in_centre == 0.5);
   // Of the whole bonds within D/8 of the loaded diameter, 2 of 3 mm^2 lie in the centre.
   CHECK(within(crack->in_centre_if_even, 0.75 * 2 / 3, rounding));
+  CHECK(crack->of_centre == 1);
+  CHECK(disc_crack(before, {bond(0, 2, 0), bond(1, 1, 1)}, disc)->of_centre == 0);
   CHECK_FALSE(disc_crack(before, before, disc));
 }
 
@@ -596,7 +602,7 @@ TEST_CASE("postproc diametral finds plates, axis, peak and disc, and corrects fo
   CHECK(given["corrected_strength_MPa"].is_null());
 }
 
-TEST_CASE("postproc diametral takes the first peak with a crack through the centre, if there is one") {
+TEST_CASE("postproc diametral takes the peak before the fall with a crack through the centre, if there is one") {
   // A grain breaks off at 30 N (row 25), the disc splits at 50 N (row 45). The bond of a corner breaks first.
   RunContents run = disc_run();
   for (int i = 10; i <= 70; ++i) {
@@ -608,35 +614,52 @@ TEST_CASE("postproc diametral takes the first peak with a crack through the cent
       run.numbers[fmt::format("/history/tools/{}/force", name)][static_cast<std::size_t>(3 * i)] = sign * force;
   }
   run.snapshots = {"0000", "0001", "0002"};
-  run.extents["*bonds"] = 2;
+  run.extents["*bonds"] = 3;
   run.numbers["/snapshots/0001/time"] = {35e-6};
   run.numbers["/snapshots/0002/time"] = {60e-6};
-  run.numbers["/snapshots/*/bond_node"] = {13, 0}; // in the middle of the cube, and at a corner
-  run.numbers["/snapshots/*/bond_grain"] = {1, 1};
-  run.numbers["/snapshots/*/bond_area"] = {1, 1};
-  run.numbers["/snapshots/*/bond_damage"] = {0, 0};
-  run.numbers["/snapshots/0001/bond_damage"] = {0, 1};
-  run.numbers["/snapshots/0002/bond_damage"] = {1, 1};
+  run.numbers["/snapshots/*/bond_node"] = {13, 13, 0}; // two in the middle of the cube, and one at a corner
+  run.numbers["/snapshots/*/bond_grain"] = {1, 2, 1};
+  run.numbers["/snapshots/*/bond_area"] = {1, 3, 1};
+  run.numbers["/snapshots/*/bond_damage"] = {0, 0, 0};
+  run.numbers["/snapshots/0001/bond_damage"] = {0, 0, 1};
+  run.numbers["/snapshots/0002/bond_damage"] = {1, 0, 1}; // a quarter of the area in the centre
   const Folder folder;
   const auto measured = [&](const std::string& options) {
     write_run(folder / "disc.h5", run);
     const Outcome outcome =
-        postproc(fmt::format("diametral {} --flat-angle 0 {} -o {}", folder / "disc.h5", options, folder / "d.json"));
+        postproc(fmt::format("diametral {} {} -o {}", folder / "disc.h5", options, folder / "d.json"));
     INFO(outcome.messages);
     REQUIRE(outcome.exit_code == 0);
     return nlohmann::json::parse(read_text(folder / "d.json"));
   };
   // Smoothing rounds the corners of the curve by less than a tenth.
-  CHECK(within(measured("")["force_N"].get<double>(), 30, 0.1));
-  const auto split = measured("--crack-in-centre 0.25");
+  CHECK(within(measured("--flat-angle 0")["force_N"].get<double>(), 30, 0.1));
+  const auto split = measured("--flat-angle 0 --crack-in-centre 0.24");
   CHECK(within(split["force_N"].get<double>(), 50, 0.1));
   CHECK(split["criterion"] == "peak");
-  run.numbers["/snapshots/0002/bond_damage"] = {0, 1}; // it does not split
-  const auto none = measured("--crack-in-centre 0.25");
+  const auto none = measured("--flat-angle 0 --crack-in-centre 0.26");
   CHECK(none["criterion"] == "none");
   CHECK(none["value"].is_null());
   CHECK(none["force_N"].is_null());
-  CHECK_THAT(none["notes"].dump(), Catch::Contains("no strength"));
+  CHECK(none.contains("corrected_strength_MPa"));
+  CHECK_THAT(none["notes"].dump(), Catch::Contains("no strength: the force"));
+  CHECK(measured("")["flat_angle_degrees"].is_null()); // nothing is pressed
+  auto& pressure = run.numbers["/snapshots/*/contact_pressure"];
+  pressure.assign(27, 1); // the cube's whole faces are pressed
+  const auto wide = measured("--crack-in-centre 0.24");
+  CHECK(wide["criterion"] == "none");
+  CHECK(wide["value"].is_null());
+  CHECK_THAT(wide["notes"].dump(), Catch::Contains("no strength: the flats span 180 degrees"));
+  run.extents["*bonds"] = 0;
+  for (const char* name : {"node", "grain", "area", "damage"})
+    for (const char* snapshot : {"*", "0001", "0002"}) {
+      const auto found = run.numbers.find(fmt::format("/snapshots/{}/bond_{}", snapshot, name));
+      if (found != run.numbers.end()) found->second = {};
+    }
+  write_run(folder / "loose.h5", run);
+  const Outcome loose = postproc(fmt::format("diametral {} --crack-in-centre 0.2", folder / "loose.h5"));
+  CHECK(loose.exit_code == 2);
+  CHECK_THAT(loose.messages, Catch::Contains("--crack-in-centre 0.2: found no bonds"));
 }
 
 TEST_CASE("postproc diametral refuses wrong plates, axes and wide flats, and tells where bonds broke") {
@@ -681,6 +704,7 @@ TEST_CASE("postproc diametral refuses wrong plates, axes and wide flats, and tel
   CHECK(broken["broken_bond_area_mm2"] == 1);
   CHECK(broken["broken_share_in_centre"] == 1);
   CHECK(broken["broken_share_in_centre_if_even"] == 1);
+  CHECK(broken["broken_share_of_centre"] == 1);
   REQUIRE(postproc(fmt::format("diametral {} --data {}", folder / "broken.h5", folder / "crack.csv")).exit_code == 0);
   const auto columns = read_csv(folder / "crack.csv", {{"snapshot"}, {"force"}, {"broken_share_in_centre"}});
   CHECK(columns[0].values == std::vector<double>{1});

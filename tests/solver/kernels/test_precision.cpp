@@ -140,6 +140,23 @@ TEST_CASE("a compaction in mixed precision is that in doubles") {
   }
 }
 
+TEST_CASE("elements that floats do not resolve in their grain are refused in mixed precision") {
+  // A tetrahedron of 1.1e-4 mm in a grain of 0.2 mm.
+  GrainMesh mesh = ball_mesh(1, 0.1);
+  const auto first = static_cast<std::int32_t>(mesh.node.size());
+  constexpr double edge = 1.1e-4;
+  for (const std::array<double, 3> x :
+       {std::array{0.0, 0.0, 0.0}, {edge, 0.0, 0.0}, {0.0, edge, 0.0}, {0.0, 0.0, edge}})
+    mesh.node.push_back(x);
+  mesh.tet.push_back({first, first + 1, first + 2, first + 3});
+  move(mesh, {0.5, 0.5, 0.5});
+  Scenario scenario = holding_scenario(1);
+  const MeshedPacking packing = pack({mesh}, {1, 1, 1});
+  CHECK_NOTHROW(build_model(packing, scenario, "test"));
+  scenario.numerics.precision = Precision::mixed;
+  CHECK_THROWS_WITH(build_model(packing, scenario, "test"), Catch::Contains("lies in a grain of"));
+}
+
 TEST_CASE("elements whose powers are no floats are refused in mixed precision") {
   for (const double factor : {1e-5, 1e7}) {
     GrainMesh mesh = ball_mesh(3, 0.1);
