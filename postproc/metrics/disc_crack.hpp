@@ -26,8 +26,8 @@ struct DiscCrack {
   /// What `in_centre` would be if the bonds within D/8 of the loaded diameter had broken evenly along it. A crack that
   /// begins in the centre has more there, one that begins under the plates has less.
   double in_centre_if_even = 0;
-  /// Share of the area that the bonds of the centre (both limits above) had before the test. A disc that splits has a
-  /// large share there, one of which a grain breaks off has none.
+  /// Of the bonds that were whole in the centre (both limits above) before the test, the share of the area that is
+  /// broken. It is large in a disc that splits, and 0 where a grain breaks off the rim.
   double of_centre = 0;
 };
 
