@@ -63,8 +63,8 @@ struct DiametralRule {
   std::optional<int> stage;        ///< default: the last
   double drop = 0.1;               ///< share of the peak force by which the force must fall after it
   double smallest_peak = 0;        ///< N, smaller peaks do not count
-  /// Falls of the force count only with a crack through the centre: when bonds over this share of the area in the centre
-  /// have broken (DiscCrack::of_centre). 0: all count.
+  /// Falls of the force count only with a crack through the centre: when this share of the bonds there, by area, has
+  /// broken (DiscCrack::of_centre). 0: all count.
   double crack_in_centre = 0;
   int disc_axis = 2;                         ///< 0, 1, 2 for x, y, z
   std::optional<double> diameter, thickness; ///< mm; default: extent along the load and disc_thickness before the test

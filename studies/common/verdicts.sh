@@ -6,7 +6,8 @@ postproc=$1
   cat <<END
 # Verdicts
 
-Every statement that a figure of Ku, Zhao, Mollon and Zhao makes, compared with our result, and why it differs.
+Every statement that a figure of Ku, Zhao, Mollon and Zhao makes, compared with our result, and why it differs where
+that is known.
 
 - \`coarse\` is the paper's packing of 329 grains at its coarsest mesh (0.03 mm), \`medium\` the same at 0.015 mm,
   \`finest\` at 0.0075 mm (more of it in [finest mesh](../studies/finest-mesh/README.md)), \`smoke\` 25 grains. Grains
@@ -24,6 +25,7 @@ Every statement that a figure of Ku, Zhao, Mollon and Zhao makes, compared with 
 - That the curves of 0.015 and 0.0075 mm nearly coincide (fig09) is judged in [finest
   mesh](../studies/finest-mesh/README.md), with walls at 8 m/s: it **differs**. That finer meshes capture the
   concentration of stress better (fig08) is also judged there, at a relative density of 0.70: it agrees.
+- The paper was at hand as text, without its plots. What it only draws is judged by what its text says of the curve.
 - Statements are judged by the softening law \`energy\`, which reads Eq. 5 literally. The law \`exponential\`, the
   curve that Fig. 3 draws, is reported without verdicts. Exceptions: fig03 judges both laws. fig04, fig05, fig10 (b) and
   fig11 are judged by the law \`exponential\`. What fig10 to fig20 say of kinetic energy, forces and the energy balance
