@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <type_traits>
 
 #include "solver/kernels/tet_pressure.hpp"
 #include "solver/model/row_pairs.hpp"
@@ -21,14 +22,19 @@ const Real* moving_nodes(const Model& model, int grain, double time_step) {
                      static_cast<std::size_t>(model.node_offset[g + 1]) - first);
 }
 
+/// mm, rows of a grain's nodes.
+const double* positions_of(const Model& model, int grain) {
+  return model.position.data() + 4 * model.node_offset[static_cast<std::size_t>(grain)];
+}
+
 // flatten: everything below is inlined here. In calls, packs go through memory, which takes 1.2 times as long.
 template <class Real, class Law, class Pressure>
-MPFEM_FLATTEN ElementSums element_pass(Model& model, int grain, double time_step, const Law& law, Pressure pressure) {
+MPFEM_FLATTEN ElementSums element_pass(Model& model, int grain, double time_step, const Real* moving, const Law& law,
+                                       Pressure pressure) {
   using S = TetPack<Real>;
   constexpr int W = TetBlock<Real>::lanes;
   const auto g = static_cast<std::size_t>(grain);
   const std::int32_t first_node = model.node_offset[g];
-  const Real* moving = moving_nodes<Real>(model, grain, time_step);
   double* force = model.force.data() + 4 * first_node;
   std::fill(force, force + 4 * (model.node_offset[g + 1] - first_node), 0.0);
 
@@ -72,14 +78,20 @@ MPFEM_FLATTEN ElementSums element_pass(Model& model, int grain, double time_step
 ElementSums element_forces(Model& model, int grain, double time_step) {
   return with_tet_numbers(model, [&](auto number) {
     using Real = decltype(number);
+    const Real* moving = moving_nodes<Real>(model, grain, time_step);
     return std::visit(
         [&](const auto& law) {
           double* nodal = model.nodal_mean.empty()
                               ? nullptr
                               : model.nodal_mean.data() + model.node_offset[static_cast<std::size_t>(grain)];
-          return with_pressure<Real>(model, grain, nodal, [&](const auto& pressure) {
-            return element_pass<Real>(model, grain, time_step, law, pressure);
-          });
+          const auto pass = [&](const auto& pressure) {
+            return element_pass<Real>(model, grain, time_step, moving, law, pressure);
+          };
+          if constexpr (std::is_same_v<Real, float>) {
+            return with_pressure<Real>(model, grain, moving, nodal, pass);
+          } else {
+            return with_pressure<Real>(model, grain, positions_of(model, grain), nodal, pass);
+          }
         },
         model.material_of(grain).flow);
   });

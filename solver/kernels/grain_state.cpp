@@ -28,14 +28,14 @@ double elastic_energy_in(const Model& model, int grain) {
   if (model.element == ElementType::tet4_anp) {
     const auto first = static_cast<std::size_t>(model.node_offset[g]);
     std::vector<double> volume(static_cast<std::size_t>(model.node_offset[g + 1]) - first);
-    nodal_volumes<Real>(model, grain, volume.data());
+    nodal_volumes<Real>(model, grain, position, volume.data());
     for (std::size_t n = 0; n < volume.size(); ++n)
       total += (1 - own) * nodal_volumetric_energy(moduli, volume[n], model.inverse_nodal_volume[first + n]);
   }
   if (model.element == ElementType::tet4_patch)
     for (std::int32_t patch = 0; patch < model.patch_offset[g + 1] - model.patch_offset[g]; ++patch)
       total += (1 - own) * patch_volumetric_energy(
-                               moduli, patch_volume<Real>(model, grain, patch),
+                               moduli, patch_volume<Real>(model, grain, position, patch),
                                model.inverse_patch_volume[static_cast<std::size_t>(model.patch_offset[g] + patch)]);
   return total;
 }
@@ -76,7 +76,7 @@ TetFields tet_fields_in(const Model& model, int grain) {
   TetFields fields{std::vector<float>(tets), std::vector<float>(tets), std::vector<float>(tets)};
   const double* position = model.position.data() + 4 * model.node_offset[g];
   std::vector<double> nodal(static_cast<std::size_t>(model.node_offset[g + 1] - model.node_offset[g]));
-  with_pressure<Real>(model, grain, nodal.data(), [&](auto pressure) {
+  with_pressure<Real>(model, grain, position, nodal.data(), [&](auto pressure) {
     for (std::int32_t b = model.block_offset[g]; b < model.block_offset[g + 1]; ++b) {
       const TetBlock<Real>& block = model.block<Real>(b);
       pressure.enter(b);

@@ -5,7 +5,7 @@
 #include <cstdint>
 
 #include "solver/model/model.hpp"
-#include "solver/model/rows.hpp"
+#include "solver/model/row_pairs.hpp"
 #include "solver/physics/tet4.hpp"
 
 namespace mpfem {
@@ -36,11 +36,17 @@ void store_deviator(TetBlock<Real>& block, const Deviator<TetPack<Real>>& s) {
   s.yz.store(block.deviator[3]), s.zx.store(block.deviator[4]);
 }
 
-/// Geometry of a block's tets; `position` are the rows (mm) of the grain's nodes.
+/// Geometry of a block's tets; `position` are the rows (mm) of the grain's nodes: of doubles, or row pairs of floats
+/// (row_pairs.hpp), whose second rows are not used.
 template <class Real>
 TetGeometry<TetPack<Real>> current_geometry(const TetBlock<Real>& block, const double* position) {
   Vector3<TetPack<Real>> edge[3];
   load_edges<TetBlock<Real>::lanes, 3>(position, block.node, edge);
+  return tet_geometry(edge[0], edge[1], edge[2]);
+}
+inline TetGeometry<TetPack<float>> current_geometry(const TetBlock<float>& block, const float* position) {
+  Vector3<TetPack<float>> edge[3], unused[3];
+  load_edge_pairs<TetBlock<float>::lanes, 3>(position, block.node, edge, unused);
   return tet_geometry(edge[0], edge[1], edge[2]);
 }
 

@@ -22,11 +22,11 @@ struct OwnPressure {
 };
 
 /// Writes the volumes around the nodes of a grain, a quarter of every tet's, to `volume` [nodes of the grain].
-template <class Real>
-MPFEM_FLATTEN void nodal_volumes(const Model& model, int grain, double* volume) {
+/// `position`: as in current_geometry().
+template <class Real, class Number>
+MPFEM_FLATTEN void nodal_volumes(const Model& model, int grain, const Number* position, double* volume) {
   using S = TetPack<Real>;
   const auto g = static_cast<std::size_t>(grain);
-  const double* position = model.position.data() + 4 * model.node_offset[g];
   std::fill(volume, volume + (model.node_offset[g + 1] - model.node_offset[g]), 0.0);
   for (std::int32_t b = model.block_offset[g]; b < model.block_offset[g + 1]; ++b) {
     prefetch_block_after<Real>(model, b);
@@ -55,9 +55,9 @@ struct AveragedPressure {
 };
 
 /// Writes the mean stresses at the nodes of a grain to `mean` [nodes of the grain].
-template <class Real>
-AveragedPressure average_pressure(const Model& model, int grain, double* mean) {
-  nodal_volumes<Real>(model, grain, mean);
+template <class Real, class Number>
+AveragedPressure average_pressure(const Model& model, int grain, const Number* position, double* mean) {
+  nodal_volumes<Real>(model, grain, position, mean);
   const ElasticModuli moduli = model.material_of(grain).moduli;
   const auto first = static_cast<std::size_t>(model.node_offset[static_cast<std::size_t>(grain)]);
   const auto count = static_cast<std::size_t>(model.node_offset[static_cast<std::size_t>(grain) + 1]) - first;
@@ -67,13 +67,13 @@ AveragedPressure average_pressure(const Model& model, int grain, double* mean) {
 }
 
 /// Volume of patch `patch` of a grain, mm^3. Its tets are those of consecutive blocks, or a part of one block.
-template <class Real>
-double patch_volume(const Model& model, int grain, std::int32_t patch) {
+/// `position`: as in current_geometry().
+template <class Real, class Number>
+double patch_volume(const Model& model, int grain, const Number* position, std::int32_t patch) {
   using S = TetPack<Real>;
   constexpr int W = TetBlock<Real>::lanes;
   static_assert(patch_tets % W == 0 || W % patch_tets == 0);
   const auto g = static_cast<std::size_t>(grain);
-  const double* position = model.position.data() + 4 * model.node_offset[g];
   const std::int32_t first_tet = patch * patch_tets;
   const std::int32_t first = model.block_offset[g] + first_tet / W,
                      end = std::min(first + std::max(patch_tets / W, 1), model.block_offset[g + 1]);
@@ -88,11 +88,12 @@ double patch_volume(const Model& model, int grain, std::int32_t patch) {
 }
 
 /// Mean stress of a tet: that of its patch, mixed with a share of the tet's own.
-template <class Real>
+template <class Real, class Number>
 struct PatchPressure {
   using S = TetPack<Real>;
   const Model& model;
   int grain;
+  const Number* position; ///< as in current_geometry()
   ElasticModuli moduli;
   S mean{0.0};
   /// To be called before the tets of block `b`.
@@ -117,21 +118,22 @@ struct PatchPressure {
 private:
   double mean_of(std::int32_t patch) const {
     const auto g = static_cast<std::size_t>(grain);
-    return patch_mean_stress(moduli, patch_volume<Real>(model, grain, patch),
+    return patch_mean_stress(moduli, patch_volume<Real>(model, grain, position, patch),
                              model.inverse_patch_volume[static_cast<std::size_t>(model.patch_offset[g] + patch)]);
   }
 };
 
-/// Returns f(pressure), where `pressure` gives the tets of a grain their mean stress at the current positions. `nodal`
-/// [nodes of the grain] is written if nodes take part; it must live as long as f needs it.
-template <class Real, class F>
-auto with_pressure(const Model& model, int grain, double* nodal, F&& f) {
+/// Returns f(pressure), where `pressure` gives the tets of a grain their mean stress at the current positions, which are
+/// read from `position` (as in current_geometry()). `nodal` [nodes of the grain] is written if nodes take part; both must
+/// live as long as f needs them.
+template <class Real, class Number, class F>
+auto with_pressure(const Model& model, int grain, const Number* position, double* nodal, F&& f) {
   const ElasticModuli moduli = model.material_of(grain).moduli;
   switch (model.element) {
   case ElementType::tet4_anp:
-    return f(average_pressure<Real>(model, grain, nodal));
+    return f(average_pressure<Real>(model, grain, position, nodal));
   case ElementType::tet4_patch:
-    return f(PatchPressure<Real>{model, grain, moduli});
+    return f(PatchPressure<Real, Number>{model, grain, position, moduli});
   case ElementType::tet4:
     break;
   }
