@@ -46,8 +46,8 @@ double memory(const Scenario& scenario) {
   return needs_of(coarse_grains(20000), scenario).memory;
 }
 
-/// What mpfem used; its messages are dropped.
-rusage usage_of_mpfem(const std::vector<std::string>& arguments) {
+/// What mpfem used; its messages are dropped. Not called under sanitizers.
+[[maybe_unused]] rusage usage_of_mpfem(const std::vector<std::string>& arguments) {
   const pid_t child = fork();
   if (child == 0) {
     std::vector<char*> words{const_cast<char*>(MPFEM_EXECUTABLE)};
