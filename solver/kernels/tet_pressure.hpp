@@ -123,9 +123,9 @@ private:
   }
 };
 
-/// Returns f(pressure), where `pressure` gives the tets of a grain their mean stress at the current positions, which are
-/// read from `position` (as in current_geometry()). `nodal` [nodes of the grain] is written if nodes take part; both must
-/// live as long as f needs them.
+/// Returns f(pressure), where `pressure` gives the tets of a grain their mean stress at the current positions. They are
+/// read from `position`, as in current_geometry(). `nodal` [nodes of the grain] is written if nodes take part. Both
+/// must live as long as f needs them.
 template <class Real, class Number, class F>
 auto with_pressure(const Model& model, int grain, const Number* position, double* nodal, F&& f) {
   const ElasticModuli moduli = model.material_of(grain).moduli;
