@@ -20,8 +20,8 @@ struct PointRange {
 };
 
 /// The node of the range's next point; larger than any node if none is left.
-std::int32_t next_node(const ContactCandidates& candidates, const PointRange& range) {
-  return range.left() ? candidates.point_node[at(range.point)] : std::numeric_limits<std::int32_t>::max();
+std::int32_t next_node(const std::vector<std::int32_t>& point_node, const PointRange& range) {
+  return range.left() ? point_node[at(range.point)] : std::numeric_limits<std::int32_t>::max();
 }
 
 /// The pairs of a list of candidates, one after another.
@@ -45,92 +45,132 @@ struct PairCursor {
   }
 };
 
-/// New candidates together with the points of the old ones that have, or had, a bond.
-struct BondedCandidates {
-  ContactCandidates candidates;
-  std::vector<PointBond> bond; ///< [points]
+/// Candidates of the nodes of one grain, and which old point each point was.
+struct MergedCandidates {
+  GrainCandidates candidates;
+  std::vector<std::int32_t> old_point; ///< [points]; -1: none
 };
 
-/// Appends the points of one pair, found and old, by ascending node. Old points without a bond and without the energy
-/// of former bonds are left out. A point that is in both lists gets the new facets and the old bond.
-void merge_points(const ContactCandidates& found, PointRange new_points, const ContactCandidates& old,
-                  const std::vector<PointBond>& old_bond, PointRange old_points, BondedCandidates& merged) {
-  const auto is_kept = [&](std::int32_t point) {
-    return old_bond[at(point)].exists() || old_bond[at(point)].dissipated_before > 0;
-  };
-  ContactCandidates& candidates = merged.candidates;
+/// Appends the points of one pair, found and old, by ascending node. Old points that are not found are left out unless
+/// `is_kept(point)`. A point that is in both lists gets the new facets.
+template <class IsKept>
+void merge_points(const GrainCandidates& found, PointRange new_points, const ContactCandidates& old,
+                  PointRange old_points, IsKept is_kept, MergedCandidates& merged) {
+  GrainCandidates& candidates = merged.candidates;
   while (new_points.left() || old_points.left()) {
-    if (old_points.left() && !is_kept(old_points.point)) {
+    const std::int32_t new_node = next_node(found.node, new_points), old_node = next_node(old.point_node, old_points);
+    if (old_node < new_node && !is_kept(old_points.point)) {
       ++old_points.point;
       continue;
     }
-    const std::int32_t new_node = next_node(found, new_points), old_node = next_node(old, old_points);
-    candidates.point_node.push_back(std::min(new_node, old_node));
-    merged.bond.push_back(old_node <= new_node ? old_bond[at(old_points.point)] : PointBond{});
+    candidates.node.push_back(std::min(new_node, old_node));
+    merged.old_point.push_back(old_node <= new_node ? old_points.point : -1);
     if (new_node <= old_node) {
-      candidates.point_facet.insert(candidates.point_facet.end(),
-                                    found.point_facet.begin() + found.point_facet_offset[at(new_points.point)],
-                                    found.point_facet.begin() + found.point_facet_offset[at(new_points.point) + 1]);
+      const auto facet = found.facet.begin();
+      candidates.facet.insert(candidates.facet.end(),
+                              facet + (new_points.point > 0 ? found.facet_end[at(new_points.point - 1)] : 0),
+                              facet + found.facet_end[at(new_points.point)]);
       ++new_points.point;
     }
     if (old_node <= new_node) ++old_points.point;
-    candidates.point_facet_offset.push_back(offset_after(candidates.point_facet));
+    candidates.facet_end.push_back(offset_after(candidates.facet));
   }
 }
 
-/// Candidates just found, with the points of the old ones that have, or had, a bond.
-BondedCandidates keep_bonded_points(const ContactCandidates& found, const ContactCandidates& old,
-                                    const std::vector<PointBond>& old_bond, int grains) {
-  BondedCandidates merged;
-  ContactCandidates& candidates = merged.candidates;
-  candidates.pair_point_offset.push_back(0);
-  candidates.point_facet_offset.push_back(0);
-  PairCursor next_found{found}, next_old{old};
-  while (next_found.left() || next_old.left()) {
-    const Pair pair = std::min(next_found.grains(), next_old.grains());
-    const std::size_t before = candidates.point_node.size();
-    const PointRange new_points = next_found.take(pair), old_points = next_old.take(pair);
-    merge_points(found, new_points, old, old_bond, old_points, merged);
-    if (candidates.point_node.size() == before) continue;
-    candidates.pair_first.push_back(pair.first);
-    candidates.pair_second.push_back(pair.second);
-    candidates.pair_point_offset.push_back(offset_after(candidates.point_node));
+/// Candidates just found for the nodes of a grain, with the points of its old ones that are kept.
+template <class IsKept>
+MergedCandidates merge_candidates(const GrainCandidates& found, const ContactCandidates& old, std::int32_t grain,
+                                  IsKept is_kept) {
+  MergedCandidates merged;
+  GrainCandidates& candidates = merged.candidates;
+  constexpr std::int32_t none = std::numeric_limits<std::int32_t>::max();
+  std::size_t next_found = 0;
+  const bool has_old = !old.pair_first.empty();
+  std::int32_t next_old = has_old ? old.outgoing_offset[at(grain)] : 0;
+  const std::int32_t end_old = has_old ? old.outgoing_offset[at(grain) + 1] : 0;
+  while (next_found < found.second.size() || next_old < end_old) {
+    const std::int32_t found_second = next_found < found.second.size() ? found.second[next_found] : none;
+    const std::int32_t old_second = next_old < end_old ? old.pair_second[at(next_old)] : none;
+    const std::size_t before = candidates.node.size();
+    PointRange new_points, old_points;
+    if (found_second <= old_second) {
+      new_points = {next_found > 0 ? found.point_end[next_found - 1] : 0, found.point_end[next_found]};
+      ++next_found;
+    }
+    if (old_second <= found_second) {
+      old_points = {old.pair_point_offset[at(next_old)], old.pair_point_offset[at(next_old) + 1]};
+      ++next_old;
+    }
+    merge_points(found, new_points, old, old_points, is_kept, merged);
+    if (candidates.node.size() == before) continue;
+    candidates.second.push_back(std::min(found_second, old_second));
+    candidates.point_end.push_back(offset_after(candidates.node));
   }
-  index_pairs(candidates, grains);
   return merged;
 }
 
-/// The friction of new points, from the old points of the same node and grain. The dissipation of those old points is
-/// set to 0, so that `friction` keeps only that of points which are gone.
-std::vector<PointFriction> carried_friction(const ContactCandidates& now, const ContactCandidates& old,
-                                            std::vector<PointFriction>& friction) {
-  std::vector<PointFriction> carried(now.point_node.size());
-  PairCursor next_old{old};
-  for (PairCursor next_now{now}; next_now.left();) {
-    const Pair pair = next_now.grains();
-    while (next_old.grains() < pair) ++next_old.pair;
-    PointRange points = next_now.take(pair), before = next_old.take(pair);
-    for (; points.left(); ++points.point) {
-      const std::int32_t node = next_node(now, points);
-      while (next_node(old, before) < node) ++before.point;
-      if (next_node(old, before) != node) continue;
-      carried[at(points.point)] = friction[at(before.point)];
-      friction[at(before.point)].dissipated = 0;
+/// A search drops other points that it does not find: those without a bond and without the energy of former bonds.
+bool is_kept(const PointBond& bond) {
+  return bond.exists() || bond.dissipated_before > 0;
+}
+
+/// Adds the points of contact that are kept to the lists found for these grains. Returns for each list which old point
+/// each of its points was.
+std::vector<std::vector<std::int32_t>> merge_with_old(std::span<const std::int32_t> firsts, const Contact& contact,
+                                                      ThreadTeam& team, std::vector<GrainCandidates>& lists) {
+  std::vector<std::vector<std::int32_t>> old_point(lists.size());
+  team.for_each(static_cast<int>(lists.size()), [&](int i, int) {
+    MergedCandidates merged = merge_candidates(lists[at(i)], contact.candidates, firsts[at(i)], [&](std::int32_t p) {
+      return contact.bonding() && is_kept(contact.bond[at(p)]);
+    });
+    lists[at(i)] = std::move(merged.candidates);
+    old_point[at(i)] = std::move(merged.old_point);
+  });
+  return old_point;
+}
+
+/// Calls carry(now, old) with the number of each point and of the old point that it was; several threads do so, each
+/// for other points.
+template <class Carry>
+void for_each_old_point(const ContactCandidates& now, std::span<const std::int32_t> firsts,
+                        std::span<const std::vector<std::int32_t>> old_point, ThreadTeam& team, Carry carry) {
+  team.for_each(static_cast<int>(firsts.size()), [&](int i, int) {
+    const std::int32_t first_pair = now.outgoing_offset[at(firsts[at(i)])];
+    std::size_t point = at(now.pair_point_offset[at(first_pair)]);
+    for (const std::int32_t old : old_point[at(i)]) {
+      if (old >= 0) carry(point, at(old));
+      ++point;
     }
-  }
-  return carried;
+  });
+}
+
+/// [points of now], from the bonds of the old points.
+std::vector<PointBond> carried_bonds(const ContactCandidates& now, std::span<const std::int32_t> firsts,
+                                     std::span<const std::vector<std::int32_t>> old_point,
+                                     const std::vector<PointBond>& old_bond, ThreadTeam& team) {
+  std::vector<PointBond> bond(now.point_node.size());
+  for_each_old_point(now, firsts, old_point, team, [&](std::size_t point, std::size_t old) {
+    if (is_kept(old_bond[old])) bond[point] = old_bond[old];
+  });
+  return bond;
 }
 
 /// Carries friction over to new candidates, and records what points that are gone have dissipated.
-void carry_friction(const ContactCandidates& now, Contact& contact) {
+void carry_friction(const ContactCandidates& now, std::span<const std::int32_t> firsts,
+                    std::span<const std::vector<std::int32_t>> old_point, ThreadTeam& team, Contact& contact) {
+  std::vector<PointFriction> carried(now.point_node.size());
+  for_each_old_point(now, firsts, old_point, team, [&](std::size_t point, std::size_t before) {
+    carried[point] = contact.point_friction[before];
+    contact.point_friction[before].dissipated = 0;
+  });
   const ContactCandidates& old = contact.candidates;
-  std::vector<PointFriction> carried = carried_friction(now, old, contact.point_friction);
-  for (std::size_t p = 0; p < old.pair_first.size(); ++p) {
-    double lost = 0;
-    for (std::int32_t i = old.pair_point_offset[p]; i < old.pair_point_offset[p + 1]; ++i)
-      lost += contact.point_friction[at(i)].dissipated;
-    if (lost != 0) contact.friction_of_former_points[{old.pair_first[p], old.pair_second[p]}] += lost;
-  }
+  std::vector<double> lost(old.pair_first.size());
+  team.for_each(static_cast<int>(lost.size()), [&](int p, int) {
+    for (std::int32_t i = old.pair_point_offset[at(p)]; i < old.pair_point_offset[at(p) + 1]; ++i)
+      lost[at(p)] += contact.point_friction[at(i)].dissipated;
+  });
+  for (std::size_t p = 0; p < lost.size(); ++p)
+    if (lost[p] != 0) contact.friction_of_former_points[{old.pair_first[p], old.pair_second[p]}] += lost[p];
   contact.point_friction = std::move(carried);
 }
 
@@ -201,14 +241,16 @@ void take_over(CandidatesFromOld&& now, int grains, Contact& contact) {
 } // namespace
 
 void renew_candidates(const Model& model, const SearchRange& range, ThreadTeam& team, Contact& contact) {
-  ContactCandidates candidates = find_contact_candidates(model.surface(), range.reach, range.bounds, range.near, team);
-  if (contact.bonding()) {
-    BondedCandidates merged = keep_bonded_points(candidates, contact.candidates, contact.bond, model.grains);
-    candidates = std::move(merged.candidates);
-    contact.bond = std::move(merged.bond);
-  }
-  if (contact.has_friction()) carry_friction(candidates, contact);
-  contact.candidates = std::move(candidates);
+  const std::vector<std::int32_t>& firsts = range.near.grain;
+  std::vector<GrainCandidates> lists =
+      find_candidates_of_grains(model.surface(), range.reach, range.bounds, range.near, team);
+  std::vector<std::vector<std::int32_t>> old_point;
+  if (contact.bonding() || contact.has_friction()) old_point = merge_with_old(firsts, contact, team, lists);
+  ContactCandidates now = join_candidates(firsts, lists, model.grains, team);
+  lists = {};
+  if (contact.bonding()) contact.bond = carried_bonds(now, firsts, old_point, contact.bond, team);
+  if (contact.has_friction()) carry_friction(now, firsts, old_point, team, contact);
+  contact.candidates = std::move(now);
   contact.margin = range.margin;
   const std::size_t points = contact.candidates.point_node.size();
   contact.point_facet.assign(points, -1);

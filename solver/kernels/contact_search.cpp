@@ -178,13 +178,56 @@ struct NodeGrid {
   }
 };
 
+/// Boxes of the facets of one grain, grown by the margin: by component, so that many are compared at once.
+struct FacetBoxes {
+  std::array<std::vector<double>, 3> low, high; ///< [facets]
+  std::vector<std::uint8_t> meets;              ///< [facets], of the last region
+  double cell = 0;                              ///< mm, about as large as the boxes
+
+  void fill(const SurfaceView& surface, std::int32_t grain, const Bounds& bounds, double margin) {
+    const std::int32_t first = surface.facet_offset[at(grain)];
+    const auto facets = at(surface.facet_offset[at(grain) + 1] - first);
+    for (std::size_t k = 0; k < 3; ++k) low[k].resize(facets), high[k].resize(facets);
+    meets.resize(facets);
+    for (std::size_t f = 0; f < facets; ++f) {
+      const Box box = facet_box(surface, first + static_cast<std::int32_t>(f)).grown(safe(margin));
+      for (std::size_t k = 0; k < 3; ++k) low[k][f] = box.low[k], high[k][f] = box.high[k];
+    }
+    const double extent =
+        std::max({bounds.high[0] - bounds.low[0], bounds.high[1] - bounds.low[1], bounds.high[2] - bounds.low[2]});
+    cell = std::max(2 * extent / std::sqrt(static_cast<double>(facets)) + margin, 1e-300);
+  }
+  void compare(const Box& region) {
+    std::ranges::fill(meets, std::uint8_t{1});
+    for (std::size_t k = 0; k < 3; ++k) {
+      const double *const low_k = low[k].data(), *const high_k = high[k].data();
+      const double region_low = region.low[k], region_high = region.high[k];
+      std::uint8_t* const flag = meets.data();
+      for (std::size_t f = 0; f < meets.size(); ++f)
+        flag[f] &= static_cast<std::uint8_t>(static_cast<int>(low_k[f] <= region_high) &
+                                             static_cast<int>(high_k[f] >= region_low));
+    }
+  }
+  Box box(std::size_t f) const {
+    return Box(Bounds{{low[0][f], low[1][f], low[2][f]}, {high[0][f], high[1][f], high[2][f]}});
+  }
+};
+
 using NodeFacet = std::pair<std::int32_t, std::int32_t>;
 
+/// What a thread needs to search.
+struct Scratch {
+  FacetBoxes boxes;
+  NodeGrid grid;
+  std::vector<NodeFacet> found;
+};
+
 /// All combinations of the first grain's nodes with the second grain's facets within the margin, by node, then facet.
-void near_points(const SurfaceView& surface, std::int32_t first, std::int32_t second, std::span<const Bounds> bounds,
-                 double margin, NodeGrid& grid, std::vector<NodeFacet>& found) {
-  found.clear();
-  const Box reach = Box(bounds[at(second)]).grown(safe(margin)), own = Box(bounds[at(first)]).grown(safe(margin));
+/// `scratch.boxes` are those of the second grain, whose bounds are `bounds`.
+std::vector<NodeFacet> near_points(const SurfaceView& surface, std::int32_t first, std::int32_t second,
+                                   const Bounds& bounds, double margin, Scratch& scratch) {
+  auto& [boxes, grid, found] = scratch;
+  const Box reach = Box(bounds).grown(safe(margin));
   grid.node.clear();
   grid.region = Box{};
   for (std::int32_t n = surface.node_offset[at(first)];
@@ -193,18 +236,15 @@ void near_points(const SurfaceView& surface, std::int32_t first, std::int32_t se
       grid.node.push_back(n);
       grid.region.add(x);
     }
-  if (grid.node.empty()) return;
+  if (grid.node.empty()) return {};
+  grid.fill(surface, boxes.cell);
 
-  // Cells about as large as the boxes that are looked up: the mean facet box of the second grain.
-  const Bounds& other = bounds[at(second)];
-  const auto facets = static_cast<double>(surface.facet_offset[at(second) + 1] - surface.facet_offset[at(second)]);
-  const double extent =
-      std::max({other.high[0] - other.low[0], other.high[1] - other.low[1], other.high[2] - other.low[2]});
-  grid.fill(surface, std::max(2 * extent / std::sqrt(facets) + margin, 1e-300));
-
-  for (std::int32_t f = surface.facet_offset[at(second)]; f < surface.facet_offset[at(second) + 1]; ++f) {
-    const Box around = facet_box(surface, f).grown(safe(margin));
-    if (!around.meets(own) || !around.meets(grid.region)) continue;
+  found.clear();
+  boxes.compare(grid.region);
+  for (std::size_t i = 0; i < boxes.meets.size(); ++i) {
+    if (boxes.meets[i] == 0) continue;
+    const std::int32_t f = surface.facet_offset[at(second)] + static_cast<std::int32_t>(i);
+    const Box around = boxes.box(i);
     Vector3<double> x[3];
     for (std::size_t c = 0; c < 3; ++c) x[c] = vector_of(node_row(surface, surface.facet[3 * at(f) + c]));
     grid.in(around, [&](std::int32_t n) {
@@ -215,9 +255,72 @@ void near_points(const SurfaceView& surface, std::int32_t first, std::int32_t se
     });
   }
   std::sort(found.begin(), found.end());
+  return found;
+}
+
+/// A pair of grains: the number of the first in a list, and of the second in the list of those near the first.
+struct NearPair {
+  std::int32_t first, other;
+};
+
+/// [grains]: the pairs of each second grain.
+std::vector<std::vector<NearPair>> pairs_by_second(const NearGrains& near, std::size_t grains) {
+  std::vector<std::vector<NearPair>> pairs(grains);
+  for (std::size_t i = 0; i < near.other.size(); ++i)
+    for (std::size_t k = 0; k < near.other[i].size(); ++k)
+      pairs[at(near.other[i][k])].push_back({static_cast<std::int32_t>(i), static_cast<std::int32_t>(k)});
+  return pairs;
+}
+
+/// Throws SimulationError if a list of candidates with so many entries does not fit into 32 bits.
+void check_fits(std::size_t entries) {
+  if (entries > std::numeric_limits<std::int32_t>::max())
+    throw SimulationError(
+        fmt::format("contact: found more than {} candidate facets in one process, allowed: fewer; use "
+                    "more processes (docs/cluster.md) or a coarser mesh",
+                    std::numeric_limits<std::int32_t>::max()));
+}
+
+/// Adds a pair and its combinations of nodes and facets, by node, then facet.
+void append_pair(std::int32_t second, std::span<const NodeFacet> found, GrainCandidates& list) {
+  for (std::size_t i = 0; i < found.size(); ++i) {
+    const auto [node, facet] = found[i];
+    if (i == 0 || found[i - 1].first != node) {
+      if (i > 0) list.facet_end.push_back(offset_after(list.facet));
+      list.node.push_back(node);
+    }
+    list.facet.push_back(facet);
+  }
+  list.facet_end.push_back(offset_after(list.facet));
+  list.second.push_back(second);
+  list.point_end.push_back(offset_after(list.node));
+}
+
+/// Entries of lists of candidates.
+struct Counts {
+  std::size_t pairs = 0, points = 0, facets = 0;
+  std::ptrdiff_t pair() const { return static_cast<std::ptrdiff_t>(pairs); }
+  std::ptrdiff_t point() const { return static_cast<std::ptrdiff_t>(points); }
+  std::ptrdiff_t facet() const { return static_cast<std::ptrdiff_t>(facets); }
+};
+
+/// [lists + 1]: of the lists before each; the last has all. Throws SimulationError if a sum does not fit into 32 bits.
+std::vector<Counts> counts_before(std::span<const GrainCandidates> lists) {
+  std::vector<Counts> before(lists.size() + 1);
+  for (std::size_t i = 0; i < lists.size(); ++i)
+    before[i + 1] = {before[i].pairs + lists[i].second.size(), before[i].points + lists[i].node.size(),
+                     before[i].facets + lists[i].facet.size()};
+  check_fits(before.back().facets);
+  check_fits(before.back().points); // can be more: bonds that opened have no facets near
+  return before;
 }
 
 } // namespace
+
+std::int32_t offset_after(const std::vector<std::int32_t>& list) {
+  check_fits(list.size());
+  return static_cast<std::int32_t>(list.size());
+}
 
 void index_pairs(ContactCandidates& candidates, int grains) {
   const std::size_t pairs = candidates.pair_first.size();
@@ -235,29 +338,77 @@ void index_pairs(ContactCandidates& candidates, int grains) {
     candidates.incoming_pair[at(next[at(candidates.pair_second[p])]++)] = static_cast<std::int32_t>(p);
 }
 
-NearGrains find_near_grains(std::span<const Bounds> bounds, double margin, std::vector<std::int32_t> grains) {
+NearGrains find_near_grains(std::span<const Bounds> bounds, double margin, std::vector<std::int32_t> grains,
+                            ThreadTeam& team) {
   const GrainGrid grid(bounds);
   NearGrains near;
   near.grain = std::move(grains);
-  for (const std::int32_t g : near.grain) {
-    std::vector<std::int32_t>& others = near.other.emplace_back();
+  near.other.resize(near.grain.size());
+  team.for_each(static_cast<int>(near.grain.size()), [&](int i, int) {
+    const std::int32_t g = near.grain[at(i)];
+    std::vector<std::int32_t>& others = near.other[at(i)];
     const Box grown = Box(bounds[at(g)]).grown(safe(margin));
     grid.in(grown, [&](std::int32_t other) {
       if (other != g && grown.meets(bounds[at(other)])) others.push_back(other);
     });
     std::sort(others.begin(), others.end());
     others.erase(std::unique(others.begin(), others.end()), others.end());
-  }
+  });
   return near;
 }
 
-std::int32_t offset_after(const std::vector<std::int32_t>& list) {
-  if (list.size() > std::numeric_limits<std::int32_t>::max())
-    throw SimulationError(
-        fmt::format("contact: found more than {} candidate facets in one process, allowed: fewer; use "
-                    "more processes (docs/cluster.md) or a coarser mesh",
-                    std::numeric_limits<std::int32_t>::max()));
-  return static_cast<std::int32_t>(list.size());
+std::vector<GrainCandidates> find_candidates_of_grains(const SurfaceView& surface, double margin,
+                                                       std::span<const Bounds> bounds, const NearGrains& near,
+                                                       ThreadTeam& team) {
+  // By second grain, so that the boxes of its facets are made once for all grains near it.
+  const std::vector<std::vector<NearPair>> pairs = pairs_by_second(near, bounds.size());
+  std::vector<std::vector<std::vector<NodeFacet>>> found(near.grain.size()); // as near.other
+  for (std::size_t i = 0; i < found.size(); ++i) found[i].resize(near.other[i].size());
+  std::vector<Scratch> scratch(static_cast<std::size_t>(team.size()));
+  team.for_each(static_cast<int>(pairs.size()), [&](int second, int thread) {
+    if (pairs[at(second)].empty()) return;
+    Scratch& own = scratch[at(thread)];
+    own.boxes.fill(surface, second, bounds[at(second)], margin);
+    for (const auto [first, other] : pairs[at(second)])
+      found[at(first)][at(other)] =
+          near_points(surface, near.grain[at(first)], second, bounds[at(second)], margin, own);
+  });
+
+  std::vector<GrainCandidates> lists(near.grain.size());
+  team.for_each(static_cast<int>(lists.size()), [&](int i, int) {
+    for (std::size_t k = 0; k < found[at(i)].size(); ++k)
+      if (!found[at(i)][k].empty()) append_pair(near.other[at(i)][k], found[at(i)][k], lists[at(i)]);
+    found[at(i)] = {};
+  });
+  return lists;
+}
+
+ContactCandidates join_candidates(std::span<const std::int32_t> firsts, std::span<const GrainCandidates> lists,
+                                  int grains, ThreadTeam& team) {
+  const std::vector<Counts> before = counts_before(lists);
+  const Counts total = before.back();
+  ContactCandidates result;
+  result.pair_first.resize(total.pairs);
+  result.pair_second.resize(total.pairs);
+  result.pair_point_offset.resize(total.pairs + 1);
+  result.point_node.resize(total.points);
+  result.point_facet_offset.resize(total.points + 1);
+  result.point_facet.resize(total.facets);
+  team.for_each(static_cast<int>(lists.size()), [&](int i, int) {
+    const GrainCandidates& list = lists[at(i)];
+    const Counts& start = before[at(i)];
+    std::fill_n(result.pair_first.begin() + start.pair(), list.second.size(), firsts[at(i)]);
+    std::ranges::copy(list.second, result.pair_second.begin() + start.pair());
+    std::ranges::copy(list.node, result.point_node.begin() + start.point());
+    std::ranges::copy(list.facet, result.point_facet.begin() + start.facet());
+    const auto after = [](std::ptrdiff_t first) {
+      return [first](std::int32_t end) { return static_cast<std::int32_t>(first) + end; };
+    };
+    std::ranges::transform(list.point_end, result.pair_point_offset.begin() + start.pair() + 1, after(start.point()));
+    std::ranges::transform(list.facet_end, result.point_facet_offset.begin() + start.point() + 1, after(start.facet()));
+  });
+  index_pairs(result, grains);
+  return result;
 }
 
 ContactCandidates find_contact_candidates(const SurfaceView& surface, double margin, ThreadTeam& team) {
@@ -272,50 +423,8 @@ ContactCandidates find_contact_candidates(const SurfaceView& surface, double mar
     bounds[at(g)] = box;
     all[at(g)] = g;
   }
-  return find_contact_candidates(surface, margin, bounds, find_near_grains(bounds, margin, std::move(all)), team);
-}
-
-ContactCandidates find_contact_candidates(const SurfaceView& surface, double margin, std::span<const Bounds> bounds,
-                                          const NearGrains& near, ThreadTeam& team) {
-  struct Found {
-    std::int32_t second;
-    std::vector<NodeFacet> points;
-  };
-  struct Scratch {
-    NodeGrid grid;
-    std::vector<NodeFacet> points;
-  };
-  std::vector<std::vector<Found>> found(near.grain.size());
-  std::vector<Scratch> scratch(static_cast<std::size_t>(team.size()));
-  team.for_each(static_cast<int>(near.grain.size()), [&](int i, int thread) {
-    Scratch& own = scratch[at(thread)];
-    for (const std::int32_t other : near.other[at(i)]) {
-      near_points(surface, near.grain[at(i)], other, bounds, margin, own.grid, own.points);
-      if (!own.points.empty()) found[at(i)].push_back({other, own.points});
-    }
-  });
-
-  // Joined in the grains' order, so that the result does not depend on which thread found what.
-  ContactCandidates result;
-  result.pair_point_offset.push_back(0);
-  result.point_facet_offset.push_back(0);
-  for (std::size_t first = 0; first < found.size(); ++first)
-    for (const Found& pair : found[first]) {
-      result.pair_first.push_back(near.grain[first]);
-      result.pair_second.push_back(pair.second);
-      for (std::size_t i = 0; i < pair.points.size(); ++i) {
-        const auto [node, facet] = pair.points[i];
-        if (i == 0 || pair.points[i - 1].first != node) {
-          if (i > 0) result.point_facet_offset.push_back(offset_after(result.point_facet));
-          result.point_node.push_back(node);
-        }
-        result.point_facet.push_back(facet);
-      }
-      result.point_facet_offset.push_back(offset_after(result.point_facet));
-      result.pair_point_offset.push_back(offset_after(result.point_node));
-    }
-  index_pairs(result, static_cast<int>(surface.node_offset.size()) - 1);
-  return result;
+  const NearGrains near = find_near_grains(bounds, margin, std::move(all), team);
+  return join_candidates(near.grain, find_candidates_of_grains(surface, margin, bounds, near, team), grains, team);
 }
 
 } // namespace mpfem

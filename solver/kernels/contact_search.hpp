@@ -39,12 +39,28 @@ struct NearGrains {
 
 /// For each of `grains`, the others whose bounding boxes come within the margin of its own; may include a few more.
 /// `bounds` [grains of the packing].
-NearGrains find_near_grains(std::span<const Bounds> bounds, double margin, std::vector<std::int32_t> grains);
+NearGrains find_near_grains(std::span<const Bounds> bounds, double margin, std::vector<std::int32_t> grains,
+                            ThreadTeam& team);
 
-/// The same as above, only for pairs of a first grain in near.grain and a second grain in its near.other; looks at no
-/// other surfaces. `bounds` [grains of the packing] of the surfaces at present.
-ContactCandidates find_contact_candidates(const SurfaceView& surface, double margin, std::span<const Bounds> bounds,
-                                          const NearGrains& near, ThreadTeam& team);
+/// Candidates of the nodes of one grain, sorted as ContactCandidates are.
+struct GrainCandidates {
+  std::vector<std::int32_t> second;    ///< [pairs]
+  std::vector<std::int32_t> point_end; ///< [pairs]
+  std::vector<std::int32_t> node;      ///< [points]
+  std::vector<std::int32_t> facet_end; ///< [points]
+  std::vector<std::int32_t> facet;
+};
+
+/// Candidates of each of near.grain, only for pairs with a second grain in its near.other; looks at no other surfaces.
+/// `bounds` [grains of the packing] of the surfaces at present.
+std::vector<GrainCandidates> find_candidates_of_grains(const SurfaceView& surface, double margin,
+                                                       std::span<const Bounds> bounds, const NearGrains& near,
+                                                       ThreadTeam& team);
+
+/// The candidates of these grains (ascending) in one list. `grains`: of the packing. Throws SimulationError if a list
+/// is too long for 32 bits.
+ContactCandidates join_candidates(std::span<const std::int32_t> firsts, std::span<const GrainCandidates> lists,
+                                  int grains, ThreadTeam& team);
 
 /// The offset that follows the last entry of a list of candidates. Throws SimulationError if it does not fit into 32
 /// bits.

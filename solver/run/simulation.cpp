@@ -134,7 +134,7 @@ void Simulation::find_candidates() {
   share_of_grains(*ranks_, model_.ownership, std::span(contact_.travel));
   travel_since_search_ = 0;
   const double reach = margin_ + ranks_->largest(max_contact_offset(model_));
-  const NearGrains near = find_near_grains(bounds_, reach, model_.own());
+  const NearGrains near = find_near_grains(bounds_, reach, model_.own(), *team_);
   if (!ranks_->alone()) {
     leave_own_pairs(model_, contact_);
     std::vector<std::int32_t> ghosts(contact_.candidates.pair_second); // bonded grains may be far apart

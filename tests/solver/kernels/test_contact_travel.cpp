@@ -33,7 +33,8 @@ Contact searched_afresh(Model& model, const Contact& contact, ThreadTeam& team) 
   for (const std::int32_t grain : model.own()) bounds.push_back(update_surface(model, grain));
   const double reach = contact.margin + max_contact_offset(model);
   Contact fresh = contact;
-  renew_candidates(model, {contact.margin, reach, bounds, find_near_grains(bounds, reach, model.own())}, team, fresh);
+  renew_candidates(model, {contact.margin, reach, bounds, find_near_grains(bounds, reach, model.own(), team)}, team,
+                   fresh);
   return fresh;
 }
 
