@@ -2,6 +2,19 @@
 # verdicts.sh POSTPROC: writes docs/verdicts.md from the verdicts that are kept in studies/results.
 set -eu
 postproc=$1
+results=studies/results
+
+# The paper's finest mesh has two sources: fig07, and studies/finest-mesh, whose statements on the von Mises stress
+# belong to fig08 and whose others to fig09. Statements stand one a line in verdict.json.
+finest=$(mktemp -d)
+trap 'rm -rf "$finest"' EXIT
+mkdir "$finest/fig07" "$finest/fig08" "$finest/fig09"
+cp $results/paper/fig07/verdict.json "$finest/fig07/"
+as_list() { awk '{ sub(/,$/, ""); printf "%s%s", NR == 1 ? "[\n" : ",\n", $0 } END { print "\n]" }'; }
+statements() { grep '"statement":' $results/own/finest-mesh/verdict.json; }
+statements | grep 'von Mises' | as_list >"$finest/fig08/verdict.json"
+statements | grep -v 'von Mises' | as_list >"$finest/fig09/verdict.json"
+
 {
   cat <<END
 # Verdicts
@@ -10,8 +23,9 @@ Every statement that a figure of Ku, Zhao, Mollon and Zhao makes, compared with 
 that is known.
 
 - \`coarse\` is the paper's packing of 329 grains at its coarsest mesh (0.03 mm), \`medium\` the same at 0.015 mm,
-  \`finest\` at 0.0075 mm (more of it in [finest mesh](../studies/finest-mesh/README.md)), \`smoke\` 25 grains. Grains
-  touch with their facets, as in the paper.
+  \`smoke\` 25 grains. Grains touch with their facets, as in the paper.
+- \`finest\` is the paper's packing at 0.0075 mm. Its fig08 and fig09 are those of [finest
+  mesh](../studies/finest-mesh/README.md), with walls at 8 instead of 4 m/s.
 - \`plain\` is \`coarse\` with plain tetrahedra, the paper's element (\`ELEMENT=tet4\`). The others have averaged nodal
   pressure from fig10 on.
 - \`smooth\` is the packing of 329 grains with smooth surfaces at 0.04 mm (\`MESH=coarser SURFACE=smooth\`). Its mean
@@ -22,9 +36,6 @@ that is known.
   of fig14 lack \`coarse\` for another reason: its results [are older](../studies/fig14/README.md).
 - Six statements of fig10 to fig20 on kinetic energy are not judged for \`coarse\`: its results are older, and their
   shares are not those that [metrics](metrics.md#inertia-of-a-stage) defines.
-- That the curves of 0.015 and 0.0075 mm nearly coincide (fig09) is judged in [finest
-  mesh](../studies/finest-mesh/README.md), with walls at 8 m/s: it **differs**. That finer meshes capture the
-  concentration of stress better (fig08) is also judged there, at a relative density of 0.70: it agrees.
 - The paper was at hand as text, without its plots. What it only draws is judged by what its text says of the curve.
 - Statements are judged by the softening law \`energy\`, which reads Eq. 5 literally. The law \`exponential\`, the
   curve that Fig. 3 draws, is reported without verdicts. Exceptions: fig03 judges both laws. fig04, fig05, fig10 (b) and
@@ -39,8 +50,7 @@ that is known.
 \`make -f Makefile.studies keep MESH=NAME\` writes this page.
 
 END
-  results=studies/results
   "$postproc" verdicts coarse=$results/coarse plain=$results/coarse-tet4 smooth=$results/coarser-smooth \
-    medium=$results/medium finest=$results/paper smoke=$results/smoke
+    medium=$results/medium finest="$finest" smoke=$results/smoke
 } >docs/verdicts.md.partial
 mv docs/verdicts.md.partial docs/verdicts.md
