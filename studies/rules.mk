@@ -86,8 +86,8 @@ $(call allowed,ELEMENT,tet4 tet4-anp tet4-patch)
 SURFACE ?= facets
 $(call allowed,SURFACE,facets smooth)
 
-#: BESIDE=NAME      draw the results of other settings into the same plots, dashed, e.g. BESIDE=coarser-smooth: those of
-#:                  out/NAME, or the kept ones of studies/results/NAME
+#: BESIDE=NAME      draw the results of these settings into the plots, dashed, instead of those that the figure's file
+#:                  names, e.g. BESIDE=coarse-tet4: those of out/NAME, or the kept ones of studies/results/NAME
 BESIDE ?=
 ifneq ($(BESIDE),)
   beside_folder := $(firstword $(wildcard out/$(BESIDE) $(studies)/results/$(BESIDE)))

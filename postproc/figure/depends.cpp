@@ -111,9 +111,14 @@ private:
 
   std::string data_of(const PlotSpec& plot) const {
     std::set<std::string> needed;
+    const std::string beside = folder_beside(*current_, request_.results);
     for (const SeriesSpec& series : plot.series) {
-      if (!series.table.empty()) needed.insert(path_of_table(current_->table(series.table, series.place), folder_));
       if (!series.fit.empty()) needed.insert(folder_ + "/fits.json");
+      if (series.table.empty()) continue;
+      const TableSpec& table = current_->table(series.table, series.place);
+      needed.insert(path_of_table(table, folder_));
+      const std::string other = path_of_table(table, beside);
+      if (!beside.empty() && std::filesystem::exists(other)) needed.insert(other);
     }
     return fmt::format("{} {}", sources_, fmt::join(needed, " "));
   }

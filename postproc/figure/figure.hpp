@@ -123,6 +123,7 @@ struct SeriesSpec {
   double width = 0, size = 0;
   std::string dash, title;
   bool spread = false;
+  bool beside = true; ///< also drawn from other results
   Place place;
 };
 
@@ -216,6 +217,12 @@ struct StatementSpec {
   Place place;
 };
 
+/// Results of the same figure with other settings that its plots show as well.
+struct BesideSpec {
+  std::string folder, title;       ///< that of all figures' results; for the plots' keys. Empty: none
+  std::vector<std::string> meshes; ///< only beside results of these; empty: of all
+};
+
 /// Everything that a figure's file declares.
 struct Figure {
   std::string path, name, title, question, source;
@@ -228,6 +235,7 @@ struct Figure {
   std::vector<TableSpec> tables;
   std::vector<FitSpec> fits;
   std::vector<PlotSpec> plots;
+  BesideSpec beside;
   std::vector<PictureSpec> pictures;
   std::vector<ScriptSpec> scripts;
   std::vector<StatementSpec> statements;

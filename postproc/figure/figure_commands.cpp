@@ -94,7 +94,7 @@ struct FigureCommands::State {
     command.add_option(
         "--beside", beside,
         "NAME=FOLDER: draw results of the same figure with other settings as well, dashed, and call them "
-        "NAME; FOLDER as for --results");
+        "NAME; FOLDER as for --results (default: those that the figure's file names)");
     command.get_option("--output")->required()->description("Picture to write (PNG or SVG)");
   }
 
@@ -205,9 +205,13 @@ struct FigureCommands::State {
     deliver(list.dump(2) + "\n");
   }
 
-  /// Those of plot's --beside.
+  /// Those of plot's --beside, otherwise those that the figure's file names.
   std::optional<OtherResults> results_beside(const Figure& f) const {
-    if (beside.empty()) return std::nullopt;
+    if (beside.empty()) {
+      const std::string kept = folder_beside(f, {results, mesh});
+      if (kept.empty()) return std::nullopt;
+      return OtherResults{f.beside.title, FigureData(f, kept)};
+    }
     const std::size_t sign = beside.find('=');
     if (sign == std::string::npos || sign == 0)
       throw InputError(fmt::format("--beside: found '{}', allowed: NAME=FOLDER", one_line(beside)));

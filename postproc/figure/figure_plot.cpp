@@ -87,14 +87,24 @@ std::string title_text(const std::string& title) {
   return title.empty() ? " notitle" : " title " + gnuplot_string(title);
 }
 
-/// The same series from other results: dashed, with hollow points, without a title.
+/// The same series from other results: dashed, with hollow points, without a title; without errors, which would cover
+/// its own.
 SeriesSpec as_beside(SeriesSpec s) {
   s.dash = "dashed";
   s.title.clear();
+  s.error.clear();
   s.spread = false;
   if (s.point == 0) s.point = looks[s.colour - 1].point;
   if (s.point >= 5 && s.point % 2 == 1) --s.point; // gnuplot's hollow form of a filled point
   return s;
+}
+
+/// Whether a table of other results has what is drawn of a series: it may be older than the figure's file.
+bool has_columns_of(const SeriesSpec& s, const TextTable& table) {
+  std::vector<std::string> needed = {s.x, s.y};
+  if (!s.group.empty()) needed.push_back(s.group);
+  for (const Filter& filter : s.where) needed.push_back(filter.name);
+  return std::all_of(needed.begin(), needed.end(), [&](const std::string& name) { return table.has(name); });
 }
 
 /// Data blocks and the lines of the plot command that draw them.
@@ -114,18 +124,20 @@ public:
   }
   /// Adds measured points or a curve as they are in other results, if those have them.
   void add_beside(const SeriesSpec& s, FigureData& other) {
-    if (s.table.empty() || !s.colour_by.empty() || !other.has_table(s.table)) return;
+    if (!s.beside || s.table.empty() || !s.colour_by.empty() || !other.has_table(s.table)) return;
+    if (other.figure().table(s.table, s.place).beside) return; // the same file
+    if (!has_columns_of(s, other.table(s.table))) return;
     FigureData* const own = std::exchange(data_, &other);
     add(as_beside(s));
     data_ = own;
-    has_beside_ = true;
-    beside_joined_ = beside_joined_ || s.style.find("lines") != std::string::npos;
+    if (beside_style_.empty()) beside_style_ = s.style;
+    if (beside_style_ != s.style) beside_style_ = "linespoints";
   }
-  bool has_beside() const { return has_beside_; }
+  bool has_beside() const { return !beside_style_.empty(); }
   /// How series of other results look in the key.
   std::string beside_sample() const {
-    return beside_joined_ ? std::string("linespoints linetype 8 pointtype 6") + dashed
-                          : std::string("points linetype 8 pointtype 6");
+    return fmt::format("{} linetype 8{}{}", beside_style_, beside_style_ == "points" ? "" : dashed,
+                       beside_style_ == "lines" ? "" : " pointtype 6 pointsize 1.5");
   }
   const std::string& blocks() const { return blocks_; }
   std::string drawings() const { return fmt::format("{}", fmt::join(drawings_, ", \\\n  ")); }
@@ -257,8 +269,7 @@ private:
 
   const PlotSpec& plot_;
   FigureData* data_;
-  bool has_beside_ = false;
-  bool beside_joined_ = false; ///< whether lines join points of other results
+  std::string beside_style_; ///< of the series of other results; empty: none is drawn
   std::string folder_;
   int packings_ = 0, count_ = 0, spreads_ = 0;
   std::string blocks_;

@@ -292,6 +292,16 @@ std::vector<std::string> runs_of(const TableSpec& spec) {
   return names;
 }
 
+std::string folder_beside(const Figure& figure, const ResultsFolder& results) {
+  const BesideSpec& beside = figure.beside;
+  const auto name_of = [](const std::filesystem::path& folder) { return (folder / "").parent_path().filename(); };
+  if (beside.folder.empty() || name_of(beside.folder) == name_of(results.path)) return "";
+  const auto& meshes = beside.meshes;
+  if (!meshes.empty() && std::find(meshes.begin(), meshes.end(), results.mesh) == meshes.end()) return "";
+  const std::string folder = fmt::format("{}/{}", beside.folder, figure.name);
+  return std::filesystem::is_directory(folder) ? folder : "";
+}
+
 std::vector<Case> available_cases(const Figure& figure, const std::vector<std::string>& series,
                                   const std::vector<Filter>& where, const std::vector<std::string>& runs,
                                   const ResultsFolder& results, const Place& place) {

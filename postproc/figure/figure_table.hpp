@@ -17,6 +17,10 @@ struct ResultsFolder {
 /// The file of a run or a packing. `packing`: that of the mesh.
 std::string file_of(const RunInstance& run, const ResultsFolder& results, const std::string& packing);
 
+/// The folder of the figure's results that its file puts beside `results`. Empty where there are none: it names none,
+/// or not beside this mesh, they do not exist, or are those of the same settings.
+std::string folder_beside(const Figure& figure, const ResultsFolder& results);
+
 /// The cases that a table or a picture shows: those for which the needed runs of other meshes have been made.
 std::vector<Case> available_cases(const Figure& figure, const std::vector<std::string>& series,
                                   const std::vector<Filter>& where, const std::vector<std::string>& runs,

@@ -64,6 +64,7 @@ private:
     read_runs(root, folder);
     read_tables(root, folder);
     read_plots(root);
+    if (root.has("beside")) read_beside(root.table("beside"), folder);
     append_each(root, "statements", read_statement, main ? figure_.statements : included_statements_);
     root.finish();
   }
@@ -160,6 +161,14 @@ private:
     append_each(root, "plots", read_plot, figure_.plots);
     append_each(root, "pictures", read_picture, figure_.pictures);
     append_each(root, "scripts", read_script, figure_.scripts);
+  }
+
+  /// Replaces what the files that this one includes put beside.
+  void read_beside(TableReader table, const filesystem::path& folder) {
+    figure_.beside.folder = (folder / table.string("results")).lexically_normal().string();
+    figure_.beside.title = table.string("title");
+    figure_.beside.meshes = table.strings_or("meshes", {});
+    table.finish();
   }
 
   Figure& figure_;

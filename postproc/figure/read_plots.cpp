@@ -43,6 +43,7 @@ SeriesSpec read_series(Texts& t) {
     s.colour_by = t.optional("colour_by");
     s.where = t.filters("where");
     s.spread = r.boolean_or("spread", false);
+    s.beside = r.boolean_or("beside", true);
     s.fixed_x = t.number("fixed_x");
     s.fixed_group = t.number("fixed_group");
   } else {

@@ -42,6 +42,10 @@ void TextTable::add_column(const std::string& title) {
   names.push_back(title.substr(0, title.find(" [")));
 }
 
+bool TextTable::has(const std::string& name) const {
+  return std::find(names.begin(), names.end(), name) != names.end();
+}
+
 std::size_t TextTable::column(const std::string& name) const {
   const auto found = std::find(names.begin(), names.end(), name);
   if (found == names.end()) throw InputError(no_column(*this, name));

@@ -16,6 +16,7 @@ struct TextTable {
   std::vector<std::string> sources; ///< files from which it was made
 
   void add_column(const std::string& title);
+  bool has(const std::string& name) const;
   /// Index of a column. Throws InputError that suggests the nearest name.
   std::size_t column(const std::string& name) const;
   std::size_t column(const std::string& name, const Place& place) const;

@@ -482,7 +482,7 @@ series = [
   write_text(toolkit.path("other") + "/strength.csv", "name,density [1],strength [MPa]\na,1,4\n");
   OtherResults other{"finer", FigureData(figure, toolkit.path("other"))};
   const std::string both = plot_script(figure.plots[0], data, folder, "svg", "p.svg", 0, &other);
-  CHECK_THAT(both, Contains("1 30 10 \n2 NaN 20 \n") && Contains("EOD\n1 40 10 \n"));
+  CHECK_THAT(both, Contains("1 30 10 \n2 NaN 20 \n") && Contains("EOD\n1 40 \nEOD"));
   CHECK_THAT(both, Contains("linetype 1 dashtype (12, 10) pointtype 6") && Contains("title 'finer'"));
   CHECK(script.find("finer") == std::string::npos);
   // The key shows a line only where there is one.

@@ -474,6 +474,79 @@ series = [
   CHECK_THAT(surface, Contains("3 1 3"));
 }
 
+TEST_CASE("a plot shows the results that the figure's file puts beside it, where they exist and are others") {
+  const Studies studies;
+  const std::string plot = R"([[cases]]
+meshes = ["coarse"]
+x = 1
+[[tables]]
+name = "t"
+row = "r"
+columns = ["x = {x}", "y = {x}"]
+[[plots]]
+name = "p"
+x = {}
+y = {}
+series = [{ table = "t", x = "x", y = "y", error = "y" }]
+)";
+  write_text(studies.path("programmes/facets.toml"), "[beside]\nresults = \"facets\"\ntitle = \"facets\"\n");
+  const Figure figure = studies.figure("include = [\"facets.toml\"]\n" + plot +
+                                       "[beside]\nresults = \"kept/finer\"\ntitle = \"finer mesh\"\n"
+                                       "meshes = [\"coarse\", \"medium\"]\n");
+  const std::string kept = studies.path("kept/finer/study"), table = kept + "/t.csv";
+  CHECK(folder_beside(figure, studies.results()).empty());
+  CHECK_THAT(studies.rules(figure), !Contains("finer"));
+  write_text(table, "name,x,y\nr,1,4\n");
+  CHECK(folder_beside(figure, studies.results()) == kept);
+  CHECK_THAT(studies.rules(figure), Contains(" " + table + " "));
+  write_text(studies.path("out/study/t.csv"), "name,x,y\nr,1,2\n");
+  const std::string svg = studies.path("p.svg"), results = studies.path("out");
+  const auto outcome =
+      test::postproc(fmt::format("plot {} p --results {} --programmes {} -o {}", studies.path("study.toml"), results,
+                                 studies.path("programmes"), svg));
+  CHECK(outcome.exit_code == 0);
+  CHECK_THAT(test::read_text(svg), Contains("finer mesh"));
+  CHECK(folder_beside(figure, {studies.path("out"), "smoke"}).empty());
+  CHECK(folder_beside(figure, {studies.path("out/finer/"), "coarse"}).empty()); // its own
+  const Figure included = studies.figure("include = [\"facets.toml\"]\n" + plot);
+  write_text(studies.path("programmes/facets/study/t.csv"), "name,x\nr,1\n");
+  CHECK(folder_beside(included, studies.results()) == studies.path("programmes/facets/study"));
+}
+
+TEST_CASE(
+    "of results beside a plot only the points are drawn, as far as they have the columns and a series wants them") {
+  const Studies studies;
+  write_text(studies.path("paper.csv"), "x,y\n7,8\n");
+  const Figure figure = studies.figure(R"([[tables]]
+name = "paper"
+file = "paper.csv"
+columns = ["x", "y"]
+[[tables]]
+name = "t"
+file = "made.csv"
+columns = ["x", "y", "u", "v"]
+[[plots]]
+name = "p"
+x = {}
+y = {}
+series = [{ table = "paper", x = "x", y = "y" }, { table = "t", x = "x", y = "y", error = "u" },
+  { table = "t", x = "x", y = "v", style = "lines", beside = false }]
+)");
+  write_text(studies.path("out/study/made.csv"), "x,y,u,v\n1,2,0.5,6\n");
+  const auto script_beside = [&](const std::string& other_table) {
+    write_text(studies.path("other/study/made.csv"), other_table);
+    FigureData data(figure, studies.path("out/study"));
+    OtherResults other{"other", FigureData(figure, studies.path("other/study"))};
+    return plot_script(figure.plots[0], data, studies.path("out/study"), "svg", "p.svg", 0, &other);
+  };
+  const std::string script = script_beside("x,y,v\n1,3,9\n");
+  CHECK_THAT(script, Contains("EOD\n1 2 0.5 \nEOD") && Contains("EOD\n1 3 \nEOD"));
+  CHECK(script.find("7 8") == script.rfind("7 8"));
+  CHECK_THAT(script,
+             !Contains("1 9") && Contains("NaN with points linetype 8 pointtype 6 pointsize 1.5 title 'other'"));
+  CHECK_THAT(script_beside("x,z\n1,3\n"), !Contains("title 'other'"));
+}
+
 TEST_CASE("verdicts of meshes stand side by side, counted, and what a mesh did not state stays empty") {
   const Studies studies;
   write_text(studies.path("c/fig03/verdict.json"),
