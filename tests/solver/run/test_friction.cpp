@@ -296,6 +296,7 @@ TEST_CASE("balls dragged over each other keep momentum and angular momentum, and
 TEST_CASE("turning a loaded, rubbing pair as a rigid body turns its forces and causes no slip") {
   Scenario scenario = rubbing_scenario({grip("press", -3e-3, 2000), grip("drag", 0, 2000, {0.004, 0.002, 0})});
   scenario.walls = false;
+  scenario.contact.surface = GENERATE(ContactSurface::facets, ContactSurface::smooth);
   ThreadTeam team(1);
   Simulation simulation(build_model(two_balls(5), scenario, "test"), scenario, team);
   run_stages(simulation, scenario);
@@ -312,12 +313,14 @@ TEST_CASE("turning a loaded, rubbing pair as a rigid body turns its forces and c
     point.force = {f.x(), f.y(), f.z()};
   }
   for (Model* model : {&still, &turned}) std::fill(model->force.begin(), model->force.end(), 0.0);
+  double stored = 0;
   for (int grain = 0; grain < 2; ++grain) {
     const ContactSums a = contact_forces(still, contact, grain), b = contact_forces(turned, contact_turned, grain);
-    REQUIRE(a.friction_energy > 0);
+    stored += a.friction_energy;
     CHECK(within(a.friction_energy, b.friction_energy, 1e-9)); // of differences of squares
-    CHECK(std::abs(b.friction_dissipation) < 1e-9 * b.friction_energy);
+    CHECK(std::abs(b.friction_dissipation) <= 1e-9 * b.friction_energy);
   }
+  REQUIRE(stored > 0); // smooth surfaces: that of one grain lies between the nodes of the other
   double worst = 0, largest = 0;
   for (std::size_t n = 0; n < static_cast<std::size_t>(turned.nodes()); ++n) {
     const Vector a = turn * Vector(still.force[4 * n], still.force[4 * n + 1], still.force[4 * n + 2]);
@@ -332,6 +335,7 @@ TEST_CASE("a loaded, rubbing pair that turns by a full circle in small steps doe
           "again") {
   Scenario scenario = rubbing_scenario({grip("press", -3e-3, 2000), grip("drag", 0, 2000, {0.004, 0.002, 0})});
   scenario.walls = false;
+  scenario.contact.surface = GENERATE(ContactSurface::facets, ContactSurface::smooth);
   ThreadTeam team(1);
   Simulation simulation(build_model(two_balls(5), scenario, "test"), scenario, team);
   run_stages(simulation, scenario);
@@ -450,6 +454,7 @@ TEST_CASE(
 TEST_CASE("a ball that starts sliding rolls with 5/7 of its speed after 2 v/(7 mu g)") {
   constexpr double radius = 0.1, gravity = 1e9, speed = 1e4; // mm, mm/s^2, mm/s
   Scenario scenario = rubbing_scenario({damped_rest(4e-6, 2e6), holding_scenario(1).stages[0]});
+  scenario.contact.surface = GENERATE(ContactSurface::facets, ContactSurface::smooth);
   // A ball of facets drops by 0.005 of its radius from edge to edge: 1 % of its kinetic energy.
   const GrainMesh ball = ball_mesh(8, radius);
   ThreadTeam team(1);
@@ -474,7 +479,10 @@ TEST_CASE("a ball that starts sliding rolls with 5/7 of its speed after 2 v/(7 m
     speed_sum += v, spin_sum += spin * radius;
     ++rolling;
   }
-  CHECK(within(speed_sum / rolling, 5.0 / 7 * speed, 0.02));
+  CAPTURE(speed_sum / rolling / speed * 7 / 5, spin_sum / rolling / speed * 7 / 5, rolls_since / expected_time);
+  // Each node that it comes to takes some speed: 1.9 % were lost, and 2.6 % with smooth surfaces, whose points lie
+  // deeper than the nodes.
+  CHECK(within(speed_sum / rolling, 5.0 / 7 * speed, scenario.contact.surface == ContactSurface::smooth ? 0.03 : 0.02));
   CHECK(within(spin_sum / rolling, 5.0 / 7 * speed, 0.02));
   CHECK(within(rolls_since, expected_time, 0.05)); // until 0.99 of rolling, with a push that swings about its weight
 }
