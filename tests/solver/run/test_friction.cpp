@@ -412,6 +412,51 @@ TEST_CASE("a node dragged around a faceted ball has a mean friction force of mu 
   CHECK(within(lost, mu * depth * 2 * M_PI, 0.03)); // of a way on facets, a little inside the circle
 }
 
+// Undamped, on a floor to which the lower block sticks. Measured: 3e-10 of an element at most, nothing dissipated.
+TEST_CASE("a deformable block rests on another for a million steps below the angle of friction, and slides above it") {
+  constexpr double edge = 0.2, gravity = 3e9; // mm, mm/s^2: a pressure of 1 MPa between them
+  const ContactSurface surface = GENERATE(ContactSurface::facets, ContactSurface::smooth);
+  for (const double steepness : {0.9, 1.2}) { // tan(angle)/mu
+    const double angle = std::atan(steepness * mu);
+    Scenario scenario = rubbing_scenario({damped_rest(4e-5, 1e6), holding_scenario(1).stages[0]});
+    scenario.wall_friction = 0.9; // the lower block stays on the floor
+    scenario.contact.surface = surface;
+    GrainMesh lower = cube_of(2, edge), upper = lower;
+    for (auto& x : lower.node) x = {1 + 2 * x[0], 1 + 2 * x[1], 0.25 * edge + 0.5 * x[2]};
+    for (auto& x : upper.node) x = {1 + x[0], 1 + x[1], 0.75 * edge + 0.5 * x[2]};
+    ThreadTeam team(1);
+    Simulation simulation(build_model(pack({lower, upper}, {2, 2, 1}), scenario, "test"), scenario, team);
+    const Vector body_force = gravity * Vector(std::sin(angle), 0, -std::cos(angle));
+    const auto advance = [&] {
+      simulation.evaluate_forces();
+      if (simulation.stage_complete()) simulation.begin_next_stage();
+      add_body_force(simulation, body_force);
+      simulation.advance();
+    };
+    const auto offset = [&] {
+      const Model& m = simulation.model();
+      double mean[2] = {};
+      for (std::size_t grain = 0; grain < 2; ++grain)
+        for (auto n = static_cast<std::size_t>(m.node_offset[grain]);
+             n < static_cast<std::size_t>(m.node_offset[grain + 1]); ++n)
+          mean[grain] += m.position[4 * n] / m.inverse_mass[n] / m.mass[grain];
+      return mean[1] - mean[0];
+    };
+    while (simulation.state().stage == 0) advance();
+    const double before = offset(), lost = simulation.energies().friction_dissipation;
+    for (int i = 0; i < (steepness < 1 ? 1'000'000 : 10'000); ++i) advance();
+    const double drift = (offset() - before) / simulation.model().element_size[1];
+    const double loss = simulation.energies().friction_dissipation - lost;
+    CAPTURE(surface == ContactSurface::smooth, steepness, drift, loss);
+    if (steepness < 1) {
+      CHECK(std::abs(drift) < 1e-6);
+      CHECK(loss < 1e-6 * simulation.observe().friction_energy);
+    } else {
+      CHECK(drift > 0.1);
+    }
+  }
+}
+
 // ------------------------------------------------------------------------------------------------------ at walls
 
 TEST_CASE(
