@@ -63,11 +63,27 @@ struct Settings {
   int n = 14; ///< cells along an edge: 0.6 n/2 of them over 1.4 of the contact's radius
   ElementType element = ElementType::tet4_anp;
   int threads = 2;
+  ContactSurface surface = ContactSurface::facets;
 };
 
 /// Elements in the contact's radius: of the half edge's n/2 cells six tenths span 1.4 radii.
 inline double elements_in_radius(int n) {
   return 0.6 * n / 2 / 1.4;
+}
+
+/// Stages whose grips hold a fifth of a block, damped.
+inline Scenario scene(const Settings& settings, double friction, std::vector<Stage> stages) {
+  for (Stage& stage : stages) {
+    std::get<GripMotion>(stage.type).depth = 0.02;
+    stage.damping = {2e6, 1e9};
+  }
+  Scenario scenario = holding_scenario(1);
+  scenario.contact.friction = friction;
+  scenario.contact.surface = settings.surface;
+  scenario.numerics.element = settings.element;
+  scenario.numerics.own_pressure = usual_own_pressure(settings.element);
+  scenario.stages = std::move(stages);
+  return scenario;
 }
 
 /// Presses, drags by `way` (mm), back to -`way` and again to `way`.
@@ -77,16 +93,7 @@ inline Dragged drag(const Settings& settings, double friction, double way, bool 
         back = grip("back", 0, speed, {-2 * way, 0, 0}), again = grip("again", 0, speed, {2 * way, 0, 0});
   std::vector<Stage> stages = {press, out};
   if (loop) stages.insert(stages.end(), {back, again});
-  for (Stage& stage : stages) {
-    std::get<GripMotion>(stage.type).depth = 0.02;
-    stage.damping = {2e6, 1e9};
-  }
-  Scenario scenario = holding_scenario(1);
-  scenario.contact.friction = friction;
-  scenario.contact.surface = ContactSurface::facets;
-  scenario.numerics.element = settings.element;
-  scenario.numerics.own_pressure = usual_own_pressure(settings.element);
-  scenario.stages = stages;
+  const Scenario scenario = scene(settings, friction, stages);
   ThreadTeam team(settings.threads);
   Simulation simulation(build_model(two_caps(settings.n), scenario, "test"), scenario, team);
   // What the grips hold at both ends.
@@ -205,6 +212,42 @@ inline Errors errors(const Settings& settings, double mu) {
   errors.loss = dragged.lost_in_loop / theory.loss(amplitude) - 1;
   errors.amplitude = amplitude / theory.limit;
   return errors;
+}
+
+/// Two caps that come together obliquely: both forces grow in proportion.
+struct Oblique {
+  double push = 0, shear = 0; ///< N, at the end
+  double steepest = 0;        ///< largest of shear over push, where the push is above a tenth of the last
+  double lost = 0;            ///< mJ, by friction
+  double sheared = 0;         ///< mJ, of the shear force over what the contact gives along it
+};
+/// Presses and drags at once, so that the shear force is `share` of friction's limit.
+inline Oblique press_obliquely(const Settings& settings, double friction, double share) {
+  // Where all sticks, both stiffnesses are as 2 (1 - nu) to 2 - nu.
+  const double way = share * friction * pressing * (2 - poisson) / (2 * (1 - poisson));
+  const Scenario scenario = scene(settings, friction, {grip("oblique", -pressing, 200, {way, 0, 0})});
+  ThreadTeam team(settings.threads);
+  Simulation simulation(build_model(two_caps(settings.n), scenario, "test"), scenario, team);
+  std::vector<Drag> record;
+  for (int i = 0;; ++i) {
+    simulation.evaluate_forces();
+    const bool end = simulation.stage_complete();
+    if (end || i % 50 == 0) {
+      Drag now{0, 0, 0};
+      for (const PairContact& pair : pair_contacts(simulation.model(), simulation.contact()))
+        now.push += std::abs(pair.force[2]), now.shear += pair.force[0];
+      record.push_back(now);
+    }
+    if (end) break;
+    simulation.advance();
+  }
+  Oblique oblique{.push = record.back().push, .shear = std::abs(record.back().shear)};
+  for (const Drag& at : record)
+    if (at.push > 0.1 * oblique.push) oblique.steepest = std::max(oblique.steepest, std::abs(at.shear) / at.push);
+  oblique.lost = simulation.energies().friction_dissipation;
+  // Both displacements grow as the force to the power of 2/3.
+  oblique.sheared = 0.6 * oblique.shear * way;
+  return oblique;
 }
 
 } // namespace partial_slip

@@ -121,6 +121,20 @@ GrainMesh cube_of(int n, double edge) {
   return cube;
 }
 
+/// A ball whose elements are 1/`times` as large at the lowest point, and as many times as large at the highest: a
+/// conformal map of the ball onto itself, T(x) = ((1 - a^2)(x - a) - |x - a|^2 a)/(1 - 2 a.x + a^2 x^2), a along z.
+GrainMesh ball_fine_below(int n, double radius, double times) {
+  GrainMesh mesh = ball_mesh(n, 1);
+  const Vector a(0, 0, (times - 1) / (times + 1));
+  for (auto& node : mesh.node) {
+    const Vector x(node[0], node[1], node[2]);
+    const Vector image = ((1 - a.squaredNorm()) * (x - a) - (x - a).squaredNorm() * a) /
+                         (1 - 2 * a.dot(x) + a.squaredNorm() * x.squaredNorm());
+    for (std::size_t axis = 0; axis < 3; ++axis) node[axis] = radius * image[static_cast<Eigen::Index>(axis)];
+  }
+  return mesh;
+}
+
 } // namespace
 
 // ------------------------------------------------------------------------------------------ grains against grains
@@ -296,6 +310,7 @@ TEST_CASE("balls dragged over each other keep momentum and angular momentum, and
 TEST_CASE("turning a loaded, rubbing pair as a rigid body turns its forces and causes no slip") {
   Scenario scenario = rubbing_scenario({grip("press", -3e-3, 2000), grip("drag", 0, 2000, {0.004, 0.002, 0})});
   scenario.walls = false;
+  scenario.contact.surface = GENERATE(ContactSurface::facets, ContactSurface::smooth);
   ThreadTeam team(1);
   Simulation simulation(build_model(two_balls(5), scenario, "test"), scenario, team);
   run_stages(simulation, scenario);
@@ -312,12 +327,14 @@ TEST_CASE("turning a loaded, rubbing pair as a rigid body turns its forces and c
     point.force = {f.x(), f.y(), f.z()};
   }
   for (Model* model : {&still, &turned}) std::fill(model->force.begin(), model->force.end(), 0.0);
+  double stored = 0;
   for (int grain = 0; grain < 2; ++grain) {
     const ContactSums a = contact_forces(still, contact, grain), b = contact_forces(turned, contact_turned, grain);
-    REQUIRE(a.friction_energy > 0);
+    stored += a.friction_energy;
     CHECK(within(a.friction_energy, b.friction_energy, 1e-9)); // of differences of squares
-    CHECK(std::abs(b.friction_dissipation) < 1e-9 * b.friction_energy);
+    CHECK(std::abs(b.friction_dissipation) <= 1e-9 * b.friction_energy);
   }
+  REQUIRE(stored > 0); // smooth surfaces: that of one grain lies between the nodes of the other
   double worst = 0, largest = 0;
   for (std::size_t n = 0; n < static_cast<std::size_t>(turned.nodes()); ++n) {
     const Vector a = turn * Vector(still.force[4 * n], still.force[4 * n + 1], still.force[4 * n + 2]);
@@ -332,6 +349,7 @@ TEST_CASE("a loaded, rubbing pair that turns by a full circle in small steps doe
           "again") {
   Scenario scenario = rubbing_scenario({grip("press", -3e-3, 2000), grip("drag", 0, 2000, {0.004, 0.002, 0})});
   scenario.walls = false;
+  scenario.contact.surface = GENERATE(ContactSurface::facets, ContactSurface::smooth);
   ThreadTeam team(1);
   Simulation simulation(build_model(two_balls(5), scenario, "test"), scenario, team);
   run_stages(simulation, scenario);
@@ -408,6 +426,51 @@ TEST_CASE("a node dragged around a faceted ball has a mean friction force of mu 
   CHECK(within(lost, mu * depth * 2 * M_PI, 0.03)); // of a way on facets, a little inside the circle
 }
 
+// Undamped, on a floor to which the lower block sticks. Measured: 3e-10 of an element at most, nothing dissipated.
+TEST_CASE("a deformable block rests on another for a million steps below the angle of friction, and slides above it") {
+  constexpr double edge = 0.2, gravity = 3e9; // mm, mm/s^2: a pressure of 1 MPa between them
+  const ContactSurface surface = GENERATE(ContactSurface::facets, ContactSurface::smooth);
+  for (const double steepness : {0.9, 1.2}) { // tan(angle)/mu
+    const double angle = std::atan(steepness * mu);
+    Scenario scenario = rubbing_scenario({damped_rest(4e-5, 1e6), holding_scenario(1).stages[0]});
+    scenario.wall_friction = 0.9; // the lower block stays on the floor
+    scenario.contact.surface = surface;
+    GrainMesh lower = cube_of(2, edge), upper = lower;
+    for (auto& x : lower.node) x = {1 + 2 * x[0], 1 + 2 * x[1], 0.25 * edge + 0.5 * x[2]};
+    for (auto& x : upper.node) x = {1 + x[0], 1 + x[1], 0.75 * edge + 0.5 * x[2]};
+    ThreadTeam team(1);
+    Simulation simulation(build_model(pack({lower, upper}, {2, 2, 1}), scenario, "test"), scenario, team);
+    const Vector body_force = gravity * Vector(std::sin(angle), 0, -std::cos(angle));
+    const auto advance = [&] {
+      simulation.evaluate_forces();
+      if (simulation.stage_complete()) simulation.begin_next_stage();
+      add_body_force(simulation, body_force);
+      simulation.advance();
+    };
+    const auto offset = [&] {
+      const Model& m = simulation.model();
+      double mean[2] = {};
+      for (std::size_t grain = 0; grain < 2; ++grain)
+        for (auto n = static_cast<std::size_t>(m.node_offset[grain]);
+             n < static_cast<std::size_t>(m.node_offset[grain + 1]); ++n)
+          mean[grain] += m.position[4 * n] / m.inverse_mass[n] / m.mass[grain];
+      return mean[1] - mean[0];
+    };
+    while (simulation.state().stage == 0) advance();
+    const double before = offset(), lost = simulation.energies().friction_dissipation;
+    for (int i = 0; i < (steepness < 1 ? 1'000'000 : 10'000); ++i) advance();
+    const double drift = (offset() - before) / simulation.model().element_size[1];
+    const double loss = simulation.energies().friction_dissipation - lost;
+    CAPTURE(surface == ContactSurface::smooth, steepness, drift, loss);
+    if (steepness < 1) {
+      CHECK(std::abs(drift) < 1e-6);
+      CHECK(loss < 1e-6 * simulation.observe().friction_energy);
+    } else {
+      CHECK(drift > 0.1);
+    }
+  }
+}
+
 // ------------------------------------------------------------------------------------------------------ at walls
 
 TEST_CASE(
@@ -450,6 +513,7 @@ TEST_CASE(
 TEST_CASE("a ball that starts sliding rolls with 5/7 of its speed after 2 v/(7 mu g)") {
   constexpr double radius = 0.1, gravity = 1e9, speed = 1e4; // mm, mm/s^2, mm/s
   Scenario scenario = rubbing_scenario({damped_rest(4e-6, 2e6), holding_scenario(1).stages[0]});
+  scenario.contact.surface = GENERATE(ContactSurface::facets, ContactSurface::smooth);
   // A ball of facets drops by 0.005 of its radius from edge to edge: 1 % of its kinetic energy.
   const GrainMesh ball = ball_mesh(8, radius);
   ThreadTeam team(1);
@@ -474,20 +538,106 @@ TEST_CASE("a ball that starts sliding rolls with 5/7 of its speed after 2 v/(7 m
     speed_sum += v, spin_sum += spin * radius;
     ++rolling;
   }
-  CHECK(within(speed_sum / rolling, 5.0 / 7 * speed, 0.02));
+  CAPTURE(speed_sum / rolling / speed * 7 / 5, spin_sum / rolling / speed * 7 / 5, rolls_since / expected_time);
+  // Each node that it comes to takes some speed: 1.9 % were lost, and 2.6 % with smooth surfaces, whose points lie
+  // deeper than the nodes.
+  CHECK(within(speed_sum / rolling, 5.0 / 7 * speed, scenario.contact.surface == ContactSurface::smooth ? 0.03 : 0.02));
   CHECK(within(spin_sum / rolling, 5.0 / 7 * speed, 0.02));
   CHECK(within(rolls_since, expected_time, 0.05)); // until 0.99 of rolling, with a push that swings about its weight
 }
 
+namespace {
+
+/// Slope of the line with the least squares, through points and, if it is to, the origin.
+class Slope {
+public:
+  void add(double x, double y) { n_ += 1, x_ += x, y_ += y, xx_ += x * x, xy_ += x * y; }
+  double free() const { return (n_ * xy_ - x_ * y_) / (n_ * xx_ - x_ * x_); }
+  double from_origin() const { return xy_ / xx_; }
+
+private:
+  double n_ = 0, x_ = 0, y_ = 0, xx_ = 0, xy_ = 0;
+};
+
+/// How a ball gains speed on an incline, and what it is.
+struct Descent {
+  double acceleration = 0, spin = 0; ///< along the slope over g; angular over g/R
+  double inertia = 0, height = 0;    ///< moment about its axis over m R^2; of its centre over R, on average
+};
+
+/// A ball is let go on an incline, and followed for the time in which it would slide 0.6 R without friction. Later it
+/// would fly from node to node. If it slides, it takes up to a tenth of the time until friction's spring slips.
+Descent let_go(ContactSurface surface, double friction, double angle, bool rolls) {
+  constexpr double radius = 0.1, gravity = 1e10; // mm, mm/s^2
+  Scenario scenario = rubbing_scenario({damped_rest(2e-6, 4e6), holding_scenario(1).stages[0]});
+  scenario.wall_friction = friction;
+  scenario.contact.surface = surface;
+  ThreadTeam team(1);
+  Simulation simulation(build_model(on_the_floor(ball_fine_below(6, radius, 2), radius), scenario, "test"), scenario,
+                        team);
+  const Vector normal(0, 0, -gravity * std::cos(angle)), along(gravity * std::sin(angle), 0, 0);
+  const double settled = 2e-6, time = std::sqrt(1.2 * radius / along.x());
+  Slope speed, spin;
+  double height = 0, levels = 0;
+  while (simulation.state().time < settled + time) {
+    simulation.evaluate_forces();
+    if (simulation.stage_complete()) simulation.begin_next_stage();
+    const bool free = simulation.state().stage == 1;
+    add_body_force(simulation, free ? Vector(normal + along) : normal);
+    simulation.advance();
+    const double t = simulation.state().time - settled;
+    if (t < (rolls ? 0.0 : 0.1) * time || simulation.state().step % 10 != 0) continue;
+    const Motion now = motion_of(simulation.model());
+    speed.add(t, now.momentum.x()), spin.add(t, now.spin.y());
+    height += now.centre.z(), levels += 1;
+  }
+  const Model& m = simulation.model();
+  const Motion motion = motion_of(m);
+  double inertia = 0;
+  for (std::size_t n = 0; n < static_cast<std::size_t>(m.nodes()); ++n)
+    inertia +=
+        (std::pow(m.position[4 * n] - motion.centre.x(), 2) + std::pow(m.position[4 * n + 2] - motion.centre.z(), 2)) /
+        m.inverse_mass[n];
+  const auto slope = [&](const Slope& fit) { return rolls ? fit.from_origin() : fit.free(); };
+  return {slope(speed) / (motion.mass * gravity), slope(spin) * radius / (inertia * gravity),
+          inertia / (motion.mass * radius * radius), height / levels / radius};
+}
+
+} // namespace
+
+// A body with a moment of inertia I about its axis and a lever r rolls with g sin(angle)/(1 + I/(m r^2)), which is
+// 5/7 g sin(angle) for a sphere; this mesh, fine below, has I = 0.43 m R^2 and r = 0.98 R. It needs a friction of
+// I/(I + m r^2) tan(angle), 2/7 tan(angle) for a sphere. The nodes that it rolls over are 8 degrees apart. Measured:
+// 0.7 % where it rolls, 0.3 % where it slides.
+TEST_CASE(
+    "a ball rolls down an incline with 5/7 of g sin(angle) if mu is above 2/7 tan(angle), else slides and spins") {
+  const ContactSurface surface = GENERATE(ContactSurface::facets, ContactSurface::smooth);
+  const double angle = std::atan(0.5), s = std::sin(angle), c = std::cos(angle);
+  const Descent rolls = let_go(surface, 0.5, angle, true);
+  const double r = rolls.height, expected = s / (1 + rolls.inertia / (r * r));
+  CAPTURE(surface == ContactSurface::smooth, rolls.acceleration / expected, rolls.spin * r / expected, expected / s);
+  CHECK(within(expected, 5.0 / 7 * s, 0.05));
+  CHECK(within(rolls.acceleration, expected, 0.02));
+  CHECK(within(rolls.spin * r, expected, 0.02));
+  constexpr double low = 0.1;
+  const Descent slides = let_go(surface, low, angle, false);
+  const double acceleration = s - low * c, spin = low * c * slides.height / slides.inertia;
+  CAPTURE(slides.acceleration / acceleration, slides.spin / spin);
+  CHECK(slides.spin * slides.height < 0.7 * slides.acceleration);
+  CHECK(within(slides.acceleration, acceleration, 0.02));
+  CHECK(within(slides.spin, spin, 0.02));
+}
+
 TEST_CASE("an oblique impact on a wall never gains energy, and a sliding one takes mu times the normal impulse") {
-  constexpr double radius = 0.1, normal_speed = 5e3; // mm, mm/s
+  constexpr double radius = 0.1, normal_speed = 5e3, gap = 1e-4; // mm, mm/s, mm
+  const bool fine = GENERATE(false, true);
+  GrainMesh ball = fine ? ball_fine_below(8, radius, 1.8) : ball_mesh(5, radius);
+  if (!fine) rotate(ball, {0.6, 0, 0.8}, 0.7);
   for (const double degrees : {20.0, 45.0, 70.0, 80.0, 85.0}) {
     const double alpha = degrees * M_PI / 180;
     const Scenario scenario = rubbing_scenario();
-    GrainMesh ball = ball_mesh(5, radius);
-    rotate(ball, {0.6, 0, 0.8}, 0.7);
     ThreadTeam team(1);
-    Simulation simulation(build_model(on_the_floor(ball, radius + 1e-4), scenario, "test"), scenario, team);
+    Simulation simulation(build_model(on_the_floor(ball, radius + gap), scenario, "test"), scenario, team);
     set_velocity(simulation, {normal_speed * std::tan(alpha), 0, -normal_speed});
     const Motion before = motion_of(simulation.model());
     const double energy = 0.5 * before.momentum.squaredNorm() / before.mass;
@@ -509,12 +659,16 @@ TEST_CASE("an oblique impact on a wall never gains energy, and a sliding one tak
     CHECK(largest < 1.001 * energy);
     const double restitution = -after.momentum.z() / before.momentum.z();
     INFO("angle " << degrees << ", restitution " << restitution);
-    CHECK(restitution < 1);
+    // Slip may give 0.1 % to the push: its energy is up to 130 times that of the motion along the normal.
+    CHECK(restitution < 1.002);
     if (std::tan(alpha) < 1.3 * 3.5 * mu * (1 + restitution)) continue;
     // Gross sliding throughout.
     const Vector impulse = after.momentum - before.momentum;
     CHECK(within(-impulse.x(), mu * impulse.z(), 0.02));
-    CHECK(within(after.spin.y(), mu * impulse.z() * radius, 0.06)); // contact on facets, up to 0.03 R inside the sphere
+    // With the lever of the mesh's own centre it is -1.4 %: the ball comes closer to the wall by 0.9 % of R. Where the
+    // lowest node is beside the centre, the push turns the ball, too: the rotated ball is 4 % off, one of 8 cells 5 %.
+    const double lever = before.centre.z() - gap;
+    CHECK(within(after.spin.y(), mu * impulse.z() * (fine ? lever : radius), fine ? 0.02 : 0.06));
   }
 }
 

@@ -5,6 +5,7 @@
 #include <catch2/catch.hpp>
 
 #include "tests/support/partial_slip.hpp"
+#include "tests/support/tolerances.hpp"
 
 using namespace mpfem::test;
 
@@ -31,4 +32,31 @@ TEST_CASE("with four elements across the contact's radius two caps dissipate in 
   CHECK(std::abs(errors.out) < 0.03);
   CHECK(std::abs(errors.back) < 0.03);
   CHECK(std::abs(errors.loss) < 0.03);
+}
+
+// Two elements in the contact's radius: -2.3, -5.2 and +21 % were measured, -2.3, -5.2 and +26 % with facets.
+TEST_CASE("two caps that touch by their smooth surface slip partially as those that touch by facets") {
+  const partial_slip::Errors errors = partial_slip::errors({.n = 10, .surface = mpfem::ContactSurface::smooth}, 0.3);
+  CAPTURE(errors.out, errors.back, errors.loss, errors.amplitude);
+  REQUIRE(errors.amplitude > 0.7);
+  CHECK(std::abs(errors.out) < 0.03);
+  CHECK(std::abs(errors.back) < 0.06);
+  CHECK(std::abs(errors.loss) < 0.3);
+}
+
+// Mindlin and Deresiewicz (1953): every ring of the contact has the ratio of the whole. What yields besides the contact
+// leaves 0.78 and at most 0.85 of friction's limit. Of the work of the shear force 5e-4 were lost, with half of that
+// shear 5e-7; above the limit 14 %.
+TEST_CASE("two caps that come together obliquely, their shear force always below friction's limit, slip nowhere") {
+  for (const mpfem::ContactSurface surface : {mpfem::ContactSurface::facets, mpfem::ContactSurface::smooth}) {
+    const partial_slip::Oblique sticks = partial_slip::press_obliquely({.n = 10, .surface = surface}, 0.3, 0.9),
+                                slides = partial_slip::press_obliquely({.n = 10, .surface = surface}, 0.3, 1.5);
+    CAPTURE(sticks.push, sticks.shear / sticks.push, sticks.steepest, sticks.lost / sticks.sheared);
+    CAPTURE(slides.push, slides.shear / slides.push, slides.steepest, slides.lost / slides.sheared);
+    CHECK(sticks.steepest < 0.3);
+    CHECK(sticks.shear > 0.2 * sticks.push);
+    CHECK(sticks.lost < 1e-3 * sticks.sheared);
+    CHECK(slides.lost > 0.1 * slides.sheared);
+    CHECK(within(slides.shear, 0.3 * slides.push, 0.02));
+  }
 }
