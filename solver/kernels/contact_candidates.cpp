@@ -36,13 +36,6 @@ struct PairCursor {
                                                : Pair(none, none);
   }
   bool left() const { return pair < candidates.pair_first.size(); }
-  /// The points of these two grains, after which the cursor moves on to the next pair; none if the current pair is
-  /// another one.
-  PointRange take(const Pair& wanted) {
-    if (!left() || grains() != wanted) return {};
-    ++pair;
-    return {candidates.pair_point_offset[pair - 1], candidates.pair_point_offset[pair]};
-  }
 };
 
 /// Candidates of the nodes of one grain, and which old point each point was.
@@ -155,7 +148,8 @@ std::vector<PointBond> carried_bonds(const ContactCandidates& now, std::span<con
   return bond;
 }
 
-/// Carries friction over to new candidates, and records what points that are gone have dissipated.
+/// Carries friction over to new candidates, and records what points that are gone have dissipated: only theirs is left
+/// once that of the points carried over is set to 0.
 void carry_friction(const ContactCandidates& now, std::span<const std::int32_t> firsts,
                     std::span<const std::vector<std::int32_t>> old_point, ThreadTeam& team, Contact& contact) {
   std::vector<PointFriction> carried(now.point_node.size());
