@@ -401,11 +401,10 @@ ContactCandidates join_candidates(std::span<const std::int32_t> firsts, std::spa
     std::ranges::copy(list.second, result.pair_second.begin() + start.pair());
     std::ranges::copy(list.node, result.point_node.begin() + start.point());
     std::ranges::copy(list.facet, result.point_facet.begin() + start.facet());
-    const auto after = [](std::ptrdiff_t first) {
-      return [first](std::int32_t end) { return static_cast<std::int32_t>(first) + end; };
-    };
-    std::ranges::transform(list.point_end, result.pair_point_offset.begin() + start.pair() + 1, after(start.point()));
-    std::ranges::transform(list.facet_end, result.point_facet_offset.begin() + start.point() + 1, after(start.facet()));
+    for (std::size_t p = 0; p < list.second.size(); ++p)
+      result.pair_point_offset[start.pairs + p + 1] = static_cast<std::int32_t>(start.points) + list.point_end[p];
+    for (std::size_t p = 0; p < list.node.size(); ++p)
+      result.point_facet_offset[start.points + p + 1] = static_cast<std::int32_t>(start.facets) + list.facet_end[p];
   });
   index_pairs(result, grains);
   return result;
