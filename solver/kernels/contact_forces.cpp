@@ -2,10 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
 #include <fmt/format.h>
 
 #include "common/errors.hpp"
+#include "common/prefetch.hpp"
 #include "solver/kernels/contact_facet.hpp"
 #include "solver/kernels/due_points.hpp"
 #include "solver/physics/penalty.hpp"
@@ -32,16 +34,21 @@ class PointEvaluation {
 public:
   PointEvaluation(Model& model, Contact& contact) : model_(model), contact_(contact) {}
 
-  ContactSums evaluate(int grain) {
-    const ContactCandidates& candidates = contact_.candidates;
-    const auto g = static_cast<std::size_t>(grain);
-    const DuePoints due = due_points<bonding>(model_, contact_, grain);
-    ContactSums sums;
+  void evaluate(std::span<const std::int32_t> grains, std::span<ContactSums> sums) {
+    const DuePoints due = due_points<bonding>(model_, contact_, grains);
     std::size_t next = 0;
+    for (std::size_t i = 0; i < grains.size(); ++i) sums[i] = evaluate_grain(at(grains[i]), due, next);
+  }
+
+private:
+  /// `next`: the grain's first due point; afterwards that of the next grain.
+  ContactSums evaluate_grain(std::size_t g, const DuePoints& due, std::size_t& next) {
+    const ContactCandidates& candidates = contact_.candidates;
+    ContactSums sums;
     for (std::int32_t p = candidates.outgoing_offset[g]; p < candidates.outgoing_offset[g + 1]; ++p) {
       PairOfGrains pair = begin_pair(g, p);
       const std::int32_t end = candidates.pair_point_offset[at(p) + 1];
-      for (; next < due.size() && due[next] < end; ++next) {
+      for (; next < due.size() && due[next] >= pair.first_point && due[next] < end; ++next) {
         due.prefetch_ahead_of(next);
         evaluate_point(pair, due[next], sums);
       }
@@ -51,7 +58,6 @@ public:
     return sums;
   }
 
-private:
   PairOfGrains begin_pair(std::size_t g, std::int32_t pair) const {
     const ContactCandidates& candidates = contact_.candidates;
     const std::size_t other = at(candidates.pair_second[at(pair)]);
@@ -243,34 +249,58 @@ private:
   Contact& contact_;
 };
 
-} // namespace
-
-ContactSums contact_forces(Model& model, Contact& contact, int grain) {
-  if (contact.has_friction())
-    return contact.bonding() ? PointEvaluation<true, true>(model, contact).evaluate(grain)
-                             : PointEvaluation<false, true>(model, contact).evaluate(grain);
-  return contact.bonding() ? PointEvaluation<true, false>(model, contact).evaluate(grain)
-                           : PointEvaluation<false, false>(model, contact).evaluate(grain);
+/// Forces whose reactions act on the facets of these grains, in a fixed order, prefetched.
+std::vector<const ContactForce*> prefetched_reactions(const Contact& contact, std::span<const std::int32_t> grains) {
+  const ContactCandidates& candidates = contact.candidates;
+  std::vector<const ContactForce*> records;
+  const auto list = [&records](std::span<const ContactForce> points) {
+    for (const ContactForce& point : points) {
+      prefetch(&point);
+      records.push_back(&point);
+    }
+  };
+  for (const std::int32_t grain : grains)
+    for (std::int32_t i = candidates.incoming_offset[at(grain)]; i < candidates.incoming_offset[at(grain) + 1]; ++i) {
+      list(contact.active_points(candidates.incoming_pair[at(i)]));
+      list(contact.pulling_bonds(candidates.incoming_pair[at(i)]));
+    }
+  return records;
 }
 
-void contact_reactions(Model& model, const Contact& contact, int grain) {
-  const ContactCandidates& candidates = contact.candidates;
-  const auto g = static_cast<std::size_t>(grain);
-  const auto react = [&model](std::span<const ContactForce> points) {
-    for (const ContactForce& point : points)
-      for (int c = 0; c < 3; ++c) {
-        double* force = model.force.data() + 4 * at(point.facet_node[c]);
-        for (int axis = 0; axis < 3; ++axis) force[axis] -= point.weight(c) * point.force[axis];
-      }
+} // namespace
+
+void contact_forces(Model& model, Contact& contact, std::span<const std::int32_t> grains, std::span<ContactSums> sums) {
+  if (contact.has_friction()) {
+    if (contact.bonding()) return PointEvaluation<true, true>(model, contact).evaluate(grains, sums);
+    return PointEvaluation<false, true>(model, contact).evaluate(grains, sums);
+  }
+  if (contact.bonding()) return PointEvaluation<true, false>(model, contact).evaluate(grains, sums);
+  return PointEvaluation<false, false>(model, contact).evaluate(grains, sums);
+}
+
+ContactSums contact_forces(Model& model, Contact& contact, std::int32_t grain) {
+  ContactSums sums;
+  contact_forces(model, contact, std::span(&grain, 1), std::span(&sums, 1));
+  return sums;
+}
+
+void contact_reactions(Model& model, const Contact& contact, std::span<const std::int32_t> grains) {
+  // Records of other grains' points lie scattered, and so do the rows that they act on: both are prefetched, the rows
+  // once their records have arrived.
+  constexpr std::size_t ahead = 8;
+  const std::vector<const ContactForce*> records = prefetched_reactions(contact, grains);
+  const auto prefetch_rows = [&](std::size_t i) {
+    if (i >= records.size()) return;
+    for (const std::int32_t node : records[i]->facet_node) prefetch_for_writing(&model.force[4 * at(node)]);
   };
-  const std::int32_t end = candidates.incoming_offset[g + 1];
-  for (std::int32_t i = candidates.incoming_offset[g]; i < end; ++i) {
-    if (i + 2 < end) // the first points of the pair after the next; the others follow in order
-      for (const auto points : {contact.active_points(candidates.incoming_pair[at(i + 2)]),
-                                contact.pulling_bonds(candidates.incoming_pair[at(i + 2)])})
-        for (std::size_t p = 0; p < std::min<std::size_t>(points.size(), 4); ++p) __builtin_prefetch(&points[p]);
-    react(contact.active_points(candidates.incoming_pair[at(i)]));
-    react(contact.pulling_bonds(candidates.incoming_pair[at(i)]));
+  for (std::size_t i = 0; i < ahead; ++i) prefetch_rows(i);
+  for (std::size_t i = 0; i < records.size(); ++i) {
+    prefetch_rows(i + ahead);
+    const ContactForce& point = *records[i];
+    for (int c = 0; c < 3; ++c) {
+      double* force = model.force.data() + 4 * at(point.facet_node[c]);
+      for (int axis = 0; axis < 3; ++axis) force[axis] -= point.weight(c) * point.force[axis];
+    }
   }
 }
 

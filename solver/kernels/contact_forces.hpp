@@ -3,6 +3,10 @@
 //
 // Every grain writes to its own nodes only: it evaluates the points of its own nodes, and after a barrier it collects
 // the reactions on its facets in a fixed order. A facet's nodes receive -w_i f, so that action equals reaction exactly.
+// Grains are evaluated several at a time, which saves waiting for memory and changes no result.
+
+#include <cstdint>
+#include <span>
 
 #include "solver/kernels/contact_candidates.hpp"
 #include "solver/kernels/contact_state.hpp"
@@ -26,11 +30,13 @@ struct ContactSums {
   }
 };
 
-/// Evaluates the contact points of a grain's own nodes and adds their forces to model.force. Throws SimulationError,
-/// naming the pair, if a node is deeper than 0.9 of the search margin.
-ContactSums contact_forces(Model& model, Contact& contact, int grain);
+/// Evaluates the contact points of these grains' own nodes and adds their forces to model.force. `sums`: one for each
+/// grain. Throws SimulationError, naming the first pair, if a node is deeper than 0.9 of the search margin.
+void contact_forces(Model& model, Contact& contact, std::span<const std::int32_t> grains, std::span<ContactSums> sums);
+/// The same for one grain.
+ContactSums contact_forces(Model& model, Contact& contact, std::int32_t grain);
 
-/// Adds to model.force the reactions on the grain's facets.
-void contact_reactions(Model& model, const Contact& contact, int grain);
+/// Adds to model.force the reactions on the facets of these grains.
+void contact_reactions(Model& model, const Contact& contact, std::span<const std::int32_t> grains);
 
 } // namespace mpfem

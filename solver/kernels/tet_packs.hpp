@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "common/prefetch.hpp"
 #include "solver/model/model.hpp"
 #include "solver/model/row_pairs.hpp"
 #include "solver/physics/tet4.hpp"
@@ -59,7 +60,7 @@ void prefetch_block_after(const Model& model, std::int32_t b) {
   constexpr std::size_t line = 64;
   if (b + blocks_ahead >= model.block_offset.back()) return;
   const char* bytes = reinterpret_cast<const char*>(&model.block<Real>(b + blocks_ahead));
-  for (std::size_t i = 0; i < sizeof(TetBlock<Real>); i += line) __builtin_prefetch(bytes + i);
+  for (std::size_t i = 0; i < sizeof(TetBlock<Real>); i += line) prefetch(bytes + i);
 }
 
 /// J = V/V_0 of a block's tets.

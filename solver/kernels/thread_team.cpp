@@ -77,8 +77,14 @@ void ThreadTeam::stop_workers() {
 }
 
 void ThreadTeam::for_each(int count, const std::function<void(int item, int thread)>& body) {
+  for_each_range(count, [&body](int begin, int end, int thread) {
+    for (int item = begin; item < end; ++item) body(item, thread);
+  });
+}
+
+void ThreadTeam::for_each_range(int count, const std::function<void(int begin, int end, int thread)>& body) {
   if (workers_.empty()) {
-    for (int item = 0; item < count; ++item) body(item, 0);
+    for (int item = 0; item < count; item += most_together) body(item, std::min(item + most_together, count), 0);
     return;
   }
   if (count <= 0) return;
@@ -116,7 +122,7 @@ ThreadTeam::Items ThreadTeam::take_items(bool all) {
     const auto left = static_cast<int>(static_cast<std::uint32_t>(waiting));
     if (left == 0) return {};
     // Neighbouring items on one thread, and single ones towards the end, so that the threads end together.
-    const int taken = all ? left : std::clamp(left / (8 * size()), 1, 8);
+    const int taken = all ? left : std::clamp(left / (8 * size()), 1, most_together);
     if (waiting_items_.compare_exchange_weak(waiting, waiting - static_cast<std::uint64_t>(taken),
                                              std::memory_order_acq_rel, std::memory_order_acquire))
       return {count_ - left, taken};
@@ -127,19 +133,17 @@ void ThreadTeam::run_items(int thread) {
   int finished = 0;
   for (Items items = take_items(false); items.count > 0; items = take_items(false)) {
     finished += items.count;
-    for (int item = items.begin; item < items.begin + items.count; ++item) {
-      // Items below one that has failed still begin, so that the lowest failure is found.
-      if (item > failed_.load(std::memory_order_relaxed)) break;
-      try {
-        (*body_)(item, thread);
-      } catch (...) {
-        const std::lock_guard lock(error_mutex_);
-        if (item < failed_.load(std::memory_order_relaxed)) {
-          error_ = std::current_exception();
-          failed_.store(item, std::memory_order_relaxed);
-        }
-        finished += take_items(true).count; // nobody begins them
+    // Items below those that have failed still begin, so that the lowest failure is found.
+    if (items.begin > failed_.load(std::memory_order_relaxed)) continue;
+    try {
+      (*body_)(items.begin, items.begin + items.count, thread);
+    } catch (...) {
+      const std::lock_guard lock(error_mutex_);
+      if (items.begin < failed_.load(std::memory_order_relaxed)) {
+        error_ = std::current_exception();
+        failed_.store(items.begin, std::memory_order_relaxed);
       }
+      finished += take_items(true).count; // nobody begins them
     }
   }
   if (finished > 0 && unfinished_items_.fetch_sub(finished, std::memory_order_acq_rel) == finished)

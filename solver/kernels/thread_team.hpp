@@ -33,6 +33,11 @@ public:
   /// is rethrown here: the same one for any number of threads. Not to be called by two threads at once, nor by a body.
   void for_each(int count, const std::function<void(int item, int thread)>& body);
 
+  /// The same, but calls body(begin, end, thread) for neighbouring items together. How many is not determined;
+  /// most_together at most.
+  void for_each_range(int count, const std::function<void(int begin, int end, int thread)>& body);
+  static constexpr int most_together = 8;
+
 private:
   struct Items {
     int begin = 0, count = 0;
@@ -43,7 +48,7 @@ private:
   void stop_workers();
 
   std::vector<std::thread> workers_;
-  const std::function<void(int, int)>* body_ = nullptr;
+  const std::function<void(int, int, int)>* body_ = nullptr;
   int count_ = 0;
   // On separate cache lines, so that handing out items does not disturb threads that wait for the next round.
   /// The number of the round in the upper half, the number of items not yet taken in the lower half. One number holds

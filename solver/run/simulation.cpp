@@ -177,10 +177,12 @@ void Simulation::add_up_forces(const std::exception_ptr& failure) {
 
 /// Forces of the contact points of these grains' nodes.
 void Simulation::add_contact(std::span<const std::int32_t> grains) {
-  team_->for_each(static_cast<int>(grains.size()), [&](int item, int thread) {
-    const std::int32_t grain = grains[at(item)];
+  team_->for_each_range(static_cast<int>(grains.size()), [&](int begin, int end, int thread) {
+    const auto together = grains.subspan(at(begin), at(end - begin));
+    std::array<ContactSums, ThreadTeam::most_together> sums;
     Stopwatch watch(profile_, thread);
-    force_sums_[at(grain)].contact = contact_forces(model_, contact_, grain);
+    contact_forces(model_, contact_, together, std::span(sums).first(together.size()));
+    for (std::size_t i = 0; i < together.size(); ++i) force_sums_[at(together[i])].contact = sums[i];
     watch.mark(Part::contact);
   });
 }
@@ -189,18 +191,20 @@ void Simulation::add_contact(std::span<const std::int32_t> grains) {
 void Simulation::add_reactions_and_walls() {
   const std::array<double, 3> gravity = gravity_of_scaled_mass(*scenario_);
   for (const auto* grains : {&in_space_.border, &in_space_.inside})
-    team_->for_each(static_cast<int>(grains->size()), [&](int item, int thread) {
-      const std::int32_t grain = (*grains)[at(item)];
-      ForceSums& sums = force_sums_[at(grain)];
-      const Bounds& bounds = bounds_[at(grain)];
+    team_->for_each_range(static_cast<int>(grains->size()), [&](int begin, int end, int thread) {
+      const auto together = std::span(*grains).subspan(at(begin), at(end - begin));
       Stopwatch watch(profile_, thread);
-      contact_reactions(model_, contact_, grain);
+      contact_reactions(model_, contact_, together);
       watch.mark(Part::contact);
-      sums.box = box_.add_forces(model_, bounds, grain);
-      if (wall_friction_.present())
-        sums.wall_friction = wall_friction_.add_forces(model_, box_, bounds, state_.last_step, grain);
-      if (tools_.present()) tools_.add_forces(model_, bounds, state_.last_step, grain);
-      if (scenario_->has_gravity()) sums.weight_potential = add_weight(model_, gravity, grain);
+      for (const std::int32_t grain : together) {
+        ForceSums& sums = force_sums_[at(grain)];
+        const Bounds& bounds = bounds_[at(grain)];
+        sums.box = box_.add_forces(model_, bounds, grain);
+        if (wall_friction_.present())
+          sums.wall_friction = wall_friction_.add_forces(model_, box_, bounds, state_.last_step, grain);
+        if (tools_.present()) tools_.add_forces(model_, bounds, state_.last_step, grain);
+        if (scenario_->has_gravity()) sums.weight_potential = add_weight(model_, gravity, grain);
+      }
       watch.mark(Part::integration);
     });
 }

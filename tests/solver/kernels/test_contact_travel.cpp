@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
+#include <vector>
 
 #include "common/index.hpp"
 #include "solver/kernels/contact_candidates.hpp"
@@ -11,6 +13,7 @@
 #include "solver/kernels/surface.hpp"
 #include "solver/model/smooth_surface.hpp"
 #include "solver/run/simulation.hpp"
+#include "tests/support/bonded_pair.hpp"
 #include "tests/support/meshes.hpp"
 #include "tests/support/packing_file.hpp"
 #include "tests/support/tolerances.hpp"
@@ -42,7 +45,22 @@ Contact searched_afresh(Model& model, const Contact& contact, ThreadTeam& team) 
 std::vector<double> forces_of(Model& model, Contact& contact) {
   std::fill(model.force.begin(), model.force.end(), 0.0);
   for (const std::int32_t grain : model.own()) contact_forces(model, contact, grain);
-  for (const std::int32_t grain : model.own()) contact_reactions(model, contact, grain);
+  contact_reactions(model, contact, model.own());
+  return {model.force.begin(), model.force.end()};
+}
+
+/// The same with grains evaluated a few at a time, the last ones first.
+std::vector<double> forces_of_groups(Model& model, Contact& contact, std::size_t size) {
+  std::fill(model.force.begin(), model.force.end(), 0.0);
+  std::vector<std::int32_t> grains(model.own().begin(), model.own().end());
+  std::reverse(grains.begin(), grains.end());
+  std::vector<ContactSums> sums(size);
+  const auto for_each_group = [&](auto&& work) {
+    for (std::size_t first = 0; first < grains.size(); first += size)
+      work(std::span(grains).subspan(first, std::min(size, grains.size() - first)));
+  };
+  for_each_group([&](auto group) { contact_forces(model, contact, group, std::span(sums).first(group.size())); });
+  for_each_group([&](auto group) { contact_reactions(model, contact, group); });
   return {model.force.begin(), model.force.end()};
 }
 
@@ -102,4 +120,20 @@ TEST_CASE("contact that leaves out open gaps finds the forces of a fresh search,
   }
   CHECK(compared > 20);
   CHECK(largest_force > 0);
+}
+
+TEST_CASE("grains that are evaluated together get the forces of grains that are evaluated one by one") {
+  Scenario scenario = compaction_scenario(0.75, 2e4);
+  scenario.bond = table_1(0.05);
+  ThreadTeam team(2);
+  Simulation simulation(build_model(eight_grains(4), scenario, "test"), scenario, team);
+  while (!simulation.stage_complete()) simulation.evaluate_forces(), simulation.advance();
+  Model model = simulation.model();
+  Contact contact = simulation.contact();
+  const std::vector<double> alone = forces_of(model, contact);
+  CHECK(*std::max_element(alone.begin(), alone.end()) > 0);
+  for (const std::size_t size : {2u, 3u, 8u}) {
+    CAPTURE(size);
+    CHECK(forces_of_groups(model, contact, size) == alone); // same sums in the same order
+  }
 }

@@ -145,6 +145,28 @@ TEST_CASE("The exception of the lowest failing item is rethrown on any number of
   }
 }
 
+TEST_CASE("Ranges hold every item once, and few neighbouring items each") {
+  for (const int threads : {1, 2, 4}) {
+    ThreadTeam team(threads);
+    for (const int count : {0, 1, 7, 8, 9, 500}) {
+      std::vector<int> visited(static_cast<std::size_t>(count), 0);
+      std::atomic<int> largest{0}, empty{0};
+      team.for_each_range(count, [&](int begin, int end, int) {
+        if (begin >= end) ++empty;
+        int before = largest;
+        while (before < end - begin && !largest.compare_exchange_weak(before, end - begin)) {
+        }
+        for (int item = begin; item < end; ++item) ++visited[static_cast<std::size_t>(item)];
+      });
+      CAPTURE(threads, count);
+      CHECK(visited == std::vector<int>(static_cast<std::size_t>(count), 1));
+      CHECK(empty == 0);
+      CHECK(largest <= ThreadTeam::most_together);
+      if (count == 500) CHECK(largest > 1);
+    }
+  }
+}
+
 TEST_CASE("No items begin after a failure has been seen, and the team works on afterwards") {
   ThreadTeam team(2);
   std::atomic<int> begun{0};

@@ -1,0 +1,21 @@
+#pragma once
+// Asks the processor to bring a cache line, before it is needed.
+
+namespace mpfem {
+
+// GCC takes a function that does nothing but prefetch for one without any effect, and leaves out the calls of it. The
+// empty statement is an effect, and costs no instruction.
+
+/// Prefetches the cache line at an address that will be read. It need not be valid.
+[[gnu::always_inline]] inline void prefetch(const void* address) {
+  __builtin_prefetch(address);
+  asm volatile("");
+}
+
+/// The same for an address that will be written.
+[[gnu::always_inline]] inline void prefetch_for_writing(const void* address) {
+  __builtin_prefetch(address, 1);
+  asm volatile("");
+}
+
+} // namespace mpfem
