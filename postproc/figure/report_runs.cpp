@@ -46,7 +46,7 @@ RunSettings settings_of(const schema::FileReader& file) {
 }
 
 std::string percent(double share) {
-  return fmt::format("{:.2g} %", 100 * share);
+  return fmt::format("{:.3g} %", 100 * share);
 }
 
 std::string row_of(const schema::FileReader& file) {

@@ -134,7 +134,7 @@ Reading at_peak(const Test& test, const Peak& peak, bool falls, const StrengthRu
                   {}};
   if (!falls)
     reading.notes.push_back(
-        fmt::format("no peak: the axial stress falls by {:.2g} % after its largest value, less than the "
+        fmt::format("no peak: the axial stress falls by {:.3g} % after its largest value, less than the "
                     "{:g} % of a failure",
                     100 * peak.fall, 100 * rule.drop));
   return reading;

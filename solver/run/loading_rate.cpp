@@ -58,8 +58,8 @@ void LoadingRateControl::update(LoadingRateState& s, const LoadingRateObservatio
 
 std::string LoadingRateControl::text(const LoadingRateState& s) const {
   return fmt::format(
-      "wall speed chosen between {:.4g} and {:.4g} mm/s; under load, kinetic over internal energy was at most {:.2g} "
-      "%, inertia carried at most {:.2g} % of the stress, and the tolerances were exceeded for {:.2g} % of the time",
+      "wall speed chosen between {:.4g} and {:.4g} mm/s; under load, kinetic over internal energy was at most {:.3g} "
+      "%, inertia carried at most {:.3g} % of the stress, and the tolerances were exceeded for {:.3g} % of the time",
       s.slowest * wall_speed_, s.fastest * wall_speed_, 100 * s.largest_kinetic, 100 * s.largest_stress,
       s.time_loaded > 0 ? 100 * s.time_beyond / s.time_loaded : 0.0);
 }

@@ -31,7 +31,7 @@ std::string stage_end_text(const StageResult& result) {
   std::string text = "ended by " + result.ended_by;
   if (result.overshoot > 0) text += fmt::format("; target stress exceeded by {:.3g} MPa", result.overshoot);
   if (result.hold_stress > 0 && result.missed.empty())
-    text += fmt::format("; stresses held within {:.3g} MPa ({:.2g} %), {:.3g} MPa root mean square", result.hold_error,
+    text += fmt::format("; stresses held within {:.3g} MPa ({:.3g} %), {:.3g} MPa root mean square", result.hold_error,
                         100 * result.hold_error / result.hold_stress, result.hold_root_mean_square);
   return text;
 }
@@ -47,7 +47,7 @@ std::string damping_text(const std::vector<HistoryRow>& history) {
   }
   const double taken = history.back().damping_dissipation - before;
   if (!(elastic > 0)) return {};
-  return fmt::format("; damping {} {:.2g} % of the elastic energy", taken < 0 ? "added" : "removed",
+  return fmt::format("; damping {} {:.3g} % of the elastic energy", taken < 0 ? "added" : "removed",
                      100 * std::abs(taken) / elastic);
 }
 
@@ -113,7 +113,7 @@ void RunReport::progress(double fraction, const RunPosition& position) {
 void RunReport::energy_error(double error, double step) {
   if (error <= EnergyCheck::warning_limit || warned_of_energy_) return;
   warned_of_energy_ = true;
-  warning(fmt::format("the energy balance is off by {:.2g} % of its largest term at step {:.0f}", 100 * error, step));
+  warning(fmt::format("the energy balance is off by {:.3g} % of its largest term at step {:.0f}", 100 * error, step));
 }
 
 void RunReport::stable_step(double stable_step) {
