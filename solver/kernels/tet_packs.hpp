@@ -51,8 +51,8 @@ inline TetGeometry<TetPack<float>> current_geometry(const TetBlock<float>& block
   return tet_geometry(edge[0], edge[1], edge[2]);
 }
 
-/// Prefetches the block that follows some blocks after block `b`, if the model has it. For the first pass over the tets
-/// of a grain. Where that pass is the one for nodal volumes, it reads a fifth of every block, which the hardware does not
+/// Prefetches the block that follows some blocks after block `b`, if the model has it: for the first pass over the tets
+/// of a grain. Where that pass computes nodal volumes, it reads a fifth of every block, which the hardware does not
 /// predict: without this, it waits for memory half of its time.
 template <class Real>
 void prefetch_block_after(const Model& model, std::int32_t b) {
