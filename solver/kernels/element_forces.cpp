@@ -46,7 +46,6 @@ MPFEM_FLATTEN ElementSums element_pass(Model& model, int grain, double time_step
   const std::int32_t end = model.block_offset[g + 1];
   for (std::int32_t b = model.block_offset[g]; b < end; ++b) {
     TetBlock<Real>& block = model.block<Real>(b);
-    if constexpr (std::is_same_v<Pressure, OwnPressure>) prefetch_block_after<Real>(model, b); // others read it
     pressure.enter(b);
     Vector3<S> edge[3], displacement[3];
     load_edge_pairs<W, 3>(moving, block.node, edge, displacement);

@@ -11,10 +11,12 @@
 
 namespace mpfem {
 
-/// Mean stress of a tet from its own volume.
+/// Mean stress of a tet from its own volume. Nothing has read the blocks before, so they are prefetched.
+template <class Real>
 struct OwnPressure {
+  const Model& model;
   ElasticModuli moduli;
-  void enter(std::int32_t) {}
+  void enter(std::int32_t b) const { prefetch_block_after<Real>(model, b); }
   template <class Block, class S>
   S operator()(const Block&, const S& volume_ratio) const {
     return mean_stress(moduli, volume_ratio);
@@ -137,7 +139,7 @@ auto with_pressure(const Model& model, int grain, const Number* position, double
   case ElementType::tet4:
     break;
   }
-  return f(OwnPressure{moduli});
+  return f(OwnPressure<Real>{model, moduli});
 }
 
 } // namespace mpfem
