@@ -48,6 +48,7 @@ private:
     for (std::int32_t p = candidates.outgoing_offset[g]; p < candidates.outgoing_offset[g + 1]; ++p) {
       PairOfGrains pair = begin_pair(g, p);
       const std::int32_t end = candidates.pair_point_offset[at(p) + 1];
+      // The next due point may be another grain's, whose points may have lower numbers.
       for (; next < due.size() && due[next] >= pair.first_point && due[next] < end; ++next) {
         due.prefetch_ahead_of(next);
         evaluate_point(pair, due[next], sums);

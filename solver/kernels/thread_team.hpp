@@ -29,8 +29,9 @@ public:
   int size() const { return static_cast<int>(workers_.size()) + 1; }
 
   /// Calls body(item, thread) for item = 0 … count-1, thread in 0 … size()-1, and returns when all are done. Items
-  /// begin in ascending order. After an exception no further items begin, and the exception of the lowest failing item
-  /// is rethrown here: the same one for any number of threads. Not to be called by two threads at once, nor by a body.
+  /// begin in ascending order. After an exception no further items are handed out, and the exception of the lowest
+  /// failing item is rethrown here: the same one for any number of threads. Not to be called by two threads at once,
+  /// nor by a body.
   void for_each(int count, const std::function<void(int item, int thread)>& body);
 
   /// The same, but calls body(begin, end, thread) for neighbouring items together. How many is not determined;
@@ -60,7 +61,7 @@ private:
   std::atomic<bool> stop_{false};
   std::mutex error_mutex_;
   std::exception_ptr error_;
-  std::atomic<int> failed_{0}; ///< the lowest item that has failed, count_ while none has
+  std::atomic<int> failed_{0}; ///< the first of the lowest items that have failed together, count_ while none has
 };
 
 } // namespace mpfem
