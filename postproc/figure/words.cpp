@@ -26,6 +26,17 @@ std::size_t most_digits(std::string_view text) {
   return most;
 }
 
+/// A number below a million in the format "g", without the exponent that this format writes where the number has more
+/// digits than wanted: 5400 instead of 5.4e+03.
+std::string without_exponent(std::string text) {
+  const std::size_t exponent = text.find("e+0");
+  if (exponent == std::string::npos || text.back() > '5') return text;
+  const std::string_view sign = text.starts_with('+') ? "+" : "";
+  double rounded = 0;
+  const auto [stop, error] = std::from_chars(text.data() + sign.size(), text.data() + text.size(), rounded);
+  return error == std::errc() ? fmt::format("{}{:.0f}", sign, rounded) : text; // fails where a width adds blanks
+}
+
 std::string number_text(double number, std::string_view format) {
   const bool percent = format.ends_with('%');
   if (percent) format.remove_suffix(1);
@@ -34,7 +45,9 @@ std::string number_text(double number, std::string_view format) {
         fmt::format("found the format '{}', allowed: width and precision of at most two digits", one_line(format)));
   try {
     const std::string pattern = format.empty() ? "{}" : fmt::format("{{:{}}}", format);
-    return fmt::format(fmt::runtime(pattern), percent ? 100 * number : number) + (percent ? " %" : "");
+    std::string text = fmt::format(fmt::runtime(pattern), percent ? 100 * number : number);
+    if (format.ends_with('g')) text = without_exponent(std::move(text));
+    return text + (percent ? " %" : "");
   } catch (const fmt::format_error&) {
     throw InputError(
         fmt::format("found the format '{}', allowed: a number format such as .2f or .3g", one_line(format)));

@@ -87,9 +87,15 @@ const std::string y_of_last = "ours = \"{y:.1f}\"\nquantities.y = { table = \"t\
 } // namespace
 
 TEST_CASE("names in braces become values, numbers in the format given") {
-  const Words words = {{"density", Value::of(0.7)}, {"law", {"energy", {}}}, {"share", Value::of(0.0123)}};
+  const Words words = {{"density", Value::of(0.7)},
+                       {"law", {"energy", {}}},
+                       {"share", Value::of(0.0123)},
+                       {"cycles", Value::of(5380)},
+                       {"many", Value::of(1.234e6)}};
   CHECK(filled("{law}-D{density:.2f}", words) == "energy-D0.70");
   CHECK(filled("{share:.2g%} of {{all}}", words) == "1.2 % of {all}");
+  CHECK(filled("{cycles:.2g}, {cycles:+.2g}, {cycles:.1e}", words) == "5400, +5400, 5.4e+03");
+  CHECK(filled("{cycles:.2g%}, {many:.3g}", words) == "540000 %, 1.23e+06");
   CHECK(filled("D^{max} {law}", words, Unknown::kept) == "D^{max} energy");
   CHECK_THROWS_WITH(filled("{densty}", words), Contains("did you mean 'density'?"));
   CHECK_THROWS_WITH(filled("{law:.2f}", words), Contains("which has no format"));
