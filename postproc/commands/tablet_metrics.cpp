@@ -103,7 +103,7 @@ public:
     add_number(options(), "--diameter", rule_.diameter, positive_length, "mm",
                "Diameter of the disc (default: extent of the grains along the load before the test)");
     add_number(options(), "--thickness", rule_.thickness, positive_length, "mm",
-               "Thickness of the disc (default: extent of the grains along its axis before the test)");
+               "Thickness of the disc (default: median of its local thickness before the test)");
     add_number(options(), "--flat-angle", rule_.flat_angle, Range::between(0, largest_flat_angle), "degrees",
                "Angle 2 alpha that a flat spans at the axis (default: from the snapshot nearest to the peak)");
     add_number(options(), "--face-distance", rule_.face_distance, positive_length, "mm",
