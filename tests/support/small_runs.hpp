@@ -13,6 +13,7 @@
 #include "tests/support/folder.hpp"
 #include "tests/support/material_text.hpp"
 #include "tests/support/packing_file.hpp"
+#include "tests/support/same_files.hpp"
 
 namespace mpfem::test {
 
@@ -156,18 +157,14 @@ inline std::vector<double> results(const std::string& path) {
 inline void check_threads(const std::string& text, int cells) {
   const Folder folder;
   prepare(folder, cells, text);
-  std::vector<std::vector<double>> all;
   for (const int threads : {1, 2, 4}) {
     const std::string run = folder / fmt::format("run{}.h5", threads);
     const Outcome outcome =
         mpfem_command(fmt::format("run {} -o {} --threads {} --quiet", folder / "scenario.toml", run, threads));
     REQUIRE(outcome.exit_code == 0);
     CHECK(outcome.messages.empty()); // --quiet
-    all.push_back(results(run));
+    CHECK(first_difference(folder / "run1.h5", run).empty());
   }
-  REQUIRE(all[0].size() > 1000);
-  CHECK(all[0] == all[1]);
-  CHECK(all[0] == all[2]);
 }
 
 /// Runs a command that writes `output`, stopping and resuming it at least twice. If the machine has become faster
@@ -197,7 +194,7 @@ inline void check_resuming(const std::string& text, int cells) {
   const Outcome whole = mpfem_command(common + (folder / "whole.h5"));
   REQUIRE(whole.exit_code == 0);
   run_in_parts(common + (folder / "parts.h5"), folder / "parts.h5", whole.seconds);
-  CHECK(results(folder / "whole.h5") == results(folder / "parts.h5"));
+  CHECK(first_difference(folder / "whole.h5", folder / "parts.h5").empty());
   const schema::FileReader in_one(folder / "whole.h5"), in_parts(folder / "parts.h5");
   for (const auto& dataset : {schema::run::provenance_stage_overshoot, schema::run::provenance_stage_hold_error,
                               schema::run::provenance_stage_hold_rms})
