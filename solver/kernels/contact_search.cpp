@@ -136,7 +136,7 @@ struct NodeGrid {
   std::vector<std::int32_t> node, offset, sorted, cell_of, next;
 
   int coordinate(double x, std::size_t k) const {
-    return std::clamp(static_cast<int>((x - region.low[k]) * inverse_size[k]), 0, cells[k] - 1);
+    return static_cast<int>(std::clamp((x - region.low[k]) * inverse_size[k], 0.0, static_cast<double>(cells[k] - 1)));
   }
   std::size_t index(int x, int y, int z) const {
     return (static_cast<std::size_t>(z) * static_cast<std::size_t>(cells[1]) + static_cast<std::size_t>(y)) *

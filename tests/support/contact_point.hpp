@@ -1,6 +1,7 @@
 #pragma once
 // Mesh-free driver of one contact point: a node and a facet of another grain, with the penalty and, if there is a law,
-// a bond and friction. It calls the same functions in the same order as the kernel.
+// a bond and friction. It calls the same functions in the same order as the kernel; but bonds do not form again, and a
+// point that closes is anchored where it is.
 
 #include <optional>
 
