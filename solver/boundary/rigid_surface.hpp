@@ -40,6 +40,15 @@ concept RigidSurface = requires(const Surface& surface, const NodePoint& point, 
   { surface.gap(point).normal.vector() } -> std::same_as<Vector3<double>>;
 };
 
+/// The gap of a point at any distance in front. A surface whose `gap` is exact only up to a distance has `exact_gap`.
+template <class Surface, class Point>
+auto gap_at_any_distance(const Surface& surface, const Point& point) {
+  if constexpr (requires { surface.exact_gap(point); })
+    return surface.exact_gap(point);
+  else
+    return surface.gap(point);
+}
+
 /// What a surface bears and stores.
 struct SurfaceLoad {
   double force = 0;       ///< N, sum of the normal forces

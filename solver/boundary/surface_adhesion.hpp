@@ -41,6 +41,15 @@ inline double surface_penalty(const Model& model, std::size_t node, int grain) {
   return model.penalty_stiffness[static_cast<std::size_t>(grain)] * model.local_stiffness(node);
 }
 
+/// N, force of an intact bond with the present separation on its node. `origin`: mm, where the surface's frame lies.
+inline Vector3<double> force_of_bond(const Model& model, const Adhesion& adhesion, const Vector3<double>& origin,
+                                     int grain, const SurfaceBond& bond) {
+  const auto node = static_cast<std::size_t>(bond.node);
+  const double stiffness = law_at_point(adhesion.law, surface_penalty(model, node, grain)).stiffness;
+  const Vector3<double> reach = model.contact_point(node) - origin - bond.place;
+  return -(bond.remaining * stiffness * model.reference_area[node]) * reach;
+}
+
 /// The bonds of one grain to one surface at one time level. `OnPull` is called with every node that a bond pulls, the
 /// force on it (N) and the surface's normal there.
 template <RigidSurface Surface, class OnPull>
@@ -98,7 +107,7 @@ private:
         continue;
       }
       bonds_.push_back(*next_);
-      pull(bonds_.back(), surface_.gap(NodePoint{model_, static_cast<std::size_t>(next_->node)}));
+      pull(bonds_.back(), gap_at_any_distance(surface_, NodePoint{model_, static_cast<std::size_t>(next_->node)}));
     }
   }
 

@@ -176,8 +176,17 @@ struct BodySurface {
   bool may_touch(const Bounds& b) const { return triangles->may_touch(b); }
   template <class Point>
   RigidGap<FreeNormal> gap(const Point& x) const {
-    const SurfaceGap found = triangles->gap({x(0), x(1), x(2)}, reach);
-    return {found.distance, {{found.normal[0], found.normal[1], found.normal[2]}}};
+    return with_free_normal(triangles->gap({x(0), x(1), x(2)}, reach));
+  }
+  /// The same, exact at any distance in front.
+  template <class Point>
+  RigidGap<FreeNormal> exact_gap(const Point& x) const {
+    return with_free_normal(triangles->gap({x(0), x(1), x(2)}));
+  }
+
+private:
+  static RigidGap<FreeNormal> with_free_normal(const SurfaceGap& gap) {
+    return {gap.distance, {{gap.normal[0], gap.normal[1], gap.normal[2]}}};
   }
 };
 
@@ -195,8 +204,18 @@ struct Shifted {
   }
   template <class Point>
   auto gap(const Point& point) const {
-    const double shift[3] = {by.x, by.y, by.z};
-    return surface.gap([&](std::size_t axis) { return point(axis) - shift[axis]; });
+    return surface.gap(shifted(point));
+  }
+  template <class Point>
+  auto exact_gap(const Point& point) const {
+    return gap_at_any_distance(surface, shifted(point));
+  }
+
+private:
+  /// A point as seen from the surface where it stood at the start.
+  template <class Point>
+  auto shifted(const Point& point) const {
+    return [&point, shift = std::array{by.x, by.y, by.z}](std::size_t axis) { return point(axis) - shift[axis]; };
   }
 };
 

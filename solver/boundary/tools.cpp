@@ -154,14 +154,29 @@ void Tools::add_stiffness_rate(const Model& model, const Bounds& bounds, int gra
   }
 }
 
+/// N, the pull of a tool's bond on a node in front of it, along the surface's normal and positive towards the grains.
+double Tools::pull_on_node(const Model& model, std::size_t node, int grain, std::size_t index) const {
+  const Tool& tool = tools_[index];
+  const std::vector<SurfaceBond>& list = bonds(grain, index);
+  const auto bond = std::ranges::lower_bound(list, static_cast<std::int32_t>(node), {}, &SurfaceBond::node);
+  if (bond == list.end() || bond->node != static_cast<std::int32_t>(node) || !bond->intact()) return 0;
+  const Vector3<double> normal = with_surface(tool, [&](const auto& surface) {
+    return gap_at_any_distance(surface, NodePoint{model, node}).normal.vector();
+  });
+  return dot(force_of_bond(model, *tool.adhesion, vector_of(tool.moved), grain, *bond), normal);
+}
+
 double Tools::push_on_node(const Model& model, std::size_t node, int grain) const {
   double push = 0;
-  for (const Tool& tool : tools_) {
-    if (tool.away) continue;
-    const double distance = with_surface(tool, [&](const auto& surface) {
+  for (std::size_t index = 0; index < size(); ++index) {
+    if (tools_[index].away) continue;
+    const double distance = with_surface(tools_[index], [&](const auto& surface) {
       return surface.gap(NodePoint{model, node}).distance;
     });
-    if (distance < 0) push += surface_force(model, node, grain, distance);
+    if (distance < 0)
+      push += surface_force(model, node, grain, distance);
+    else if (tools_[index].adhesion)
+      push += pull_on_node(model, node, grain, index);
   }
   return push;
 }
@@ -264,6 +279,11 @@ double Tools::set_away(std::span<const std::size_t> away, std::span<const std::a
     tool.away = leaves;
   }
   return taken;
+}
+
+void Tools::forget() {
+  for (auto& list : anchors_) list.clear();
+  for (auto& list : bonds_) list.clear();
 }
 
 void Tools::refuse_triangles(std::size_t tool) const {

@@ -95,7 +95,7 @@ public:
   void move(std::span<const std::array<double, 3>> velocity, double step);
   /// Adds K A/m (1/s^2) of the tools that each node touches to `rate` [nodes].
   void add_stiffness_rate(const Model& model, const Bounds& bounds, int grain, std::span<double> rate) const;
-  /// N, the normal pushes of all tools on the contact point of a surface node.
+  /// N, the normal pushes of all tools on the contact point of a surface node, less the pulls of bonds to them.
   double push_on_node(const Model& model, std::size_t node, int grain) const;
 
   // ---- tools that leave and return
@@ -130,6 +130,8 @@ public:
       if (tools_[tool].triangles != triangles) refuse_triangles(tool);
     }
   }
+  /// Forgets what nodes rub on and stick to.
+  void forget();
   int grains() const { return grains_; }
   /// By ascending node.
   std::vector<SurfaceAnchor>& anchors(int grain, std::size_t tool) { return anchors_[slot(grain, tool)]; }
@@ -143,6 +145,7 @@ private:
   [[noreturn]] void refuse_triangles(std::size_t tool) const;
   std::size_t slot(int grain, std::size_t tool) const { return static_cast<std::size_t>(grain) * size() + tool; }
   ToolLoad add_tool(Model& model, std::size_t tool, const Bounds& bounds, double last_step, int grain);
+  double pull_on_node(const Model& model, std::size_t node, int grain, std::size_t tool) const;
   double remove_forces_on_grain(Model& model, std::size_t tool, const Bounds& bounds, double last_step, int grain);
   double remove_forces_on_all_grains(Model& model, std::size_t tool, std::span<const Bounds> bounds, double last_step,
                                      const Communicator& ranks);

@@ -78,8 +78,8 @@ std::vector<double> contact_push(const Model& model, const Contact& contact, Ind
   return push;
 }
 
-/// Writes the normal traction at surface nodes: the sum of contact, bond and wall forces along the inward normal over
-/// the tributary area.
+/// Writes the normal traction at surface nodes: the sum of contact, bond, wall and tool forces along the inward normal
+/// over the tributary area.
 void write_contact_pressure(GatheredFile& file, const std::string& name, const SnapshotState& state) {
   const Model& model = state.model;
   file.write_grains(

@@ -8,6 +8,8 @@
 #include <utility>
 #include <vector>
 
+#include <fmt/format.h>
+
 #include "solver/run/simulation.hpp"
 #include "tests/support/meshes.hpp"
 
@@ -45,6 +47,24 @@ inline GrainMesh block_in_the_middle() {
 /// Advances to the end of the stage, and has the forces there.
 inline void finish_stage(Simulation& simulation) {
   for (simulation.evaluate_forces(); !simulation.stage_complete(); simulation.evaluate_forces()) simulation.advance();
+}
+
+/// A slab in ASCII STL, in metres.
+inline std::string slab_stl(const std::array<double, 3>& low, const std::array<double, 3>& high) {
+  // Corners by bits: x, y, z; faces counter-clockwise from outside.
+  constexpr int quads[6][4] = {{0, 2, 3, 1}, {4, 5, 7, 6}, {0, 1, 5, 4}, {2, 6, 7, 3}, {0, 4, 6, 2}, {1, 3, 7, 5}};
+  std::string text = "solid slab\n";
+  const auto corner = [&](int bits) {
+    std::string line = "vertex";
+    for (std::size_t axis = 0; axis < 3; ++axis)
+      line += fmt::format(" {}", 1e-3 * ((bits >> axis & 1) != 0 ? high[axis] : low[axis]));
+    return line + "\n";
+  };
+  for (const auto& quad : quads)
+    for (const auto& triangle : {std::array{quad[0], quad[1], quad[2]}, std::array{quad[0], quad[2], quad[3]}})
+      text += "facet normal 0 0 0\nouter loop\n" + corner(triangle[0]) + corner(triangle[1]) + corner(triangle[2]) +
+              "endloop\nendfacet\n";
+  return text + "endsolid slab\n";
 }
 
 } // namespace mpfem::test

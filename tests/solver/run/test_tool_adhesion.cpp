@@ -12,6 +12,7 @@
 
 #include "solver/run/simulation.hpp"
 #include "tests/support/driven_tools.hpp"
+#include "tests/support/folder.hpp"
 #include "tests/support/meshes.hpp"
 #include "tests/support/tolerances.hpp"
 
@@ -59,12 +60,23 @@ std::vector<Stage> pressed() {
   return {moving("press", {0, 0, -500}, 2.5e-7, 1e6), moving("wait", {0, 0, 0}, 3e-6, 4e6)};
 }
 
+/// N, what snapshots show as the traction of tools, summed over all surface nodes.
+double push_on_nodes(const Simulation& simulation) {
+  const Model& model = simulation.model();
+  double push = 0;
+  for (int n = 0; n < model.surface_node_count[0]; ++n)
+    push += simulation.tools().push_on_node(model, static_cast<std::size_t>(n), 0);
+  return push;
+}
+
 /// What a run showed, step by step.
 struct Seen {
   double largest_area = 0;          ///< mm^2, bonded to the lower plate
   double largest_pull = 0;          ///< N, of the slab on the lower plate, upwards
   double largest_drag = 0;          ///< N, along x
   double push_at_largest_drag = 0;  ///< N
+  double least_normal_force = 0;    ///< N, on the lower plate
+  double largest_imbalance = 0;     ///< N, of what nodes bear against what the plates bear along their normals
   double residual = 0, work = 0;    ///< mJ, largest
   std::vector<double> area, lost;   ///< at the ends of stages: mm^2 bonded, mJ dissipated, both of the lower plate
   std::vector<ToolLoad> on_lower{}; ///< at the ends of stages
@@ -82,10 +94,13 @@ Seen run(Simulation& simulation, std::size_t stages) {
       const ToolLoad& load = simulation.tools().load(lower);
       seen.largest_area = std::max(seen.largest_area, load.bonded_area);
       seen.largest_pull = std::max(seen.largest_pull, load.force.z);
+      seen.least_normal_force = std::min(seen.least_normal_force, load.normal_force);
       if (load.force.x > seen.largest_drag)
         seen.largest_drag = load.force.x, seen.push_at_largest_drag = load.normal_force;
       const bool end = simulation.stage_complete();
       if (end || i % 50 == 0) {
+        seen.largest_imbalance = std::max(
+            seen.largest_imbalance, std::abs(push_on_nodes(simulation) - simulation.tools().total().normal_force));
         const HistoryRow row = simulation.observe();
         seen.residual = std::max(seen.residual, std::abs(row.energy_residual));
         seen.work = std::max(seen.work, std::abs(row.external_work));
@@ -120,18 +135,26 @@ TEST_CASE("a slab that is pulled off a tool bears the strength of its bonds and 
   // Slowly to the peak, some 1e-4 mm, then through the whole softening branch, 16 G/t = 0.04 mm.
   std::vector<Stage> stages = {moving("touch", {0, 0, -50}, 2e-7), moving("pull", {0, 0, 50}, 3e-6),
                                moving("part", {0, 0, 2000}, 3e-5)};
-  const Scenario scenario = slab_between_plates(weak, stages);
-  ThreadTeam team(1);
-  Simulation simulation(build_model(slab(), scenario, "test"), scenario, team);
-  const double area = area_of_lower_face(simulation.model());
-  const Seen seen = run(simulation, stages.size());
-  CHECK(within(seen.largest_area, area, 1e-12));
-  CHECK(
-      within(seen.largest_pull, weak.tensile_strength * area, 0.01)); // bonds at edges reach their peak with the others
-  CHECK(seen.area.back() == 0);
-  CHECK(within(seen.lost.back(), weak.fracture_energy * area, 1e-9));
-  CHECK(simulation.tools()[upper].adhesion_dissipation == 0);
-  CHECK(seen.residual < 2e-3 * seen.work);
+  const Folder folder;
+  write_text(folder / "floor.stl", slab_stl({0, 0, 0.2}, {1, 1, 0.5}));
+  for (const bool triangles : {false, true}) {
+    CAPTURE(triangles);
+    Scenario scenario = slab_between_plates(weak, stages);
+    if (triangles) scenario.tools[lower].shape = StlShape{folder / "floor.stl", 1000, false, {}};
+    ThreadTeam team(1);
+    Simulation simulation(build_model(slab(), scenario, "test"), scenario, team);
+    const double area = area_of_lower_face(simulation.model());
+    const Seen seen = run(simulation, stages.size());
+    CHECK(within(seen.largest_area, area, 1e-12));
+    // Bonds at edges reach their peak with the others.
+    CHECK(within(seen.largest_pull, weak.tensile_strength * area, 0.01));
+    CHECK(within(-seen.least_normal_force, seen.largest_pull, 1e-9));
+    CHECK(seen.largest_imbalance < 1e-9 * seen.largest_pull);
+    CHECK(seen.area.back() == 0);
+    CHECK(within(seen.lost.back(), weak.fracture_energy * area, 1e-9));
+    CHECK(simulation.tools()[upper].adhesion_dissipation == 0);
+    CHECK(seen.residual < 2e-3 * seen.work);
+  }
 }
 
 TEST_CASE("a slab that is dragged along a tool first shears its bonds off and then rubs") {
