@@ -53,19 +53,32 @@ AdvanceSums advance(Model& model, int grain, const Advance& p) {
   return sums;
 }
 
-double add_weight(Model& model, const std::array<double, 3>& gravity, int grain) {
+namespace {
+
+/// Calls visit(component, weight) for each component (4 * node + axis) of the weights (N) of a grain's nodes.
+template <class Visit>
+void for_each_weight(const Model& model, const std::array<double, 3>& gravity, int grain, Visit&& visit) {
   const auto g = static_cast<std::size_t>(grain);
-  double work = 0;
   for (auto n = static_cast<std::size_t>(model.node_offset[g]); n < static_cast<std::size_t>(model.node_offset[g + 1]);
        ++n) {
     const double inverse_own_mass = model.inverse_mass[n] * (model.mass_factor.empty() ? 1.0 : model.mass_factor[n]);
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      const double weight = gravity[axis] / inverse_own_mass;
-      model.force[4 * n + axis] += weight;
-      work += weight * model.position[4 * n + axis];
-    }
+    for (std::size_t axis = 0; axis < 3; ++axis) visit(4 * n + axis, gravity[axis] / inverse_own_mass);
   }
+}
+
+} // namespace
+
+double weight_potential(const Model& model, const std::array<double, 3>& gravity, int grain) {
+  double work = 0;
+  for_each_weight(model, gravity, grain,
+                  [&](std::size_t component, double weight) { work += weight * model.position[component]; });
   return work;
+}
+
+double add_weight(Model& model, const std::array<double, 3>& gravity, int grain) {
+  for_each_weight(model, gravity, grain,
+                  [&](std::size_t component, double weight) { model.force[component] += weight; });
+  return weight_potential(model, gravity, grain);
 }
 
 ForceMoments force_moments(const Model& model, const std::array<double, 3>& centre, int grain) {

@@ -27,8 +27,10 @@ AdvanceSums advance(Model& model, int grain, const Advance& parameters);
 /// with the v+ that `advance` would reach from the current forces without damping. `step_mean` in s.
 double kinetic_energy(const Model& model, int grain, double step_mean);
 
-/// Adds the weights of a grain's nodes to model.force: `gravity` (mm/s^2) times their masses before mass_factor.
-/// Returns the work (mJ) of gravity on the way from the origin to where the nodes are.
+/// mJ, the work of gravity on the nodes of a grain on the way from the origin to where they are: weights are `gravity`
+/// (mm/s^2) times masses before mass_factor.
+double weight_potential(const Model& model, const std::array<double, 3>& gravity, int grain);
+/// Adds the weights of a grain's nodes to model.force. Returns their weight_potential().
 double add_weight(Model& model, const std::array<double, 3>& gravity, int grain);
 
 /// Sums of the total forces on a grain's nodes. In equilibrium, both sums over all grains are zero.

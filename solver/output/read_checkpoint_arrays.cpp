@@ -299,11 +299,19 @@ void ArrayReader::take_grips(Grips& grips) const {
   grips.make_offsets(model_.node_offset);
 }
 
+/// Lists that only grow while they are read: a checkpoint that was read before may have left some.
+void forget_histories(Contact& contact, WallFriction& wall_friction, Tools& tools) {
+  contact.friction_of_former_points.clear();
+  wall_friction.forget({true, true, true});
+  tools.forget();
+}
+
 } // namespace
 
 void CheckpointReader::take_arrays(Model& model, Contact& contact, WallFriction& wall_friction, Tools& tools,
                                    GrainSteps& grain_steps, Grips* grips,
                                    const std::optional<BondParameters>& bond_parameters) const {
+  forget_histories(contact, wall_friction, tools);
   ArrayReader reader(file_, model);
   reader.take_nodes(model, grain_steps);
   reader.take_tets(model);

@@ -69,6 +69,11 @@ void check_branch(const CheckpointReader& checkpoint, bool bonded, const Scenari
     refuse("[initial] cannot be used in a run that begins at a checkpoint: grains keep the velocities that they have "
            "there");
   check_tools(checkpoint.path(), before, now);
+  // The separations of a damaged bond depend on its stiffness, which follows from the penalty.
+  const bool sticky = std::ranges::any_of(before.tools, [](const auto& tool) { return tool.adhesion.has_value(); });
+  if ((bonded || sticky) && before.contact.penalty_differs(now.contact))
+    refuse("the checkpoint's bonds were formed with another penalty than the scenario's, allowed: the same "
+           "contact.stiffness and contact.stiffness_factor");
   if (!bonded) return;
   // Bonds keep the law by which they formed, and [bond] is the law of future bonds. Whether bonds resist sliding
   // decides how all bonds are tracked.
@@ -76,9 +81,6 @@ void check_branch(const CheckpointReader& checkpoint, bool bonded, const Scenari
   if (before.bond->normal_only != now.bond->normal_only)
     refuse("the checkpoint's bonds were formed with another bond.normal_only, allowed: a [bond] with the same "
            "normal_only");
-  if (before.contact.penalty_differs(now.contact)) // the separations of a damaged bond depend on its stiffness
-    refuse("the checkpoint's bonds were formed with another penalty than the scenario's, allowed: the same "
-           "contact.stiffness and contact.stiffness_factor");
 }
 
 /// Restores the state; for a `branch`, as that of the scenario's first stage. `bonded`: with bonds.
@@ -139,7 +141,7 @@ void begin_branch(const std::string& path, Simulation& simulation, const Communi
   RunRecord earlier;
   restore(checkpoint, bonded, before, simulation, earlier, true, ranks);
   try {
-    simulation.begin_branch();
+    simulation.begin_branch(before.gravity);
   } catch (const SimulationError& error) { // what the scenario wants is not possible with this sample
     throw InputError(fmt::format("{}the sample of {}: {}", simulation.scenario().stages.front().places.prefix("type"),
                                  one_line(path), error.what()));

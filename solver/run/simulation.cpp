@@ -32,8 +32,7 @@ Axes withdrawn_in(const Scenario& scenario, std::int64_t stage) {
 }
 
 /// mm/s^2, reduced as masses are scaled: weights stay as they are.
-std::array<double, 3> gravity_of_scaled_mass(const Scenario& scenario) {
-  std::array<double, 3> gravity = scenario.gravity;
+std::array<double, 3> of_scaled_mass(std::array<double, 3> gravity, const Scenario& scenario) {
   for (double& component : gravity) component /= scenario.numerics.mass_scaling;
   return gravity;
 }
@@ -189,7 +188,7 @@ void Simulation::add_contact(std::span<const std::int32_t> grains) {
 
 /// Reactions of contact, boundaries and weight.
 void Simulation::add_reactions_and_walls() {
-  const std::array<double, 3> gravity = gravity_of_scaled_mass(*scenario_);
+  const std::array<double, 3> gravity = of_scaled_mass(scenario_->gravity, *scenario_);
   for (const auto* grains : {&in_space_.border, &in_space_.inside})
     team_->for_each_range(static_cast<int>(grains->size()), [&](int begin, int end, int thread) {
       const auto together = std::span(*grains).subspan(at(begin), at(end - begin));
@@ -527,7 +526,19 @@ void Simulation::update_surfaces() {
   });
 }
 
-void Simulation::begin_branch() {
+/// Before the gravity of this scenario acts, the one before has done its work up to here.
+void Simulation::take_over_from_gravity(const std::array<double, 3>& before) {
+  const auto potential = [this](const std::array<double, 3>& acceleration) {
+    const std::array<double, 3> gravity = of_scaled_mass(acceleration, *scenario_);
+    return sum_over_grains(*ranks_, model_.own(),
+                           [&](std::int32_t grain) { return weight_potential(model_, gravity, grain); });
+  };
+  energies_.external_work += potential(before) - state_.weight_potential;
+  state_.weight_potential = potential(scenario_->gravity);
+}
+
+void Simulation::begin_branch(const std::array<double, 3>& gravity_before) {
+  if (gravity_before != scenario_->gravity) take_over_from_gravity(gravity_before);
   Box coming = box_;
   coming.withdraw(withdrawn_in(*scenario_, 0));
   find_candidates();

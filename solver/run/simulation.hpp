@@ -158,14 +158,15 @@ public:
     set_grain_steps(std::move(grain_steps));
   }
   /// After restore(): its state is the beginning of this scenario's first stage. Candidates and step are found again
-  /// with this scenario's settings.
-  void begin_branch();
+  /// with this scenario's settings. `gravity_before`: mm/s^2, of the scenario before.
+  void begin_branch(const std::array<double, 3>& gravity_before);
   /// For tests and benchmarks that change positions, velocities or strains by hand.
   Model& model_to_disturb() { return model_; }
 
 private:
   void read(FieldReader& fields, std::optional<std::size_t> tools_of_branch);
   Grips* prepare_grips();
+  void take_over_from_gravity(const std::array<double, 3>& before);
   void set_grain_steps(GrainSteps grain_steps);
   static const Communicator& alone();
   void order_grains();

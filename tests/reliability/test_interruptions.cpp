@@ -39,9 +39,9 @@ TEST_CASE("no rolling checkpoint is newer than the stage's or the density's that
 
 TEST_CASE("a complete run whose stage checkpoint was lost is not complete, and --resume writes it again") {
   const Folder folder;
-  prepare(folder, 3, two_stages);
+  prepare(folder, 3, replaced(two_stages, "[output]", "[walls]\nfriction = 0.2\n[output]"));
   REQUIRE(run_stages(folder, "run.h5").exit_code == 0);
-  const auto numbers = results(folder / "run.h5");
+  REQUIRE(run_stages(folder, "whole.h5").exit_code == 0);
   for (const std::string name : {"first", "D0.500", "second"}) {
     const std::string lost = folder / ("run." + name + ".checkpoint.h5");
     REQUIRE(fs::remove(lost));
@@ -50,7 +50,7 @@ TEST_CASE("a complete run whose stage checkpoint was lost is not complete, and -
     CHECK(outcome.exit_code == 0);
     CHECK_THAT(outcome.messages, Catch::Contains(name + ".checkpoint.h5 is missing"));
     CHECK(fs::exists(lost));
-    CHECK(results(folder / "run.h5") == numbers);
+    CHECK(first_difference(folder / "run.h5", folder / "whole.h5").empty());
   }
   CHECK(run_stages(folder, "run.h5", "--resume").messages.find("missing") == std::string::npos);
 }

@@ -40,7 +40,7 @@ Ejected eject(int n, double nu, double mu, bool push) {
   ThreadTeam team(1);
   // A run would refuse a column inside its die, a branch takes what it has.
   Simulation simulation(build_model(column(settings, 1e-3), scenario, "test"), scenario, team, true);
-  simulation.begin_branch();
+  simulation.begin_branch({});
   Ejected ejected;
   double levels = 0;
   const auto run_stage = [&](double time, auto&& look) {

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <cstdlib>
+#include <filesystem>
 #include <map>
 #include <stdexcept>
 #include <string>
@@ -87,6 +88,34 @@ TEST_CASE("a ball that falls gains the momentum of its true weight and as much e
     REQUIRE(row.kinetic_energy > 0);
     CHECK(std::abs(row.energy_residual) < 1e-6 * row.kinetic_energy);
   }
+}
+
+TEST_CASE("a branch with another gravity begins with the work of the run before") {
+  const Folder folder;
+  prepare(folder, 3, material_text + R"([gravity]
+acceleration = [0, 0, -1e8]
+[[stages]]
+name = "fall"
+type = "tools"
+duration = 2e-6
+)");
+  const std::string run = fmt::format("run {} --quiet -o ", folder / "scenario.toml");
+  REQUIRE(mpfem_command(run + (folder / "run.h5")).exit_code == 0);
+  const auto branch = [&](const std::string& options) {
+    REQUIRE(
+        mpfem_command(run + (folder / "branch.h5 --from ") + (folder / "run.fall.checkpoint.h5") + options).exit_code ==
+        0);
+    const schema::FileReader file(folder / "branch.h5", schema::FileKind::run);
+    return file.read(schema::run::history_external_work);
+  };
+  const auto work = schema::FileReader(folder / "run.h5").read(schema::run::history_external_work);
+  REQUIRE(work.back() > 0);
+  CHECK(within(branch("").front(), work.back(), 1e-12));
+  // Its potential has another origin, and is many times the work of the fall.
+  const auto sideways = branch(" --set gravity.acceleration=[1e8,0,0]");
+  CAPTURE(work.back(), sideways.front(), sideways.back());
+  CHECK(within(sideways.front(), work.back(), 1e-12));
+  CHECK(sideways.back() > work.back());
 }
 
 TEST_CASE("a scenario may have gravity and masses scaled to a step") {
@@ -343,24 +372,6 @@ TEST_CASE("a ball comes to rest in a cone, in a bowl and on a plane that bear it
   CHECK(std::abs(moment.z) < 1e-6);
 }
 
-/// A slab in ASCII STL, in metres.
-std::string slab_stl(const std::array<double, 3>& low, const std::array<double, 3>& high) {
-  // Corners by bits: x, y, z; faces counter-clockwise from outside.
-  constexpr int quads[6][4] = {{0, 2, 3, 1}, {4, 5, 7, 6}, {0, 1, 5, 4}, {2, 6, 7, 3}, {0, 4, 6, 2}, {1, 3, 7, 5}};
-  std::string text = "solid slab\n";
-  const auto corner = [&](int bits) {
-    std::string line = "vertex";
-    for (std::size_t axis = 0; axis < 3; ++axis)
-      line += fmt::format(" {}", 1e-3 * ((bits >> axis & 1) != 0 ? high[axis] : low[axis]));
-    return line + "\n";
-  };
-  for (const auto& quad : quads)
-    for (const auto& triangle : {std::array{quad[0], quad[1], quad[2]}, std::array{quad[0], quad[2], quad[3]}})
-      text += "facet normal 0 0 0\nouter loop\n" + corner(triangle[0]) + corner(triangle[1]) + corner(triangle[2]) +
-              "endloop\nendfacet\n";
-  return text + "endsolid slab\n";
-}
-
 TEST_CASE("the flat face of a body in an STL file pushes and rubs as a plane does") {
   const Folder folder;
   write_text(folder / "slab.stl", slab_stl({0, 0, 0.1}, {1, 1, 0.4}));
@@ -539,6 +550,31 @@ TEST_CASE("a run with tools is bitwise the same on one, two and four threads, an
     check_threads(text, 4);
     check_resuming(text, 4);
   }
+}
+
+TEST_CASE("a run with tools whose stage checkpoint was lost writes it again and ends the same") {
+  const Folder folder;
+  prepare(folder, 4, sticky_text());
+  const auto run = [&](const std::string& output) {
+    return mpfem_command(fmt::format("run {} -o {} --resume", folder / "scenario.toml", folder / output));
+  };
+  REQUIRE(run("whole.h5").exit_code == 0);
+  REQUIRE(run("run.h5").exit_code == 0);
+  // The later checkpoints count the lost one as written, so that each of them is read before an earlier one is taken.
+  for (const std::string lost : {"hold", "eject"}) {
+    REQUIRE(std::filesystem::remove(folder / ("run." + lost + ".checkpoint.h5")));
+    const Outcome outcome = run("run.h5");
+    INFO(outcome.messages);
+    CHECK(outcome.exit_code == 0);
+    CHECK_THAT(outcome.messages, Catch::Contains(lost + ".checkpoint.h5 is missing; the run continues from"));
+    CHECK(first_difference(folder / "whole.h5", folder / "run.h5").empty());
+  }
+  // Half-damaged bonds to tools would pull with another stiffness.
+  const Outcome stiffer =
+      mpfem_command(fmt::format("run {} -o {} --from {} --set contact.stiffness_factor=50", folder / "scenario.toml",
+                                folder / "stiffer.h5", folder / "run.hold.checkpoint.h5"));
+  CHECK(stiffer.exit_code == 2);
+  CHECK_THAT(stiffer.messages, Catch::Contains("formed with another penalty"));
 }
 
 TEST_CASE("grains that stick to tools keep the ledger, and the history tells what holds them") {
