@@ -1,6 +1,7 @@
 #include "common/output_file.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
@@ -83,9 +84,30 @@ void refuse_special_file(std::string_view option, const std::string& path, Outpu
   if (kind == OutputKind::binary || !is_stream(found->st_mode)) refuse(kind_of(found->st_mode));
 }
 
+namespace {
+
+/// Whether a file begins as HDF5 files do.
+bool is_hdf5(const std::string& path) {
+  constexpr std::string_view signature = "\x89HDF\r\n\x1a\n";
+  std::array<char, signature.size()> begin{};
+  std::FILE* file = std::fopen(path.c_str(), "rb");
+  if (file == nullptr) return false;
+  const std::size_t read = std::fread(begin.data(), 1, begin.size(), file);
+  std::fclose(file);
+  return std::string_view(begin.data(), read) == signature;
+}
+
+} // namespace
+
 void check_output_path(std::string_view option, const std::string& path, OutputKind kind) {
   if (path.empty()) throw InputError(fmt::format("{}: found an empty name, allowed: a file", option));
   refuse_special_file(option, path, kind);
+  const auto found = found_at(path);
+  if (kind == OutputKind::text && found && S_ISREG(found->st_mode) && is_hdf5(path))
+    throw InputError(
+        fmt::format("{} {}: would replace an HDF5 file (a run, a checkpoint or a packing) by text, allowed: "
+                    "another name",
+                    option, one_line(path)));
   std::error_code ignored;
   if (!std::filesystem::is_directory(folder_of(output_target(path)), ignored))
     throw InputError(

@@ -23,6 +23,7 @@
 #include "pack-gen/sphere_file.hpp"
 #include "pack-gen/sphere_import.hpp"
 #include "pack-gen/sphere_order.hpp"
+#include "results-schema/file.hpp"
 
 namespace {
 
@@ -55,6 +56,17 @@ void refuse_overwriting_any(const Arguments& arguments, const std::vector<std::s
     for (const std::string& input : inputs) refuse_overwriting(output.option, output.path, input);
 }
 
+/// Refuses to replace a run or a checkpoint.
+void refuse_other_file(const std::string& output) {
+  try {
+    if (!std::filesystem::exists(output) || schema::FileReader(output).kind() == schema::FileKind::packing) return;
+  } catch (const InputError&) { // no file of mpfem
+    return;
+  }
+  throw InputError(
+      fmt::format("--output {}: would replace a run or a checkpoint, allowed: another name", one_line(output)));
+}
+
 /// Checked before hours of work, not after them. `kind`: of --output, which only `quality` may lack.
 void check_outputs(const Arguments& arguments, OutputKind kind, bool of_quality) {
   if (!of_quality || !arguments.output.empty()) check_output_path("--output", arguments.output, kind);
@@ -62,7 +74,7 @@ void check_outputs(const Arguments& arguments, OutputKind kind, bool of_quality)
   if (!arguments.target.empty()) check_output_path("--target", arguments.target, OutputKind::text);
   refuse_overwriting_any(arguments, {arguments.input, arguments.description, arguments.surface});
   refuse_shared_names(outputs_of(arguments));
-  if (kind == OutputKind::binary) try_output(arguments.output);
+  if (kind == OutputKind::binary) refuse_other_file(arguments.output), try_output(arguments.output);
 }
 
 /// The description, overridden by the command line.

@@ -103,27 +103,33 @@ CLI::App* add_bench(CLI::App& app, Arguments& arguments, BenchOptions& options) 
       "  mpfem bench --tets 1600000 --threads 1 --json\n"
       "  mpfem bench --no-bonds --friction 0.3\n"
       "  mpfem bench compaction.toml --from run.compaction.checkpoint.h5 --set stages.0.relative_density=0.95");
-  bench->add_option("scenario", arguments.scenario, "Scenario to measure instead of the built-in packing (TOML)")
-      ->check(existing_file());
+  CLI::Option* scenario =
+      bench->add_option("scenario", arguments.scenario, "Scenario to measure instead of the built-in packing (TOML)")
+          ->check(existing_file());
   bench->add_option("--from", arguments.from, "Checkpoint whose state is measured")->check(existing_file());
   add_assignments(*bench, arguments.assignments, "Override a value of the scenario: KEY=VALUE");
   add_threads(*bench, arguments);
   add_number(*bench, "--tets", options.tets, Range::between(8, 4e8), "",
              "Approximate number of tetrahedra of the built-in packing")
-      ->capture_default_str();
+      ->capture_default_str()
+      ->excludes(scenario);
   add_number(*bench, "--grains", options.grains, Range::between(1, 1e7), "",
              "Approximate number of grains of the built-in packing")
-      ->capture_default_str();
+      ->capture_default_str()
+      ->excludes(scenario);
   add_choice(
       *bench, "--element", options.element,
       {{"tet4", ElementType::tet4}, {"tet4-anp", ElementType::tet4_anp}, {"tet4-patch", ElementType::tet4_patch}},
-      "Element of the built-in packing");
+      "Element of the built-in packing")
+      ->excludes(scenario);
   add_choice(*bench, "--precision", options.precision, {{"double", Precision::full}, {"mixed", Precision::mixed}},
-             "Precision of its tetrahedra: double, or mixed with strains and stresses in single precision");
-  bench->add_flag("!--no-bonds", options.bonds, "Built-in packing without bonds");
+             "Precision of its tetrahedra: double, or mixed with strains and stresses in single precision")
+      ->excludes(scenario);
+  bench->add_flag("!--no-bonds", options.bonds, "Built-in packing without bonds")->excludes(scenario);
   add_number(*bench, "--friction", options.friction, Range::between(0, 2), "",
              "Friction of the built-in packing, between grains and at walls")
-      ->capture_default_str();
+      ->capture_default_str()
+      ->excludes(scenario);
   add_number(*bench, "--steps", options.steps, Range::between(5, 1e6), "", "Steps to measure")->capture_default_str();
   bench->add_flag("--json", options.json, "Print one JSON object");
   bench->add_flag("--quiet", options.quiet, "No progress");

@@ -116,6 +116,16 @@ TEST_CASE("Two outputs under one name, or one under the other's partial name, ar
   CHECK_NOTHROW(check("/dev/null", "/dev/null"));
 }
 
+TEST_CASE("A text does not replace an HDF5 file, and replaces any other") {
+  const Folder folder;
+  test::write_text(folder / "run.h5", std::string("\x89HDF\r\n\x1a\n", 8) + "what follows");
+  test::write_text(folder / "text.h5", "HDF is only its name");
+  CHECK_THROWS_WITH(check_output_path("--output", folder / "run.h5", OutputKind::text),
+                    Catch::Contains("run.h5: would replace an HDF5 file"));
+  CHECK_NOTHROW(check_output_path("--output", folder / "run.h5", OutputKind::binary));
+  CHECK_NOTHROW(check_output_path("--output", folder / "text.h5", OutputKind::text));
+}
+
 TEST_CASE("An output with another ending than the allowed ones is refused with both") {
   const auto refusal_of = [](const std::string& path) {
     return input_error([&] { refuse_other_endings("--output", path, {".png", ".svg"}); });
