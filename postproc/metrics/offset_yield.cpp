@@ -138,9 +138,11 @@ Measurement measure_offset_yield(const schema::FileReader& file, std::optional<i
                                  const OffsetYieldRule& rule) {
   const HistoryTable history(file);
   const auto stages = stages_of(history, scenario_facts(file));
-  const StageRows& stage =
-      choose_stage(stages, number, {"probe", "unconfined_compression", "triaxial_compression"}, file.path());
-  return offset_yield(stage_curve(history, stage, file.path()), rule);
+  const std::vector<std::string> tests = {"probe", "unconfined_compression", "triaxial_compression"};
+  const StageRows& stage = choose_stage(stages, number, tests, file.path());
+  Measurement m = offset_yield(stage_curve(history, stage, file.path()), rule);
+  if (const std::string note = note_of_other_stage(stage, tests); !note.empty()) m.notes.push_back(note);
+  return m;
 }
 
 } // namespace mpfem

@@ -243,10 +243,11 @@ Measurement strength(const StageCurve& c, const StrengthRule& rule) {
 Measurement measure_strength(const schema::FileReader& file, std::optional<int> number, const StrengthRule& rule) {
   const HistoryTable history(file);
   const auto stages = stages_of(history, scenario_facts(file));
-  const StageRows& stage =
-      choose_stage(stages, number, {"unconfined_compression", "triaxial_compression"}, file.path());
+  const std::vector<std::string> tests = {"unconfined_compression", "triaxial_compression"};
+  const StageRows& stage = choose_stage(stages, number, tests, file.path());
   Measurement m = strength(stage_curve(history, stage, file.path()), rule);
   add_true_stress(m, history, stage);
+  if (const std::string note = note_of_other_stage(stage, tests); !note.empty()) m.notes.push_back(note);
   return m;
 }
 

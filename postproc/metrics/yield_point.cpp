@@ -104,7 +104,11 @@ Measurement yield_point(const StageCurve& c, double ratio) {
 Measurement measure_yield(const schema::FileReader& file, std::optional<int> number, double ratio) {
   const HistoryTable history(file);
   const auto stages = stages_of(history, scenario_facts(file));
-  return yield_point(stage_curve(history, choose_stage(stages, number, {"probe"}, file.path()), file.path()), ratio);
+  const StageRows& stage = choose_stage(stages, number, {"probe"}, file.path());
+  Measurement m = yield_point(stage_curve(history, stage, file.path()), ratio);
+  const std::string note = note_of_other_stage(stage, {"probe", "unconfined_compression", "triaxial_compression"});
+  if (!note.empty()) m.notes.push_back(note);
+  return m;
 }
 
 } // namespace mpfem

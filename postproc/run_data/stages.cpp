@@ -125,6 +125,11 @@ const StageRows& choose_stage(const std::vector<StageRows>& stages, std::optiona
   return last ? *last : stages.back();
 }
 
+std::string note_of_other_stage(const StageRows& stage, const std::vector<std::string>& types) {
+  if (stage.type.empty() || std::find(types.begin(), types.end(), stage.type) != types.end()) return {};
+  return fmt::format("the stage '{}' is of type {}, not {}", stage.name, stage.type, fmt::join(types, " or "));
+}
+
 const StageRows& need_stage_of_type(const std::vector<StageRows>& stages, std::optional<int> number,
                                     const std::vector<std::string>& types, std::string_view path) {
   if (number) return stage_by_number(stages, *number, path);

@@ -62,7 +62,11 @@ StageRows need_stage(const std::vector<StageRows>& stages, std::string_view name
 const StageRows& choose_stage(const std::vector<StageRows>& stages, std::optional<int> number,
                               const std::vector<std::string>& types, std::string_view path);
 
-/// The same, but throws InputError where no stage has one of these types.
+/// A note for a number that was measured in a stage of none of these types; empty where it has one, or is of unknown
+/// type.
+std::string note_of_other_stage(const StageRows& stage, const std::vector<std::string>& types);
+
+/// The same as choose_stage, but throws InputError where no stage has one of these types.
 const StageRows& need_stage_of_type(const std::vector<StageRows>& stages, std::optional<int> number,
                                     const std::vector<std::string>& types, std::string_view path);
 
