@@ -41,7 +41,7 @@ help:
 	@sed -n 's/^#: /  /p' $(MAKEFILE_LIST)
 	@echo && echo 'The same command continues an interrupted run (Ctrl-C, SIGTERM, kill) from its checkpoint.' && \
 	  echo 'make -n shows all commands. Results are written to out/MESH/, with another SURFACE or' && \
-	  echo 'ELEMENT to out/MESH-SURFACE/, out/MESH-ELEMENT/.'
+	  echo 'ELEMENT to out/MESH-SURFACE/, out/MESH-ELEMENT/; a study with its own powder has own instead of MESH.'
 
 # -------------------------------------------------------------------------------- settings
 # $(call allowed,NAME,VALUES): fails if NAME has another value.
@@ -127,13 +127,18 @@ endif
 ifneq ($(and $(filter study,$(MAKECMDGOALS)),$(if $(wildcard $(STUDY)),,missing)),)
   $(error STUDY=$(STUDY): allowed: the file of a study, e.g. make -f $(makefile) study STUDY=my.toml)
 endif
-study_name := $(patsubst %.toml,%,$(notdir $(patsubst %/figure.toml,%.toml,$(STUDY))))
+# Of the whole path, so that ./figure.toml has the name of its folder.
+study_path := $(lastword $(abspath $(STUDY)))
+study_name := $(patsubst %.toml,%,$(notdir $(patsubst %/figure.toml,%.toml,$(study_path))))
 powder = $(BIN)/postproc powder '$(STUDY)' --programmes $(studies)/branches
 of_powder := $(if $(STUDY),$(shell $(powder) | sed -n '1s/^# element_size = //p'))
 packing_smoke := smoke
 packing := $(or $(packing_$(MESH)),full)
 ifneq ($(of_powder),)
-  out := out/own$(SEED:%=-seed%)
+  out := out/$(patsubst $(MESH)%,own%,$(variant))$(SEED:%=-seed%)
+  ifneq ($(and $(filter command line environment,$(origin MESH)),$(if $(MAKE_RESTARTS),,first)),)
+    $(info $(makefile): MESH=$(MESH) has no effect on $(STUDY): its [powder] has an element_size)
+  endif
   packings := $(out)/$(study_name)/packing
   description := $(out)/$(study_name)/powder.toml
   size := $(of_powder)
@@ -193,6 +198,13 @@ $(packings)/mesh-%.h5: $(packings)/spheres.h5 | $(BIN)/pack-gen
 # Of all figures together, because they share runs, or of one study of a user.
 declared_sources := $(or $(STUDY),$(wildcard $(studies)/fig*/figure.toml))
 declared := $(out)/$(if $(STUDY),$(study_name)/study,figures).mk
+# Two studies of one name would replace each other's results.
+study_record := $(dir $(declared))study.path
+recorded_study := $(if $(STUDY),$(if $(wildcard $(study_record)),$(shell cat $(study_record))))
+ifneq ($(filter-out $(study_path),$(if $(wildcard $(recorded_study)),$(recorded_study))),)
+  $(error STUDY=$(STUDY): $(dir $(declared)) has the results of $(recorded_study), allowed: a study with another name; \
+    rename its file or folder, or remove those results)
+endif
 of_mesh := --results $(out) --mesh $(MESH) --programmes $(studies)/branches
 goals := $(or $(MAKECMDGOALS),help)
 ifneq ($(filter-out help clean clean-figures,$(goals)),)
@@ -200,6 +212,7 @@ ifneq ($(filter-out help clean clean-figures,$(goals)),)
 $(declared): FORCE
 	@[ -x $(BIN)/postproc ] || { echo '$(makefile): $(BIN)/postproc is not built; ./bootstrap builds it' >&2; exit 1; }
 	@mkdir -p $(@D)
+	@$(if $(STUDY),printf '%s\n' '$(study_path)' > $(study_record))
 	@$(BIN)/postproc depends $(declared_sources) $(of_mesh) --packing $(mesh) --description $(description) \
 	  --set element.type=$(ELEMENT) --set contact.surface=$(SURFACE) -o $@
 include $(declared)
@@ -208,11 +221,15 @@ endif
 # A run is written in work/ and moved out when it is complete. A rerun continues from its own checkpoints, unless an
 # input is newer than all files that the run has made.
 own_files = $(@D)/work/run.checkpoint.h5 $(@D)/work/run.checkpoint.previous.h5 $(@D)/work/run.h5 $@
+# `postproc depends` has parents made again that lack a checkpoint. If it is still missing, they end before it.
+parent_run = $(patsubst %/work/,%,$(dir $(word 2,$(options))))/run.h5
+not_reached = echo '$(word 2,$(options)): $(parent_run) ends without it, allowed: a stage or density that it reaches'
+lost = rm -f $@; echo '$(word 2,$(options)) is missing; repeat the same make command to make it again'
+checkpoint_is_missing = $(if $(filter $(parent_run),$(parents_to_make)),$(not_reached),$(lost))
 same_command_again = echo 'The same make command continues this run.' >&2
 $(declared_runs): | $(BIN)/mpfem
 	@mkdir -p $(@D)/work
-	@$(if $(filter --from,$(options)),[ -e $(word 2,$(options)) ] || \
-	  { rm -f $@; echo '$(word 2,$(options)) is missing; repeat the same make command to make it again' >&2; exit 1; })
+	@$(if $(filter --from,$(options)),[ -e $(word 2,$(options)) ] || { $(checkpoint_is_missing) >&2; exit 1; })
 	for input in $(filter-out FORCE,$^); do \
 	  for own in $(own_files); do [ ! $$own -nt $$input ] || continue 2; done; rm -f $(@D)/work/run.*h5*; \
 	done

@@ -43,6 +43,21 @@ refused "${study[1]}: allowed: a path without spaces" "${study[@]}"
 study[1]=$here/studies/rules.mk
 make -n "${study[@]}" SEEDS='2 3' THREADS=2 BIN="$bin" >plan 2>&1 || { cat plan && code=1; }
 
+# A study has the name of its file or folder, wherever make is called. Another study of that name is refused.
+mkdir -p one/tablet two/tablet
+cp my.toml one/tablet/figure.toml
+cp my.toml two/tablet/figure.toml
+make -n -f "$here/studies/rules.mk" study STUDY=one/tablet/figure.toml BIN="$bin" >plan
+grep -q 'out/own/tablet/' plan || { echo "settings.sh: one/tablet is not out/own/tablet" && code=1; }
+(cd one/tablet && make -n -f "$here/studies/rules.mk" study STUDY=./figure.toml SURFACE=smooth BIN="$bin" >../plan)
+grep -q 'out/own-smooth/tablet/' one/plan || { echo "settings.sh: ./figure.toml is not tablet" && code=1; }
+mkdir -p out/own/tablet
+realpath one/tablet/figure.toml >out/own/tablet/study.path
+message=$(make -n -f "$here/studies/rules.mk" study STUDY=two/tablet/figure.toml BIN="$bin" 2>&1) && code=1
+[[ $message == *"out/own/tablet/ has the results of $work/one/tablet/figure.toml, allowed"* ]] ||
+  { echo "settings.sh: two studies of one name: $message" && code=1; }
+rm -r out
+
 # A source tree takes its own build, whatever lies in a folder bin beside it; an installation takes its own programs.
 mkdir -p bin tree share/mpfem
 printf '#!/bin/sh\necho "bin beside" >&2\nexit 1\n' >bin/postproc
