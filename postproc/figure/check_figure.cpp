@@ -28,6 +28,33 @@ void check_column(const Figure& figure, const std::string& table, const std::str
   place.fail(fmt::format("table '{}' has no column '{}'{}", table, column, suggestion(column, names)));
 }
 
+/// The run at which a run begins; none if it begins with a packing.
+const RunTemplate* parent_of(const Figure& figure, const RunTemplate& run) {
+  if (run.from.empty()) return nullptr;
+  return &figure.run(run.from.substr(0, run.from.find_first_of("@:")), run.place);
+}
+
+/// Refuses runs that begin at each other. A run of a chain may name itself.
+void check_beginning(const Figure& figure, const RunTemplate& run) {
+  std::size_t steps = 0;
+  for (const RunTemplate* at = &run; at != nullptr; ++steps) {
+    const RunTemplate* parent = parent_of(figure, *at);
+    if (parent == at) return;
+    if (steps > figure.runs.size())
+      run.place.fail(fmt::format("from: found '{}', but that run begins in turn at '{}', allowed: runs of which the "
+                                 "first begins with a packing",
+                                 run.from, run.name));
+    at = parent;
+  }
+}
+
+void check_columns_once(const TableSpec& table) {
+  for (std::size_t i = 0; i < table.columns.size(); ++i)
+    for (std::size_t k = 0; k < i; ++k)
+      if (table.columns[i].name == table.columns[k].name)
+        table.place.fail(fmt::format("table '{}' has the column '{}' twice", table.name, table.columns[i].name));
+}
+
 } // namespace
 
 void check_names(const Figure& figure) {
@@ -36,11 +63,12 @@ void check_names(const Figure& figure) {
   check_once(figure.fits, "fit");
   check_once(figure.plots, "plot");
   for (const RunTemplate& run : figure.runs) {
-    if (!run.from.empty()) figure.run(run.from.substr(0, run.from.find_first_of("@:")), run.place);
+    check_beginning(figure, run);
     if (!run.packing.empty() && !figure.run(run.packing, run.place).is_packing)
       run.place.fail(fmt::format("packing: '{}' is a run, allowed: one of [[packings]]", run.packing));
   }
   for (const TableSpec& table : figure.tables) {
+    check_columns_once(table);
     for (const ColumnSpec& column : table.columns)
       if (!column.run.empty()) figure.run(column.run, table.place);
     for (const std::string& curve : table.curves) figure.run(curve, table.place);

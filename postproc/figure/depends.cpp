@@ -252,7 +252,7 @@ private:
         words["run"] = {run, {}};
       }
       for (const std::string& need : script.needs) needed += fmt::format(" {}", filled_at(script.place, need, words));
-      const std::string file = fmt::format("{}/{}", folder_, filled_at(script.place, script.name, words));
+      const std::string file = fmt::format("{}/{}", folder_, name_of_script_file(script, words));
       words["file"] = {"$@.partial", {}};
       const std::string command = filled_at(script.place, script.command, words);
       const auto [known, added] = commands.try_emplace(file, command);
@@ -264,6 +264,23 @@ private:
       lists_["script_files"].insert(file);
       files_.push_back(file);
     }
+  }
+
+  /// Refuses a file that is outside the figure's folder, or that another rule makes.
+  std::string name_of_script_file(const ScriptSpec& script, const Words& words) const {
+    const std::filesystem::path name = filled_at(script.place, script.name, words);
+    const auto is_up = [](const std::filesystem::path& part) { return part == ".."; };
+    if (name.empty() || name.is_absolute() || std::ranges::any_of(name, is_up))
+      script.place.fail(fmt::format("name: found '{}', allowed: a file in the figure's folder", name.string()));
+    const std::string own = name.string();
+    const bool of_table = std::ranges::any_of(
+        current_->tables, [&](const TableSpec& table) { return table.file.empty() && own == table.name + ".csv"; });
+    if (of_table || own == "index.html" || own == "verdict.json" || own == "fits.json" || own == "study.mk" ||
+        own == "powder.toml")
+      script.place.fail(fmt::format("name: found '{}', which is made in another way, allowed: another name", own));
+    if (script.command.find("{file}") == std::string::npos)
+      script.place.fail("command: found no {file}, allowed: a command that writes it");
+    return own;
   }
 
   /// Packings given by an element size have their rule in rules.mk; those with their own command have a settings
@@ -319,6 +336,7 @@ private:
       outstanding_.erase(outstanding_.begin());
       if (run.parent.empty() || forced.contains(run.parent) || std::filesystem::exists(checkpoint_of(run))) continue;
       const std::string parent = request_.results.of(run.parent) + "/run.h5";
+      lists_["parents_to_make"].insert(parent);
       if (!std::filesystem::exists(parent)) continue; // is made anyway
       text_ += fmt::format("{}: FORCE\n", parent);
       forced.insert(run.parent);

@@ -187,7 +187,7 @@ private:
       const auto x = cells[columns[0].first].number, y = cells[columns[1].first].number;
       if (x && y) line.points.push_back({*x * s.x_scale, *y * s.y_scale});
     }
-    if (block.find_first_of("0123456789") == std::string::npos) return; // none of it could be measured
+    if (line.points.empty()) return; // none of it could be measured
     SeriesSpec drawn = s;
     drawn.colour = colour;
     if (!s.colour_by.empty())
@@ -315,6 +315,16 @@ DrawnLine drawn_line(const LineSpec& line, const std::vector<DrawnLine>& lines) 
   return {{{first, line.slope.value_or(0) * first}, {last, line.slope.value_or(0) * last}}, true};
 }
 
+/// What is drawn where no run gave a value.
+constexpr const char* nothing_to_draw = R"(unset logscale
+set xrange [0:1]
+set yrange [0:1]
+set format x ''
+set format y ''
+set label 1 'none of these values could be measured' at graph 0.5,0.5 center
+plot NaN notitle
+)";
+
 /// The key's place that the figure's file gives, or one where it covers no data.
 std::string key_words(const PlotSpec& plot, const Script& script, const OtherResults* beside) {
   if (!plot.key.empty()) return plot.key;
@@ -408,8 +418,7 @@ std::string plot_script(const PlotSpec& plot, FigureData& data, const std::strin
   for (const SeriesSpec& s : plot.series) script.add(s);
   if (beside != nullptr)
     for (const SeriesSpec& s : plot.series) script.add_beside(s, beside->data);
-  if (script.empty())
-    plot.place.fail(fmt::format("plot '{}': none of the values that it shows could be measured", plot.name));
+  if (script.empty()) return text + nothing_to_draw;
   text += key_text(plot, key_words(plot, script, beside));
   for (const LineSpec& line : plot.lines)
     if (line.x)

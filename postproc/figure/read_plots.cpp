@@ -1,6 +1,7 @@
 // Plots of a figure's file, and what other commands make: pictures and scripts.
 
 #include <algorithm>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -20,6 +21,11 @@ AxisSpec read_axis(TableReader reader, const Words& words) {
   axis.low = t.number("low");
   axis.high = t.number("high");
   axis.logarithmic = reader.boolean_or("logarithmic", false);
+  if (axis.low && axis.high && *axis.low == *axis.high)
+    reader.fail("high", fmt::format("found {:g}, as 'low', allowed: another value", *axis.high));
+  for (const auto& [key, limit] : {std::pair{"low", axis.low}, std::pair{"high", axis.high}})
+    if (axis.logarithmic && limit && *limit <= 0)
+      reader.fail(key, fmt::format("found {:g} on a logarithmic axis, allowed: > 0", *limit));
   reader.finish();
   return axis;
 }

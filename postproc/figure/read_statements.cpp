@@ -96,6 +96,10 @@ ConditionSpec read_condition(TableReader reader, const Words& words) {
     const std::size_t least = c.predicate == "between" || c.predicate == "ordered" ? 2 : 1;
     if (c.operands.size() < least || (c.predicate != "ordered" && c.operands.size() > least))
       reader.fail(c.predicate, fmt::format("found {} values, allowed: {}", c.operands.size(), least));
+    if (c.predicate == "between" && c.operands[0].number && c.operands[1].number &&
+        *c.operands[0].number > *c.operands[1].number)
+      reader.fail(c.predicate, fmt::format("found {:g} before {:g}, allowed: the smaller one first",
+                                           *c.operands[0].number, *c.operands[1].number));
   }
   if (c.predicate == "near") {
     c.absolute = reader.has("within_absolute");

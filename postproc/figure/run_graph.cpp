@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "common/errors.hpp"
+#include "common/nearest_word.hpp"
 
 namespace mpfem {
 
@@ -48,17 +49,28 @@ void fill_values(Case& row, const Place& place) {
       value = Value::of_text(filled_at(place, value.text, row.values));
 }
 
-/// Name of the last stage of a programme.
-std::string last_stage(const std::string& programme) {
+/// Names of the stages of a programme, empty for those without one.
+std::vector<std::string> stage_names(const std::string& programme) {
   const TomlDocument document = TomlDocument::from_file(programme);
   const toml::array* stages = document.root()["stages"].as_array();
   if (stages == nullptr || stages->empty())
     throw InputError(fmt::format("{}: found no [[stages]], allowed: at least one", programme));
-  const auto name = (*stages->as_array())[stages->size() - 1].as_table()->get("name");
-  if (name == nullptr || !name->is_string())
+  std::vector<std::string> names;
+  for (const toml::node& stage : *stages)
+    names.push_back(stage.is_table() ? (*stage.as_table())["name"].value_or(std::string()) : std::string());
+  return names;
+}
+
+/// The stage at whose end a run begins: the one that `from` names, or the last. `parent` is the run before it.
+std::string stage_to_begin_at(const RunTemplate& run, const RunTemplate& parent, const std::string& named) {
+  const std::vector<std::string> names = stage_names(parent.programme);
+  if (named.empty() && names.back().empty())
     throw InputError(
-        fmt::format("{}: the last stage has no name; runs that begin at its checkpoint need one", programme));
-  return name->as_string()->get();
+        fmt::format("{}: the last stage has no name; runs that begin at its checkpoint need one", parent.programme));
+  if (named.empty()) return names.back();
+  if (std::find(names.begin(), names.end(), named) == names.end())
+    run.place.fail(fmt::format("from: {} has no stage '{}'{}", parent.programme, named, suggestion(named, names)));
+  return named;
 }
 
 Settings filled_settings(const RunTemplate& run, const Case& row) {
@@ -164,7 +176,7 @@ void add_origin(RunGraph& graph, const Figure& figure, const RunTemplate& run, c
     graph.at(instance.parent).densities.insert(density);
     instance.checkpoint = fmt::format("D{:.3f}", density);
   } else {
-    instance.checkpoint = at.empty() ? last_stage(parent_template.programme) : at;
+    instance.checkpoint = stage_to_begin_at(run, parent_template, at);
   }
 }
 

@@ -6,6 +6,7 @@
 #include "common/errors.hpp"
 #include "postproc/figure/depends.hpp"
 #include "postproc/figure/figure_plot.hpp"
+#include "postproc/files/gnuplot.hpp"
 #include "small_run.hpp"
 #include "tests/support/folder.hpp"
 #include "tests/support/tolerances.hpp"
@@ -58,6 +59,12 @@ name = "strength"
 row = "{sample}-{density:.2f}"
 columns = ["density [1] = {density}", "strength [MPa] = crushed/strength.value"]
 )";
+
+std::string replace(std::string text, const std::string& from, const std::string& to) {
+  const std::size_t at = text.find(from);
+  REQUIRE(at != std::string::npos);
+  return text.replace(at, from.size(), to);
+}
 
 /// A figure whose table `t` is what is given, and one statement.
 nlohmann::ordered_json judged(const std::string& rows, const std::string& statement, const std::string& fits = "[]") {
@@ -120,6 +127,28 @@ TEST_CASE("a mistake in a figure's file is reported with file, line and the near
                     Contains("no predicate, allowed: one of near"));
   CHECK_THROWS_WITH(toolkit.figure("title = \"x\"\n[[tables]]\nname = \"../t\"\ncolumns = [\"a = {a}\"]\n"),
                     Contains("found '../t', allowed: letters"));
+  const std::string plot = tablets + "[[plots]]\nname = \"p\"\nx = { low = 2, high = 2 }\n";
+  CHECK_THROWS_WITH(toolkit.figure(plot), Contains("key 'plots.0.x.high': found 2, as 'low'"));
+  CHECK_THROWS_WITH(toolkit.figure(replace(plot, "low = 2, high = 2", "low = 0, logarithmic = true")),
+                    Contains("found 0 on a logarithmic axis"));
+  CHECK_THROWS_WITH(toolkit.figure(replace(tablets, "strength [MPa] =", "density [1] =")),
+                    Contains("table 'strength' has the column 'density' twice"));
+  CHECK_THROWS_WITH(judged(rising, y_of_last + "require = [{ quantity = \"y\", between = [3, 1] }]\n"),
+                    Contains("found 3 before 1, allowed: the smaller one first"));
+}
+
+TEST_CASE("a run begins at a stage that its parent has, and no two runs begin at each other") {
+  const Toolkit toolkit;
+  const auto begin_at = [&](const std::string& from) {
+    const Figure figure = toolkit.figure(replace(tablets, "pressed@{density:.3f}", from));
+    return graph_of(figure, figure.runs[1]);
+  };
+  CHECK_NOTHROW(begin_at("pressed:pressing"));
+  CHECK_THROWS_WITH(begin_at("pressed:presing"),
+                    Contains("study.toml:") && Contains("press.toml has no stage 'presing'; did you mean 'pressing'?"));
+  CHECK_THROWS_WITH(
+      toolkit.figure(replace(tablets, "programme = \"press\"", "programme = \"press\"\nfrom = \"crushed\"")),
+      Contains("from: found 'crushed', but that run begins in turn at 'pressed'"));
 }
 
 TEST_CASE("every combination of a case's values is a row, and runs that do not depend on a value are shared") {
@@ -454,7 +483,7 @@ series = [{ table = "strength", x = "density", y = "strength", group = "name", t
   CHECK_THAT(plot_script(figure.plots[0], data, folder, "svg", "p.svg", 0), Contains("title 'G^c on\\_contact'"));
 }
 
-TEST_CASE("a plot draws the points with their errors, a curve of the fit, and refuses to draw nothing") {
+TEST_CASE("a plot draws the points with their errors, a curve of the fit, and says where nothing could be measured") {
   const Toolkit toolkit;
   const Figure figure = toolkit.figure(tablets + R"([[fits]]
 name = "line"
@@ -502,8 +531,9 @@ series = [
   write_text(folder + "/strength.csv", "name,density [1],strength [MPa]\na,,\n");
   write_text(folder + "/fits.json", R"([{"name": "line", "refused": "too few points"}])");
   FigureData empty(figure, folder);
-  CHECK_THROWS_WITH(plot_script(figure.plots[0], empty, folder, "svg", "p.svg", 0),
-                    Contains("none of the values that it shows"));
+  const std::string nothing_drawn = plot_script(figure.plots[0], empty, folder, "svg", folder + "/p.svg", 0);
+  CHECK_THAT(nothing_drawn, Contains("none of these values could be measured") && Contains("plot NaN notitle"));
+  CHECK_NOTHROW(run_gnuplot(nothing_drawn));
 }
 
 TEST_CASE("every model is drawn with the coefficients that its fit gives") {

@@ -300,6 +300,15 @@ columns = ["x [mm]", "y"]
   std::string conflicting = text;
   conflicting.replace(conflicting.find("cat $^"), 6, "cat {case}");
   CHECK_THROWS_WITH(studies.rules(studies.figure(conflicting)), Contains("two commands make"));
+  const auto with = [&](const std::string& from, const std::string& to) {
+    std::string changed = text;
+    changed.replace(changed.find(from), from.size(), to);
+    return studies.rules(studies.figure(changed));
+  };
+  CHECK_THROWS_WITH(with("name = \"all.csv\"", "name = \"../all.csv\""),
+                    Contains("found '../all.csv', allowed: a file in the figure's folder"));
+  CHECK_THROWS_WITH(with("name = \"all.csv\"", "name = \"verdict.json\""), Contains("is made in another way"));
+  CHECK_THROWS_WITH(with("cat $^ > {file}", "cat $^"), Contains("command: found no {file}"));
   CHECK_THROWS_WITH(
       studies.figure(text + "[[fits]]\nname = \"f\"\ntable = \"t\"\nx = \"z\"\ny = \"y\"\nmodel = \"linear\"\n"),
       Contains("table 't' has no column 'z'"));
