@@ -11,6 +11,19 @@ void EnergyLedger::add_walls(const std::array<double, 6>& work) {
   for (const double of_wall : work) external_work += of_wall;
 }
 
+void EnergyLedger::add_tools(double work, double slip) {
+  external_work += work;
+  friction_dissipation += slip;
+}
+
+void EnergyLedger::add_gravity(double work) {
+  external_work += work;
+}
+
+void EnergyLedger::leave_with(double energy) {
+  external_work -= energy;
+}
+
 void EnergyLedger::add_friction(const ContactSums& contact, const WallFrictionSums& walls) {
   friction_dissipation += contact.friction_dissipation + walls.dissipation;
 }

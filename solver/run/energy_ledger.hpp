@@ -17,9 +17,9 @@ namespace mpfem {
 struct StoredEnergies {
   double kinetic = 0;
   double elastic = 0;
-  double contact = 0; ///< in the penalty of contacts and walls
-  double bonds = 0;
-  double friction = 0;           ///< in stick springs, of grains and walls
+  double contact = 0;            ///< in the penalty of contacts, walls and tools
+  double bonds = 0;              ///< between grains and to tools
+  double friction = 0;           ///< in stick springs of grains, walls and tools
   double damage_dissipation = 0; ///< a function of the bonds' states, not accumulated over time
 };
 
@@ -29,8 +29,8 @@ struct EnergyLedger {
   double plastic_dissipation = 0;  ///< mJ
   double viscous_dissipation = 0;  ///< mJ, of bulk viscosity
   double damping_dissipation = 0;  ///< mJ, of mass-proportional damping
-  double friction_dissipation = 0; ///< mJ, of slip between grains and at walls
-  double external_work = 0;        ///< mJ, of walls and grips
+  double friction_dissipation = 0; ///< mJ, of slip between grains, at walls and on tools
+  double external_work = 0;        ///< mJ, of walls, grips, tools and gravity
   double grip_work_ahead = 0;      ///< mJ, half of the grips' forces times the step that follows
 
   template <class Self, class Visitor>
@@ -46,7 +46,13 @@ struct EnergyLedger {
   void add_grips(const GripSums& grips);
   /// Adds the work (mJ) of the walls since the time level before.
   void add_walls(const std::array<double, 6>& work);
-  /// Adds what friction dissipated since the time level before.
+  /// Adds the work (mJ) of the tools since the time level before, and what slip on them dissipated.
+  void add_tools(double work, double slip);
+  /// Adds the work (mJ) of gravity since the time level before.
+  void add_gravity(double work);
+  /// Takes out the energy (mJ) that walls or tools take along when they leave.
+  void leave_with(double energy);
+  /// Adds what friction between grains and at walls dissipated since the time level before.
   void add_friction(const ContactSums& contact, const WallFrictionSums& walls);
   /// Adds what was dissipated in a step.
   void add_step(const ElementSums& elements, const AdvanceSums& advance);

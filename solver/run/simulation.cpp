@@ -236,14 +236,14 @@ std::array<double, 2> Simulation::add_grips() {
 }
 
 void Simulation::add_work_of_gravity() {
-  if (state_.last_step > 0) energies_.external_work += force_total_.weight_potential - state_.weight_potential;
+  if (state_.last_step > 0) energies_.add_gravity(force_total_.weight_potential - state_.weight_potential);
   state_.weight_potential = force_total_.weight_potential;
 }
 
 /// Loads on the tools, and their work since the previous time level.
 void Simulation::measure_tools() {
-  energies_.external_work += tools_.take_loads(*ranks_, model_.ownership);
-  energies_.friction_dissipation += tools_.total().friction_dissipation;
+  const double work = tools_.take_loads(*ranks_, model_.ownership);
+  energies_.add_tools(work, tools_.total().friction_dissipation);
   for (std::size_t tool = 0; tool < tools_.size(); ++tool)
     if (const double penetration = tools_.load(tool).penetration; penetration > deepest_penetration)
       throw SimulationError(
@@ -391,7 +391,7 @@ void Simulation::change_walls(const Axes& withdrawn) {
   for (std::size_t axis = 0; axis < 3; ++axis) {
     if (withdrawn[axis] && box_.has_walls(axis))
       for (std::size_t side = 2 * axis; side < 2 * axis + 2; ++side)
-        energies_.external_work -= force_total_.box.wall[side].energy + force_total_.wall_friction.energy[side];
+        energies_.leave_with(force_total_.box.wall[side].energy + force_total_.wall_friction.energy[side]);
     if (!withdrawn[axis] && !box_.has_walls(axis)) return_walls(axis);
   }
   box_.withdraw(withdrawn);
@@ -419,7 +419,7 @@ void Simulation::change_tools() {
     for (const ToolDrive& drive : loading->drives) ways[drive.tool] = way_of(drive);
   }
   const bool punch_was_away = container_ && container_->punch_is_away(tools_);
-  energies_.external_work -= tools_.set_away(away, ways, model_, bounds_, state_.last_step, *ranks_);
+  energies_.leave_with(tools_.set_away(away, ways, model_, bounds_, state_.last_step, *ranks_));
   // In other stages the cell may have moved without the tools, as with grips.
   if (container_ && (loading != nullptr || punch_was_away)) box_.set_cell(container_->cell(tools_, box_.cell()));
 }
@@ -533,7 +533,7 @@ void Simulation::take_over_from_gravity(const std::array<double, 3>& before) {
     return sum_over_grains(*ranks_, model_.own(),
                            [&](std::int32_t grain) { return weight_potential(model_, gravity, grain); });
   };
-  energies_.external_work += potential(before) - state_.weight_potential;
+  energies_.add_gravity(potential(before) - state_.weight_potential);
   state_.weight_potential = potential(scenario_->gravity);
 }
 
