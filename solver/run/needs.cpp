@@ -12,7 +12,9 @@
 
 #include "common/available_memory.hpp"
 #include "common/errors.hpp"
+#include "solver/boundary/tools.hpp"
 #include "solver/model/model.hpp"
+#include "solver/output/tool_history.hpp"
 #include "solver/parallel/agree.hpp"
 #include "solver/parallel/share_of_cores.hpp"
 #include "solver/run/simulation.hpp"
@@ -59,6 +61,13 @@ double share_of_pages(double held, double bytes_of_grain) {
   return 1 - std::pow(1 - held, 1 + page / bytes_of_grain);
 }
 
+/// Bytes of a grain, on every rank: what tools bear, and lists of what rubs on and sticks to tools and walls.
+double bytes_of_boundaries(const Scenario& scenario) {
+  constexpr std::size_t tool = sizeof(ToolLoad) + sizeof(std::vector<SurfaceAnchor>) + sizeof(std::vector<SurfaceBond>);
+  constexpr std::size_t walls = 6 * sizeof(std::vector<SurfaceAnchor>);
+  return static_cast<double>(scenario.tools.size() * tool + walls);
+}
+
 /// Bytes of one rank.
 double memory_of(const PackingCounts& packing, const Scenario& scenario, int ranks) {
   const NumericsParameters& numerics = scenario.numerics;
@@ -79,7 +88,7 @@ double memory_of(const PackingCounts& packing, const Scenario& scenario, int ran
   const double held = share_of_grains_held(grains, ranks);
   return of_program + tet * tets * share_of_pages(1.0 / ranks, block * tets / grains) +
          node * nodes * share_of_pages(held, row * nodes / grains) + facet * packing.facets() * held +
-         2 * sizeof(HistoryRow) * rows;
+         bytes_of_boundaries(scenario) * grains + 2 * bytes_of_row(scenario) * rows;
 }
 
 double disk_of(const PackingCounts& packing, const Scenario& scenario) {
@@ -96,7 +105,8 @@ double disk_of(const PackingCounts& packing, const Scenario& scenario) {
       (output.snapshot_at_stage_end ? stages : 0.0) + static_cast<double>(output.snapshot_relative_densities.size());
   for (const Stage& stage : scenario.stages) snapshots += std::min(stage.snapshots, output.history_rows);
   const double snapshot = 22 * tets, mesh = 11 * tets;
-  return checkpoints * checkpoint + 2 * snapshots * snapshot + mesh + sizeof(HistoryRow) * output.history_rows * stages;
+  return checkpoints * checkpoint + 2 * snapshots * snapshot + mesh +
+         bytes_of_row(scenario) * output.history_rows * stages;
 }
 
 /// "memory", …: empty, a warning, or InputError.
@@ -113,6 +123,10 @@ std::string compare(const std::string& purpose, const char* what, double needed,
 }
 
 } // namespace
+
+double bytes_of_row(const Scenario& scenario) {
+  return static_cast<double>(sizeof(HistoryRow) + scenario.tools.size() * sizeof(ToolRow));
+}
 
 Needs needs_of(const PackingCounts& packing, const Scenario& scenario, int ranks) {
   return {memory_of(packing, scenario, ranks), disk_of(packing, scenario)};

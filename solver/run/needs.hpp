@@ -14,6 +14,9 @@ struct Needs {
   double memory = 0; ///< of one rank: the most that is resident at a time
   double disk = 0;   ///< the most that the run's files take at a time
 };
+/// Bytes of one row of the history, tools included.
+double bytes_of_row(const Scenario& scenario);
+
 /// What a run of the scenario needs at most, in the dense packing, on `ranks` of equal shares. Of several ranks each
 /// needs more than its share, because memory pages hold grains of more than one.
 Needs needs_of(const PackingCounts& packing, const Scenario& scenario, int ranks = 1);

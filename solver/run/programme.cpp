@@ -7,8 +7,8 @@
 #include <unistd.h>
 
 #include "common/errors.hpp"
-#include "solver/output/history_row.hpp"
 #include "solver/run/history_schedule.hpp"
+#include "solver/run/needs.hpp"
 #include "solver/run/plausibility.hpp"
 #include "solver/run/stages/isotropic_compaction.hpp"
 
@@ -73,7 +73,7 @@ void check_history(const Scenario& scenario, std::int64_t first_stage) {
   const double stages = static_cast<double>(scenario.stages.size()) - static_cast<double>(first_stage);
   const double rows = stages * most_rows(scenario.output.history_rows);
   const double memory = static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGESIZE));
-  if (const double needed = copies * rows * static_cast<double>(sizeof(HistoryRow)); needed > largest_part * memory)
+  if (const double needed = copies * rows * bytes_of_row(scenario); needed > largest_part * memory)
     throw InputError(
         fmt::format("key 'output.history_rows': found {}, up to {:.3g} rows in {:.0f} stages may need {:.3g} "
                     "GB, allowed: up to half of the machine's {:.3g} GB",
