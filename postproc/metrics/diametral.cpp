@@ -369,75 +369,128 @@ std::string disc_crack_csv(const schema::FileReader& file, const HistoryTable& h
   return text;
 }
 
+namespace {
+
+/// What was found of a test.
+struct Crushed {
+  const DiametralRule& rule;
+  const Test& test;
+  Disc disc;
+  FirstPeak peak;
+  double largest = 0, at_peak = 0;  ///< N, smoothed
+  std::optional<double> half_angle; ///< radians, that a flat spans at the peak
+
+  bool needs_crack() const { return rule.crack_in_centre > 0; }
+  /// Whether there is no strength: the disc did not split, or its flats are too wide.
+  bool none() const { return needs_crack() && (too_wide(half_angle) || !peak.falls); }
+  double flat_degrees() const { return 2 * half_angle.value_or(0) * 180 / std::numbers::pi; }
+};
+
+void refuse_without_disc(const Crushed& crushed, const std::string& path) {
+  if (crushed.largest > 0 && crushed.largest >= crushed.rule.smallest_peak) return;
+  throw InputError(fmt::format("{}: stage {}: found a force of at most {:.3g} N on the plates, allowed: a disc between "
+                               "them, with a peak of {:g} N or more",
+                               path, crushed.test.stage.number, crushed.largest, crushed.rule.smallest_peak));
+}
+
+void refuse_wide_flats(const Crushed& crushed, const std::string& path) {
+  if (crushed.needs_crack() || !too_wide(crushed.half_angle)) return;
+  throw InputError(fmt::format("{}: found flats of 2 alpha = {:.3g} degrees at the peak, allowed: up to {:g}, beyond "
+                               "which a disc does not break from its centre",
+                               path, crushed.flat_degrees(), largest_flat_angle));
+}
+
+std::string method_of(const DiametralRule& rule) {
+  const std::string method = fmt::format(
+      "2 F / (pi D t), F the largest smoothed force of the plates before its first fall by {:g} %", 100 * rule.drop);
+  return rule.crack_in_centre > 0
+             ? method + fmt::format(" with {:g} % of the bonds in the centre broken", 100 * rule.crack_in_centre)
+             : method;
+}
+
+/// The rows from which the peak is read.
+Window window_of(const Crushed& crushed, const HistoryTable& history) {
+  const Test& test = crushed.test;
+  const RowRange about = ringing_rows(crushed.peak.row, test.force.size());
+  const std::size_t first = test.stage.first + about.first, last = test.stage.first + about.last;
+  const double to_stress = diametral_stress(1, crushed.disc.diameter, crushed.disc.thickness);
+  const auto forces = range_of(test.force, about.first, about.last);
+  return {test.stage.number,
+          test.stage.type,
+          first,
+          last,
+          "axial_strain",
+          range_of(history["axial_strain"], first, last),
+          "diametral_stress",
+          {to_stress * forces[0], to_stress * forces[1]}};
+}
+
+void add_notes(Measurement& m, const Crushed& crushed) {
+  const DiametralRule& rule = crushed.rule;
+  if (!crushed.half_angle)
+    m.notes.emplace_back("no snapshot of the stage shows pressed flats: their angle and the corrected strength are not "
+                         "known; --flat-angle gives it");
+  if (crushed.needs_crack() && !crushed.peak.falls)
+    m.notes.push_back(fmt::format("no strength: the force, of at most {:.4g} N, does not fall by {:g} % with {:g} % of "
+                                  "the bonds in the centre broken",
+                                  crushed.largest, 100 * rule.drop, 100 * rule.crack_in_centre));
+  else if (crushed.none())
+    m.notes.push_back(fmt::format("no strength: the flats span {:.3g} degrees at the peak of {:.4g} N; beyond {:g} a "
+                                  "disc does not break from its centre",
+                                  crushed.flat_degrees(), crushed.at_peak, largest_flat_angle));
+  else if (!crushed.peak.falls)
+    m.notes.push_back(
+        fmt::format("no failure: after its largest value the force does not fall by {:g} %", 100 * rule.drop));
+}
+
+/// Value, uncertainty and details, without flats and crack.
+Measurement strength_of(const Crushed& crushed, const HistoryTable& history) {
+  const auto [diameter, thickness] = std::pair{crushed.disc.diameter, crushed.disc.thickness};
+  const double unknown = std::numeric_limits<double>::quiet_NaN();
+  const double force = crushed.none() ? unknown : crushed.at_peak,
+               uncertainty = crushed.none() ? unknown : ringing(crushed.test.force, crushed.peak.row);
+  Measurement m;
+  m.metric = "diametral";
+  m.value = diametral_stress(force, diameter, thickness);
+  m.unit = "MPa";
+  m.uncertainty = diametral_stress(uncertainty, diameter, thickness);
+  m.uncertainty_meaning = "twice the scatter of the rows about parabolas over twice as many rows";
+  m.method = method_of(crushed.rule);
+  m.window = window_of(crushed, history);
+  m.details = {{"criterion", crushed.none()       ? "none"
+                             : crushed.peak.falls ? "peak"
+                                                  : "largest"},
+               {"force_N", force},
+               {"force_uncertainty_N", uncertainty},
+               {"diameter_mm", diameter},
+               {"thickness_mm", thickness},
+               {"plates", crushed.test.plates},
+               {"load_axis", std::string(1, "xyz"[static_cast<std::size_t>(crushed.test.axis)])}};
+  m.brief = fmt::format("F = {:.4g} N", force);
+  return m;
+}
+
+} // namespace
+
 Measurement measure_diametral(const schema::FileReader& file, const HistoryTable& history, const DiametralRule& rule) {
   const Test test = read_test(file, history, rule);
   const std::string path = one_line(file.path());
   const std::vector<double> smooth = smoothed(test.force);
-  const double largest = *std::max_element(smooth.begin(), smooth.end());
-  if (!(largest > 0) || largest < rule.smallest_peak)
-    throw InputError(
-        fmt::format("{}: stage {}: found a force of at most {:.3g} N on the plates, allowed: a disc between "
-                    "them, with a peak of {:g} N or more",
-                    path, test.stage.number, largest, rule.smallest_peak));
-  const Disc disc = disc_of(file, history, test, rule);
-  const CrackSince crack_since(file, history, test, rule.disc_axis, disc.diameter);
+  Crushed crushed{.rule = rule, .test = test, .disc = {}, .peak = {}, .half_angle = {}};
+  crushed.largest = *std::max_element(smooth.begin(), smooth.end());
+  refuse_without_disc(crushed, path);
+  crushed.disc = disc_of(file, history, test, rule);
+  const CrackSince crack_since(file, history, test, rule.disc_axis, crushed.disc.diameter);
   const std::span<const double> times = test.stage.rows().of(history["time"]);
-  const FirstPeak peak = peak_of(smooth, rule, file, test, times, crack_since);
-  const auto half_angle = half_angle_at(file, history, test, rule, disc.diameter, test.stage.first + peak.row);
-  const bool wide = too_wide(half_angle), only_split = rule.crack_in_centre > 0;
-  if (wide && !only_split)
-    throw InputError(fmt::format("{}: found flats of 2 alpha = {:.3g} degrees at the peak, allowed: up to {:g}, beyond "
-                                 "which a disc does not break from its centre",
-                                 path, 2 * *half_angle * 180 / std::numbers::pi, largest_flat_angle));
-  const bool none = only_split && (wide || !peak.falls);
-  const double unknown = std::numeric_limits<double>::quiet_NaN(), force = none ? unknown : smooth[peak.row],
-               force_uncertainty = none ? unknown : ringing(test.force, peak.row);
-  Measurement m;
-  m.metric = "diametral";
-  m.value = diametral_stress(force, disc.diameter, disc.thickness);
-  m.unit = "MPa";
-  m.uncertainty = diametral_stress(force_uncertainty, disc.diameter, disc.thickness);
-  m.uncertainty_meaning = "twice the scatter of the rows about parabolas over twice as many rows";
-  m.method = fmt::format("2 F / (pi D t), F the largest smoothed force of the plates before its first fall by {:g} %",
-                         100 * rule.drop);
-  if (only_split) m.method += fmt::format(" with {:g} % of the bonds in the centre broken", 100 * rule.crack_in_centre);
-  const RowRange about = ringing_rows(peak.row, test.force.size());
-  const double to_stress = diametral_stress(1, disc.diameter, disc.thickness);
-  const auto forces = range_of(test.force, about.first, about.last);
-  m.window = {test.stage.number,
-              test.stage.type,
-              test.stage.first + about.first,
-              test.stage.first + about.last,
-              "axial_strain",
-              range_of(history["axial_strain"], test.stage.first + about.first, test.stage.first + about.last),
-              "diametral_stress",
-              {to_stress * forces[0], to_stress * forces[1]}};
-  m.details = {{"criterion", none         ? "none"
-                             : peak.falls ? "peak"
-                                          : "largest"},
-               {"force_N", force},
-               {"force_uncertainty_N", force_uncertainty},
-               {"diameter_mm", disc.diameter},
-               {"thickness_mm", disc.thickness},
-               {"plates", test.plates},
-               {"load_axis", std::string(1, "xyz"[static_cast<std::size_t>(test.axis)])}};
-  m.brief = fmt::format("F = {:.4g} N", force);
-  add_flats(m, half_angle);
-  add_crack(m, file, crack_since, times[peak.row]);
-  if (!half_angle)
-    m.notes.emplace_back("no snapshot of the stage shows pressed flats: their angle and the corrected strength are not "
-                         "known; --flat-angle gives it");
-  if (only_split && !peak.falls)
-    m.notes.push_back(fmt::format("no strength: the force, of at most {:.4g} N, does not fall by {:g} % with {:g} % of "
-                                  "the bonds in the centre broken",
-                                  largest, 100 * rule.drop, 100 * rule.crack_in_centre));
-  else if (none)
-    m.notes.push_back(fmt::format("no strength: the flats span {:.3g} degrees at the peak of {:.4g} N; beyond {:g} a "
-                                  "disc does not break from its centre",
-                                  2 * *half_angle * 180 / std::numbers::pi, smooth[peak.row], largest_flat_angle));
-  else if (!peak.falls)
-    m.notes.push_back(
-        fmt::format("no failure: after its largest value the force does not fall by {:g} %", 100 * rule.drop));
+  crushed.peak = peak_of(smooth, rule, file, test, times, crack_since);
+  crushed.at_peak = smooth[crushed.peak.row];
+  crushed.half_angle =
+      half_angle_at(file, history, test, rule, crushed.disc.diameter, test.stage.first + crushed.peak.row);
+  refuse_wide_flats(crushed, path);
+  Measurement m = strength_of(crushed, history);
+  add_flats(m, crushed.half_angle);
+  add_crack(m, file, crack_since, times[crushed.peak.row]);
+  add_notes(m, crushed);
   return m;
 }
 
