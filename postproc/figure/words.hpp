@@ -25,9 +25,10 @@ using Words = std::map<std::string, Value, std::less<>>;
 enum class Unknown { refused, kept };
 
 /// Replaces "{name}" and "{name:FORMAT}". FORMAT is fmt's for numbers (".2f", "+.1e"); with a "%" after it the number
-/// is printed in per cent (".2g%": 0.0123 becomes "1.2 %"). "g" writes numbers below a million without an exponent. An empty value with a format becomes "not known". "{{" and
-/// "}}" stand for braces. With Unknown::kept, unknown names in braces ("x^{max}") and double braces stay as they are.
-/// Throws InputError: unknown name (suggests the nearest), invalid format, format of a text.
+/// is printed in per cent (".2g%": 0.0123 becomes "1.2 %"). "g" writes numbers below a million without an exponent. An
+/// empty value with a format becomes "not known". "{{" and "}}" stand for braces. With Unknown::kept, unknown names in
+/// braces ("x^{max}") and double braces stay as they are. Throws InputError: unknown name (suggests the nearest),
+/// invalid format, format of a text.
 std::string filled(std::string_view pattern, const Words& words, Unknown unknown = Unknown::refused);
 
 } // namespace mpfem
