@@ -60,17 +60,14 @@ public:
     const Entry entry = known ? Entry{} : entry_of(node, depth, normal);
     SurfaceAnchor anchor = known ? *next_++ : SurfaceAnchor{number, closest - entry.inside, {0, 0, 0}};
     const double penalty = push / depth, stiffness = std::max(of_point.penalty, 0.0) * penalty;
+    const double before = known ? std::max(of_point.penalty_before, 0.0) * penalty : stiffness;
+    const FrictionSpring<double> spring{of_point.share * friction_, penalty, before, stiffness};
     const Vector3<double> drift = closest - anchor.place;
-    // 1. Area that has begun to rub is unloaded. 2. Slip.
-    const double before = std::max(of_point.penalty_before, 0.0) * penalty;
-    const double kept = known ? share_left_by_new_area(before, stiffness) : 1.0;
-    const double longest = stiffness > 0 ? longest_drift(of_point.share * friction_, penalty, stiffness, depth) : 0.0;
-    const double left = kept * share_left_by_slip(kept * norm(drift), longest);
+    const auto [kept, left] = drift_shares(spring, norm(drift), depth);
     const Vector3<double> slip = (1.0 - left) * drift, force = (left * stiffness) * drift;
-    const Vector3<double> from_anchor = left * drift - depth * normal, unloaded = (1.0 - kept) * drift;
+    const Vector3<double> from_anchor = left * drift - depth * normal;
     energy += stick_energy(stiffness, dot(from_anchor, from_anchor), depth);
-    dissipation +=
-        0.5 * before * dot(drift, unloaded) + slip_dissipation(anchor.force, force, slip - unloaded + entry.before);
+    dissipation += friction_loss(spring, kept, drift, anchor.force, force, slip + entry.before);
     if (left < 1) anchor.place = on_surface(anchor.place + slip);
     anchor.force = force;
     model_.push_contact_point(node, 0, -force.x);

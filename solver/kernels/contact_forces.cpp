@@ -201,8 +201,8 @@ private:
     if constexpr (bonding) share -= contact_.bond[at(point)].remaining;
     const bool elsewhere = friction.exists() && friction.facet != closed.facet;
     const Facet anchor = elsewhere ? facet_geometry(model_, friction.facet) : closest_facet;
-    const FrictionStep step =
-        advance_friction(friction, {share * coefficient, penalty, std::max(pushed, 0.0)}, closed, anchor.x);
+    const FrictionStep step = advance_friction(
+        friction, friction_spring(friction, share * coefficient, penalty, std::max(pushed, 0.0)), closed, anchor.x);
     sums.friction_energy += step.stored;
     sums.friction_dissipation += step.dissipated;
     return make_record(-(pushed * step.reach), friction.weight1, friction.weight2, std::abs(pushed),

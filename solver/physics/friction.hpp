@@ -37,6 +37,31 @@ S share_left_by_new_area(const S& before, const S& now) {
   return select(before < now, before / max(now, S(1e-300)), S(1.0));
 }
 
+/// The spring between a point's node and its anchor: constants of one step.
+template <class S>
+struct FrictionSpring {
+  S friction;         ///< mu times the share of the point that rubs
+  S penalty;          ///< k, N/mm
+  S stiffness_before; ///< k_t at the time level before, N/mm; that of now if the point has just closed
+  S stiffness;        ///< k_t now, N/mm, >= 0
+};
+
+/// What is left of a drift: `kept` once area that begins to rub is unloaded, `left` after slip, too.
+template <class S>
+struct DriftShares {
+  S kept, left;
+};
+
+/// The update of a stick spring. `drift` and `depth` g in mm, of the trial state.
+template <class S>
+DriftShares<S> drift_shares(const FrictionSpring<S>& spring, const S& drift, const S& depth) {
+  const S kept = share_left_by_new_area(spring.stiffness_before, spring.stiffness);
+  const S longest =
+      select(spring.stiffness > S(0.0),
+             longest_drift(spring.friction, spring.penalty, max(spring.stiffness, S(1e-300)), depth), S(0.0));
+  return {kept, kept * share_left_by_slip(kept * drift, longest)};
+}
+
 /// Share of a point's motion in the last step that it made inside the surface, if it was open before. `depth` g >= 0;
 /// `closing`: how much the step closed the gap; both in mm. The point is anchored where it came in. Otherwise a contact
 /// of few steps, as in chattering, would have no friction in its first step.
@@ -57,6 +82,17 @@ S stick_energy(const S& stiffness, const S& square, const S& depth) {
 template <class S>
 S slip_dissipation(const Vector3<S>& before, const Vector3<S>& now, const Vector3<S>& slip) {
   return S(0.5) * dot(before + now, slip);
+}
+
+/// Energy (mJ) lost in one step of a stick spring: by the unloading of area that begins to rub, and by slip. `drift`
+/// (mm): from the anchor before to the closest point; `slip` (mm): of the anchor, and of a point that has just closed
+/// its motion along the surface before it came in; forces (N) as of slip_dissipation().
+template <class S>
+S friction_loss(const FrictionSpring<S>& spring, const S& kept, const Vector3<S>& drift, const Vector3<S>& force_before,
+                const Vector3<S>& force, const Vector3<S>& slip) {
+  const Vector3<S> unloaded = (S(1.0) - kept) * drift;
+  return S(0.5) * spring.stiffness_before * dot(drift, unloaded) +
+         slip_dissipation(force_before, force, slip - unloaded);
 }
 
 } // namespace mpfem

@@ -39,13 +39,6 @@ struct ClosedPoint {
   Vector3<double> moved; ///< mm, of the node against the facet in the last step; read where it closes
 };
 
-/// The spring between a point's node and its anchor: constants of this step.
-struct FrictionSpring {
-  double friction;  ///< mu times the share of the point that rubs
-  double penalty;   ///< k, N/mm
-  double stiffness; ///< k_t, N/mm, >= 0
-};
-
 /// The result of friction at one point in one step.
 struct FrictionStep {
   Vector3<double> reach;  ///< mm, from the anchor to the node: times -k_t the force on the node
@@ -76,34 +69,34 @@ inline Vector3<double> entry_point(const ClosedPoint& at) {
   return at.closest.point - share * part_across(at.moved, offset);
 }
 
+/// The point's spring in a step. `friction`: mu times the share of the point that rubs; `penalty` k and `stiffness` k_t
+/// in N/mm.
+inline FrictionSpring<double> friction_spring(const PointFriction& point, double friction, double penalty,
+                                              double stiffness) {
+  return {friction, penalty, point.exists() ? point.stiffness : stiffness, stiffness};
+}
+
 /// Updates the friction of a closed point to this time level. `anchor` holds the corners (mm) of its anchor's facet; it
 /// is not read if the point has no anchor yet. Then the point is anchored where it came in.
-inline FrictionStep advance_friction(PointFriction& point, const FrictionSpring& spring, const ClosedPoint& at,
+inline FrictionStep advance_friction(PointFriction& point, const FrictionSpring<double>& spring, const ClosedPoint& at,
                                      const Vector3<double> (&anchor)[3]) {
   const Vector3<double> closest = at.closest.point;
   const bool fresh = !point.exists();
   const Vector3<double> before = fresh ? entry_point(at) : facet_point(anchor, point.weight1, point.weight2);
   const Vector3<double> trial = at.node - before;
   const double drift = std::sqrt(std::max(dot(trial, trial) - at.depth * at.depth, 0.0));
-  // 1. Area that has begun to rub is unloaded.
-  const double kept = fresh ? 1.0 : share_left_by_new_area(point.stiffness, spring.stiffness);
-  // 2. Slip.
-  const double longest =
-      spring.stiffness > 0 ? longest_drift(spring.friction, spring.penalty, spring.stiffness, at.depth) : 0.0;
-  const double left = kept * share_left_by_slip(kept * drift, longest);
+  const auto [kept, left] = drift_shares(spring, drift, at.depth);
   FrictionStep step;
   step.on_closest = fresh || left < 1;
   if (step.on_closest)
     anchor_at(point, at.facet, at.corner, closest - left * part_across(closest - before, at.node - closest));
   const Vector3<double> now = step.on_closest ? facet_point(at.corner, point.weight1, point.weight2) : before;
   step.reach = at.node - now;
-  // 3. Energies: of the unloading by new area, and of the slip.
-  const Vector3<double> force = spring.stiffness * step.reach, unloaded = (1.0 - kept) * (closest - before);
+  const Vector3<double> force = spring.stiffness * step.reach;
   step.stored = stick_energy(spring.stiffness, dot(step.reach, step.reach), at.depth);
   // Central differences do the work of the whole step in which a point closes, not only of its part inside.
   const Vector3<double> start = fresh ? closest - part_across(at.moved, at.node - closest) : before;
-  step.dissipated = 0.5 * point.stiffness * dot(closest - before, unloaded) +
-                    slip_dissipation(point.force, force, now - start - unloaded);
+  step.dissipated = friction_loss(spring, kept, closest - before, point.force, force, now - start);
   point.stiffness = spring.stiffness;
   point.force = force;
   point.stored = step.stored;

@@ -64,8 +64,9 @@ struct ContactPoint {
     forces.energy += penalty_energy(k, -distance);
     if (friction > 0) {
       const double share = law ? 1 - bond.remaining : 1.0;
-      const FrictionStep step = advance_friction(point_friction, {share * friction, k, pushed},
-                                                 {node, 0, x, closest, -distance, {0, 0, 0}}, x);
+      const FrictionStep step =
+          advance_friction(point_friction, friction_spring(point_friction, share * friction, k, pushed),
+                           {node, 0, x, closest, -distance, {0, 0, 0}}, x);
       rubbed += step.dissipated;
       forces.energy += step.stored;
       forces.add(-(pushed * step.reach), point_friction.weight1, point_friction.weight2);

@@ -193,8 +193,8 @@ TEST_CASE("a point that closes obliquely is anchored where it came in, and store
   for (const double friction : {10.0, 0.2}) { // sticks, slips
     CAPTURE(friction);
     PointFriction point;
-    const FrictionStep step =
-        advance_friction(point, {friction, k, k}, {node, 0, corner, closest, depth, moved}, corner);
+    const FrictionStep step = advance_friction(point, friction_spring(point, friction, k, k),
+                                               {node, 0, corner, closest, depth, moved}, corner);
     const double along = 0.05, inside = along * depth / closing, drift = std::min(inside, friction * depth);
     CHECK(within(std::hypot(step.reach.x, step.reach.y), drift, 1e-12));
     CHECK(within(step.stored, 0.5 * k * drift * drift, 1e-12));

@@ -415,8 +415,8 @@ TEST_CASE("a node dragged around a faceted ball has a mean friction force of mu 
     const auto closest = closest_point_on_triangle(x, facet.x);
     const double g = norm(x - closest.point);
     const Facet anchor = friction.exists() ? facet_geometry(model, friction.facet) : facet;
-    const FrictionStep step =
-        advance_friction(friction, {mu, 1, 1}, {x, nearest, facet.x, closest, g, {0, 0, 0}}, anchor.x);
+    const FrictionStep step = advance_friction(friction, friction_spring(friction, mu, 1, 1),
+                                               {x, nearest, facet.x, closest, g, {0, 0, 0}}, anchor.x);
     lost += step.dissipated;
     if (angle < 0.3) continue;
     sum += Vector(step.reach.x, step.reach.y, step.reach.z).dot(along) / (mu * g);
