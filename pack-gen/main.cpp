@@ -69,10 +69,10 @@ void refuse_other_file(const std::string& output) {
 
 /// Checked before hours of work, not after them. `kind`: of --output, which only `quality` may lack.
 void check_outputs(const Arguments& arguments, OutputKind kind, bool of_quality) {
+  refuse_overwriting_any(arguments, {arguments.input, arguments.description, arguments.surface});
   if (!of_quality || !arguments.output.empty()) check_output_path("--output", arguments.output, kind);
   if (!arguments.sizes.empty()) check_output_path("--sizes", arguments.sizes, OutputKind::text);
   if (!arguments.target.empty()) check_output_path("--target", arguments.target, OutputKind::text);
-  refuse_overwriting_any(arguments, {arguments.input, arguments.description, arguments.surface});
   refuse_shared_names(outputs_of(arguments));
   if (kind == OutputKind::binary) refuse_other_file(arguments.output), try_output(arguments.output);
 }

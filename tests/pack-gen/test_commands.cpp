@@ -360,6 +360,21 @@ TEST_CASE("no output of pack-gen replaces a file that it reads") {
   }
 }
 
+TEST_CASE("a packing replaces a packing, but no run") {
+  const Folder folder;
+  write_text(folder / "pack.toml", description);
+  const auto make = [&] { return pack_gen(fmt::format("spheres {} -o {}", folder / "pack.toml", folder / "s.h5")); };
+  CHECK(make().exit_code == 0);
+  CHECK(make().exit_code == 0);
+  schema::FileWriter writer(folder / "s.h5", schema::FileKind::run, "test");
+  writer.commit();
+  const std::string before = read_text(folder / "s.h5");
+  const Outcome outcome = make();
+  CHECK(outcome.exit_code == 2);
+  CHECK_THAT(outcome.messages, Catch::Contains("would replace a run or a checkpoint"));
+  CHECK(read_text(folder / "s.h5") == before);
+}
+
 TEST_CASE("two outputs of quality have two names") {
   const Folder folder;
   write_text(folder / "pack.toml", description);
