@@ -4,6 +4,7 @@
 
 #include "solver/parallel/root.hpp"
 #include "solver/run/checkpoints.hpp"
+#include "solver/run/untouched_tools.hpp"
 
 namespace mpfem {
 
@@ -124,6 +125,7 @@ void TimeLoop::complete() {
   report_.profile(part_times(record.profile_seconds, record.wall_time), record.wall_time,
                   steps * static_cast<double>(simulation_.model().tets()));
   report_.quality(record.history);
+  for (const std::string& text : untouched_tools(simulation_.scenario(), record.tool_history)) report_.warning(text);
 }
 
 } // namespace mpfem

@@ -927,6 +927,19 @@ TEST_CASE("a run does not replace the STL file of a tool, nor write a checkpoint
   }
 }
 
+TEST_CASE("a run warns of a tool that it drives and that touches no grain, whatever its shape") {
+  const Folder folder;
+  write_text(folder / "slab.stl", slab_stl({0, 0, -0.4}, {1, 1, -0.1}));
+  prepare(folder, 3, slab_text + "drive.slab.velocity = [0, 0, -1000]\n");
+  const std::string run = fmt::format("run {} -o {}", folder / "scenario.toml", folder / "run.h5");
+  CHECK_THAT(mpfem_command(run).messages, Catch::Contains("warning: the tool 'slab' was driven and touched no grain"));
+  // Towards the grains it meets them.
+  const Outcome meets = mpfem_command(run + " --set stages.0.drive.slab.velocity=[0,0,75000]");
+  INFO(meets.messages);
+  CHECK(meets.exit_code == 0);
+  CHECK_THAT(meets.messages, !Catch::Contains("touched no grain"));
+}
+
 TEST_CASE("in stages that move walls all tools are in place") {
   const Folder folder;
   prepare(folder, 3, scenario_text);
