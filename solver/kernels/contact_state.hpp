@@ -20,15 +20,16 @@
 namespace mpfem {
 
 /// Force of one contact point, from the penalty or from its bond. With friction, the penalty force is that of the stick
-/// spring, which acts at the anchor.
-struct ContactForce {
+/// spring, which acts at the anchor. One cache line, so that one prefetch brings all of it.
+struct alignas(64) ContactForce {
   double force[3];         ///< N, on the node
   double weight1, weight2; ///< shape functions of the facet's second and third node where the reaction acts
   double stiffness;        ///< N/mm
-  std::int32_t node;       ///< 64 bytes with the facet's nodes: one cache line, and no look-up for reactions
+  std::int32_t node;       ///< with the facet's nodes: reactions need no look-up
   std::int32_t facet_node[3];
   double weight(int corner) const { return corner == 0 ? 1.0 - weight1 - weight2 : corner == 1 ? weight1 : weight2; }
 };
+static_assert(sizeof(ContactForce) == 64);
 
 /// Candidates and the running state of contact points.
 struct Contact {

@@ -29,6 +29,8 @@ public:
     prefetch(&model_.position[4 * node]);
     prefetch_for_writing(&model_.force[4 * node]);
     prefetch(&model_.reference_area[node]);
+    prefetch(&contact_.point_facet_until[at(point)]);
+    prefetch(&contact_.candidates.point_facet_offset[at(point)]);
     if (!model_.inner_node.empty()) prefetch(&model_.position[4 * at(model_.inner_node[node])]);
     prefetch_facet(contact_.point_facet[at(point)]);
     if (const std::int32_t facet = bond_facet(point); facet != contact_.point_facet[at(point)]) prefetch_facet(facet);
@@ -54,7 +56,9 @@ private:
     return contact_.bond.empty() ? -1 : contact_.bond[at(point)].facet;
   }
   void prefetch_facet(std::int32_t facet) const {
-    if (facet >= 0) prefetch(&model_.facet[3 * at(facet)]);
+    if (facet < 0) return;
+    prefetch(&model_.facet[3 * at(facet)]); // its three numbers may lie in two cache lines
+    prefetch(&model_.facet[3 * at(facet) + 2]);
   }
   void prefetch_nodes(std::int32_t facet) const {
     if (facet < 0) return;
@@ -69,7 +73,9 @@ private:
   std::vector<std::int32_t> points_;
 };
 
-/// The points of these grains' own nodes whose gap may have closed, or whose bond holds.
+/// The points of these grains' own nodes whose gap may have closed, or whose bond holds. The arrays that are looked
+/// through are prefetched too: the processor's own prefetching ends with each memory page, and the arrays of a grain's
+/// bonds are about as long.
 template <bool bonding>
 DuePoints due_points(const Model& model, const Contact& contact, std::span<const std::int32_t> grains) {
   const ContactCandidates& candidates = contact.candidates;
@@ -79,9 +85,12 @@ DuePoints due_points(const Model& model, const Contact& contact, std::span<const
          ++pair) {
       const double travel = contact.travel[at(grain)] + contact.travel[at(candidates.pair_second[at(pair)])];
       for (std::int32_t point = candidates.pair_point_offset[at(pair)];
-           point < candidates.pair_point_offset[at(pair) + 1]; ++point)
+           point < candidates.pair_point_offset[at(pair) + 1]; ++point) {
+        prefetch(contact.point_open_until.data() + point + 64);
+        if constexpr (bonding) prefetch(contact.bond.data() + point + 16);
         if (travel >= contact.point_open_until[at(point)] || (bonding && contact.bond[at(point)].intact()))
           due.add(point);
+      }
     }
   due.prefetch_first();
   return due;
