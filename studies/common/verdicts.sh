@@ -85,8 +85,6 @@ that was tried makes samples looser; the ratio of both dissipations is the paper
 - The reasons begin with *the paper's choice* (an unstated choice, identified here, explains the
   difference), *the paper's error* (the number belongs to the method and not to the grains) or *open*.
 - Where a cell is empty, the figure was not made with this mesh, or the statement needs another one.
-- The statement of fig20 on kinetic energy is not judged for \`coarse\`: its results are older, and their shares are not
-  those that [metrics](metrics.md#inertia-of-a-stage) defines.
 - The paper was at hand as text, without its plots. What it only draws is judged by what its text says of the curve.
 - Statements are judged by the softening law \`energy\`, which reads Eq. 5 literally. The law \`exponential\`, the
   curve that Fig. 3 draws, is reported without verdicts. Exceptions: fig03 judges both laws. fig04 and fig05 are judged
