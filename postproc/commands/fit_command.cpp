@@ -74,7 +74,9 @@ public:
                 "ryshkewitch-duckworth,rumpf -o fits.json\n"
                 "Example: postproc fit q.csv --x p_c --z G_c --y q --model pc-gc-surface",
             "JSON file to write, a list of fits") {
-    add_input("points", points_, "CSV file with a heading, \"name [unit],…\"; columns that are not used may hold text")
+    add_input("points", points_,
+              "CSV file with a heading, \"name [unit],…\"; columns that are not used may hold text, rows with "
+              "an empty cell in those that are used are left out")
         ->required();
     options().add_option("--x", x_, "Column, without its unit")->required();
     options().add_option("--y", y_, "Column")->required();
@@ -89,9 +91,12 @@ private:
   NamedPoints read_points() const {
     std::vector<WantedColumn> wanted = {{x_, "--x"}, {y_, "--y"}};
     if (!z_.empty()) wanted.push_back({z_, "--z"});
-    const std::vector<Column> columns = read_csv(points_, wanted);
-    NamedPoints points{columns[0], columns[1], {}};
-    if (!z_.empty()) points.z = columns[2];
+    const CompleteRows rows = read_complete_rows(points_, wanted);
+    if (rows.left_out > 0 && !quiet())
+      print_notes({fmt::format("{} of {} rows are left out: a column of the fit is empty there", rows.left_out,
+                               rows.left_out + rows.columns[0].values.size())});
+    NamedPoints points{rows.columns[0], rows.columns[1], {}};
+    if (!z_.empty()) points.z = rows.columns[2];
     return points;
   }
 

@@ -1,6 +1,7 @@
 #include "postproc/files/csv_file.hpp"
 
 #include <algorithm>
+#include <utility>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -24,6 +25,48 @@ std::size_t place_of(const WantedColumn& wanted, const std::vector<std::string>&
                        : fmt::format(", allowed: {}", shortened(fmt::format("{}", fmt::join(names, ", ")), 160))));
 }
 
+/// Where the wanted columns are, and these columns without values.
+struct Heading {
+  std::size_t width; ///< number of columns of the table
+  std::vector<std::size_t> places;
+  std::vector<Column> columns;
+};
+
+Heading read_heading(CsvReader& reader, const std::vector<WantedColumn>& wanted) {
+  const auto row = reader.next();
+  if (!row) reader.fail("the file is empty, allowed: a heading and rows of numbers");
+  std::vector<std::string> names, units;
+  for (const std::string_view cell : row->cells) {
+    CsvHeading column = csv_heading(cell);
+    names.push_back(std::move(column.name));
+    units.push_back(column.unit.empty() ? "1" : std::move(column.unit));
+  }
+  Heading heading{names.size(), {}, {}};
+  for (const WantedColumn& column : wanted) {
+    const std::size_t place = place_of(column, names, reader);
+    heading.places.push_back(place);
+    heading.columns.push_back({names[place], units[place], {}});
+  }
+  return heading;
+}
+
+/// The rows for which `is_wanted(row, places)`.
+template <class Condition>
+CompleteRows read_rows(CsvReader reader, const std::vector<WantedColumn>& wanted, const Condition& is_wanted) {
+  auto [width, places, columns] = read_heading(reader, wanted);
+  std::size_t left_out = 0;
+  while (const auto row = reader.next()) {
+    reader.expect_columns(*row, width);
+    if (!is_wanted(*row, places)) {
+      ++left_out;
+      continue;
+    }
+    for (std::size_t i = 0; i < columns.size(); ++i)
+      columns[i].values.push_back(reader.number(*row, places[i], columns[i].name));
+  }
+  return {std::move(columns), left_out};
+}
+
 } // namespace
 
 std::vector<Column> read_csv(const std::string& path, const std::vector<WantedColumn>& wanted) {
@@ -31,26 +74,13 @@ std::vector<Column> read_csv(const std::string& path, const std::vector<WantedCo
 }
 
 std::vector<Column> read_csv(CsvReader reader, const std::vector<WantedColumn>& wanted) {
-  const auto heading = reader.next();
-  if (!heading) reader.fail("the file is empty, allowed: a heading and rows of numbers");
-  std::vector<std::string> names, units;
-  for (const std::string_view cell : heading->cells) {
-    CsvHeading column = csv_heading(cell);
-    names.push_back(std::move(column.name));
-    units.push_back(column.unit.empty() ? "1" : std::move(column.unit));
-  }
-  std::vector<std::size_t> places;
-  std::vector<Column> columns;
-  for (const WantedColumn& column : wanted) {
-    places.push_back(place_of(column, names, reader));
-    columns.push_back({names[places.back()], units[places.back()], {}});
-  }
-  while (const auto row = reader.next()) {
-    reader.expect_columns(*row, names.size());
-    for (std::size_t i = 0; i < columns.size(); ++i)
-      columns[i].values.push_back(reader.number(*row, places[i], columns[i].name));
-  }
-  return columns;
+  return read_rows(std::move(reader), wanted, [](const auto&, const auto&) { return true; }).columns;
+}
+
+CompleteRows read_complete_rows(const std::string& path, const std::vector<WantedColumn>& wanted) {
+  return read_rows(CsvReader::from_file(path), wanted, [](const CsvRow& row, const std::vector<std::size_t>& places) {
+    return std::none_of(places.begin(), places.end(), [&](std::size_t place) { return row.cells[place].empty(); });
+  });
 }
 
 } // namespace mpfem

@@ -1,6 +1,7 @@
 #pragma once
 // Tables in CSV files: those that this program writes, and similar ones.
 
+#include <cstddef>
 #include <string>
 #include <vector>
 
@@ -22,5 +23,14 @@ struct WantedColumn {
 std::vector<Column> read_csv(const std::string& path, const std::vector<WantedColumn>& wanted);
 /// The same for a table that is already open.
 std::vector<Column> read_csv(CsvReader reader, const std::vector<WantedColumn>& wanted);
+
+/// Rows of a table in which no wanted column is empty.
+struct CompleteRows {
+  std::vector<Column> columns;
+  std::size_t left_out = 0; ///< other rows
+};
+
+/// The same, without the rows in which a wanted column is empty: there is nothing where a value could not be measured.
+CompleteRows read_complete_rows(const std::string& path, const std::vector<WantedColumn>& wanted);
 
 } // namespace mpfem

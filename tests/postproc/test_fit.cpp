@@ -319,6 +319,23 @@ TEST_CASE("postproc fit reads only the columns that options name, and the others
   CHECK_THAT(refused.messages, Catch::Contains("p.csv:2: column name: found 'tablet 1', allowed: a number"));
 }
 
+TEST_CASE("postproc fit leaves out rows with an empty cell in its columns, and says how many") {
+  const Folder folder;
+  write_text(folder / "p.csv", "x [1],z,y [MPa]\n1,,3\n2,7,\n,7,4\n3,7,7\n4,,9\n");
+  const std::string command =
+      fmt::format("fit {} --x x --y y --model linear -o {}", folder / "p.csv", folder / "f.json");
+  const Outcome outcome = postproc(command);
+  INFO(outcome.messages);
+  REQUIRE(outcome.exit_code == 0);
+  const auto fits = nlohmann::json::parse(read_text(folder / "f.json"));
+  CHECK(fits[0]["points"] == 3);
+  CHECK(within(fits[0]["coefficients"]["b"]["value"].get<double>(), 2, rounding));
+  CHECK_THAT(outcome.output + outcome.messages, Catch::Contains("2 of 5 rows are left out"));
+  CHECK_THAT(postproc(command + " --quiet").messages, !Catch::Contains("left out"));
+  const Outcome too_few = postproc(fmt::format("fit {} --x z --y y --model linear", folder / "p.csv"));
+  CHECK(too_few.exit_code == 2);
+}
+
 TEST_CASE("postproc fit writes a list of fits with ranges, and the curves") {
   const Folder folder;
   std::string text = "porosity [1],strength [MPa]\n";
