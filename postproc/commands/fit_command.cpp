@@ -18,6 +18,7 @@ namespace {
 struct NamedPoints {
   Column x, y;
   std::optional<Column> z;
+  std::size_t rows_left_out = 0; ///< with an empty cell in these columns
 };
 
 std::array<double, 2> whole_range(const std::vector<double>& values) {
@@ -50,6 +51,7 @@ nlohmann::ordered_json fits_json(const std::vector<Fit>& fits, const NamedPoints
     one["x"]["porosity_is_1_minus_x"] = x_is_relative_density;
     one["y"] = column_json(points.y);
     if (points.z) one["z"] = column_json(*points.z);
+    one["rows_left_out"] = points.rows_left_out;
     list.push_back(one);
   }
   return list;
@@ -93,9 +95,9 @@ private:
     if (!z_.empty()) wanted.push_back({z_, "--z"});
     const CompleteRows rows = read_complete_rows(points_, wanted);
     if (rows.left_out > 0 && !quiet())
-      print_notes({fmt::format("{} of {} rows are left out: a column of the fit is empty there", rows.left_out,
+      print_notes({fmt::format("rows left out, because a column of the fit is empty there: {} of {}", rows.left_out,
                                rows.left_out + rows.columns[0].values.size())});
-    NamedPoints points{rows.columns[0], rows.columns[1], {}};
+    NamedPoints points{rows.columns[0], rows.columns[1], {}, rows.left_out};
     if (!z_.empty()) points.z = rows.columns[2];
     return points;
   }

@@ -50,19 +50,20 @@ Heading read_heading(CsvReader& reader, const std::vector<WantedColumn>& wanted)
   return heading;
 }
 
-/// The rows for which `is_wanted(row, places)`.
-template <class Condition>
-CompleteRows read_rows(CsvReader reader, const std::vector<WantedColumn>& wanted, const Condition& is_wanted) {
+CompleteRows read_rows(CsvReader reader, const std::vector<WantedColumn>& wanted, bool may_be_empty) {
   auto [width, places, columns] = read_heading(reader, wanted);
+  std::vector<double> values(columns.size());
   std::size_t left_out = 0;
   while (const auto row = reader.next()) {
     reader.expect_columns(*row, width);
-    if (!is_wanted(*row, places)) {
-      ++left_out;
-      continue;
-    }
+    bool complete = true;
     for (std::size_t i = 0; i < columns.size(); ++i)
-      columns[i].values.push_back(reader.number(*row, places[i], columns[i].name));
+      if (may_be_empty && row->cells[places[i]].empty())
+        complete = false;
+      else
+        values[i] = reader.number(*row, places[i], columns[i].name);
+    if (!complete) ++left_out;
+    for (std::size_t i = 0; complete && i < columns.size(); ++i) columns[i].values.push_back(values[i]);
   }
   return {std::move(columns), left_out};
 }
@@ -74,13 +75,11 @@ std::vector<Column> read_csv(const std::string& path, const std::vector<WantedCo
 }
 
 std::vector<Column> read_csv(CsvReader reader, const std::vector<WantedColumn>& wanted) {
-  return read_rows(std::move(reader), wanted, [](const auto&, const auto&) { return true; }).columns;
+  return read_rows(std::move(reader), wanted, false).columns;
 }
 
 CompleteRows read_complete_rows(const std::string& path, const std::vector<WantedColumn>& wanted) {
-  return read_rows(CsvReader::from_file(path), wanted, [](const CsvRow& row, const std::vector<std::size_t>& places) {
-    return std::none_of(places.begin(), places.end(), [&](std::size_t place) { return row.cells[place].empty(); });
-  });
+  return read_rows(CsvReader::from_file(path), wanted, true);
 }
 
 } // namespace mpfem

@@ -30,7 +30,8 @@ struct CompleteRows {
   std::size_t left_out = 0; ///< other rows
 };
 
-/// The same, without the rows in which a wanted column is empty: there is nothing where a value could not be measured.
+/// As read_csv, but without the rows in which a wanted column is empty: a value could not be measured there. What else
+/// these rows have in wanted columns must be numbers all the same.
 CompleteRows read_complete_rows(const std::string& path, const std::vector<WantedColumn>& wanted);
 
 } // namespace mpfem

@@ -330,10 +330,20 @@ TEST_CASE("postproc fit leaves out rows with an empty cell in its columns, and s
   const auto fits = nlohmann::json::parse(read_text(folder / "f.json"));
   CHECK(fits[0]["points"] == 3);
   CHECK(within(fits[0]["coefficients"]["b"]["value"].get<double>(), 2, rounding));
-  CHECK_THAT(outcome.output + outcome.messages, Catch::Contains("2 of 5 rows are left out"));
-  CHECK_THAT(postproc(command + " --quiet").messages, !Catch::Contains("left out"));
-  const Outcome too_few = postproc(fmt::format("fit {} --x z --y y --model linear", folder / "p.csv"));
-  CHECK(too_few.exit_code == 2);
+  CHECK(fits[0]["rows_left_out"] == 2);
+  CHECK_THAT(outcome.messages, Catch::Contains("a column of the fit is empty there: 2 of 5"));
+  const Outcome quiet = postproc(command + " --quiet");
+  CHECK(quiet.exit_code == 0);
+  CHECK(quiet.messages.empty());
+
+  const std::string fit_of_z = fmt::format("fit {} --model linear --y y --x ", folder / "p.csv");
+  CHECK_THAT(postproc(fit_of_z + "z").messages, Catch::Contains("found 2 points"));
+  write_text(folder / "text.csv", "x,y\n1,3\n2,5\n3,7\n,seven\n");
+  const Outcome text = postproc(fmt::format("fit {} --x x --y y --model linear", folder / "text.csv"));
+  CHECK(text.exit_code == 2);
+  CHECK_THAT(text.messages, Catch::Contains("text.csv:5: column y: found 'seven', allowed: a number"));
+  write_text(folder / "none.csv", "x,y\n1,\n,5\n");
+  CHECK(postproc(fmt::format("fit {} --x x --y y --model linear", folder / "none.csv")).exit_code == 2);
 }
 
 TEST_CASE("postproc fit writes a list of fits with ranges, and the curves") {
