@@ -4,9 +4,6 @@
 #include <cmath>
 #include <vector>
 
-#include <fmt/format.h>
-
-#include "common/errors.hpp"
 #include "common/prefetch.hpp"
 #include "solver/kernels/contact_facet.hpp"
 #include "solver/kernels/due_points.hpp"
@@ -99,7 +96,6 @@ private:
       if constexpr (has_friction) release_friction(point, closest.point, sums);
       return evaluate_open_point(pair, point, node, x, distance);
     }
-    refuse_depth(pair, distance);
     // 3. Inside: pushed back to the closest point. The part of the push that a bond carries is not left to the penalty.
     const double k = pair.stiffness * model_.local_stiffness(at(node)) * model_.reference_area[at(node)];
     double pushed = k;
@@ -117,6 +113,10 @@ private:
     model_.push_contact_point(at(node), vector_of(record.force));
     sums.energy += penalty_energy(k, distance);
     sums.penetration = std::max(sums.penetration, distance / model_.element_size[pair.grain]);
+    if (distance > sums.depth) {
+      sums.depth = distance;
+      sums.deepest_in = static_cast<std::int32_t>(pair.other);
+    }
   }
 
   /// The facet stays the closest until the travel of both grains could make up its lead on the second closest.
@@ -234,16 +234,6 @@ private:
                                   std::int32_t node, const Facet& facet) {
     return {
         {force.x, force.y, force.z}, weight1, weight2, stiffness, node, {facet.node[0], facet.node[1], facet.node[2]}};
-  }
-
-  /// Beyond the margin of the search, closer facets may be missing from the candidates.
-  void refuse_depth(const PairOfGrains& pair, double distance) const {
-    const double allowed = 0.9 * contact_.margin;
-    if (distance > allowed)
-      throw SimulationError(
-          fmt::format("contact: a node of grain {} is {:.3g} mm inside grain {}, allowed: up to {:.3g} "
-                      "mm; raise contact.stiffness_factor or lower the speed",
-                      pair.grain, distance, pair.other, allowed));
   }
 
   Model& model_;

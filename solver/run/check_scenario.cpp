@@ -93,7 +93,7 @@ MeasuredTimes measure(Simulation& simulation) {
       simulation.advance();
     }
   } catch (const SimulationError& error) {
-    fmt::print("warning        step {} failed: {}\n", steps, error.what());
+    fmt::print("warning        a step failed: {}\n", error.what());
   }
   times.step = (Profile::since(start) - times.row) / std::max(steps, 1);
   return times;

@@ -97,6 +97,7 @@ void Simulation::evaluate_forces() {
   if (search_is_due(contact_, travel_since_search_)) search();
   contact_.last_step = state_.last_step;
   add_contact_and_walls();
+  check_contact_depth();
   energies_.add_friction(force_total_.contact, force_total_.wall_friction);
   if (scenario_->has_gravity()) add_work_of_gravity();
   check_penetration();
@@ -206,6 +207,18 @@ void Simulation::add_reactions_and_walls() {
       }
       watch.mark(Part::integration);
     });
+}
+
+void Simulation::check_contact_depth() const {
+  const double allowed = largest_contact_depth(contact_);
+  if (force_total_.contact.depth <= allowed) return;
+  fail_at_first_grain([&](std::int32_t grain) -> std::string {
+    const ContactSums& sums = force_sums_[at(grain)].contact;
+    if (sums.depth <= allowed) return {};
+    return fmt::format("step {}, relative density {:.4f}: a node of grain {} is {:.3g} mm inside grain {}, allowed: up "
+                       "to {:.3g} mm; raise contact.stiffness_factor or lower the speed",
+                       state_.step, relative_density(), grain, sums.depth, sums.deepest_in, allowed);
+  });
 }
 
 void Simulation::check_penetration() const {

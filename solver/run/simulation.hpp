@@ -176,6 +176,7 @@ private:
   void add_up_forces(const std::exception_ptr& failure);
   void add_contact(std::span<const std::int32_t> grains);
   void add_reactions_and_walls();
+  void check_contact_depth() const;
   void check_penetration() const;
   std::array<double, 2> add_grips();
   void measure_walls(const std::array<double, 2>& grip_force);

@@ -3,7 +3,9 @@
 #include <random>
 
 #include <catch2/catch.hpp>
+#include <fmt/format.h>
 
+#include "common/errors.hpp"
 #include "solver/physics/gap.hpp"
 #include "solver/run/simulation.hpp"
 #include "tests/support/meshes.hpp"
@@ -120,4 +122,35 @@ TEST_CASE("an oblique collision of two elastic grains keeps momentum, angular mo
   // the penalty energy at the step and the kinetic energy as a mean of half steps: good to 0.1 %, and it cancels.
   CHECK(std::abs(simulation.observe().energy_residual) < 2e-5 * initial);
   CHECK(worst < 2e-3 * initial);
+}
+
+TEST_CASE("a node too deep inside another grain ends the run, and the first grain that has one is named") {
+  // Two pairs collide at the same speed. The second, ahead by less than the motion of one step, is deeper, and first
+  // in space.
+  std::vector<GrainMesh> grains(4, ball_mesh(5, 0.1));
+  move(grains[0], {0.6, 0.6, 0.6}), move(grains[1], {0.81, 0.6, 0.6});
+  move(grains[2], {0.1, 0.2, 0.2}), move(grains[3], {0.31 - 1e-7, 0.2, 0.2});
+  Scenario scenario = holding_scenario(1e-4);
+  scenario.contact.stiffness_factor = 1e-3; // hardly resists
+  scenario.grain_velocity = {{0, 0, 0}, {-2e4, 0, 0}, {0, 0, 0}, {-2e4, 0, 0}};
+  ThreadTeam team(GENERATE(1, 2));
+  Simulation simulation(build_model(pack(grains, {1, 1, 1}), scenario, "test"), scenario, team);
+  std::string message;
+  double deepest_before = 0, motion = 0;
+  while (message.empty() && !simulation.stage_complete()) try {
+      simulation.evaluate_forces();
+      deepest_before = simulation.observe().max_penetration * simulation.model().element_size[0];
+      simulation.advance();
+      motion = 2e4 * simulation.state().last_step;
+    } catch (const SimulationError& error) {
+      message = error.what();
+    }
+  CHECK_THAT(message, Catch::StartsWith(fmt::format("step {}, ", simulation.state().step)));
+  CHECK_THAT(message,
+             Catch::Contains(": a node of grain 0 is ") && Catch::Contains(" mm inside grain 1, allowed: up to"));
+  // It ends with the first step that goes too far. Nodes move a little faster than their grain, since it deforms.
+  const double allowed = largest_contact_depth(simulation.contact());
+  CHECK(motion > 1e-7);
+  CHECK(deepest_before <= allowed);
+  CHECK(deepest_before > allowed - 2 * motion);
 }

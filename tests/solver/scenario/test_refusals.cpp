@@ -136,6 +136,10 @@ TEST_CASE("every bad input is refused with one clear line and exit code 2") {
   for (std::int32_t n = overlapping.grain_node_offset[3]; n < overlapping.grain_node_offset[4]; ++n)
     overlapping.node[3 * static_cast<std::size_t>(n)] -= 0.05;
   write_packing(folder / "overlapping.h5", overlapping, std::vector<double>(8, 0.1));
+  MeshedPacking deep = eight_grains(2); // deeper than contact of a run may ever be
+  for (std::int32_t n = deep.grain_node_offset[3]; n < deep.grain_node_offset[4]; ++n)
+    deep.node[3 * static_cast<std::size_t>(n)] -= 0.1;
+  write_packing(folder / "deep.h5", deep, std::vector<double>(8, 0.1));
   write_text(folder / "nothing.h5", "not an HDF5 file");
   MeshedPacking twice = eight_grains(2); // a tet of the last grain a second time
   twice.tet.insert(twice.tet.end(), twice.tet.end() - 4, twice.tet.end());
@@ -167,6 +171,7 @@ TEST_CASE("every bad input is refused with one clear line and exit code 2") {
       {"packing.h5", "nothing.h5", {"nothing.h5", "not an HDF5 file"}},
       {"packing.h5", "inverted.h5", {"inverted.h5", "row 70", "inverted"}},
       {"packing.h5", "overlapping.h5", {"overlapping.h5", "grains 2 and 3"}},
+      {"packing.h5", "deep.h5", {"deep.h5", "grains 2 and 3 overlap"}},
       {"packing.h5\"",
        "overlapping.h5\"\nbond = {tensile_strength = 25, shear_strength = 18, fracture_energy = 0.5}",
        {"overlapping.h5", "grains 2 and 3"}},
