@@ -94,17 +94,22 @@ private:
     std::vector<WantedColumn> wanted = {{x_, "--x"}, {y_, "--y"}};
     if (!z_.empty()) wanted.push_back({z_, "--z"});
     const CompleteRows rows = read_complete_rows(points_, wanted);
-    if (rows.left_out > 0 && !quiet())
-      print_notes({fmt::format("rows left out, because a column of the fit is empty there: {} of {}", rows.left_out,
-                               rows.left_out + rows.columns[0].values.size())});
     NamedPoints points{rows.columns[0], rows.columns[1], {}, rows.left_out};
     if (!z_.empty()) points.z = rows.columns[2];
     return points;
   }
 
+  /// Empty if no row is left out.
+  static std::string left_out_text(const NamedPoints& points) {
+    if (points.rows_left_out == 0) return {};
+    return fmt::format("rows left out, because a column of the fit is empty there: {} of {}", points.rows_left_out,
+                       points.rows_left_out + points.x.values.size());
+  }
+
   std::vector<Fit> fits_of(const NamedPoints& points) const {
+    const std::string left_out = left_out_text(points);
     const FitPoints values{points.x.values, points.y.values, points.z ? points.z->values : std::vector<double>(),
-                           points_};
+                           left_out.empty() ? points_ : fmt::format("{} ({})", points_, left_out)};
     std::vector<Fit> fits;
     for (const std::string& model : models_) fits.push_back(fit(model, values, x_is_relative_density_));
     return fits;
@@ -119,6 +124,7 @@ private:
     }
     if (!output().empty()) write_file(output(), fits_json(fits, points, x_is_relative_density_).dump(2) + "\n");
     if (quiet()) return;
+    if (points.rows_left_out > 0) print_notes({left_out_text(points)});
     for (const Fit& fit : fits) {
       fmt::print("{}", text_of(fit));
       for (const std::string& note : fit.notes) print_notes({fmt::format("{}: {}", fit.model, note)});
