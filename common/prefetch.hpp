@@ -1,8 +1,8 @@
 #pragma once
 // Asks the processor to bring a cache line, before it is needed.
 
+#include <algorithm>
 #include <cstddef>
-#include <cstdint>
 
 namespace mpfem {
 
@@ -15,10 +15,10 @@ namespace mpfem {
   asm volatile("");
 }
 
-/// The same for a place in an array, which may lie beyond its end.
-template <class T>
-[[gnu::always_inline]] inline void prefetch_place(const T* array, std::size_t index) {
-  prefetch(reinterpret_cast<const void*>(reinterpret_cast<std::uintptr_t>(array) + index * sizeof(T)));
+/// The same for an element of an array that will be read; its number may lie beyond the end.
+template <class Array>
+[[gnu::always_inline]] inline void prefetch_element(const Array& array, std::size_t number) {
+  prefetch(array.data() + std::min(number, array.size()));
 }
 
 /// The same for an address that will be written.

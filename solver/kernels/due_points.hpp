@@ -86,8 +86,8 @@ DuePoints due_points(const Model& model, const Contact& contact, std::span<const
       const double travel = contact.travel[at(grain)] + contact.travel[at(candidates.pair_second[at(pair)])];
       for (std::int32_t point = candidates.pair_point_offset[at(pair)];
            point < candidates.pair_point_offset[at(pair) + 1]; ++point) {
-        prefetch_place(contact.point_open_until.data(), at(point) + 64);
-        if constexpr (bonding) prefetch_place(contact.bond.data(), at(point) + 16);
+        prefetch_element(contact.point_open_until, at(point) + 64);
+        if constexpr (bonding) prefetch_element(contact.bond, at(point) + 16);
         if (travel >= contact.point_open_until[at(point)] || (bonding && contact.bond[at(point)].intact()))
           due.add(point);
       }
