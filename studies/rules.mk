@@ -221,8 +221,9 @@ endif
 # A run is written in work/ and moved out when it is complete. A rerun continues from its own checkpoints, unless an
 # input is newer than all files that the run has made.
 own_files = $(@D)/work/run.checkpoint.h5 $(@D)/work/run.checkpoint.previous.h5 $(@D)/work/run.h5 $@
-# `postproc depends` has parents made again that lack a checkpoint. If it is still missing, they end before it.
-parent_run = $(patsubst %/work/,%,$(dir $(word 2,$(options))))/run.h5
+# `postproc depends` has parents made again that lack a checkpoint. If it is still missing, they end before it. The
+# checkpoint lies in work/, the complete run a folder above.
+parent_run = $(dir $(patsubst %/,%,$(dir $(word 2,$(options)))))run.h5
 not_reached = echo '$(word 2,$(options)): $(parent_run) ends without it, allowed: a stage or density that it reaches'
 lost = rm -f $@; echo '$(word 2,$(options)) is missing; repeat the same make command to make it again'
 checkpoint_is_missing = $(if $(filter $(parent_run),$(parents_to_make)),$(not_reached),$(lost))
