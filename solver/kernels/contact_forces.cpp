@@ -53,6 +53,7 @@ private:
       contact_.active[at(p)] = pair.active;
       if constexpr (bonding) contact_.pulling[at(p)] = pair.pulling;
     }
+    sums.penetration = sums.depth / model_.element_size[g];
     return sums;
   }
 
@@ -112,7 +113,6 @@ private:
     }
     model_.push_contact_point(at(node), vector_of(record.force));
     sums.energy += penalty_energy(k, distance);
-    sums.penetration = std::max(sums.penetration, distance / model_.element_size[pair.grain]);
     if (distance > sums.depth) {
       sums.depth = distance;
       sums.deepest_in = static_cast<std::int32_t>(pair.other);

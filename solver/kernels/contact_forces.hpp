@@ -39,8 +39,7 @@ inline double largest_contact_depth(const Contact& contact) {
 }
 
 /// Evaluates the contact points of these grains' own nodes and adds their forces to model.force. `sums`: one for each
-/// grain. Forces may be wrong where a depth exceeds
-/// largest_contact_depth().
+/// grain. Forces may be wrong where a depth exceeds largest_contact_depth().
 void contact_forces(Model& model, Contact& contact, std::span<const std::int32_t> grains, std::span<ContactSums> sums);
 /// The same for one grain.
 ContactSums contact_forces(Model& model, Contact& contact, std::int32_t grain);
