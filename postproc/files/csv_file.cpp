@@ -62,8 +62,11 @@ CompleteRows read_rows(CsvReader reader, const std::vector<WantedColumn>& wanted
         complete = false;
       else
         values[i] = reader.number(*row, places[i], columns[i].name);
-    if (!complete) ++left_out;
-    for (std::size_t i = 0; complete && i < columns.size(); ++i) columns[i].values.push_back(values[i]);
+    if (!complete) {
+      ++left_out;
+      continue;
+    }
+    for (std::size_t i = 0; i < columns.size(); ++i) columns[i].values.push_back(values[i]);
   }
   return {std::move(columns), left_out};
 }

@@ -132,14 +132,14 @@ TEST_CASE("every bad input is refused with one clear line and exit code 2") {
   MeshedPacking inverted = eight_grains(2);
   std::swap(inverted.tet[4 * 70], inverted.tet[4 * 70 + 1]);
   write_packing(folder / "inverted.h5", inverted, std::vector<double>(8, 0.1));
-  MeshedPacking overlapping = eight_grains(2);
-  for (std::int32_t n = overlapping.grain_node_offset[3]; n < overlapping.grain_node_offset[4]; ++n)
-    overlapping.node[3 * static_cast<std::size_t>(n)] -= 0.05;
-  write_packing(folder / "overlapping.h5", overlapping, std::vector<double>(8, 0.1));
-  MeshedPacking deep = eight_grains(2); // deeper than contact of a run may ever be
-  for (std::int32_t n = deep.grain_node_offset[3]; n < deep.grain_node_offset[4]; ++n)
-    deep.node[3 * static_cast<std::size_t>(n)] -= 0.1;
-  write_packing(folder / "deep.h5", deep, std::vector<double>(8, 0.1));
+  const auto write_overlapping = [&](const std::string& name, double shift) {
+    MeshedPacking overlapping = eight_grains(2);
+    for (std::int32_t n = overlapping.grain_node_offset[3]; n < overlapping.grain_node_offset[4]; ++n)
+      overlapping.node[3 * static_cast<std::size_t>(n)] -= shift;
+    write_packing(folder / name, overlapping, std::vector<double>(8, 0.1));
+  };
+  write_overlapping("overlapping.h5", 0.05);
+  write_overlapping("deep.h5", 0.1); // deeper than contact of a run may ever be
   write_text(folder / "nothing.h5", "not an HDF5 file");
   MeshedPacking twice = eight_grains(2); // a tet of the last grain a second time
   twice.tet.insert(twice.tet.end(), twice.tet.end() - 4, twice.tet.end());
