@@ -29,6 +29,11 @@ struct SurfaceBond : BondDamage {
   bool intact() const { return remaining > 0; }
 };
 
+/// A cut bond is a broken one: its law says whether the node bonds again.
+inline void cut(SurfaceBond& bond) {
+  bond.remaining = bond.opening = bond.separation = 0;
+}
+
 /// A node behind the surface, held by its bond.
 struct HeldNode {
   double penalty_left = 1;        ///< part of the penalty that the bond leaves, at this time level

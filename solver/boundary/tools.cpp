@@ -265,7 +265,7 @@ double Tools::set_away(std::span<const std::size_t> away, std::span<const std::a
       for (int grain = 0; grain < grains_; ++grain) {
         of_grain_[slot(grain, index)] = {};
         anchors_[slot(grain, index)].clear();
-        bonds_[slot(grain, index)].clear();
+        for (SurfaceBond& bond : bonds_[slot(grain, index)]) cut(bond);
       }
     }
     if (!leaves && tool.away) {
