@@ -166,4 +166,22 @@ void add_adhesion_stiffness_rate(const Model& model, const Adhesion& adhesion, c
   }
 }
 
+/// Raises `rate` (1/s^2) of a grain's surface nodes, and of the nodes towards which their contact points lie, to what a
+/// new bond adds if it is stiffer than the penalty. Bonds form at once, wherever the surface comes to touch.
+inline void raise_to_rate_of_new_bonds(const Model& model, const Adhesion& adhesion, int grain,
+                                       std::span<double> rate) {
+  const auto g = static_cast<std::size_t>(grain);
+  const auto first = static_cast<std::size_t>(model.node_offset[g]);
+  const auto raise = [&](std::size_t node, double stiffness) {
+    rate[node] = std::max(rate[node], stiffness * model.inverse_mass[node]);
+  };
+  for (std::size_t node = first; node < first + static_cast<std::size_t>(model.surface_node_count[g]); ++node) {
+    const double penalty = surface_penalty(model, node, grain), bond = law_at_point(adhesion.law, penalty).stiffness;
+    if (bond <= penalty) continue;
+    raise(node, bond * model.reference_area[node]);
+    if (!model.inner_node.empty())
+      raise(static_cast<std::size_t>(model.inner_node[node]), model.inward[node] * bond * model.reference_area[node]);
+  }
+}
+
 } // namespace mpfem

@@ -152,6 +152,8 @@ void Tools::add_stiffness_rate(const Model& model, const Bounds& bounds, int gra
       if (tool.adhesion) add_adhesion_stiffness_rate(model, *tool.adhesion, surface, grain, bonds(grain, index), rate);
     });
   }
+  for (const Tool& tool : tools_)
+    if (tool.adhesion) raise_to_rate_of_new_bonds(model, *tool.adhesion, grain, rate);
 }
 
 /// N, the pull of a tool's bond on a node in front of it, along the surface's normal and positive towards the grains.

@@ -93,7 +93,8 @@ public:
   double adhesion_dissipation() const;
   /// Moves every tool by one step; `velocity` (mm/s) of each, or none where all are at rest.
   void move(std::span<const std::array<double, 3>> velocity, double step);
-  /// Adds K A/m (1/s^2) of the tools that each node touches to `rate` [nodes].
+  /// Adds K A/m (1/s^2) of the tools that each node touches to `rate` [nodes], and what bonds to tools add, also those
+  /// that may form before the next estimate.
   void add_stiffness_rate(const Model& model, const Bounds& bounds, int grain, std::span<double> rate) const;
   /// N, the normal pushes of all tools on the contact point of a surface node, less the pulls of bonds to them.
   double push_on_node(const Model& model, std::size_t node, int grain) const;

@@ -219,7 +219,6 @@ TEST_CASE("a tool that is taken away leaves what stuck to it, with its energy in
   CHECK(seen.area[2] > 0);
   CHECK(seen.on_lower[2].adhesion_energy > 0);
   CHECK(seen.area.back() == 0);
-  // The forces of the moment at which the tools leave act for one more step, with bonds or without.
   CHECK(seen.residual < 0.03 * seen.work);
 }
 
@@ -238,6 +237,35 @@ TEST_CASE("a broken bond to a tool forms again on contact only if its law says s
     CHECK(within(seen.lost[1], bond.fracture_energy * area, 1e-9));
     CHECK(seen.area[3] == (again ? seen.largest_area : 0.0));
     CHECK(within(seen.lost.back(), (again ? 2 : 1) * bond.fracture_energy * area, 1e-9));
+  }
+}
+
+TEST_CASE("a tool that was away bonds again to nodes that it had held only if its law says so") {
+  for (const bool again : {false, true}) {
+    BondParameters bond = weak;
+    bond.rebond_on_contact = again;
+    std::vector<Stage> stages = {moving("touch", {0, 0, -50}, 2e-7), moving("away", {0, 0, 0}, 1e-6),
+                                 moving("press", {0, 0, -100}, 1e-6), moving("part", {0, 0, 2000}, 3e-5)};
+    std::get<ToolLoading>(stages[1].type).away = {lower, upper};
+    std::get<ToolLoading>(stages[1].type).drives.clear();
+    const Seen seen = run(slab_between_plates(bond, stages));
+    CHECK(seen.area[0] > 0);
+    CHECK(seen.area[1] == 0);
+    CHECK(seen.lost[1] == 0);
+    CHECK(seen.area[2] == (again ? seen.area[0] : 0.0));
+    CHECK((seen.lost.back() > 0) == again);
+  }
+}
+
+TEST_CASE("bonds to tools that are far stiffer than the penalty do not shorten the step too late") {
+  for (const ContactSurface surface : {ContactSurface::facets, ContactSurface::smooth}) {
+    BondParameters stiff = strong;
+    stiff.stiffness_factor = 10000; // a thousand times the penalty
+    Scenario scenario = slab_between_plates(stiff, pressed());
+    scenario.contact.surface = surface;
+    const Seen seen = run(scenario);
+    CHECK(seen.area.back() > 0);
+    CHECK(seen.residual < 0.01 * seen.work); // diverging runs have residuals above the work
   }
 }
 
