@@ -36,12 +36,10 @@ void contact_stiffness_rate(const Model& model, const Contact& contact, int grai
 
 namespace {
 
-/// Stiffness to which bonds raise a point with this penalty (MPa/mm), over that penalty: a closed, intact bond with the
-/// stiffness ratio r counts |1 - r| + r.
+/// Stiffness to which bonds raise a point with this penalty (MPa/mm), over that penalty.
 double raised_by_bonds(const Contact& contact, double penalty) {
   double largest = 1;
-  for (const BondLaw& law : contact.bond_laws)
-    largest = std::max(largest, 2 * law_at_point(law, penalty).stiffness / penalty - 1);
+  for (const BondLaw& law : contact.bond_laws) largest = std::max(largest, raised_by_bond(law, penalty));
   return largest;
 }
 

@@ -343,9 +343,7 @@ Model build_model(const MeshedPacking& packing, const Scenario& scenario, const 
   refuse_shared_places(model, name, ranks);
   find_refinement(model, ranks);
   find_smooth_surface(model, smooth_grains(model, packing, scenario.contact.surface, ranks));
-  if (scenario.numerics.mass_scaling_step > 0)
-    scale_masses(model, scenario.numerics.mass_scaling_step / scenario.numerics.time_step_factor,
-                 scenario.numerics.mass_scaling_lighten, ranks);
+  if (scenario.numerics.mass_scaling_step > 0) scale_masses(model, scenario, ranks);
   return model;
 }
 

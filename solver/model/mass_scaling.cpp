@@ -15,16 +15,36 @@ double allowed_frequency_squared(const Model& model, const Material& material, d
   return std::pow(2.0 * damped_step_factor(damping) / step, 2);
 }
 
+/// Bonds that may be stiffer than the penalty of contact.
+struct BondsOfScenario {
+  std::vector<BondLaw> of_grains, of_tools;
+
+  explicit BondsOfScenario(const Scenario& scenario) {
+    if (scenario.bond) of_grains.push_back(law_of_bonds(*scenario.bond, scenario.contact));
+    for (const ToolParameters& tool : scenario.tools)
+      if (tool.adhesion) of_tools.push_back(law_of_bonds(*tool.adhesion, scenario.contact));
+  }
+  /// Stiffness to which they raise contact with this penalty (MPa/mm) between grains, over that penalty. A rigid tool
+  /// adds half of what a grain does.
+  double raised(double penalty) const {
+    double largest = 1;
+    for (const BondLaw& law : of_grains) largest = std::max(largest, raised_by_bond(law, penalty));
+    for (const BondLaw& law : of_tools)
+      largest = std::max(largest, 0.5 * law_at_point(law, penalty).stiffness / penalty);
+    return largest;
+  }
+};
+
 /// 1/s^2, what contact usually adds to the frequency squared of a node; nothing inside the grain.
-double usual_contact_rate(const Model& model, std::size_t grain, std::int32_t node) {
+double usual_contact_rate(const Model& model, const BondsOfScenario& bonds, std::size_t grain, std::int32_t node) {
   if (node >= model.node_offset[grain] + model.surface_node_count[grain]) return 0;
   const auto n = static_cast<std::size_t>(node);
   const double penalty = model.penalty_stiffness[grain] * model.local_stiffness(n);
-  return expected_contact_rate(penalty * model.reference_area[n], model.inverse_mass[n]);
+  return expected_contact_rate(bonds.raised(penalty) * penalty * model.reference_area[n], model.inverse_mass[n]);
 }
 
 /// Sets mass_factor of a grain's nodes to the largest factor that one of their tets requires, at least `least`.
-void set_mass_factors(Model& model, int grain, double step, double least) {
+void set_mass_factors(Model& model, const BondsOfScenario& bonds, int grain, double step, double least) {
   const auto g = static_cast<std::size_t>(grain);
   const std::int32_t first = model.node_offset[g];
   std::fill(model.mass_factor.data() + first, model.mass_factor.data() + model.node_offset[g + 1], least);
@@ -35,7 +55,7 @@ void set_mass_factors(Model& model, int grain, double step, double least) {
     double contact = 0;
     for (std::int32_t& node : corner) {
       node += first;
-      contact = std::max(contact, usual_contact_rate(model, g, node));
+      contact = std::max(contact, usual_contact_rate(model, bonds, g, node));
     }
     const auto x = [&](std::size_t c) { return model.point(static_cast<std::size_t>(corner[c])); };
     const auto geometry = tet_geometry(x(1) - x(0), x(2) - x(0), x(3) - x(0));
@@ -73,11 +93,13 @@ void set_added_mass(Model& model, const std::vector<double>& own_mass) {
 
 } // namespace
 
-void scale_masses(Model& model, double step, bool lighten, const Communicator& ranks) {
+void scale_masses(Model& model, const Scenario& scenario, const Communicator& ranks) {
+  const double step = scenario.numerics.mass_scaling_step / scenario.numerics.time_step_factor;
+  const BondsOfScenario bonds(scenario);
   const std::vector<double> own_mass = model.mass;
   model.mass_factor = LazyArray<double>(static_cast<std::size_t>(model.nodes()), model.pages());
   for (const std::int32_t grain : model.own()) {
-    set_mass_factors(model, grain, step, lighten ? 0.0 : 1.0);
+    set_mass_factors(model, bonds, grain, step, scenario.numerics.mass_scaling_lighten ? 0.0 : 1.0);
     apply_mass_factors(model, grain);
   }
   share_of_grains(ranks, model.ownership, std::span(model.mass));

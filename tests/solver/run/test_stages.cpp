@@ -118,6 +118,13 @@ TEST_CASE("masses scaled to a step allow that step and report what they added") 
   const auto [heavier_step, heavier] = stable_step();
   CHECK(heavier_step >= 2 * own * (1 - 1e-9));
   CHECK(heavier > 0.1);
+  // With bonds that are far stiffer than the penalty, too.
+  Scenario bonded = scenario;
+  bonded.bond = BondParameters{25, 18, 0.05};
+  bonded.bond->stiffness_factor = 100 * bonded.contact.stiffness_factor;
+  ThreadTeam of_bonded(1);
+  const Simulation held(build_model(packing, bonded, "test"), bonded, of_bonded);
+  CHECK(held.step_estimate().stable_step() >= 2 * own * (1 - 1e-9));
   // Lighter: a smaller step than the mesh's own takes mass away.
   scenario.numerics.mass_scaling_step = 0.5 * own;
   CHECK(std::abs(stable_step().second) < 1e-12);
