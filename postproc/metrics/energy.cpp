@@ -10,7 +10,7 @@ std::vector<Column> energy_ledger(const HistoryTable& history) {
                            "plastic_dissipation", "damage_dissipation", "bond_energy", "contact_energy",
                            "viscous_dissipation", "damping_dissipation", "energy_residual"})
     ledger.push_back(history.column(name));
-  for (const char* name : {"friction_energy", "friction_dissipation"})
+  for (const char* name : {"hypoelastic_dissipation", "friction_energy", "friction_dissipation"})
     if (history.has(name)) ledger.push_back(history.column(name));
   Column residual{"residual_over_work", "1", {}}, kinetic{"kinetic_over_internal", "1", {}};
   const std::vector<double> internal_of_row = internal_energy(history);

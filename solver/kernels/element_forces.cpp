@@ -40,7 +40,7 @@ MPFEM_FLATTEN ElementSums element_pass(Model& model, int grain, double time_step
 
   const Material& material = model.material_of(grain);
   const TetConstants constants{material.moduli, model.viscosity, material.wave_speed, material.density, time_step};
-  LongSum<S> plastic_work, viscous_work;
+  LongSum<S> plastic_work, viscous_work, hypoelastic_work;
   S largest_strain(0.0), smallest_ratio(1.0), check(0.0);
 
   const std::int32_t end = model.block_offset[g + 1];
@@ -64,13 +64,15 @@ MPFEM_FLATTEN ElementSums element_pass(Model& model, int grain, double time_step
     add_balanced<W>(force, block.node, update.force);
     plastic_work.add(update.volume * update.plastic_work);
     viscous_work.add(update.volume * update.viscous_work);
+    hypoelastic_work.add(update.volume * update.hypoelastic_work);
     largest_strain = max(largest_strain, update.strain_increment_square);
     smallest_ratio = min(smallest_ratio, update.volume_ratio);
     check += update.mean; // becomes NaN or infinite where anything above is
   }
   const bool admissible =
       smallest(smallest_ratio) > 0 && std::isfinite(sum(check)) && std::isfinite(plastic_work.value());
-  return {plastic_work.value(), viscous_work.value(), std::sqrt(largest(largest_strain)), admissible};
+  return {plastic_work.value(), viscous_work.value(), hypoelastic_work.value(), std::sqrt(largest(largest_strain)),
+          admissible};
 }
 
 } // namespace

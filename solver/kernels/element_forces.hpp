@@ -7,14 +7,15 @@ namespace mpfem {
 
 /// Sums of one grain over one element pass.
 struct ElementSums {
-  double plastic_work = 0;   ///< mJ, in this step
-  double viscous_work = 0;   ///< mJ, in this step
-  double largest_strain = 0; ///< largest norm of a strain increment
-  bool admissible = true;    ///< false if a tet is inverted or a value is not finite
+  double plastic_work = 0;     ///< mJ, in this step
+  double viscous_work = 0;     ///< mJ, in this step
+  double hypoelastic_work = 0; ///< mJ, in this step (solver/physics/elasticity.hpp)
+  double largest_strain = 0;   ///< largest norm of a strain increment
+  bool admissible = true;      ///< false if a tet is inverted or a value is not finite
 
   template <class Self, class Visitor>
   static void for_each_term(Self& s, Visitor&& visit) {
-    visit.sum(s.plastic_work), visit.sum(s.viscous_work);
+    visit.sum(s.plastic_work), visit.sum(s.viscous_work), visit.sum(s.hypoelastic_work);
     visit.largest(s.largest_strain), visit.every(s.admissible);
   }
 };

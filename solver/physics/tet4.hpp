@@ -35,6 +35,7 @@ struct TetUpdate {
   S mean;              ///< MPa, mean stress with the viscous part
   S plastic_work;      ///< MPa, per volume
   S viscous_work;      ///< MPa, per volume
+  S hypoelastic_work;  ///< MPa, per volume, that the rate form of the elastic law does not return
   S strain_increment_square;
 };
 
@@ -68,6 +69,7 @@ TetUpdate<S> update_tet(const Law& law, const TetConstants& c, const Vector3<S> 
   const auto returned = update_deviator(law, c.moduli, old.deviator, old.hardening, increment);
   result.state = {returned.deviator, returned.hardening};
   result.plastic_work = returned.plastic_work;
+  result.hypoelastic_work = hypoelastic_work(c.moduli, returned.deviator, volumetric_strain);
 
   // 3. Forces f_i = -V sigma grad N_i = -sigma a_i / 6.
   for (int i = 0; i < 3; ++i)

@@ -29,9 +29,10 @@ EnergyCheck::EnergyCheck(const Model& model, const std::vector<HistoryRow>& hist
 
 double EnergyCheck::take(const HistoryRow& row) {
   double sum = 0; // finite only if all terms are
-  for (const double term : {row.external_work, row.kinetic_energy, row.elastic_energy, row.plastic_dissipation,
-                            row.damage_dissipation, row.bond_energy, row.contact_energy, row.viscous_dissipation,
-                            row.damping_dissipation, row.friction_energy, row.friction_dissipation}) {
+  for (const double term :
+       {row.external_work, row.kinetic_energy, row.elastic_energy, row.plastic_dissipation, row.damage_dissipation,
+        row.bond_energy, row.contact_energy, row.viscous_dissipation, row.hypoelastic_dissipation,
+        row.damping_dissipation, row.friction_energy, row.friction_dissipation}) {
     largest_ = std::max(largest_, std::abs(term));
     sum += term;
   }

@@ -31,13 +31,14 @@ void EnergyLedger::add_friction(const ContactSums& contact, const WallFrictionSu
 void EnergyLedger::add_step(const ElementSums& elements, const AdvanceSums& advance) {
   plastic_dissipation += elements.plastic_work;
   viscous_dissipation += elements.viscous_work;
+  hypoelastic_dissipation += elements.hypoelastic_work;
   damping_dissipation += advance.damping_work;
 }
 
 double EnergyLedger::residual(const StoredEnergies& stored) const {
   return external_work + initial - stored.kinetic - stored.elastic - plastic_dissipation - stored.contact -
-         viscous_dissipation - damping_dissipation - stored.bonds - stored.damage_dissipation - stored.friction -
-         friction_dissipation;
+         viscous_dissipation - hypoelastic_dissipation - damping_dissipation - stored.bonds -
+         stored.damage_dissipation - stored.friction - friction_dissipation;
 }
 
 } // namespace mpfem

@@ -25,18 +25,20 @@ struct StoredEnergies {
 
 /// Energies that are added up step by step since the start of the run.
 struct EnergyLedger {
-  double initial = 0;              ///< mJ, of motion and strain at the start
-  double plastic_dissipation = 0;  ///< mJ
-  double viscous_dissipation = 0;  ///< mJ, of bulk viscosity
-  double damping_dissipation = 0;  ///< mJ, of mass-proportional damping
-  double friction_dissipation = 0; ///< mJ, of slip between grains, at walls and on tools
-  double external_work = 0;        ///< mJ, of walls, grips, tools and gravity
-  double grip_work_ahead = 0;      ///< mJ, half of the grips' forces times the step that follows
+  double initial = 0;                 ///< mJ, of motion and strain at the start
+  double plastic_dissipation = 0;     ///< mJ
+  double viscous_dissipation = 0;     ///< mJ, of bulk viscosity
+  double hypoelastic_dissipation = 0; ///< mJ, that the elastic law does not return (solver/physics/elasticity.hpp)
+  double damping_dissipation = 0;     ///< mJ, of mass-proportional damping
+  double friction_dissipation = 0;    ///< mJ, of slip between grains, at walls and on tools
+  double external_work = 0;           ///< mJ, of walls, grips, tools and gravity
+  double grip_work_ahead = 0;         ///< mJ, half of the grips' forces times the step that follows
 
   template <class Self, class Visitor>
   static void for_each_field(Self& s, Visitor&& visit) {
     visit("energy.initial", s.initial), visit("energy.plastic_dissipation", s.plastic_dissipation);
     visit("energy.viscous_dissipation", s.viscous_dissipation);
+    visit("energy.hypoelastic_dissipation", s.hypoelastic_dissipation);
     visit("energy.damping_dissipation", s.damping_dissipation);
     visit("energy.friction_dissipation", s.friction_dissipation), visit("energy.external_work", s.external_work);
     visit("energy.grip_work_ahead", s.grip_work_ahead);

@@ -120,6 +120,7 @@ void observe_bonds(HistoryRow& row, const BondSums& bonds) {
 void take_over_sums(HistoryRow& row, const EnergyLedger& energies) {
   row.plastic_dissipation = energies.plastic_dissipation;
   row.viscous_dissipation = energies.viscous_dissipation;
+  row.hypoelastic_dissipation = energies.hypoelastic_dissipation;
   row.damping_dissipation = energies.damping_dissipation;
   row.friction_dissipation = energies.friction_dissipation;
   row.external_work = energies.external_work;
