@@ -6,6 +6,7 @@
 #include <cstdio>
 #include <cstring>
 #include <filesystem>
+#include <fstream>
 #include <optional>
 #include <utility>
 
@@ -84,17 +85,26 @@ void refuse_special_file(std::string_view option, const std::string& path, Outpu
   if (kind == OutputKind::binary || !is_stream(found->st_mode)) refuse(kind_of(found->st_mode));
 }
 
-namespace {
-
-/// Whether a file begins as HDF5 files do.
 bool is_hdf5(const std::string& path) {
   constexpr std::string_view signature = "\x89HDF\r\n\x1a\n";
   std::array<char, signature.size()> begin{};
-  std::FILE* file = std::fopen(path.c_str(), "rb");
-  if (file == nullptr) return false;
-  const std::size_t read = std::fread(begin.data(), 1, begin.size(), file);
-  std::fclose(file);
-  return std::string_view(begin.data(), read) == signature;
+  std::ifstream file(path, std::ios::binary);
+  return file.read(begin.data(), begin.size()) && std::string_view(begin.data(), begin.size()) == signature;
+}
+
+namespace {
+
+/// Whether a regular file that is not empty is there.
+bool has_content(const std::string& path) {
+  const auto found = found_at(path);
+  return found && S_ISREG(found->st_mode) && found->st_size > 0;
+}
+
+/// What an output of this kind would replace and must not; empty if it may be written there. Most inputs are TOML files.
+std::string other_kind_at(const std::string& path, OutputKind kind) {
+  if (!has_content(path)) return {};
+  if (path.ends_with(".toml")) return "a TOML file (a scenario, a description or a figure)";
+  return kind == OutputKind::text && is_hdf5(path) ? "an HDF5 file (a run, a checkpoint or a packing) by text" : "";
 }
 
 } // namespace
@@ -102,12 +112,9 @@ bool is_hdf5(const std::string& path) {
 void check_output_path(std::string_view option, const std::string& path, OutputKind kind) {
   if (path.empty()) throw InputError(fmt::format("{}: found an empty name, allowed: a file", option));
   refuse_special_file(option, path, kind);
-  const auto found = found_at(path);
-  if (kind == OutputKind::text && found && S_ISREG(found->st_mode) && is_hdf5(path))
+  if (const std::string other = other_kind_at(path, kind); !other.empty())
     throw InputError(
-        fmt::format("{} {}: would replace an HDF5 file (a run, a checkpoint or a packing) by text, allowed: "
-                    "another name",
-                    option, one_line(path)));
+        fmt::format("{} {}: would replace {}, allowed: another name", option, one_line(path), other));
   std::error_code ignored;
   if (!std::filesystem::is_directory(folder_of(output_target(path)), ignored))
     throw InputError(

@@ -15,8 +15,11 @@ enum class OutputKind { text, binary };
 /// followed. Throws InputError. A path that does not exist is fine.
 void refuse_special_file(std::string_view option, const std::string& path, OutputKind kind);
 
-/// The same, and the folder must exist. To be called before hours of work. An empty path is refused, and an HDF5 file
-/// in the place of a text.
+/// Whether a regular file begins as HDF5 files do.
+bool is_hdf5(const std::string& path);
+
+/// The same, and the folder must exist. To be called before hours of work. An empty path is refused, a TOML file in its
+/// place, and an HDF5 file in the place of a text.
 void check_output_path(std::string_view option, const std::string& path, OutputKind kind);
 
 /// Refuses an output whose name has none of these endings (".png"). A ".partial" after them, as scripts of a study

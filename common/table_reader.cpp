@@ -14,6 +14,7 @@
 #include "common/errors.hpp"
 #include "common/nearest_word.hpp"
 #include "common/one_line.hpp"
+#include "common/output_file.hpp"
 #include "common/text_input.hpp"
 #include "common/toml_scan.hpp"
 
@@ -76,14 +77,6 @@ std::string wrong_type(const toml::node& node, std::string_view expected) {
 
 std::string quoted_list(const std::vector<std::string>& words) {
   return fmt::format("'{}'", fmt::join(words, "', '"));
-}
-
-/// Whether a regular file begins as those of mpfem do, which may be taken for one another.
-bool is_hdf5(const std::string& path) {
-  constexpr std::string_view signature = "\x89HDF\r\n\x1a\n";
-  std::array<char, signature.size()> begin{};
-  std::ifstream file(path, std::ios::binary);
-  return file.read(begin.data(), begin.size()) && std::string_view(begin.data(), begin.size()) == signature;
 }
 
 toml::table parse_toml(std::string_view text, const std::string& name) {

@@ -178,6 +178,7 @@ $(BIN)/pack-gen $(BIN)/mpfem $(BIN)/postproc:
 ifneq ($(of_powder),)
 content_of_description := $(firstword $(shell $(powder) | sha256sum))
 $(description): $(packings)/spheres.settings | $(BIN)/postproc
+	rm -f $@ # no text replaces a TOML file
 	$(powder) -o $@
 $(packings)/spheres.h5: $(description)
 else

@@ -116,7 +116,19 @@ TEST_CASE("Two outputs under one name, or one under the other's partial name, ar
   CHECK_NOTHROW(check("/dev/null", "/dev/null"));
 }
 
-TEST_CASE("A text does not replace an HDF5 file, and replaces any other") {
+TEST_CASE("Nothing replaces a TOML file, unless it is empty") {
+  const Folder folder;
+  test::write_text(folder / "scenario.toml", "packing = 'packing.h5'");
+  test::write_text(folder / "empty.toml", "");
+  for (const OutputKind kind : {OutputKind::text, OutputKind::binary}) {
+    CHECK_THROWS_WITH(check_output_path("--output", folder / "scenario.toml", kind),
+                      Catch::Contains("scenario.toml: would replace a TOML file"));
+    CHECK_NOTHROW(check_output_path("--output", folder / "empty.toml", kind));
+    CHECK_NOTHROW(check_output_path("--output", folder / "new.toml", kind));
+  }
+}
+
+TEST_CASE("A text does not replace an HDF5 file, and replaces any other but TOML") {
   const Folder folder;
   test::write_text(folder / "run.h5", std::string("\x89HDF\r\n\x1a\n", 8) + "what follows");
   test::write_text(folder / "text.h5", "HDF is only its name");

@@ -46,6 +46,8 @@ smallest = 0.05
 largest = 0.1
 )";
 
+const std::string damaged_packing = std::string("\x89HDF\r\n\x1a\n", 8) + "what was there before";
+
 /// The message of a body that refuses its input, or what it does instead.
 template <class Body>
 std::string message_of(Body body) {
@@ -69,7 +71,7 @@ std::string changed(std::string text, const std::string& from, const std::string
 
 TEST_CASE("A description with one spoilt value is refused with file, key and line") {
   const Folder folder;
-  write_text(folder / "p.h5", "what was there before");
+  write_text(folder / "p.h5", damaged_packing);
   std::size_t number = 0;
   for (const char* good : {table_description, log_normal_description})
     for (MalformedText& document : spoilt_documents(good)) {
@@ -80,7 +82,7 @@ TEST_CASE("A description with one spoilt value is refused with file, key and lin
       write_text(folder / "powder.toml", document.text);
       CHECK(fault_of_refusal(MPFEM_PACK_GEN, {"spheres", folder / "powder.toml", "-o", folder / "p.h5"},
                              document.names) == "");
-      CHECK(read_text(folder / "p.h5") == "what was there before");
+      CHECK(read_text(folder / "p.h5") == damaged_packing);
     }
 }
 
@@ -144,7 +146,7 @@ TEST_CASE("A description whose sizes do not fit together is refused by what does
 
 TEST_CASE("A table that holds no spheres is refused with file and line") {
   const Folder folder;
-  write_text(folder / "s.h5", "what was there before");
+  write_text(folder / "s.h5", damaged_packing);
   const std::string endless(100'000, 'x');
   std::size_t number = 0;
   for (const auto& [text, name] : std::vector<std::pair<std::string, std::string>>{
@@ -183,7 +185,7 @@ TEST_CASE("A table that holds no spheres is refused with file and line") {
     CHECK(fault_of_message(message, {"s.csv", name}) == "");
     if (++number % 4 != 0) continue;
     CHECK(fault_of_refusal(MPFEM_PACK_GEN, {"import", folder / "s.csv", "-o", folder / "s.h5"}, {"s.csv", name}) == "");
-    CHECK(read_text(folder / "s.h5") == "what was there before");
+    CHECK(read_text(folder / "s.h5") == damaged_packing);
   }
 }
 

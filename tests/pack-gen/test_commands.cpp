@@ -355,7 +355,8 @@ TEST_CASE("no output of pack-gen replaces a file that it reads") {
     INFO(arguments << ": " << outcome.messages);
     CHECK(outcome.exit_code == 2);
     CHECK(outcome.one_error_line("pack-gen"));
-    CHECK_THAT(outcome.messages, Catch::Contains("would overwrite the input " + (folder / input)));
+    CHECK_THAT(outcome.messages, Catch::Contains("would overwrite the input " + (folder / input)) ||
+                                     Catch::Contains((folder / input) + ": would replace "));
     CHECK(read_text(folder / input) == before);
   }
 }
