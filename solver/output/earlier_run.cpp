@@ -34,12 +34,12 @@ bool may_be_replaced(const std::string& file) {
   return fs::is_regular_file(file, ignored) && (size_of(file) == 0 || schema::states_kind(file, schema::FileKind::run));
 }
 
-/// Whether --resume would have continued the run; unknown counts as no.
-bool is_interrupted(const std::string& run_file) {
+/// What the run in a file says of its end; empty if that cannot be read.
+std::string status_of(const std::string& run_file) {
   try {
-    return read_run_summary(run_file).status == "interrupted";
+    return read_run_summary(run_file).status;
   } catch (const InputError&) {
-    return false;
+    return {};
   }
 }
 
@@ -56,17 +56,23 @@ void refuse_other_files(const std::string& output) {
                     one_line(output), one_line(backup)));
 }
 
-std::string keep_earlier_run(const std::string& output) {
+bool is_unfinished(const std::string& output) {
+  return size_of(output) > 0 && status_of(output) != "complete";
+}
+
+std::string keep_earlier_run(const std::string& output, bool resume) {
   const std::string file = output_target(output), backup = backup_of(file);
   if (size_of(file) == 0) return {};
-  const bool interrupted = is_interrupted(file);
+  const bool interrupted = status_of(file) == "interrupted";
   std::error_code failed;
   fs::rename(file, backup, failed);
   if (failed)
     throw StorageError(
         fmt::format("{}: cannot be renamed to {}: {}", one_line(file), one_line(backup), failed.message()));
-  return fmt::format("{}: the earlier run is kept as {}{}", one_line(output), one_line(backup),
-                     interrupted ? "; it was interrupted, and --resume would have continued it" : "");
+  const char* more = resume ? "; no checkpoint of this run was found, so it starts again"
+                     : interrupted ? "; it was interrupted, and --resume would have continued it"
+                                   : "";
+  return fmt::format("{}: the earlier run is kept as {}{}", one_line(output), one_line(backup), more);
 }
 
 double space_of_kept_run(const std::string& output) {

@@ -13,6 +13,7 @@
 #include "common/output_file.hpp"
 #include "common/run_stem.hpp"
 #include "common/table_reader.hpp"
+#include "results-schema/file.hpp"
 #include "solver/run/checkpoints.hpp"
 #include "solver/scenario/read_scenario.hpp"
 
@@ -66,6 +67,19 @@ void refuse_checkpoints_of_other_runs(const Scenario& scenario, const std::strin
   if (const std::string run = stem == output ? output + ".h5" : stem; fs::is_regular_file(run)) refuse(rolling, run);
 }
 
+/// Refuses to write a checkpoint over something else than a checkpoint. A damaged one may be replaced.
+void refuse_no_checkpoints(const Scenario& scenario, const std::string& output) {
+  for (const std::string& checkpoint : all_checkpoints(scenario, output)) {
+    std::error_code ignored;
+    if (!fs::is_regular_file(checkpoint, ignored) || fs::file_size(checkpoint, ignored) == 0) continue;
+    if (!is_hdf5(checkpoint) || schema::states_kind(checkpoint, schema::FileKind::run) ||
+        schema::states_kind(checkpoint, schema::FileKind::packing))
+      throw InputError(fmt::format("--output {}: its checkpoint would replace {}, which is no checkpoint, allowed: "
+                                   "another --output",
+                                   one_line(output), one_line(checkpoint)));
+  }
+}
+
 } // namespace
 
 void check_output(const Scenario& scenario, const RunOptions& options) {
@@ -77,6 +91,7 @@ void check_output(const Scenario& scenario, const RunOptions& options) {
       refuse_overwriting(fmt::format("--output {}: its checkpoint", one_line(output)), checkpoint, input);
   }
   refuse_checkpoints_of_other_runs(scenario, output);
+  refuse_no_checkpoints(scenario, output);
   try_output(output);
 }
 

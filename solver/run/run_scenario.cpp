@@ -68,10 +68,12 @@ void check_disk_space(const Scenario& scenario, const RunOptions& options, doubl
     report.warning(scarce);
 }
 
-/// What an earlier run of this name has left: the run file is kept without --resume, its rolling checkpoints go.
+/// What an earlier run of this name has left: the run file is kept, unless --resume makes a complete run again whose
+/// checkpoints were lost; its rolling checkpoints go.
 void clear_way(const Continuation& continuation, const RunOptions& options, const RunReport& report) {
-  if (options.keeps_earlier_run)
-    if (const std::string kept = keep_earlier_run(options.output); !kept.empty()) report.note_despite_quiet(kept);
+  if (options.keeps_earlier_run || is_unfinished(options.output))
+    if (const std::string kept = keep_earlier_run(options.output, !options.keeps_earlier_run); !kept.empty())
+      report.note_despite_quiet(kept);
   continuation.discard_unfinished_run();
 }
 
@@ -126,8 +128,8 @@ void run_scenario(const Scenario& scenario, const RunOptions& given, const Commu
     if (options.keeps_earlier_run) refuse_other_files(options.output);
   });
   if (const std::string scarce = check_memory(options.output, whole.needs.memory, ranks);
-      !scarce.empty() && !options.quiet)
-    fmt::print(stderr, "mpfem: warning: {}\n", scarce);
+      !scarce.empty())
+    whole.report.warning(scarce);
   root_does(ranks, [&] {
     lock.emplace(options.output);
     remove_partial_files(scenario, options.output);

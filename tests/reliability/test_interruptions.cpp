@@ -155,6 +155,38 @@ TEST_CASE("a run does not write over the checkpoints of another run") {
   CHECK(run_stages(folder, "run.third.h5").exit_code == 0); // no stage of run.h5
 }
 
+TEST_CASE("a checkpoint does not replace what is no checkpoint") {
+  const Folder folder;
+  prepare(folder, 3, two_stages);
+  REQUIRE(run_stages(folder, "named.checkpoint.h5").exit_code == 0); // a run of that name
+  fs::copy_file(folder / "packing.h5", folder / "packed.first.checkpoint.h5");
+  write_text(folder / "noted.second.checkpoint.h5", "notes");
+  for (const auto& [output, there] :
+       {std::pair{"named.h5", "named.checkpoint.h5"}, std::pair{"packed.h5", "packed.first.checkpoint.h5"},
+        std::pair{"noted.h5", "noted.second.checkpoint.h5"}}) {
+    const std::string before = read_text(folder / there);
+    const Outcome refused = run_stages(folder, output);
+    INFO(refused.messages);
+    CHECK(refused.exit_code == 2);
+    CHECK(refused.one_error_line("mpfem"));
+    CHECK_THAT(refused.messages, Catch::Contains(there) && Catch::Contains("is no checkpoint"));
+    CHECK(read_text(folder / there) == before);
+  }
+}
+
+TEST_CASE("an unfinished run without a checkpoint is kept when --resume has to start again") {
+  const Folder folder;
+  prepare(folder, 3, two_stages);
+  REQUIRE(run_stages(folder, "run.h5", "--time-limit 0.001").exit_code == 5);
+  fs::remove(folder / "run.checkpoint.h5");
+  const std::string interrupted = read_text(folder / "run.h5");
+  const Outcome again = run_stages(folder, "run.h5", "--resume --set stages.1.relative_density=0.61");
+  INFO(again.messages);
+  CHECK(again.exit_code == 0);
+  CHECK_THAT(again.messages, Catch::Contains("run.h5~; no checkpoint of this run was found, so it starts again"));
+  CHECK(read_text(folder / "run.h5~") == interrupted);
+}
+
 TEST_CASE("a run without --resume keeps the run that is there as RUN.h5~ and says so") {
   const Folder folder;
   prepare(folder, 3, two_stages);
@@ -172,7 +204,7 @@ TEST_CASE("a run without --resume keeps the run that is there as RUN.h5~ and say
 
   const Outcome third = run_stages(folder, "run.h5");
   CHECK(third.exit_code == 0);
-  CHECK_THAT(third.messages, Catch::EndsWith("run.h5~\n") && !Catch::Contains("--resume"));
+  CHECK_THAT(third.messages, Catch::Contains("run.h5~\n") && !Catch::Contains("--resume"));
   CHECK(read_text(folder / "run.h5~") == complete); // one generation
 
   CHECK(run_stages(folder, "run.h5", "--resume").exit_code == 0); // already complete
