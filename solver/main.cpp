@@ -158,7 +158,7 @@ CLI::App* add_run(CLI::App& app, Arguments& arguments) {
                                             "Examples:\n"
                                             "  mpfem run compaction.toml -o run.h5 --resume\n"
                                             "  mpfem run compaction.toml -o rough.h5 --set contact.friction=0.3");
-  add_common(*run, arguments, "No progress");
+  add_common(*run, arguments, "Warnings only, no progress");
   run->add_option("-o,--output", arguments.run.output, "Run file to write (HDF5)")->required();
   run->add_flag("--resume", arguments.run.resume, "Continue from the run's checkpoint if there is one");
   run->add_option("--from", arguments.from, "Start from the state in this checkpoint")->check(existing_file());

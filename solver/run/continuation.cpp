@@ -65,7 +65,7 @@ std::optional<Beginning> Continuation::resume() {
   std::string damage;
   if (restore_best(lost, damage)) return Beginning::resumed;
   if (!lost.empty())
-    report_.warning_despite_quiet(fmt::format("{} is missing; the run starts again to write it", lost.front()));
+    report_.warning(fmt::format("{} is missing; the run starts again to write it", lost.front()));
   else if (!damage.empty())
     throw InputError(fmt::format("{}; no earlier checkpoint can be used: run without --resume to start again", damage));
   if (restored_) return Beginning::must_start_again;
@@ -113,7 +113,7 @@ void Continuation::refuse_other_run(const RunSummary& run) const {
 bool Continuation::restore_best(std::vector<std::string>& lost, std::string& damage) {
   for (const std::string& path : root_lists(ranks_, [this] { return resumable_checkpoints(scenario_, identity_); })) {
     if (const std::string found = damage_of(path, ranks_); !found.empty()) {
-      report_.warning_despite_quiet(found + "; looking for an earlier checkpoint");
+      report_.warning(found + "; looking for an earlier checkpoint");
       if (damage.empty()) damage = found;
       continue;
     }
@@ -121,7 +121,7 @@ bool Continuation::restore_best(std::vector<std::string>& lost, std::string& dam
     if (path == previous_checkpoint_path(options_.output)) // whatever is in the rolling one's place is worse
       root_does(ranks_, [&] { fs::rename(path, checkpoint_path(options_.output)); });
     if (!lost.empty())
-      report_.warning_despite_quiet(
+      report_.warning(
           fmt::format("{} is missing; the run continues from {} to write it", lost.front(), path));
     if (!options_.redistributed) report_.note(fmt::format("resumed {} at step {}", path, simulation_.state().step));
     return true;

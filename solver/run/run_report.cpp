@@ -65,10 +65,6 @@ void RunReport::note_despite_quiet(const std::string& text) const {
 }
 
 void RunReport::warning(const std::string& text) const {
-  if (!quiet_) warning_despite_quiet(text);
-}
-
-void RunReport::warning_despite_quiet(const std::string& text) const {
   if (is_root_) fmt::print(stderr, "mpfem: warning: {}\n", text);
 }
 
@@ -96,7 +92,6 @@ void RunReport::row(const std::vector<HistoryRow>& history, const RowReport& abo
 }
 
 void RunReport::stage_end(const StageResult& result, const std::vector<HistoryRow>& history, bool damped) const {
-  if (quiet_) return;
   note(fmt::format("stage '{}' {}{}", result.name, stage_end_text(result), damped ? damping_text(history) : ""));
   if (!result.missed.empty())
     warning(
@@ -150,7 +145,6 @@ void RunReport::profile(std::span<const PartTime> parts, double wall_time, doubl
 }
 
 void RunReport::quality(const std::vector<HistoryRow>& history) const {
-  if (quiet_) return;
   const std::vector<double> internal = internal_energy(history);
   std::vector<QualityRow> rows;
   for (const HistoryRow& row : history)

@@ -30,7 +30,7 @@ struct RowReport {
   double nanoseconds = 0;             ///< per tet and step
 };
 
-/// The messages of one run. Only the first rank prints, and with --quiet nothing but what is said despite of it.
+/// The messages of one run. Only the first rank prints, and with --quiet only warnings and what happened to files.
 class RunReport {
 public:
   /// `is_root`: whether this is the first rank.
@@ -40,8 +40,6 @@ public:
   /// For what was done to a file of the user.
   void note_despite_quiet(const std::string& text) const;
   void warning(const std::string& text) const;
-  /// For what was found on disk and must not be overlooked.
-  void warning_despite_quiet(const std::string& text) const;
 
   // ---- while the run goes on
   /// A line of fixed width for the last row of `history`; twenty a stage are printed.

@@ -42,6 +42,13 @@ struct Outcome {
   std::string output;   ///< standard output
   double seconds = 0;   ///< wall-clock time
 
+  /// Whether every line is a warning.
+  bool only_warnings(const std::string& program) const {
+    std::istringstream lines(messages);
+    for (std::string line; std::getline(lines, line);)
+      if (!line.starts_with(program + ": warning: ")) return false;
+    return true;
+  }
   /// Exactly one line, which begins as every error does.
   bool one_error_line(const std::string& program) const {
     return messages.starts_with(program + ": error: ") && messages.find('\n') == messages.size() - 1;
