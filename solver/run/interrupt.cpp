@@ -40,6 +40,9 @@ void catch_interrupts() {
   action.sa_flags = SA_RESTART; // reading a packing goes on
   sigaction(SIGINT, &action, nullptr);
   sigaction(SIGTERM, &action, nullptr);
+  struct sigaction at_hangup {};
+  sigaction(SIGHUP, nullptr, &at_hangup);
+  if (at_hangup.sa_handler != SIG_IGN) sigaction(SIGHUP, &action, nullptr); // nohup wants it ignored
   sigaction(SIGUSR1, &action, nullptr); // mpirun passes it on, and then does not end the ranks as it does at SIGTERM
 }
 

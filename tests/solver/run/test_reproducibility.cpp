@@ -81,7 +81,8 @@ TEST_CASE("a killed run continues from its checkpoint and ends bitwise like a ru
   CHECK(results(folder / "whole.h5") == results(folder / "killed.h5"));
 }
 
-TEST_CASE("a run that is told to stop several times at once, as batch systems do, saves its state and stops") {
+TEST_CASE("a run that is told to stop several times at once, or whose terminal is closed, saves its state and stops") {
+  const std::string signal = GENERATE("TERM", "HUP");
   const Folder folder;
   prepare(folder, 6);
   // The first checkpoint, at a density just above the start's, says that the time loop has begun.
@@ -89,9 +90,9 @@ TEST_CASE("a run that is told to stop several times at once, as batch systems do
       fmt::format("'{}' run {} -o {} --threads 1 --quiet --set output.checkpoint_relative_densities=[0.44]",
                   MPFEM_EXECUTABLE, folder / "scenario.toml", folder / "run.h5");
   const Outcome outcome = run_command(fmt::format("{} & pid=$!; while [ ! -e {} ] && kill -0 $pid; do sleep 0.01; "
-                                                  "done; for i in 1 2 3 4 5 6 7 8; do kill -TERM $pid "
+                                                  "done; for i in 1 2 3 4 5 6 7 8; do kill -{} $pid "
                                                   "2>/dev/null; sleep 0.002; done; wait $pid",
-                                                  command, folder / "run.D0.440.checkpoint.h5"));
+                                                  command, folder / "run.D0.440.checkpoint.h5", signal));
   INFO(outcome.messages);
   CHECK(outcome.exit_code == 5);
   CHECK_THAT(outcome.messages, Catch::Contains("continue with --resume"));
