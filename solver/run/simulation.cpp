@@ -209,15 +209,22 @@ void Simulation::add_reactions_and_walls() {
     });
 }
 
+/// The message that a node is too deep in something, with what helps.
+std::string Simulation::too_deep(const std::string& what) const {
+  const double density = relative_density();
+  return fmt::format("step {}, relative density {:.4f}: {}; {}", state_.step, density, what,
+                     density > 1 ? "the grains fill the space: end the stage at a lower density or stress"
+                                 : "raise contact.stiffness_factor or lower the speed");
+}
+
 void Simulation::check_contact_depth() const {
   const double allowed = largest_contact_depth(contact_);
   if (force_total_.contact.depth <= allowed) return;
   fail_at_first_grain([&](std::int32_t grain) -> std::string {
     const ContactSums& sums = force_sums_[at(grain)].contact;
     if (sums.depth <= allowed) return {};
-    return fmt::format("step {}, relative density {:.4f}: a node of grain {} is {:.3g} mm inside grain {}, allowed: up "
-                       "to {:.3g} mm; raise contact.stiffness_factor or lower the speed",
-                       state_.step, relative_density(), grain, sums.depth, sums.deepest_in, allowed);
+    return too_deep(fmt::format("a node of grain {} is {:.3g} mm inside grain {}, allowed: up to {:.3g} mm", grain,
+                                sums.depth, sums.deepest_in, allowed));
   });
 }
 
@@ -226,10 +233,8 @@ void Simulation::check_penetration() const {
   fail_at_first_grain([&](std::int32_t grain) -> std::string {
     const double penetration = force_sums_[at(grain)].box.penetration();
     if (penetration <= deepest_penetration) return {};
-    return fmt::format(
-        "step {}, relative density {:.4f}: a node of grain {} is {:.2f} of the element size behind a wall, "
-        "allowed: up to {:g}; raise contact.stiffness_factor or lower the speed",
-        state_.step, relative_density(), grain, penetration, deepest_penetration);
+    return too_deep(fmt::format("a node of grain {} is {:.2f} of the element size behind a wall, allowed: up to {:g}",
+                                grain, penetration, deepest_penetration));
   });
 }
 
@@ -260,9 +265,8 @@ void Simulation::measure_tools() {
   for (std::size_t tool = 0; tool < tools_.size(); ++tool)
     if (const double penetration = tools_.load(tool).penetration; penetration > deepest_penetration)
       throw SimulationError(
-          fmt::format("step {}, relative density {:.4f}: a node is {:.2f} of the element size behind the tool '{}', "
-                      "allowed: up to {:g}; raise contact.stiffness_factor or lower the speed",
-                      state_.step, relative_density(), penetration, tools_[tool].name, deepest_penetration));
+          too_deep(fmt::format("a node is {:.2f} of the element size behind the tool '{}', allowed: up to {:g}",
+                               penetration, tools_[tool].name, deepest_penetration)));
 }
 
 /// Work of the walls, and stresses of the box at this time level, to which grips contribute.

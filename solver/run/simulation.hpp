@@ -176,6 +176,7 @@ private:
   void add_up_forces(const std::exception_ptr& failure);
   void add_contact(std::span<const std::int32_t> grains);
   void add_reactions_and_walls();
+  std::string too_deep(const std::string& what) const;
   void check_contact_depth() const;
   void check_penetration() const;
   std::array<double, 2> add_grips();

@@ -9,7 +9,9 @@ namespace mpfem {
 
 inline constexpr Range hardening_exponent = Range::between(1e-3, 1);
 inline constexpr Range admissible_poissons_ratio{.low = -1, .high = 0.5, .low_open = true, .high_open = true};
-inline constexpr Range target_density{.low = 0, .high = 1.2, .low_open = true};
+/// Relative density above which no mesh holds: nodes pass through each other's grains.
+inline constexpr double largest_relative_density = 1.2;
+inline constexpr Range target_density{.low = 0, .high = largest_relative_density, .low_open = true};
 inline constexpr Range positive_stress = Range::between(1e-12, 1e12);   // MPa
 inline constexpr Range stress_or_zero = Range::between(0, 1e12);        // MPa
 inline constexpr Range any_stress = Range::between(-1e12, 1e12);        // MPa

@@ -7,6 +7,7 @@
 
 #include "common/errors.hpp"
 #include "solver/run/stages/isotropic_unloading.hpp"
+#include "solver/scenario/ranges.hpp"
 
 namespace mpfem {
 
@@ -60,9 +61,8 @@ LoadingEnd IsotropicLoadingControl::find_end(const ObservedSample& seen) const {
 }
 
 void IsotropicLoadingControl::check_limits(const ObservedSample& seen) const {
-  constexpr double largest_density = 1.2;
-  if (seen.relative_density > largest_density)
-    fail(seen, fmt::format("which is above the largest allowed, {:g}", largest_density));
+  if (seen.relative_density > largest_relative_density)
+    fail(seen, fmt::format("which is above the largest allowed, {:g}", largest_relative_density));
   check_time(seen);
 }
 

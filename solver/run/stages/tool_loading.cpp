@@ -9,6 +9,7 @@
 
 #include "common/errors.hpp"
 #include "solver/run/stages/held_stress.hpp"
+#include "solver/scenario/ranges.hpp"
 
 namespace mpfem {
 
@@ -96,7 +97,12 @@ bool ToolLoadingControl::only_punches_change_density() const {
 
 std::string ToolLoadingControl::unreachable_end() const {
   const ToolEnds& ends = stage_.ends;
-  if (!ends.relative_density || !only_punches_change_density()) return {};
+  if (!ends.relative_density) return {};
+  if (*ends.relative_density > largest_relative_density) // of a height
+    return fmt::format("{}stage '{}': key 'height': found {:g} mm, a relative density of {:.4g}, allowed: up to {:g}",
+                       label_.places.prefix("height"), label_.name, height_at(*ends.relative_density, start_.cell.area(2)),
+                       *ends.relative_density, largest_relative_density);
+  if (!only_punches_change_density()) return {};
   const double now = start_.sample.solid_volume / start_.cell.volume(), change = *ends.relative_density / now - 1,
                closing = closing_speed();
   if (std::abs(change) <= already_there || change * closing > 0) return {};
@@ -227,6 +233,9 @@ void ToolLoadingControl::observe(const StageObservation& observation) {
   set_velocities(observation, part);
   state_.fraction_done = std::max(state_.fraction_done, find_fraction_done(seen));
   state_.ended_by = find_end(seen);
+  if (stage_.container && seen.density > largest_relative_density)
+    throw SimulationError(fmt::format("stage '{}': relative density {:.4f}, which is above the largest allowed, {:g}",
+                                      label_.name, seen.density, largest_relative_density));
   if (state_.ended_by == ToolEnd::none && seen.time > longest_time * expected_duration_)
     throw SimulationError(
         fmt::format("stage '{}': its end was not reached after {:g} times the expected time: relative density "

@@ -155,12 +155,24 @@ TEST_CASE("a stage may end when the punches are a height apart") {
   REQUIRE(press.outcome.exit_code == 0);
   CHECK(within(press.file().read(schema::run::history_box_lengths).back(), 0.3, 1e-8));
   CHECK(press.file().read(schema::run::provenance_stage_end).back() == "height 0.3 mm");
+  const Press flat(four_planes, "height = 0.01");
+  CHECK(flat.outcome.exit_code == 2);
+  CHECK_THAT(flat.outcome.messages, Catch::Contains("key 'height'") &&
+                                        Catch::Contains("0.01 mm, a relative density of ") &&
+                                        Catch::Contains("allowed: up to 1.2"));
   const Press both(four_planes, "height = 0.3\nrelative_density = 0.6");
   CHECK(both.outcome.exit_code == 2);
   CHECK_THAT(both.outcome.messages, Catch::Contains("height") && Catch::Contains("one of the two"));
   const Press none("", "height = 0.3");
   CHECK(none.outcome.exit_code == 2);
   CHECK_THAT(none.outcome.messages, Catch::Contains("'stages.0.height'") && Catch::Contains("[container]"));
+}
+
+TEST_CASE("punches that would reach their stress only beyond full density fail with that reason") {
+  const Press press(four_planes, "axial_stress = 1e9");
+  INFO(press.outcome.messages);
+  CHECK(press.outcome.exit_code == 3);
+  CHECK_THAT(press.outcome.messages, Catch::Contains("end the stage at a lower density or stress"));
 }
 
 TEST_CASE("the cell reaches from punch to punch again once a punch that was away is back") {
