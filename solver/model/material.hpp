@@ -21,7 +21,7 @@ struct Material {
   FlowLaw flow;
 };
 
-/// Throws InputError where a table of the flow curve has too many points.
+/// `parameters` are within the ranges that the reader of scenarios checks.
 Material make_material(const MaterialParameters& parameters, double mass_scaling);
 
 /// Coulomb's mu of every pair of `materials` (their number).

@@ -15,7 +15,7 @@ namespace mpfem {
 
 namespace {
 
-OrientedPlane plane_of(const PlaneShape& shape, const std::array<double, 3>& low, const std::array<double, 3>& high) {
+OrientedPlane surface_of(const PlaneShape& shape, const std::array<double, 3>& low, const std::array<double, 3>& high) {
   const std::array<double, 3> direction = *direction_of(shape);
   std::array<double, 3> point = shape.point;
   if (shape.face) {
@@ -26,8 +26,8 @@ OrientedPlane plane_of(const PlaneShape& shape, const std::array<double, 3>& low
   return {vector_of(point), vector_of(direction)};
 }
 
-CylinderSurface cylinder_of(const CylinderShape& shape, const std::array<double, 3>& low,
-                            const std::array<double, 3>& high) {
+CylinderSurface surface_of(const CylinderShape& shape, const std::array<double, 3>& low,
+                           const std::array<double, 3>& high) {
   std::array<double, 3> centre{};
   for (std::size_t axis = 0; axis < 3; ++axis) centre[axis] = 0.5 * (low[axis] + high[axis]);
   if (shape.centre) centre = *shape.centre;
@@ -41,7 +41,19 @@ CylinderSurface cylinder_of(const CylinderShape& shape, const std::array<double,
   return {shape.axis, vector_of(centre), shape.radius.value_or(half_box), shape.inside, half_length, shape.rounding};
 }
 
-BodySurface body_of(const StlShape& shape) {
+SphereSurface surface_of(const SphereShape& shape, const std::array<double, 3>& /*low*/,
+                         const std::array<double, 3>& /*high*/) {
+  return {vector_of(shape.centre), shape.radius, shape.inside};
+}
+
+ConeSurface surface_of(const ConeShape& shape, const std::array<double, 3>& /*low*/,
+                       const std::array<double, 3>& /*high*/) {
+  return {shape.axis,  shape.direction, vector_of(shape.apex), std::sin(shape.half_angle), std::cos(shape.half_angle),
+          shape.inside};
+}
+
+BodySurface surface_of(const StlShape& shape, const std::array<double, 3>& /*low*/,
+                       const std::array<double, 3>& /*high*/) {
   StlBody body = read_stl(shape.file, shape.scale);
   Bounds& b = body.findings.bounds;
   if (shape.low_corner) {
@@ -82,15 +94,7 @@ std::uint64_t hash_of(const TriangleMesh& mesh) {
 } // namespace
 
 ToolSurface make_surface(const ToolShape& shape, const std::array<double, 3>& low, const std::array<double, 3>& high) {
-  if (const auto* plane = std::get_if<PlaneShape>(&shape)) return plane_of(*plane, low, high);
-  if (const auto* cylinder = std::get_if<CylinderShape>(&shape)) return cylinder_of(*cylinder, low, high);
-  if (const auto* sphere = std::get_if<SphereShape>(&shape))
-    return SphereSurface{vector_of(sphere->centre), sphere->radius, sphere->inside};
-  if (const auto* stl = std::get_if<StlShape>(&shape)) return body_of(*stl);
-  const auto& cone = std::get<ConeShape>(shape);
-  return ConeSurface{
-      cone.axis,  cone.direction, vector_of(cone.apex), std::sin(cone.half_angle), std::cos(cone.half_angle),
-      cone.inside};
+  return std::visit([&](const auto& of_shape) { return ToolSurface(surface_of(of_shape, low, high)); }, shape);
 }
 
 Tools make_tools(const Scenario& scenario, const Model& model) {
