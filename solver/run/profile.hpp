@@ -1,6 +1,7 @@
 #pragma once
 // Wall-clock time of the parts of a step, measured on every thread.
 
+#include <algorithm>
 #include <array>
 #include <chrono>
 #include <cstddef>
@@ -54,7 +55,7 @@ inline std::vector<PartTime> part_times(const std::array<double, profile_parts>&
     times.push_back({part_names[i], seconds[i]});
     accounted += seconds[i];
   }
-  times.push_back({"waiting and rest", wall_time - accounted});
+  times.push_back({"waiting and rest", std::max(0.0, wall_time - accounted)});
   return times;
 }
 
