@@ -113,8 +113,7 @@ void check_output_path(std::string_view option, const std::string& path, OutputK
   if (path.empty()) throw InputError(fmt::format("{}: found an empty name, allowed: a file", option));
   refuse_special_file(option, path, kind);
   if (const std::string other = other_kind_at(path, kind); !other.empty())
-    throw InputError(
-        fmt::format("{} {}: would replace {}, allowed: another name", option, one_line(path), other));
+    throw InputError(fmt::format("{} {}: would replace {}, allowed: another name", option, one_line(path), other));
   std::error_code ignored;
   if (!std::filesystem::is_directory(folder_of(output_target(path)), ignored))
     throw InputError(

@@ -69,7 +69,7 @@ std::string keep_earlier_run(const std::string& output, bool resume) {
   if (failed)
     throw StorageError(
         fmt::format("{}: cannot be renamed to {}: {}", one_line(file), one_line(backup), failed.message()));
-  const char* more = resume ? "; no checkpoint of this run was found, so it starts again"
+  const char* more = resume        ? "; no checkpoint of this run was found, so it starts again"
                      : interrupted ? "; it was interrupted, and --resume would have continued it"
                                    : "";
   return fmt::format("{}: the earlier run is kept as {}{}", one_line(output), one_line(backup), more);

@@ -121,8 +121,7 @@ bool Continuation::restore_best(std::vector<std::string>& lost, std::string& dam
     if (path == previous_checkpoint_path(options_.output)) // whatever is in the rolling one's place is worse
       root_does(ranks_, [&] { fs::rename(path, checkpoint_path(options_.output)); });
     if (!lost.empty())
-      report_.warning(
-          fmt::format("{} is missing; the run continues from {} to write it", lost.front(), path));
+      report_.warning(fmt::format("{} is missing; the run continues from {} to write it", lost.front(), path));
     if (!options_.redistributed) report_.note(fmt::format("resumed {} at step {}", path, simulation_.state().step));
     return true;
   }

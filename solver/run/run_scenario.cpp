@@ -127,8 +127,7 @@ void run_scenario(const Scenario& scenario, const RunOptions& given, const Commu
     whole.needs = needs_of(scenario, ranks.size());
     if (options.keeps_earlier_run) refuse_other_files(options.output);
   });
-  if (const std::string scarce = check_memory(options.output, whole.needs.memory, ranks);
-      !scarce.empty())
+  if (const std::string scarce = check_memory(options.output, whole.needs.memory, ranks); !scarce.empty())
     whole.report.warning(scarce);
   root_does(ranks, [&] {
     lock.emplace(options.output);

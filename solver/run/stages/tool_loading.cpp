@@ -100,8 +100,9 @@ std::string ToolLoadingControl::unreachable_end() const {
   if (!ends.relative_density) return {};
   if (*ends.relative_density > largest_relative_density) // of a height
     return fmt::format("{}stage '{}': key 'height': found {:g} mm, a relative density of {:.4g}, allowed: up to {:g}",
-                       label_.places.prefix("height"), label_.name, height_at(*ends.relative_density, start_.cell.area(2)),
-                       *ends.relative_density, largest_relative_density);
+                       label_.places.prefix("height"), label_.name,
+                       height_at(*ends.relative_density, start_.cell.area(2)), *ends.relative_density,
+                       largest_relative_density);
   if (!only_punches_change_density()) return {};
   const double now = start_.sample.solid_volume / start_.cell.volume(), change = *ends.relative_density / now - 1,
                closing = closing_speed();
