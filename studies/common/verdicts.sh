@@ -47,7 +47,7 @@ either law |
 yes | by Eq. 5 read literally; by the law of Fig. 3 samples with strong bonds soften and expand too |
 | Triaxial strength follows Eq. 13 ([fig22]) | in part | the form fits, and strong bonds agree; grains without bonds \
 carry half, and C and D differ; with friction of 0.3 between grains, which \
-the paper excludes, B and C are its own, D not |
+the paper excludes, B and C match the paper; D does not |
 | Cohesion enlarges the yield surface at high mean stress ([fig24]) | yes | with both elements and both contact \
 surfaces; here it does so at low mean stress too, where the paper infers the opposite |
 | In load cycles samples with cohesion become looser and those without denser, which also dissipate more ([fig25], \
@@ -82,17 +82,17 @@ that was tried makes samples looser; the ratio of both dissipations is the paper
   pressure from fig10 on.
 - \`smooth\` is the packing of 329 grains with smooth surfaces at 0.04 mm (\`MESH=coarser SURFACE=smooth\`). Its mean
   stresses are the closest to the converged ones ([speed against error](speed-against-error/README.md)).
-- The reasons begin with *the paper's choice* (an unstated choice, identified here, explains the
-  difference), *the paper's error* (the number belongs to the method and not to the grains) or *open*.
+- The reasons begin with *the paper's choice* (an unstated choice, identified here, explains the difference), *the
+  paper's error* (the number belongs to the method and not to the grains) or *open*.
 - Where a cell is empty, the figure was not made with this mesh, or the statement needs another one.
-- The paper was at hand as text, without its plots. What it only draws is judged by what its text says of the curve.
+- We had the paper's text, but not its plots. What it only draws is judged by what its text says of the curve.
 - Statements are judged by the softening law \`energy\`, which reads Eq. 5 literally. The law \`exponential\`, the
   curve that Fig. 3 draws, is reported without verdicts. Exceptions: fig03 judges both laws. fig04 and fig05 are judged
   by the law \`exponential\`, since no mesh there resolves the cohesive zone of the law \`energy\`. What fig10 to fig20
   say of kinetic energy, forces and the energy balance covers both.
 - Limits such as 2 % are this project's. Some statements are its own aims and not the paper's: loading and unloading in
-  fig04, loading in fig05, and that tests are quasi-static and forces even (fig10 to fig20). They are counted too, also
-  where they differ.
+  fig04, loading in fig05, and that tests are quasi-static and forces even (fig10 to fig20). They count like the others,
+  including those that differ.
 - [What the paper did](what-the-paper-did.md) shows the choices. The notes of
   \`studies/results/MESH/figNN/verdict.json\` say how each statement is judged.
 
