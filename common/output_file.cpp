@@ -100,7 +100,7 @@ bool has_content(const std::string& path) {
   return found && S_ISREG(found->st_mode) && found->st_size > 0;
 }
 
-/// What an output of this kind would replace and must not; empty if it may be written there. Most inputs are TOML files.
+/// What an output of this kind would replace and must not; empty if it may be written there. Most inputs are TOML.
 std::string other_kind_at(const std::string& path, OutputKind kind) {
   if (!has_content(path)) return {};
   if (path.ends_with(".toml")) return "a TOML file (a scenario, a description or a figure)";

@@ -205,9 +205,10 @@ MeshedPacking read_packing(const std::string& path, const Communicator& ranks = 
 /// Assigns each rank its share, by the number of tets, of the grains of a packing that all ranks have made alike.
 void divide(MeshedPacking& packing, const Communicator& ranks);
 
-/// Makes nodes heavier until no tet, with the usual share of contact and bonds, requires a smaller step in the reference
-/// state than numerics.mass_scaling_step; with numerics.mass_scaling_lighten, also lighter where the tets leave room:
-/// then every node is as heavy as the step needs, and no more. Sets mass_factor, added_mass and largest_added_mass.
+/// Makes nodes heavier until no tet, with the usual share of contact and bonds, requires a smaller step in the
+/// reference state than numerics.mass_scaling_step. With numerics.mass_scaling_lighten, also lighter where the tets
+/// leave room: then every node is as heavy as the step needs, and no more. Sets mass_factor, added_mass and
+/// largest_added_mass.
 void scale_masses(Model& model, const Scenario& scenario, const Communicator& ranks);
 
 /// Builds the model: surfaces found, nodes and tets renumbered for locality, masses lumped. `name` stands for the file

@@ -36,8 +36,8 @@ inline BondLaw law_at_point(BondLaw law, double penalty) {
   return law;
 }
 
-/// Stiffness to which a bond between grains raises a contact with this penalty (MPa/mm), over that penalty, at least 1: a
-/// closed, intact bond with the stiffness ratio r counts |1 - r| + r.
+/// Stiffness to which a bond between grains raises a contact with this penalty (MPa/mm), over that penalty, at least 1:
+/// a closed, intact bond with the stiffness ratio r counts |1 - r| + r.
 inline double raised_by_bond(const BondLaw& law, double penalty) {
   return std::max(1.0, 2.0 * law_at_point(law, penalty).stiffness / penalty - 1.0);
 }

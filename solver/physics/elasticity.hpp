@@ -70,9 +70,10 @@ S distortion_energy(const ElasticModuli& moduli, const Deviator<S>& s) {
   return S(0.25 / moduli.shear) * double_contraction(s);
 }
 
-/// Work per current volume (MPa) in a volume change that the distortion energy V s:s/(4G) does not return. The rate form
-/// ds = 2 G dev(d) is not derived from a potential: the stress power V s:d of elastic strain and the rate of the energy
-/// differ by V' s:s/(4G), a term that no force does. Positive in compression; it does not vanish with the step.
+/// Work per current volume (MPa) of a volume change that the distortion energy V s:s/(4G) does not return. The rate
+/// form of s, 2 G dev(d), is not derived from a potential: the stress power V s:d of elastic strain and the rate of
+/// that energy differ by V' s:s/(4G), which is the work of no force. Positive in compression; smaller steps do not
+/// change it.
 template <class S>
 S hypoelastic_work(const ElasticModuli& moduli, const Deviator<S>& s, const S& volumetric_strain) {
   return -(volumetric_strain * distortion_energy(moduli, s));

@@ -46,6 +46,9 @@ std::vector<std::string> implausible_values(const Scenario& scenario) {
          {remark(table, {"density", "tonne/mm^3", density_of_solids}, material.density, units_of_density),
           remark(table, {"youngs_modulus", "MPa", modulus_of_solids}, material.youngs_modulus, units_of_modulus)})
       if (!text.empty()) remarks.push_back(text);
+    if (const double yield = material.hardening.yield_stress; yield > material.youngs_modulus)
+      remarks.push_back(fmt::format("{}.hardening.yield_stress = {:g} MPa is above the Young's modulus, {:g} MPa",
+                                    table, yield, material.youngs_modulus));
   };
   look_at("material", scenario.material);
   for (std::size_t i = 0; i < scenario.grain_materials.size(); ++i)
