@@ -310,7 +310,8 @@ constexpr const char* help_text =
     "  pack-gen quality packing.h5\n"
     "  pack-gen hemispheres --radius 0.1 --size 0.012 --contact-size 0.0005 --contact-radius 0.01 -o pair.h5\n"
     "  pack-gen export spheres.h5 -o spheres.csv\n"
-    "Lengths in mm. Exit codes: 0 done, 2 bad usage or input, 3 no packing or mesh could be made, 4 storage failed.";
+    "Lengths in mm. Exit codes: 0 done, 2 bad usage or input, or a packing that cannot be made, 3 gmsh failed, 4 "
+    "storage failed.";
 
 void add_threads(CLI::App& command, Arguments& arguments) {
   add_number(command, "--threads", arguments.threads, thread_numbers, "",

@@ -143,6 +143,12 @@ std::string surface_beside_need(const PackingDescription& description, double sc
   return "; " + size_beside(*description.surface_size, "the spheres need", needed);
 }
 
+/// "250 spheres or ", where that number could be packed.
+std::string other_count(double count) {
+  constexpr double most = 1e8;
+  return count >= 1 && count <= most ? fmt::format("{:.0f} spheres or ", count) : "";
+}
+
 } // namespace
 
 DrawnSizes draw_sizes(const PackingDescription& description) {
@@ -153,12 +159,11 @@ DrawnSizes draw_sizes(const PackingDescription& description) {
   if (!(std::abs(scale - 1) <= description.size_scale_tolerance))
     throw InputError(fmt::format(
         "{}key 'count': {} spheres of this size distribution at a relative_density of {:g} in this {} need "
-        "sizes scaled by {:.4g}, allowed: {:g} … {:g} (size_scale_tolerance); or take {:.0f} spheres, or "
-        "a {} larger by {:.4g} along {}{}",
+        "sizes scaled by {:.4g}, allowed: {:g} … {:g} (size_scale_tolerance); or take {}a {} of {:.4g} times the {}{}",
         description.places.prefix("count"), description.count, description.relative_density, name_of(container.shape),
         scale, 1 - description.size_scale_tolerance, 1 + description.size_scale_tolerance,
-        description.count * scale * scale * scale, name_of(container.shape), 1 / scale,
-        container.shape == ContainerShape::cylinder ? "diameter and height" : "each edge",
+        other_count(description.count * scale * scale * scale), name_of(container.shape), 1 / scale,
+        container.shape == ContainerShape::cylinder ? "diameter and height" : "size along each edge",
         surface_beside_need(description, scale)));
   DrawnSizes sizes{{}, scale};
   for (const double d : diameter) sizes.radius.push_back(0.5 * scale * d);
