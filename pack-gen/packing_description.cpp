@@ -25,6 +25,16 @@ struct Columns {
   std::vector<double> values, cumulative;
 };
 
+/// What `make()` returns, or a refusal that names this key: size tables know no description.
+template <class Make>
+auto made_from(const TableReader& table, const char* key, Make&& make) {
+  try {
+    return make();
+  } catch (const InputError& error) {
+    table.fail(key, error.what());
+  }
+}
+
 Columns read_columns(TableReader& table, const std::string& description_file, bool with_cumulative,
                      std::vector<std::string>& files) {
   if (!table.has("file")) {
@@ -37,7 +47,7 @@ Columns read_columns(TableReader& table, const std::string& description_file, bo
   const std::string path = named_file(table, "file", description_file, files);
   std::vector<CsvColumn> names = {{"size", positive_length}};
   if (with_cumulative) names.push_back({"cumulative", Range::between(0, 1)});
-  const auto rows = read_csv(CsvReader::from_file(path), names);
+  const auto rows = made_from(table, "file", [&] { return read_csv(CsvReader::from_file(path), names); });
   Columns columns;
   for (const auto& row : rows) {
     columns.values.push_back(row[0]);
@@ -53,24 +63,23 @@ void read_distribution(TableReader table, const std::string& description_file, P
   const auto weight = [&table] {
     return table.choice("weight", {"number", "volume"}) == "volume" ? SizeWeight::volume : SizeWeight::number;
   };
-  try {
-    if (kind == "log_normal") {
-      const double median = to_diameter * table.number("median", positive_length);
-      const double deviation = table.number("log_deviation", Range::between(1e-6, 10));
-      const double smallest = to_diameter * table.number("smallest", positive_length);
-      const double largest = to_diameter * table.number("largest", positive_length);
-      description.distribution = log_normal_distribution(median, deviation, weight(), smallest, largest);
-    } else {
-      Columns columns = read_columns(table, description_file, kind == "table", description.files);
-      for (double& value : columns.values) value *= to_diameter;
-      description.distribution = kind == "table" ? table_distribution(columns.values, columns.cumulative, weight())
-                                                 : list_distribution(columns.values);
-      if (kind == "table") description.table_diameters = columns.values;
-    }
-  } catch (const InputError& error) {
-    const std::string message = error.what();
-    throw InputError(message.starts_with(description_file) ? message
-                                                           : fmt::format("{}: {}", description_file, message));
+  if (kind == "log_normal") {
+    const double median = to_diameter * table.number("median", positive_length);
+    const double deviation = table.number("log_deviation", Range::between(1e-6, 10));
+    const double smallest = to_diameter * table.number("smallest", positive_length);
+    const double largest = to_diameter * table.number("largest", positive_length);
+    const SizeWeight by = weight();
+    description.distribution =
+        made_from(table, "median", [&] { return log_normal_distribution(median, deviation, by, smallest, largest); });
+  } else {
+    Columns columns = read_columns(table, description_file, kind == "table", description.files);
+    for (double& value : columns.values) value *= to_diameter;
+    const SizeWeight by = kind == "table" ? weight() : SizeWeight::number;
+    description.distribution = made_from(table, table.has("file") ? "file" : "values", [&] {
+      return kind == "table" ? table_distribution(columns.values, columns.cumulative, by)
+                             : list_distribution(columns.values);
+    });
+    if (kind == "table") description.table_diameters = columns.values;
   }
   table.finish();
 }

@@ -60,6 +60,8 @@ StageType read_isotropic_compaction(TableReader& table) {
                             .wall_speed = read_wall_speed(table),
                             .ramp_fraction = read_ramp_fraction(table)};
   }
+  if (!table.has("relative_density"))
+    table.fail("type", "found 'isotropic_compaction' without an end, allowed: with relative_density or mean_stress");
   return IsotropicCompaction{.relative_density = table.number("relative_density", target_density),
                              .wall_speed = read_wall_speed(table),
                              .ramp_fraction = read_ramp_fraction(table)};
