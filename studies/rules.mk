@@ -318,5 +318,5 @@ $(foreach s,$(seeds_wanted),$(eval $(call seed_rules,$(s))))
 #: study STUDY=FILE a study of your own (docs/own-study.md), and a page of it
 study: $(out)/$(study_name)/index.html
 	@echo 'study: $<'
-$(out)/$(study_name)/index.html: $($(study_name)_files)
+$(out)/$(study_name)/index.html: $(files_of/$(study_name))
 	$(BIN)/postproc report $(STUDY) --results $(out) --programmes $(studies)/branches --title '$(study_name)' -o $@

@@ -63,8 +63,9 @@ public:
     rule(folder_ + "/verdict.json", data, "verdict_files");
     add_runs(graph_, runs_, figure.path);
     const std::string& name = figure.name;
-    text_ += fmt::format("{}_files := {}\n{}_source := {}\n.PHONY: {}\n{}: $({}_files)\n", name, fmt::join(files_, " "),
-                         name, figure.path, name, name, name);
+    // The slash keeps these variables apart from all others, whatever the name of a study.
+    text_ += fmt::format("files_of/{0} := {1}\nsource_of/{0} := {2}\n.PHONY: {0}\n{0}: $(files_of/{0})\n", name,
+                         fmt::join(files_, " "), figure.path);
     lists_["declared_figures"].insert(name);
   }
 

@@ -43,6 +43,17 @@ refused "${study[1]}: allowed: a path without spaces" "${study[@]}"
 study[1]=$here/studies/rules.mk
 make -n "${study[@]}" SEEDS='2 3' THREADS=2 BIN="$bin" >plan 2>&1 || { cat plan && code=1; }
 
+# No name of a study is that of a variable of the rules: the plans of such studies differ only in their names.
+plan_of() {
+  cp my.toml "$1.toml"
+  make -n -f "$here/studies/rules.mk" study STUDY="$1.toml" BIN="$bin" 2>&1
+}
+plan=$(plan_of plain-name)
+for name in own table plot fit metric picture traced spread script verdict declared; do
+  [[ $(plan_of "$name") == "${plan//plain-name/$name}" ]] ||
+    { echo "settings.sh: make STUDY=$name.toml has another plan than other studies" && code=1; }
+done
+
 # A study has the name of its file or folder, wherever make is called. Another study of that name is refused.
 mkdir -p one/tablet two/tablet
 cp my.toml one/tablet/figure.toml
