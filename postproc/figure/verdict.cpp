@@ -145,25 +145,45 @@ const QuantitySpec& spec_of(const StatementSpec& statement, const ConditionSpec&
   condition.place.fail(fmt::format("there is no quantity '{}'", condition.quantity));
 }
 
-/// True if the column rises (sign 1) or falls (-1) from every row to every later one. A change against it within the
-/// tolerance does not count; with tolerance 0 equal values break it. False for fewer than two rows.
-bool monotonic(const QuantitySpec& q, const TextTable& table, const ConditionSpec& c, double sign) {
-  std::vector<Entry> entries = entries_of(q, table);
-  if (!c.along.empty()) {
-    const std::size_t along = table.column(c.along, c.place);
-    const auto at = [&](const Entry& e) { return table.rows[e.row][along].number.value_or(0); };
-    std::stable_sort(entries.begin(), entries.end(), [&](const Entry& a, const Entry& b) { return at(a) < at(b); });
+/// The entries in the order of the column `along`; rows in which that is empty are left out.
+std::vector<Entry> sorted_along(const std::vector<Entry>& entries, const TextTable& table, const ConditionSpec& c) {
+  const std::size_t along = table.column(c.along, c.place);
+  std::vector<Entry> sorted;
+  for (const Entry& entry : entries) {
+    const Value& value = table.rows[entry.row][along];
+    if (!value.number && !value.text.empty())
+      c.place.fail(fmt::format("along: found the text '{}' in the column '{}', allowed: a column of numbers",
+                               one_line(value.text), c.along));
+    if (value.number) sorted.push_back(entry);
   }
+  const auto at = [&](const Entry& entry) { return *table.rows[entry.row][along].number; };
+  std::stable_sort(sorted.begin(), sorted.end(), [&](const Entry& a, const Entry& b) { return at(a) < at(b); });
+  return sorted;
+}
+
+/// True if the column rises (sign 1) or falls (-1) from every row to every later one. A change against it within the
+/// tolerance does not count; with tolerance 0 equal values break it. Empty where there are no two rows to compare.
+std::optional<bool> monotonic(const QuantitySpec& q, const TextTable& table, const ConditionSpec& c, double sign) {
+  std::vector<Entry> entries = entries_of(q, table);
+  if (!c.along.empty()) entries = sorted_along(entries, table, c);
   std::optional<std::size_t> each;
   if (!c.each.empty()) each = table.column(c.each, c.place);
+  std::optional<bool> result;
   for (std::size_t i = 0; i < entries.size(); ++i)
     for (std::size_t k = i + 1; k < entries.size(); ++k) {
       if (each && !(table.rows[entries[i].row][*each] == table.rows[entries[k].row][*each])) continue;
       const double change = sign * (entries[k].value - entries[i].value);
       if (c.tolerance > 0 ? change < -c.tolerance * (c.absolute ? 1 : std::abs(entries[i].value)) : !(change > 0))
         return false;
+      result = true;
     }
-  return entries.size() > 1;
+  return result;
+}
+
+/// What a text says of `monotonic`.
+const char* words_of(std::optional<bool> is_monotonic) {
+  if (!is_monotonic) return "not known";
+  return *is_monotonic ? "from each to the next" : "not from each to the next";
 }
 
 std::optional<double> operand(const Operand& o, const Quantities& quantities, const Place& place) {
@@ -171,7 +191,7 @@ std::optional<double> operand(const Operand& o, const Quantities& quantities, co
 }
 
 /// Adds a quantity's words for the texts: NAME, NAME.row, for a fit NAME.low and NAME.high, for a column NAME.rises and
-/// NAME.falls ("from each to the next", or not).
+/// NAME.falls (see words_of).
 void add_words(Words& words, const QuantitySpec& q, const Quantity& quantity, FigureData& data) {
   words[q.name] = quantity.value;
   words[q.name + ".row"] = {quantity.row, {}};
@@ -182,7 +202,7 @@ void add_words(Words& words, const QuantitySpec& q, const Quantity& quantity, Fi
   if (q.table.empty()) return;
   const TextTable& table = data.table(q.table);
   for (const auto& [name, sign] : {std::pair(".rises", 1.0), std::pair(".falls", -1.0)})
-    words[q.name + name] = {monotonic(q, table, {}, sign) ? "from each to the next" : "not from each to the next", {}};
+    words[q.name + name] = {words_of(monotonic(q, table, {}, sign)), {}};
 }
 
 } // namespace

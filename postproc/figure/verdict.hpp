@@ -32,7 +32,7 @@ struct Quantity {
 /// with several rows.
 std::map<std::string, Quantity> quantities_of(const StatementSpec& statement, FigureData& data);
 
-/// True if a condition holds; empty where a quantity that it needs is not known.
+/// True if a condition holds; empty where a quantity that it needs is not known, or where no two rows can be compared.
 std::optional<bool> holds(const ConditionSpec& condition, const StatementSpec& statement,
                           const std::map<std::string, Quantity>& quantities, FigureData& data);
 

@@ -446,7 +446,27 @@ TEST_CASE("a rise with noise holds within its tolerance, sorted along a column a
   CHECK(agrees(noisy, ", tolerance = 0.001") == false);
   CHECK(agrees("a,3,5,0\nb,1,2,0\nc,2,3,0\n", ", along = \"x\"") == true);
   CHECK(agrees("a,1,5,0\nb,1,2,1\nc,2,6,0\nd,2,3,1\n", ", along = \"x\", each = \"g\"") == true);
-  CHECK(agrees("a,1,5,0\n", "") == false); // one row is no trend
+}
+
+TEST_CASE(
+    "a trend is not judged where no two rows can be compared, and rows without a place in its order do not count") {
+  const auto verdict = [](const std::string& rows, const std::string& more) {
+    return judged(rows, "ours = \"{y.rises}, {y.falls}\"\nquantities.y = { table = \"t\", column = \"y\", take = "
+                        "\"list\" }\nrequire = [{ quantity = \"y\", " +
+                            more + " }]\n");
+  };
+  for (const std::string trend : {"rises = true", "falls = true"}) {
+    CHECK(verdict("a,1,5,0\n", trend)["agrees"].is_null());
+    CHECK(verdict("a,1,,0\nb,2,,0\n", trend)["agrees"].is_null());
+    CHECK(verdict("a,1,5,0\nb,2,6,1\n", trend + ", each = \"g\"")["agrees"].is_null());
+    CHECK(verdict("a,1,5,0\nb,,6,0\n", trend + ", along = \"x\"")["agrees"].is_null());
+  }
+  CHECK(verdict("a,1,5,0\n", "rises = true")["ours"] == "not known, not known");
+  CHECK(verdict("a,1,5,0\nb,2,6,0\nc,,1,0\n", "rises = true, along = \"x\"")["agrees"] == true);
+  CHECK(verdict("a,-1,5,0\nb,1,6,0\nc,,7,0\n", "rises = true, along = \"x\"")["agrees"] == true);
+  CHECK_THROWS_WITH(verdict("a,1,5,0\nb,2,6,0\n", "rises = true, along = \"name\""),
+                    Contains("study.toml:") &&
+                        Contains("along: found the text 'a' in the column 'name', allowed: a column of numbers"));
 }
 
 TEST_CASE(
