@@ -17,6 +17,7 @@ namespace mpfem {
 namespace {
 
 constexpr std::size_t longest_word = 40; // of what was found
+constexpr const char* file_check = "existing file";
 
 template <class Parse>
 CLI::Validator validator(const Range& range, const std::string& unit, const char* kind, Parse parse) {
@@ -108,6 +109,13 @@ std::string fault_of(const CLI::App& app, const CLI::ParseError& error) {
   return in_own_form(error.what());
 }
 
+void accept_missing_files(CLI::App& command) {
+  for (CLI::Option* option : command.get_options()) try {
+      option->get_validator(file_check)->active(false);
+    } catch (const CLI::OptionNotFound&) { // it takes no file
+    }
+}
+
 } // namespace
 
 CLI::Validator finite_number_in(const Range& range, const std::string& unit) {
@@ -119,7 +127,8 @@ CLI::Validator whole_number_in(const Range& range, const std::string& unit) {
 }
 
 CLI::Validator existing_file() {
-  return {[](std::string& path) { return path.empty() ? std::string() : fault_of_input_file(path); }, "FILE"};
+  return {[](std::string& path) { return path.empty() ? std::string() : fault_of_input_file(path); }, "FILE",
+          file_check};
 }
 
 CLI::Validator one_of(const std::vector<std::string>& words) {
@@ -153,6 +162,14 @@ std::optional<int> parse_command_line(CLI::App& app, const std::string& program,
     refuse(fault_of(app, error));
   }
   return std::nullopt;
+}
+
+void check_words(CLI::App& app, const std::string& program, std::vector<std::string> words) {
+  for (CLI::App* command : app.get_subcommands({})) accept_missing_files(*command);
+  words.insert(words.begin(), program);
+  std::vector<char*> pointers;
+  for (std::string& word : words) pointers.push_back(word.data());
+  parse_command_line(app, program, static_cast<int>(pointers.size()), pointers.data());
 }
 
 } // namespace mpfem

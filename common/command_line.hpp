@@ -92,4 +92,8 @@ constexpr Range seed_numbers = Range::between(0, 9007199254740991.0);
 /// option is named with the nearest one, or with all.
 std::optional<int> parse_command_line(CLI::App& app, const std::string& program, int argc, char** argv);
 
+/// Refuses the words of a subcommand that parse_command_line() would refuse, before its input files exist. Throws
+/// InputError.
+void check_words(CLI::App& app, const std::string& program, std::vector<std::string> words);
+
 } // namespace mpfem

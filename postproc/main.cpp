@@ -1,5 +1,6 @@
 // postproc: numbers, tables and pictures from run files.
 
+#include "common/command_line.hpp"
 #include "common/errors.hpp"
 #include "common/version.hpp"
 #include "postproc/commands/command.hpp"
@@ -75,15 +76,30 @@ std::unique_ptr<Command> add_picture_help(CLI::App& app) {
   return command;
 }
 
+/// The subcommands that measure and draw, in `app`.
+std::vector<std::unique_ptr<Command>> commands_before_figures(CLI::App& app) {
+  std::vector<std::unique_ptr<Command>> commands;
+  for (MakeCommand* make : before_figures) commands.push_back(make(app));
+  commands.push_back(add_picture_help(app));
+  return commands;
+}
+
+/// Refuses words with which a figure's rules cannot call this program. A program of its own parses them, because the
+/// other one is at work.
+void check_words_of_figure(const std::vector<std::string>& words) {
+  CLI::App app;
+  app.require_subcommand(1);
+  const auto commands = commands_before_figures(app);
+  check_words(app, "postproc", words);
+}
+
 int body(int argc, char** argv) {
   hand_over_picture(argc, argv);
   CLI::App app(help);
   app.set_version_flag("--version", "postproc " + version_and_commit());
   app.require_subcommand(1);
-  std::vector<std::unique_ptr<Command>> commands;
-  for (MakeCommand* make : before_figures) commands.push_back(make(app));
-  const auto picture = add_picture_help(app);
-  const FigureCommands figures(app);
+  auto commands = commands_before_figures(app);
+  const FigureCommands figures(app, check_words_of_figure);
   for (MakeCommand* make : after_figures) commands.push_back(make(app));
 
   if (const auto done = parse_command_line(app, "postproc", argc, argv)) return *done;

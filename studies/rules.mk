@@ -249,11 +249,12 @@ $(declared_runs:.h5=.settings) $(declared_packings:.h5=.settings) $(metric_setti
 	mv $@.partial $@
 
 # A metric that cannot be measured gets "value": null, so that the figure is still made from the other runs; the reason
-# is in NAME.refused.
+# is in NAME.refused. A damaged file is no such reason: make ends.
 $(metric_files): %.json: | $(BIN)/postproc
 	@mkdir -p $(@D)
 	$(BIN)/$(measure) --quiet -o $*.new.json 2> $*.refused || \
 	  { code=$$?; cat $*.refused >&2; [ $$code = 2 ] || exit $$code; \
+	    $(BIN)/postproc validate --quiet $(word 3,$(measure)) >&2 || exit 2; \
 	    printf '{"value": null, "notes": ["see %s"]}\n' $*.refused > $*.new.json; }
 	@[ -s $*.refused ] || rm -f $*.refused
 	mv $*.new.json $@

@@ -12,6 +12,7 @@
 #include "common/hash.hpp"
 #include "common/nearest_word.hpp"
 #include "common/one_line.hpp"
+#include "postproc/figure/shell_words.hpp"
 
 namespace mpfem {
 
@@ -159,11 +160,16 @@ private:
     return run.packing.empty() ? request_.packing : file_of_run(runs.at(run.packing));
   }
 
+  /// The metric as [metrics] declares it, otherwise one whose name is its command.
+  MetricSpec metric_of(const std::string& name, const Place& place) const {
+    const auto declared = std::find_if(current_->metrics.rbegin(), current_->metrics.rend(),
+                                       [&](const MetricSpec& metric) { return metric.name == name; });
+    return declared == current_->metrics.rend() ? MetricSpec{name, name, place} : *declared;
+  }
+
   /// The command of a metric: of pack-gen where it says so, otherwise of postproc.
   std::string command_of(const std::string& metric, const Place& place) const {
-    std::string command = metric;
-    for (const auto& [name, words] : current_->metrics)
-      if (name == metric) command = words;
+    const std::string command = metric_of(metric, place).command;
     if (command.starts_with("pack-gen ")) return command;
     const std::string name = command.substr(0, command.find(' '));
     const auto& known = request_.commands;
@@ -173,6 +179,16 @@ private:
                              nearest ? fmt::format("did you mean '{}'?", *nearest) : "allowed: a command of postproc"));
     }
     return fmt::format("postproc {}", command);
+  }
+
+  /// Refuses words that postproc would refuse; `what` stands before the message.
+  void check_words(const std::string& command, const std::string& what, const Place& place) {
+    if (!request_.check_words || !checked_commands_.insert(command).second) return;
+    try {
+      if (const auto words = shell_words(command)) request_.check_words(*words);
+    } catch (const InputError& error) {
+      place.fail(what + error.what());
+    }
   }
 
   std::string add_metric(const RunInstance& run, const std::string& metric, const Case& row, const Place& place) {
@@ -186,6 +202,12 @@ private:
     words["here"] = {folder_of_file(current_->path), {}};
     const std::string full = fmt::format("{} {}{}", command.substr(0, end), file_of_run(run),
                                          end == std::string::npos ? "" : filled(command.substr(end), words));
+    if (command.starts_with("postproc ")) {
+      words["folder"] = {"folder", {}}; // the same words for all runs
+      check_words(fmt::format("{} run.h5{} --quiet -o metric.json", command.substr(9, end - 9),
+                              end == std::string::npos ? "" : filled(command.substr(end), words)),
+                  fmt::format("metric '{}': ", one_line(metric)), metric_of(metric, place).place);
+    }
     const auto [known, added] = metrics_.try_emplace(file, full);
     if (!added && known->second != full)
       throw InputError(fmt::format("{}: metric '{}' is '{}' here, but '{}' in another figure", current_->path, metric,
@@ -226,6 +248,7 @@ private:
                         "setting that differs, e.g. 'density-{{pressure}}.png'",
                         one_line(picture.name)));
       if (!added || std::find(files_.begin(), files_.end(), file) != files_.end()) continue;
+      check_words(fmt::format("{} -o picture.png", command), "command: ", picture.place);
       text_ += fmt::format("{}: {} {}\n", file, sources_, run);
       variable(file, "picture", command);
       lists_["picture_files"].insert(file);
@@ -353,6 +376,7 @@ private:
   RunGraph graph_;                    ///< runs of all figures
   std::set<std::string> outstanding_; ///< folders of runs that are to be made
   std::map<std::string, std::string> metrics_;
+  std::set<std::string> checked_commands_;
   std::map<std::string, std::set<std::string>> lists_;
   std::string text_;
 };

@@ -66,6 +66,12 @@ struct CaseBlock {
   Place place;
 };
 
+/// How a metric is measured.
+struct MetricSpec {
+  std::string name, command; ///< command: of postproc, or of pack-gen if it begins so
+  Place place;
+};
+
 /// One column of a table.
 struct ColumnSpec {
   std::string title, name, unit; ///< title: "name [unit]"
@@ -231,7 +237,7 @@ struct Figure {
   std::map<std::string, std::map<std::string, Words>> follows; ///< values implied by another one: name, text, values
   std::vector<CaseBlock> cases;
   std::vector<RunTemplate> runs;
-  std::vector<std::pair<std::string, std::string>> metrics; ///< name, command of postproc
+  std::vector<MetricSpec> metrics;
   std::vector<TableSpec> tables;
   std::vector<FitSpec> fits;
   std::vector<PlotSpec> plots;

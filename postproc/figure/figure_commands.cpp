@@ -28,6 +28,7 @@ struct FigureCommands::State {
   std::vector<std::string> files, settings;
   int packings = 0;
   const CLI::App* program = nullptr;
+  std::function<void(const std::vector<std::string>&)> check_words;
   std::vector<std::pair<CLI::App*, std::function<void()>>> commands;
 
   CLI::App& add(CLI::App& app, const char* command_name, const std::string& help, std::function<void()> action) {
@@ -167,7 +168,7 @@ struct FigureCommands::State {
   void depends() const {
     std::vector<Figure> figures;
     for (const std::string& file : files) figures.push_back(read(file));
-    DependsRequest request{{results, mesh}, packing, description, {}, {}};
+    DependsRequest request{{results, mesh}, packing, description, {}, {}, check_words};
     for (const CLI::App* command : program->get_subcommands({})) request.commands.push_back(command->get_name());
     for (const std::string& setting : settings) {
       const std::size_t equals = setting.find('=');
@@ -279,8 +280,10 @@ struct FigureCommands::State {
   }
 };
 
-FigureCommands::FigureCommands(CLI::App& app) : state_(std::make_unique<State>()) {
+FigureCommands::FigureCommands(CLI::App& app, std::function<void(const std::vector<std::string>&)> check_words)
+    : state_(std::make_unique<State>()) {
   State& s = *state_;
+  s.check_words = std::move(check_words);
   s.program = &app;
   s.add_depends(app);
   s.add_on_figure(app, "powder", "Print the packing of a study as input for pack-gen; nothing if the study has none.",

@@ -144,7 +144,7 @@ private:
     append_each(root, "cases", read_case, figure_.cases);
     if (auto metrics = root.optional_table("metrics"))
       for (const std::string& key : metrics->keys())
-        figure_.metrics.emplace_back(checked_name(*metrics, key, key), metrics->string(key));
+        figure_.metrics.push_back({checked_name(*metrics, key, key), metrics->string(key), Place(*metrics, key)});
     if (auto columns = root.optional_table("columns"))
       for (const std::string& key : columns->keys()) columns_[key] = columns->strings_or(key, {});
   }

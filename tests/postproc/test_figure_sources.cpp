@@ -193,6 +193,47 @@ TEST_CASE("a metric whose command does not exist is refused with its line before
   CHECK_FALSE(std::filesystem::exists(studies.path("rules.mk")));
 }
 
+TEST_CASE("a misspelt option of a metric or a picture is refused with its line before anything is made") {
+  const Studies studies;
+  const auto refused = [&](const std::string& metric, const std::string& picture = "section {run}") {
+    studies.figure(fmt::format(R"([[cases]]
+drop = 0.05
+[[runs]]
+name = "r"
+programme = "press"
+[metrics]
+m = "{}"
+[[tables]]
+name = "t"
+columns = ["y = r/m.value"]
+[[pictures]]
+name = "p.png"
+run = "r"
+command = "{}"
+)",
+                               metric, picture));
+    return test::postproc(fmt::format("depends '{}' --programmes '{}' --packing none.h5 -o '{}'",
+                                      studies.path("study.toml"), studies.path("programmes"),
+                                      studies.path("rules.mk")));
+  };
+  const auto check_refusal = [](const test::Outcome& outcome, const std::string& words) {
+    CHECK(outcome.exit_code == 2);
+    CHECK(outcome.one_error_line("postproc"));
+    CHECK_THAT(outcome.messages, Contains(words));
+  };
+  check_refusal(refused("strength --drp {drop}"), "study.toml:8:5: key 'metrics.m': metric 'm': found '--drp'; did you");
+  check_refusal(refused("strength --drop 5"), "metric 'm': --drop: found '5', allowed: ");
+  check_refusal(refused("strength --drop"), "metric 'm': ");
+  check_refusal(refused("strength --stage 'a"), "metric 'm': found 'strength ");
+  check_refusal(refused("strength", "section {run} --feld damage"), "found '--feld'; did you mean '--field'?");
+  check_refusal(refused("strength", "secton {run}"), "found 'secton'; did you mean 'section'?");
+  // Files of metrics may be made later; words that only make knows are not judged.
+  for (const std::string metric : {"strength --drop {drop}", "energy --packing {packing}",
+                                   "stress-at-densities --densities 0.4,0.5 --data '{folder}/my data.csv'",
+                                   "strength --drop $(drop)", "pack-gen quality --whatever"})
+    CHECK(refused(metric).exit_code == 0);
+}
+
 TEST_CASE("cases share a picture only if they draw the same one") {
   const Studies studies;
   const auto rules = [&](const std::string& name) {
