@@ -3,8 +3,11 @@
 #include <algorithm>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "common/nearest_word.hpp"
+#include "postproc/figure/verdict.hpp"
+#include "postproc/fits/fit.hpp"
 
 namespace mpfem {
 
@@ -55,6 +58,144 @@ void check_columns_once(const TableSpec& table) {
         table.place.fail(fmt::format("table '{}' has the column '{}' twice", table.name, table.columns[i].name));
 }
 
+void check_filters(const Figure& figure, const std::string& table, const std::vector<Filter>& filters,
+                   const Place& place) {
+  for (const Filter& filter : filters) check_column(figure, table, filter.name, place);
+}
+
+void check_runs(const Figure& figure) {
+  for (const RunTemplate& run : figure.runs) {
+    check_beginning(figure, run);
+    if (!run.packing.empty() && !figure.run(run.packing, run.place).is_packing)
+      run.place.fail(fmt::format("packing: '{}' is a run, allowed: one of [[packings]]", run.packing));
+  }
+}
+
+void check_tables(const Figure& figure) {
+  for (const TableSpec& table : figure.tables) {
+    check_columns_once(table);
+    for (const ColumnSpec& column : table.columns) {
+      if (!column.run.empty()) figure.run(column.run, table.place);
+      if (!column.format.empty())
+        filled_at(table.place, fmt::format("{{value:{}}}", column.format), {{"value", Value::of(1)}});
+    }
+    for (const std::string& curve : table.curves) figure.run(curve, table.place);
+    if (const std::size_t slash = table.list.find('/'); slash != std::string::npos)
+      figure.run(table.list.substr(0, slash), table.place);
+    else if (!table.list.empty())
+      table.place.fail(fmt::format("list: found '{}', allowed: RUN/METRIC", table.list));
+    check_filters(figure, table.name, table.keep, table.place);
+    for (const std::string& column : table.spread) check_column(figure, table.name, column, table.place);
+  }
+}
+
+/// Refuses coefficients that a model does not have, and a model that lacks one.
+void check_model(const SeriesSpec& series) {
+  const std::vector<std::string> needed = coefficients_of(series.fit_model);
+  std::vector<std::string> given;
+  for (const auto& [name, value] : series.model) given.push_back(name);
+  const auto fault = [&](const std::string& what, const std::string& name) {
+    series.place.fail(
+        fmt::format("model '{}': {} '{}', allowed: {}", series.fit_model, what, name, fmt::join(needed, ", ")));
+  };
+  for (const std::string& name : given)
+    if (std::find(needed.begin(), needed.end(), name) == needed.end()) fault("found the coefficient", name);
+  for (const std::string& name : needed)
+    if (std::find(given.begin(), given.end(), name) == given.end()) fault("found no coefficient", name);
+}
+
+void check_plots(const Figure& figure) {
+  for (const PlotSpec& plot : figure.plots) {
+    for (const SeriesSpec& series : plot.series) {
+      if (!series.fit.empty()) figure.fit(series.fit, series.place);
+      if (!series.fit_model.empty()) check_model(series);
+      if (series.table.empty()) continue;
+      for (const std::string& column : {series.x, series.y, series.error, series.group, series.colour_by})
+        check_column(figure, series.table, column, series.place);
+      check_filters(figure, series.table, series.where, series.place);
+    }
+    if (plot.inset && !plot.series.empty())
+      check_filters(figure, plot.series.front().table, plot.inset->where, plot.place);
+  }
+}
+
+/// A quantity's coefficient is one of its fit's model, or follows from them.
+void check_coefficient(const Figure& figure, const QuantitySpec& q) {
+  const std::string& model = figure.fit(q.fit, q.place).model;
+  if (q.coefficient.empty()) return;
+  std::vector<std::string> names = coefficients_of(model);
+  const std::vector<std::string> derived = derived_of(model);
+  names.insert(names.end(), derived.begin(), derived.end());
+  if (std::find(names.begin(), names.end(), q.coefficient) != names.end()) return;
+  q.place.fail(fmt::format("quantity '{}': the model '{}' has no coefficient '{}', allowed: {}", q.name, model,
+                           q.coefficient, fmt::join(names, ", ")));
+}
+
+/// The quantities and conditions of one statement.
+class StatementCheck {
+public:
+  explicit StatementCheck(const Figure& figure) : figure_(figure) {}
+
+  void operator()(const StatementSpec& statement) {
+    known_.clear();
+    for (const QuantitySpec& q : statement.quantities) {
+      check_quantity(q);
+      known_.push_back(q);
+    }
+    for (const auto* conditions : {&statement.require, &statement.judged_if})
+      for (const ConditionSpec& condition : *conditions) check_condition(condition);
+    check_texts(statement);
+  }
+
+private:
+  /// One of the quantities so far.
+  const QuantitySpec& quantity(const std::string& name, const Place& place) const {
+    std::vector<std::string> names;
+    for (const QuantitySpec& q : known_) {
+      if (q.name == name) return q;
+      names.push_back(q.name);
+    }
+    place.fail(fmt::format("there is no quantity '{}' here or above{}", name, suggestion(name, names)));
+  }
+
+  void check_quantity(const QuantitySpec& q) const {
+    for (const std::string& other : {q.of, q.divided_by, q.minus})
+      if (!other.empty()) quantity(other, q.place);
+    if (!q.fit.empty()) check_coefficient(figure_, q);
+    if (q.table.empty()) return;
+    for (const std::string& column : {q.column, q.over, q.by}) check_column(figure_, q.table, column, q.place);
+    check_filters(figure_, q.table, q.where, q.place);
+    check_filters(figure_, q.table, q.relative_to, q.place);
+    check_item(q);
+  }
+
+  /// The text of a list's items names columns. A file may have more of them than it declares.
+  void check_item(const QuantitySpec& q) const {
+    const TableSpec& table = figure_.table(q.table, q.place);
+    if (q.take != "list" || !table.file.empty()) return;
+    Words words = {{"value", Value::of(1)}, {"name", {"name", {}}}};
+    for (const ColumnSpec& column : table.columns) words[column.name] = Value::of(1);
+    filled_at(q.place, q.item, words);
+  }
+
+  void check_condition(const ConditionSpec& c) const {
+    for (const ConditionSpec& one : c.either) check_condition(one);
+    for (const Operand& operand : c.operands)
+      if (!operand.number) quantity(operand.name, c.place);
+    if (c.quantity.empty()) return;
+    const QuantitySpec& q = quantity(c.quantity, c.place);
+    if (c.predicate.starts_with("interval") && q.coefficient.empty())
+      c.place.fail(fmt::format("'{}' is not a coefficient of a fit, so it has no interval", q.name));
+    if (c.predicate != "rises" && c.predicate != "falls") return;
+    if (q.table.empty())
+      c.place.fail(fmt::format("'{}' is not a column of a table, and {} needs one", q.name, c.predicate));
+    for (const std::string& column : {c.along, c.each}) check_column(figure_, q.table, column, c.place);
+  }
+
+  const Figure& figure_;
+  std::vector<QuantitySpec> known_; ///< of the statement, up to the one that is checked
+};
+
 } // namespace
 
 void check_names(const Figure& figure) {
@@ -62,40 +203,18 @@ void check_names(const Figure& figure) {
   check_once(figure.tables, "table");
   check_once(figure.fits, "fit");
   check_once(figure.plots, "plot");
-  for (const RunTemplate& run : figure.runs) {
-    check_beginning(figure, run);
-    if (!run.packing.empty() && !figure.run(run.packing, run.place).is_packing)
-      run.place.fail(fmt::format("packing: '{}' is a run, allowed: one of [[packings]]", run.packing));
-  }
-  for (const TableSpec& table : figure.tables) {
-    check_columns_once(table);
-    for (const ColumnSpec& column : table.columns)
-      if (!column.run.empty()) figure.run(column.run, table.place);
-    for (const std::string& curve : table.curves) figure.run(curve, table.place);
-    if (!table.list.empty()) figure.run(table.list.substr(0, table.list.find('/')), table.place);
-    for (const Filter& filter : table.keep) check_column(figure, table.name, filter.name, table.place);
-    for (const std::string& column : table.spread) check_column(figure, table.name, column, table.place);
-  }
-  for (const FitSpec& fit : figure.fits)
+  check_runs(figure);
+  check_tables(figure);
+  for (const FitSpec& fit : figure.fits) {
     for (const std::string& column : {fit.x, fit.y, fit.z}) check_column(figure, fit.table, column, fit.place);
-  for (const PlotSpec& plot : figure.plots)
-    for (const SeriesSpec& series : plot.series) {
-      if (!series.fit.empty()) figure.fit(series.fit, series.place);
-      if (series.table.empty()) continue;
-      for (const std::string& column : {series.x, series.y, series.error, series.group, series.colour_by})
-        check_column(figure, series.table, column, series.place);
-      for (const Filter& filter : series.where) check_column(figure, series.table, filter.name, series.place);
-    }
+    check_filters(figure, fit.table, fit.where, fit.place);
+  }
+  check_plots(figure);
   for (const PictureSpec& picture : figure.pictures) figure.run(picture.run, picture.place);
   for (const ScriptSpec& script : figure.scripts)
     if (!script.run.empty()) figure.run(script.run, script.place);
-  for (const StatementSpec& statement : figure.statements)
-    for (const QuantitySpec& q : statement.quantities) {
-      if (!q.fit.empty()) figure.fit(q.fit, q.place);
-      if (q.table.empty()) continue;
-      for (const std::string& column : {q.column, q.over, q.by}) check_column(figure, q.table, column, q.place);
-      for (const Filter& filter : q.where) check_column(figure, q.table, filter.name, q.place);
-    }
+  StatementCheck check_statement(figure);
+  for (const StatementSpec& statement : figure.statements) check_statement(statement);
 }
 
 } // namespace mpfem

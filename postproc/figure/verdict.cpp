@@ -192,7 +192,9 @@ std::optional<double> operand(const Operand& o, const Quantities& quantities, co
 
 /// Adds a quantity's words for the texts: NAME, NAME.row, for a fit NAME.low and NAME.high, for a column NAME.rises and
 /// NAME.falls (see words_of).
-void add_words(Words& words, const QuantitySpec& q, const Quantity& quantity, FigureData& data) {
+/// `trend` says whether the column rises (sign 1) or falls (-1).
+template <class Trend>
+void add_words(Words& words, const QuantitySpec& q, const Quantity& quantity, const Trend& trend) {
   words[q.name] = quantity.value;
   words[q.name + ".row"] = {quantity.row, {}};
   if (!q.fit.empty()) {
@@ -200,9 +202,8 @@ void add_words(Words& words, const QuantitySpec& q, const Quantity& quantity, Fi
     words[q.name + ".high"] = quantity.interval ? Value::of((*quantity.interval)[1]) : Value{};
   }
   if (q.table.empty()) return;
-  const TextTable& table = data.table(q.table);
   for (const auto& [name, sign] : {std::pair(".rises", 1.0), std::pair(".falls", -1.0)})
-    words[q.name + name] = {words_of(monotonic(q, table, {}, sign)), {}};
+    words[q.name + name] = {words_of(trend(sign)), {}};
 }
 
 } // namespace
@@ -242,6 +243,17 @@ Quantities quantities_of(const StatementSpec& statement, FigureData& data) {
   return quantities;
 }
 
+void check_texts(const StatementSpec& statement) {
+  Words words;
+  for (const QuantitySpec& q : statement.quantities) {
+    const Value value = q.take == "list" ? Value{"list", {}} : Value::of(1);
+    add_words(words, q, {value, std::array{1.0, 1.0}, "row"}, [](double) { return true; });
+  }
+  for (const std::string& text :
+       {statement.ours, statement.note, statement.why, statement.ours_unjudged, statement.note_unjudged})
+    filled_at(statement.place, text, words);
+}
+
 std::optional<bool> holds(const ConditionSpec& c, const StatementSpec& statement, const Quantities& quantities,
                           FigureData& data) {
   if (c.predicate == "either") {
@@ -255,8 +267,6 @@ std::optional<bool> holds(const ConditionSpec& c, const StatementSpec& statement
   }
   if (c.predicate == "rises" || c.predicate == "falls") {
     const QuantitySpec& q = spec_of(statement, c);
-    if (q.table.empty())
-      c.place.fail(fmt::format("'{}' is not a column of a table, and {} needs one", q.name, c.predicate));
     return monotonic(q, data.table(q.table), c, c.predicate == "rises" ? 1 : -1);
   }
   std::vector<double> operands;
@@ -270,9 +280,7 @@ std::optional<bool> holds(const ConditionSpec& c, const StatementSpec& statement
   const auto value = quantity.value.number;
   if (!value) return {};
   if (c.predicate.starts_with("interval")) {
-    if (!quantity.interval)
-      c.place.fail(fmt::format("'{}' is not a coefficient of a fit, so it has no interval", c.quantity));
-    const auto [low, high] = *quantity.interval;
+    const auto [low, high] = quantity.interval.value(); // check_names() has found that it is a coefficient
     if (c.predicate == "interval_width_at_most") return high - low <= operands[0];
     const bool includes = low <= operands[0] && operands[0] <= high;
     return includes == (c.predicate == "interval_includes");
@@ -302,7 +310,9 @@ Json judge(const StatementSpec& statement, FigureData& data) {
     if (!holds(condition, statement, quantities, data).value_or(false)) agrees = nullptr;
   if (statement.require.empty() || !statement.judged || (statement.only_refutes && agrees == true)) agrees = nullptr;
   Words words;
-  for (const QuantitySpec& q : statement.quantities) add_words(words, q, quantities.at(q.name), data);
+  for (const QuantitySpec& q : statement.quantities)
+    add_words(words, q, quantities.at(q.name),
+              [&](double sign) { return monotonic(q, data.table(q.table), {}, sign); });
   const bool unjudged = agrees.is_null() && !statement.ours_unjudged.empty();
   const auto text = [&](const std::string& usual, const std::string& otherwise) {
     return filled_at(statement.place, unjudged ? otherwise : usual, words);

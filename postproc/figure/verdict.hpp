@@ -32,6 +32,9 @@ struct Quantity {
 /// with several rows.
 std::map<std::string, Quantity> quantities_of(const StatementSpec& statement, FigureData& data);
 
+/// Throws InputError where a text of the statement names what is no quantity, or has a format that does not suit it.
+void check_texts(const StatementSpec& statement);
+
 /// True if a condition holds; empty where a quantity that it needs is not known, or where no two rows can be compared.
 std::optional<bool> holds(const ConditionSpec& condition, const StatementSpec& statement,
                           const std::map<std::string, Quantity>& quantities, FigureData& data);

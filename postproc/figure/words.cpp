@@ -105,6 +105,10 @@ std::string filled(std::string_view pattern, const Words& words, Unknown unknown
       continue;
     }
     const std::size_t end = c == '{' ? pattern.find('}', i) : std::string_view::npos;
+    if (c == '{' && end == std::string_view::npos && unknown == Unknown::refused)
+      throw InputError(fmt::format("found '{}' without the brace that closes it, allowed: names in braces, and '{{{{' "
+                                   "for a brace",
+                                   one_line(pattern.substr(i))));
     if (end == std::string_view::npos) {
       result += c;
       continue;

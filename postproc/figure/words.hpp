@@ -28,7 +28,7 @@ enum class Unknown { refused, kept };
 /// is printed in per cent (".2g%": 0.0123 becomes "1.2 %"). "g" writes numbers below a million without an exponent. An
 /// empty value with a format becomes "not known". "{{" and "}}" stand for braces. With Unknown::kept, unknown names in
 /// braces ("x^{max}") and double braces stay as they are. Throws InputError: unknown name (suggests the nearest),
-/// invalid format, format of a text.
+/// invalid format, format of a text, and with Unknown::refused a brace that is not closed.
 std::string filled(std::string_view pattern, const Words& words, Unknown unknown = Unknown::refused);
 
 } // namespace mpfem

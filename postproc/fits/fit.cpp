@@ -222,27 +222,38 @@ enum class Takes { x, porosity, x_and_z };
 
 struct Model {
   std::string name, formula;
-  std::size_t coefficients;
+  std::vector<std::string> coefficients;
   std::size_t different_x; ///< number that it needs; unused for surfaces
   Takes takes;
   Fit (*fit)(const FitProblem&);
+  std::vector<std::string> derived = {};
 };
 
 const std::vector<Model>& models() {
   static const std::vector<Model> list = {
-      {"linear", "y = a + b x", 2, 2, Takes::x, fit_line},
-      {"bilinear", "y = y_kink + (x < kink ? slope_below : slope_above) (x - kink)", 4, 5, Takes::x, bilinear_fit},
-      {"log-log", "y = A x^b", 2, 2, Takes::x, fit_log_log},
-      {"exponential", "y = A exp(B x)", 2, 2, Takes::x, fit_growth},
-      {"inverse-exponential", "y = A - B exp(-x / C)", 3, 3, Takes::x, fit_saturation},
-      {"spriggs", "ln y = b - a P", 2, 2, Takes::porosity, fit_spriggs},
-      {"ryshkewitch-duckworth", "y = sigma_0 exp(-B P)", 2, 2, Takes::porosity, fit_ryshkewitch_duckworth},
-      {"rumpf", "y = c (1 - P) / P", 1, 1, Takes::porosity, fit_rumpf},
-      {"heckel", "ln 1/(1 - y) = x / P_y + A", 2, 2, Takes::x, fit_heckel},
-      {"kawakita", "y = a b x / (1 + b x)", 2, 2, Takes::x, fit_kawakita},
-      {"walker", "100/y = c - W log10 x", 2, 2, Takes::x, fit_walker},
-      {"gurnham", "1 - y = d - c ln x", 2, 2, Takes::x, fit_gurnham},
-      {"pc-gc-surface", "y = A - B exp(-x / C) exp(-z / D)", 4, 0, Takes::x_and_z, fit_surface}};
+      {"linear", "y = a + b x", {"a", "b"}, 2, Takes::x, fit_line},
+      {"bilinear",
+       "y = y_kink + (x < kink ? slope_below : slope_above) (x - kink)",
+       {"kink", "y_kink", "slope_below", "slope_above"},
+       5,
+       Takes::x,
+       bilinear_fit},
+      {"log-log", "y = A x^b", {"A", "b"}, 2, Takes::x, fit_log_log},
+      {"exponential", "y = A exp(B x)", {"A", "B"}, 2, Takes::x, fit_growth},
+      {"inverse-exponential", "y = A - B exp(-x / C)", {"A", "B", "C"}, 3, Takes::x, fit_saturation},
+      {"spriggs", "ln y = b - a P", {"a", "b"}, 2, Takes::porosity, fit_spriggs, {"at_zero_porosity"}},
+      {"ryshkewitch-duckworth",
+       "y = sigma_0 exp(-B P)",
+       {"sigma_0", "B"},
+       2,
+       Takes::porosity,
+       fit_ryshkewitch_duckworth},
+      {"rumpf", "y = c (1 - P) / P", {"c"}, 1, Takes::porosity, fit_rumpf},
+      {"heckel", "ln 1/(1 - y) = x / P_y + A", {"P_y", "A"}, 2, Takes::x, fit_heckel},
+      {"kawakita", "y = a b x / (1 + b x)", {"a", "b"}, 2, Takes::x, fit_kawakita, {"inverse_b"}},
+      {"walker", "100/y = c - W log10 x", {"c", "W"}, 2, Takes::x, fit_walker},
+      {"gurnham", "1 - y = d - c ln x", {"d", "c"}, 2, Takes::x, fit_gurnham},
+      {"pc-gc-surface", "y = A - B exp(-x / C) exp(-z / D)", {"A", "B", "C", "D"}, 0, Takes::x_and_z, fit_surface}};
   return list;
 }
 
@@ -273,9 +284,10 @@ void check_different_values(const Model& model, const FitPoints& points) {
 /// Throws InputError where the points, or the meaning given for x, do not suit the model.
 void check_points(const Model& model, const FitPoints& points, bool x_is_relative_density) {
   const std::size_t n = points.x.size();
-  if (n < model.coefficients + 1)
+  const std::size_t coefficients = model.coefficients.size();
+  if (n < coefficients + 1)
     throw InputError(fmt::format("{}: model '{}' has {} coefficients: found {} points, allowed: {} or more",
-                                 one_line(points.path), model.name, model.coefficients, n, model.coefficients + 1));
+                                 one_line(points.path), model.name, coefficients, n, coefficients + 1));
   if (x_is_relative_density && model.takes != Takes::porosity)
     throw InputError(
         fmt::format("--relative-density cannot be used with model '{}', which is not one of porosity", model.name));
@@ -307,6 +319,14 @@ const std::vector<std::string>& fit_models() {
     return list;
   }();
   return names;
+}
+
+std::vector<std::string> coefficients_of(const std::string& model) {
+  return model_by_name(model).coefficients;
+}
+
+std::vector<std::string> derived_of(const std::string& model) {
+  return model_by_name(model).derived;
 }
 
 std::string fit_help() {

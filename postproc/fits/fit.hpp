@@ -38,6 +38,10 @@ struct Fit {
 /// Names of the models, in the order of the help.
 const std::vector<std::string>& fit_models();
 
+/// Names of a model's coefficients, and of what a fit derives from them. Throw InputError: unknown model.
+std::vector<std::string> coefficients_of(const std::string& model);
+std::vector<std::string> derived_of(const std::string& model);
+
 /// For help texts: a line with name and formula for each model.
 std::string fit_help();
 

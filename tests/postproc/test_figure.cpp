@@ -1,5 +1,7 @@
 // Figures declared in TOML: reading, runs, tables, statements, plots, and what make is told.
 
+#include <set>
+
 #include <catch2/catch.hpp>
 #include <fmt/format.h>
 
@@ -105,6 +107,9 @@ TEST_CASE("names in braces become values, numbers in the format given") {
   CHECK(filled("{cycles:.2g%}, {many:.3g}", words) == "540000 %, 1.23e+06");
   CHECK(filled("D^{max} {law}", words, Unknown::kept) == "D^{max} energy");
   CHECK_THROWS_WITH(filled("{densty}", words), Contains("did you mean 'density'?"));
+  CHECK_THROWS_WITH(filled("{law} {density:.2f", words),
+                    Contains("found '{density:.2f' without the brace that closes"));
+  CHECK(filled("{law} {density", words, Unknown::kept) == "energy {density");
   CHECK_THROWS_WITH(filled("{law:.2f}", words), Contains("which has no format"));
   CHECK_THROWS_WITH(filled("{density:.2q}", words), Contains("found the format '.2q'"));
   CHECK(filled("{density:12.10f}", words) == "0.7000000000");
@@ -436,6 +441,62 @@ TEST_CASE("predicates judge by number, by other quantities, by order and by inte
   CHECK(of_fit("above = 0")["ours"] == "1.5 [1.0, 2.0]");
 }
 
+TEST_CASE("names that a statement, fit, plot or table misspells are found before anything is run") {
+  const Toolkit toolkit;
+  const auto refused = [&](const std::string& more, const std::string& message) {
+    CAPTURE(more);
+    CHECK_THROWS_WITH(toolkit.figure(tablets + more), Contains("study.toml:") && Contains(message));
+  };
+  const std::string fit = "[[fits]]\nname = \"f\"\ntable = \"strength\"\nx = \"density\"\ny = \"strength\"\n"
+                          "model = \"linear\"\n";
+  refused(fit + "where = { densty = 1 }\n", "has no column 'densty'; did you mean 'density'?");
+  const std::string plot = "[[plots]]\nname = \"p\"\nx = {}\ny = {}\n";
+  refused(plot + "series = [{ model = { name = \"linear\", a = 1 } }]\n", "found no coefficient 'b', allowed: a, b");
+  refused(plot + "series = [{ model = { name = \"linear\", a = 1, b = 2, c = 3 } }]\n", "found the coefficient 'c'");
+  refused(plot + "series = [{ table = \"strength\", x = \"density\", y = \"strength\" }]\ninset = { x = {}, y = {}, "
+                 "place = [0, 0, 1, 1], where = { densty = 1 } }\n",
+          "has no column 'densty'");
+  refused("[[tables]]\nname = \"t\"\nlist = \"pressed\"\ncolumns = [\"x [1] = y\"]\n",
+          "list: found 'pressed', allowed: RUN/METRIC");
+  refused("[[tables]]\nname = \"t\"\ncolumns = [\"x [1] = pressed/strength.value:.2q\"]\n", "found the format '.2q'");
+  const auto statement = [&](const std::string& rest) {
+    return fit +
+           "[[statements]]\ntext = \"s\"\npaper = \"p\"\n"
+           "quantities.y = { table = \"strength\", column = \"strength\", take = \"last\" }\n"
+           "quantities.b = { fit = \"f\", coefficient = \"b\" }\n" +
+           rest;
+  };
+  CHECK_NOTHROW(toolkit.figure(tablets + statement("ours = \"{y:.2f} at {y.row}, {y.rises}, {b.low:.1f}\"\n")));
+  for (const auto& [rest, message] : std::vector<std::pair<std::string, std::string>>{
+           {"ours = \"{z:.2f}\"\n", "found '{z:.2f}', allowed: "},
+           {"ours = \"{y:.2f\"\n", "found '{y:.2f' without"},
+           {"ours = \"{y:.2q}\"\n", "found the format '.2q'"},
+           {"ours = \"{y.row:.2f}\"\n", "which has no format"},
+           {"ours = \"{y.low:.2f}\"\n", "found '{y.low:.2f}'"},
+           {"ours = \"o\"\nnote = \"{z}\"\n", "found '{z}'"},
+           {"ours = \"o\"\nwhy = \"{z}\"\n", "found '{z}'"},
+           {"ours = \"o\"\nunjudged = { ours = \"{z}\" }\n", "found '{z}'"},
+           {"ours = \"o\"\nrequire = [{ quantity = \"z\", above = 0 }]\n", "there is no quantity 'z'"},
+           {"ours = \"o\"\nrequire = [{ quantity = \"y\", above = \"z\" }]\n", "there is no quantity 'z'"},
+           {"ours = \"o\"\njudged_if = [{ ordered = [\"y\", \"z\"] }]\n", "there is no quantity 'z'"},
+           {"ours = \"o\"\nrequire = [{ either = [{ quantity = \"z\", above = 0 }] }]\n", "there is no quantity 'z'"},
+           {"ours = \"o\"\nquantities.r = { of = \"y\", over = \"z\" }\n", "there is no quantity 'z'"},
+           {"ours = \"o\"\nquantities.r = { of = \"r\" }\n", "there is no quantity 'r' here or above"},
+           {"ours = \"o\"\nrequire = [{ quantity = \"y\", interval_includes = 0 }]\n", "so it has no interval"},
+           {"ours = \"o\"\nrequire = [{ quantity = \"b\", rises = true }]\n", "is not a column of a table"},
+           {"ours = \"o\"\nrequire = [{ quantity = \"y\", rises = true, along = \"d\" }]\n", "has no column 'd'"},
+           {"ours = \"o\"\nrequire = [{ quantity = \"y\", falls = true, each = \"d\" }]\n", "has no column 'd'"},
+           {"ours = \"o\"\nquantities.c = { fit = \"f\", coefficient = \"c\" }\n",
+            "has no coefficient 'c', allowed: a, b"},
+           {"ours = \"o\"\nquantities.l = { table = \"strength\", column = \"strength\", take = \"list\", "
+            "item = \"{densty}\" }\n",
+            "found '{densty}'"},
+           {"ours = \"o\"\nquantities.q = { table = \"strength\", column = \"strength\", by = \"density\", "
+            "relative_to = { densty = 1 } }\n",
+            "has no column 'densty'"}})
+    refused(statement(rest), message);
+}
+
 TEST_CASE("a rise with noise holds within its tolerance, sorted along a column and within equal rows of another") {
   const auto agrees = [](const std::string& rows, const std::string& more) {
     return judged(rows, y_of_last + "require = [{ quantity = \"y\", rises = true" + more + " }]\n")["agrees"];
@@ -556,7 +617,7 @@ series = [
   CHECK_NOTHROW(run_gnuplot(nothing_drawn));
 }
 
-TEST_CASE("every model is drawn with the coefficients that its fit gives") {
+TEST_CASE("every model is drawn with the coefficients that its fit gives, which have the names that are known") {
   const std::vector<double> x = {0.1, 0.15, 0.2, 0.3, 0.35, 0.4, 0.45}, z = {0, 0.1, 0.3, 0, 0.1, 0.3, 0.5};
   for (const std::string& model : fit_models()) {
     FitPoints points;
@@ -568,6 +629,12 @@ TEST_CASE("every model is drawn with the coefficients that its fit gives") {
     const Fit fitted = fit(model, points);
     std::map<std::string, double> coefficients;
     for (const Coefficient& c : fitted.coefficients) coefficients[c.name] = c.value;
+    std::set<std::string> names, derived;
+    for (const auto& [name, value] : coefficients) names.insert(name);
+    for (const Coefficient& c : fitted.derived) derived.insert(c.name);
+    const auto known = coefficients_of(model), known_derived = derived_of(model);
+    CHECK(names == std::set<std::string>(known.begin(), known.end()));
+    CHECK(derived == std::set<std::string>(known_derived.begin(), known_derived.end()));
     CHECK(model_with(model, coefficients, false)(0.27, 0.2) == Approx(fitted.at(0.27, 0.2)).epsilon(1e-12));
   }
 }
