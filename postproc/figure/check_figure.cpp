@@ -6,6 +6,7 @@
 #include <fmt/ranges.h>
 
 #include "common/nearest_word.hpp"
+#include "postproc/figure/run_graph.hpp"
 #include "postproc/figure/verdict.hpp"
 #include "postproc/fits/fit.hpp"
 
@@ -71,6 +72,21 @@ void check_runs(const Figure& figure) {
   }
 }
 
+/// Refuses numbers of stages that the scenario of one of a table's curves does not have.
+void check_stages(const Figure& figure, const TableSpec& table) {
+  for (const std::string& curve : table.curves) {
+    const RunTemplate& run = figure.run(curve, table.place);
+    if (table.stages.empty()) return;
+    const int stages = static_cast<int>(stage_names(run.programme).size());
+    for (const int stage : table.stages)
+      if (stage >= stages || stage < -stages)
+        table.place.fail(
+            fmt::format("stage: found {}, but {} has stages 0 … {}, allowed: one of them, or from the end, "
+                        "-1 … -{}",
+                        stage, run.programme, stages - 1, stages));
+  }
+}
+
 void check_tables(const Figure& figure) {
   for (const TableSpec& table : figure.tables) {
     check_columns_once(table);
@@ -79,7 +95,7 @@ void check_tables(const Figure& figure) {
       if (!column.format.empty())
         filled_at(table.place, fmt::format("{{value:{}}}", column.format), {{"value", Value::of(1)}});
     }
-    for (const std::string& curve : table.curves) figure.run(curve, table.place);
+    check_stages(figure, table);
     if (const std::size_t slash = table.list.find('/'); slash != std::string::npos)
       figure.run(table.list.substr(0, slash), table.place);
     else if (!table.list.empty())

@@ -94,12 +94,23 @@ private:
   }
 
   void add_table(const TableSpec& table) {
-    if (!table.file.empty()) return; // lies next to the figure's file, or is made by a script
+    if (!table.file.empty()) {
+      check_file(table);
+      return;
+    }
     rule(path_of_table(table, folder_), fmt::format("{} {}", sources_, fmt::join(needs_of(table), " ")), "table_files");
     if (table.spread.empty()) return;
     const std::string file = fmt::format("{}/{}.spread.csv", folder_, table.name);
     variable(file, "figure", current_->path);
     lists_["spread_files"].insert(file);
+  }
+
+  /// Refuses a file that neither lies next to the figure's file nor is made by a script.
+  void check_file(const TableSpec& table) const {
+    const std::string path = path_of_table(table, folder_);
+    if (table.beside || std::ranges::find(files_, path) != files_.end() || std::filesystem::exists(path)) return;
+    table.place.fail(fmt::format("found '{}', allowed: a file next to {}, or one that [[scripts]] make",
+                                 one_line(table.file), current_->path));
   }
 
   /// With SEEDS set, a plot also shows the spread over packings.
@@ -129,6 +140,14 @@ private:
     return add_run(runs_, *current_, current_->run(name, place), row);
   }
 
+  /// Refuses texts of a table's cells that name what the case has no value of.
+  static void check_patterns(const TableSpec& table, const Case& row) {
+    Words values = row.values;
+    if (!table.curves.empty()) values["run"] = {"run", {}};
+    for (const ColumnSpec& column : table.columns) filled_at(table.place, column.pattern, values);
+    filled_at(table.place, table.row, values);
+  }
+
   /// The files from which a table is read. Adds the runs on which they are measured.
   std::vector<std::string> needs_of(const TableSpec& table) {
     std::vector<std::string> needed;
@@ -140,6 +159,7 @@ private:
     };
     for (const Case& row :
          available_cases(*current_, table.series, table.where, runs_of(table), request_.results, table.place)) {
+      check_patterns(table, row);
       for (const std::string& name : table.curves)
         if (belongs(name, row)) add(file_of_run(run_of(name, row, table.place)));
       if (const std::size_t slash = table.list.find('/'); slash != std::string::npos)
@@ -249,6 +269,11 @@ private:
                         one_line(picture.name)));
       if (!added || std::find(files_.begin(), files_.end(), file) != files_.end()) continue;
       check_words(fmt::format("{} -o picture.png", command), "command: ", picture.place);
+      const std::string_view program = std::string_view(command).substr(0, command.find(' '));
+      const bool draws = program == "section" || program == "density-map" || program == "picture";
+      if (draws && !file.ends_with(".png"))
+        picture.place.fail(fmt::format("name: found '{}', but postproc {} draws PNG, allowed: a name that ends in .png",
+                                       one_line(picture.name), program));
       text_ += fmt::format("{}: {} {}\n", file, sources_, run);
       variable(file, "picture", command);
       lists_["picture_files"].insert(file);

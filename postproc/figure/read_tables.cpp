@@ -125,7 +125,7 @@ TableSpec read_table(Texts& t, const ColumnLists& lists) {
 
 TableSpec read_table_of_file(Texts& t, const std::filesystem::path& folder) {
   TableSpec spec;
-  spec.place = Place(t.reader(), "columns");
+  spec.place = Place(t.reader(), "file");
   spec.name = t.name("name");
   spec.file = t.required("file");
   spec.beside = std::filesystem::exists(folder / spec.file);

@@ -49,18 +49,6 @@ void fill_values(Case& row, const Place& place) {
       value = Value::of_text(filled_at(place, value.text, row.values));
 }
 
-/// Names of the stages of a programme, empty for those without one.
-std::vector<std::string> stage_names(const std::string& programme) {
-  const TomlDocument document = TomlDocument::from_file(programme);
-  const toml::array* stages = document.root()["stages"].as_array();
-  if (stages == nullptr || stages->empty())
-    throw InputError(fmt::format("{}: found no [[stages]], allowed: at least one", programme));
-  std::vector<std::string> names;
-  for (const toml::node& stage : *stages)
-    names.push_back(stage.is_table() ? (*stage.as_table())["name"].value_or(std::string()) : std::string());
-  return names;
-}
-
 /// The stage at whose end a run begins: the one that `from` names, or the last. `parent` is the run before it.
 std::string stage_to_begin_at(const RunTemplate& run, const RunTemplate& parent, const std::string& named) {
   const std::vector<std::string> names = stage_names(parent.programme);
@@ -187,6 +175,17 @@ bool same_run(const RunInstance& a, const RunInstance& b) {
 }
 
 } // namespace
+
+std::vector<std::string> stage_names(const std::string& programme) {
+  const TomlDocument document = TomlDocument::from_file(programme);
+  const toml::array* stages = document.root()["stages"].as_array();
+  if (stages == nullptr || stages->empty())
+    throw InputError(fmt::format("{}: found no [[stages]], allowed: at least one", programme));
+  std::vector<std::string> names;
+  for (const toml::node& stage : *stages)
+    names.push_back(stage.is_table() ? (*stage.as_table())["name"].value_or(std::string()) : std::string());
+  return names;
+}
 
 std::vector<Case> cases_of(const Figure& figure, const std::vector<std::string>& series,
                            const std::vector<Filter>& where, const std::string& mesh, const Place& place) {

@@ -34,6 +34,9 @@ struct RunInstance {
 std::vector<Case> cases_of(const Figure& figure, const std::vector<std::string>& series,
                            const std::vector<Filter>& where, const std::string& mesh, const Place& place);
 
+/// Names of the stages of a programme, empty for those without one. Throws InputError where it has no stages.
+std::vector<std::string> stage_names(const std::string& programme);
+
 /// Runs by folder.
 using RunGraph = std::map<std::string, RunInstance>;
 

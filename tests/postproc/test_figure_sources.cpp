@@ -221,7 +221,8 @@ command = "{}"
     CHECK(outcome.one_error_line("postproc"));
     CHECK_THAT(outcome.messages, Contains(words));
   };
-  check_refusal(refused("strength --drp {drop}"), "study.toml:8:5: key 'metrics.m': metric 'm': found '--drp'; did you");
+  check_refusal(refused("strength --drp {drop}"),
+                "study.toml:8:5: key 'metrics.m': metric 'm': found '--drp'; did you");
   check_refusal(refused("strength --drop 5"), "metric 'm': --drop: found '5', allowed: ");
   check_refusal(refused("strength --drop"), "metric 'm': ");
   check_refusal(refused("strength --stage 'a"), "metric 'm': found 'strength ");
@@ -232,6 +233,30 @@ command = "{}"
                                    "stress-at-densities --densities 0.4,0.5 --data '{folder}/my data.csv'",
                                    "strength --drop $(drop)", "pack-gen quality --whatever"})
     CHECK(refused(metric).exit_code == 0);
+}
+
+TEST_CASE("stages, values, pictures and files that cannot be there are refused before anything is made") {
+  const Studies studies;
+  const std::string begin = "[[cases]]\nx = 1\n[[runs]]\nname = \"r\"\nprogramme = \"press\"\n";
+  const auto refused = [&](const std::string& text, const std::string& message) {
+    CAPTURE(text);
+    CHECK_THROWS_WITH(studies.rules(studies.figure(begin + text)), Contains("study.toml:") && Contains(message));
+  };
+  const std::string curves = "[[tables]]\nname = \"t\"\ncurves = [\"r\"]\n";
+  refused(curves + "columns = [\"p [MPa] = mean_stress\"]\nstage = 1\n", "stage: found 1, but ");
+  refused(curves + "columns = [\"p [MPa] = mean_stress\"]\nstages = [0, -2]\n",
+          "allowed: one of them, or from the end");
+  CHECK_NOTHROW(studies.rules(studies.figure(begin + curves + "columns = [\"r [1] = {run}\"]\nstage = -1\n")));
+  refused(curves + "columns = [\"p [MPa] = {y}\"]\n", "found '{y}'");
+  refused("[[tables]]\nname = \"t\"\ncolumns = [\"p [MPa] = {x:.2q}\"]\n", "found the format '.2q'");
+  refused("[[tables]]\nname = \"t\"\nrow = \"{y}\"\ncolumns = [\"p [MPa] = {x}\"]\n", "found '{y}'");
+  refused("[[tables]]\nname = \"t\"\nfile = \"none.csv\"\ncolumns = [\"p [MPa]\"]\n",
+          "found 'none.csv', allowed: a file next to ");
+  CHECK_NOTHROW(
+      studies.rules(studies.figure(begin + "[[tables]]\nname = \"t\"\nfile = \"made-1.csv\"\ncolumns = [\"p [MPa]\"]\n"
+                                           "[[scripts]]\nname = \"made-{x}.csv\"\ncommand = \"true > {file}\"\n")));
+  refused("[[pictures]]\nname = \"p.svg\"\nrun = \"r\"\ncommand = \"section {run}\"\n",
+          "name: found 'p.svg', but postproc section draws PNG, allowed: a name that ends in .png");
 }
 
 TEST_CASE("cases share a picture only if they draw the same one") {
@@ -359,7 +384,9 @@ TEST_CASE("a table of a file lies beside the figure where there is such a file, 
   const Studies studies;
   write_text(studies.path("paper.csv"), "x,y\n1,2\n");
   const Figure figure = studies.figure("[[tables]]\nname = \"p\"\nfile = \"paper.csv\"\ncolumns = [\"x\", \"y\"]\n"
-                                       "[[tables]]\nname = \"s\"\nfile = \"made.csv\"\ncolumns = [\"x\"]\n");
+                                       "[[tables]]\nname = \"s\"\nfile = \"made.csv\"\ncolumns = [\"x\"]\n"
+                                       "[[cases]]\nx = 1\n[[scripts]]\nname = \"made.csv\"\n"
+                                       "command = \"true > {file}\"\n");
   CHECK(path_of_table(figure.tables[0], "out/study") == studies.path("paper.csv"));
   CHECK(path_of_table(figure.tables[1], "out/study") == "out/study/made.csv");
   CHECK_THAT(studies.rules(figure), !Contains("paper.csv:"));
