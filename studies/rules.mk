@@ -50,11 +50,16 @@ allowed = $(if $(filter $($(1)),$(2)),,$(error $(1)=$($(1)): allowed: $(2)))
 # them).
 others_than = $(shell printf %s '$(subst ','\'',$(value $(2)))' | LC_ALL=C tr -d '$(1)')
 
+empty :=
+space := $(empty) $(empty)
+comma := ,
+
 #: MESH=NAME        nominal element size: smoke (0.03 mm, small packing), coarse (0.03 mm, the default),
 #:                  intermediate (0.025 mm), medium (0.015 mm), paper (0.0075 mm): those of the paper's Fig. 7;
 #:                  coarser (0.04 mm) for SURFACE=smooth, which needs no more; fig10 to fig26
 MESH ?= coarse
-$(call allowed,MESH,smoke coarser coarse intermediate medium paper)
+meshes := smoke coarser coarse intermediate medium paper
+$(call allowed,MESH,$(meshes))
 size_smoke := 0.03
 size_coarser := 0.04
 size_coarse := 0.03
@@ -114,8 +119,7 @@ endif
 
 # Results of other elements and surfaces than the default lie in folders of their own.
 variant := $(MESH)$(patsubst %,-%,$(filter-out facets,$(SURFACE)) $(filter-out tet4-anp,$(ELEMENT)))
-empty :=
-variant := $(subst $(empty) $(empty),,$(variant))
+variant := $(subst $(space),,$(variant))
 
 # -------------------------------------------------------------------------------- which packing
 # A study with a powder of its own has its own packing; all others share that of the figures.
@@ -214,7 +218,8 @@ $(declared): FORCE
 	@[ -x $(BIN)/postproc ] || { echo '$(makefile): $(BIN)/postproc is not built; ./bootstrap builds it' >&2; exit 1; }
 	@mkdir -p $(@D)
 	@$(if $(STUDY),printf '%s\n' '$(study_path)' > $(study_record))
-	@$(BIN)/postproc depends $(declared_sources) $(of_mesh) --packing $(mesh) --description $(description) \
+	@$(BIN)/postproc depends $(declared_sources) $(of_mesh) --meshes $(subst $(space),$(comma),$(meshes)) \
+	  --packing $(mesh) --description $(description) \
 	  --set element.type=$(ELEMENT) --set contact.surface=$(SURFACE) -o $@
 include $(declared)
 endif

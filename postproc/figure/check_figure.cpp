@@ -1,6 +1,7 @@
 #include "postproc/figure/check_figure.hpp"
 
 #include <algorithm>
+#include <set>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -64,9 +65,74 @@ void check_filters(const Figure& figure, const std::string& table, const std::ve
   for (const Filter& filter : filters) check_column(figure, table, filter.name, place);
 }
 
+/// Refuses names of series that no case has.
+void check_series(const Figure& figure, const std::vector<std::string>& names, const Place& place) {
+  std::vector<std::string> known;
+  for (const CaseBlock& block : figure.cases) known.push_back(block.series);
+  for (const std::string& name : names)
+    if (std::find(known.begin(), known.end(), name) == known.end())
+      place.fail(fmt::format("series: there are no [[cases]] of the series '{}'{}", name, suggestion(name, known)));
+}
+
+/// The names of the values that a block's cases have.
+std::set<std::string> value_names(const Figure& figure, const CaseBlock& block) {
+  std::set<std::string> names = {"series", "MESH"};
+  for (const auto& [name, value] : figure.defaults) names.insert(name);
+  for (const auto& [name, list] : block.values) names.insert(name);
+  for (const auto& [name, of_text] : figure.follows)
+    for (const auto& [text, words] : of_text)
+      for (const auto& [key, value] : words) names.insert(key);
+  return names;
+}
+
+/// Refuses what would show no row: a name or a value of `only` that the block does not have.
+void check_only(const Figure& figure, const CaseBlock& block) {
+  const std::set<std::string> names = value_names(figure, block);
+  for (const Filter& filter : block.only) {
+    if (!names.contains(filter.name))
+      block.place.fail(fmt::format("only: these cases have no value '{}'{}", filter.name,
+                                   suggestion(filter.name, {names.begin(), names.end()})));
+    const auto list = std::find_if(block.values.begin(), block.values.end(),
+                                   [&](const auto& entry) { return entry.first == filter.name; });
+    if (list == block.values.end()) continue;
+    const auto is_pattern = [](const Value& value) { return value.text.find('{') != std::string::npos; };
+    if (std::ranges::any_of(list->second, is_pattern)) continue;
+    std::vector<std::string> texts;
+    for (const Value& value : list->second) texts.push_back(value.text);
+    for (const Value& value : filter.equal)
+      if (std::find(list->second.begin(), list->second.end(), value) == list->second.end())
+        block.place.fail(
+            fmt::format("only: found {} = {}, allowed: {}", filter.name, value.text, fmt::join(texts, ", ")));
+  }
+}
+
+/// The names of the values that follow from that called `name`, directly or through others.
+std::set<std::string> following(const Figure& figure, const std::string& name) {
+  std::set<std::string> found;
+  std::vector<std::string> open = {name};
+  while (!open.empty()) {
+    const auto of_text = figure.follows.find(open.back());
+    open.pop_back();
+    if (of_text == figure.follows.end()) continue;
+    for (const auto& [text, words] : of_text->second)
+      for (const auto& [key, value] : words)
+        if (found.insert(key).second) open.push_back(key);
+  }
+  return found;
+}
+
+void check_cases(const Figure& figure) {
+  for (const CaseBlock& block : figure.cases) check_only(figure, block);
+  for (const auto& [name, of_text] : figure.follows)
+    if (following(figure, name).contains(name))
+      figure.follows_place.fail(fmt::format(
+          "found values that follow from '{0}', and from which '{0}' follows, allowed: only one way", name));
+}
+
 void check_runs(const Figure& figure) {
   for (const RunTemplate& run : figure.runs) {
     check_beginning(figure, run);
+    check_series(figure, run.series, run.place);
     if (!run.packing.empty() && !figure.run(run.packing, run.place).is_packing)
       run.place.fail(fmt::format("packing: '{}' is a run, allowed: one of [[packings]]", run.packing));
   }
@@ -90,6 +156,7 @@ void check_stages(const Figure& figure, const TableSpec& table) {
 void check_tables(const Figure& figure) {
   for (const TableSpec& table : figure.tables) {
     check_columns_once(table);
+    check_series(figure, table.series, table.place);
     for (const ColumnSpec& column : table.columns) {
       if (!column.run.empty()) figure.run(column.run, table.place);
       if (!column.format.empty())
@@ -118,6 +185,11 @@ void check_model(const SeriesSpec& series) {
     if (std::find(needed.begin(), needed.end(), name) == needed.end()) fault("found the coefficient", name);
   for (const std::string& name : needed)
     if (std::find(given.begin(), given.end(), name) == given.end()) fault("found no coefficient", name);
+}
+
+void check_command(const Figure& figure, const CommandSpec& command) {
+  if (!command.run.empty()) figure.run(command.run, command.place);
+  check_series(figure, command.series, command.place);
 }
 
 void check_plots(const Figure& figure) {
@@ -219,6 +291,7 @@ void check_names(const Figure& figure) {
   check_once(figure.tables, "table");
   check_once(figure.fits, "fit");
   check_once(figure.plots, "plot");
+  check_cases(figure);
   check_runs(figure);
   check_tables(figure);
   for (const FitSpec& fit : figure.fits) {
@@ -226,9 +299,8 @@ void check_names(const Figure& figure) {
     check_filters(figure, fit.table, fit.where, fit.place);
   }
   check_plots(figure);
-  for (const PictureSpec& picture : figure.pictures) figure.run(picture.run, picture.place);
-  for (const ScriptSpec& script : figure.scripts)
-    if (!script.run.empty()) figure.run(script.run, script.place);
+  for (const PictureSpec& picture : figure.pictures) check_command(figure, picture);
+  for (const ScriptSpec& script : figure.scripts) check_command(figure, script);
   StatementCheck check_statement(figure);
   for (const StatementSpec& statement : figure.statements) check_statement(statement);
 }

@@ -37,6 +37,7 @@ public:
 
   void add(const Figure& figure) {
     current_ = &figure;
+    check_meshes();
     folder_ = fmt::format("{}/{}", request_.results.path, figure.name);
     sources_ = fmt::format("{}", fmt::join(figure.files, " "));
     files_.clear();
@@ -103,6 +104,20 @@ private:
     const std::string file = fmt::format("{}/{}.spread.csv", folder_, table.name);
     variable(file, "figure", current_->path);
     lists_["spread_files"].insert(file);
+  }
+
+  void check_mesh(const std::string& name, const Place& place) const {
+    const auto& known = request_.meshes;
+    if (known.empty() || std::ranges::find(known, name) != known.end()) return;
+    place.fail(fmt::format("meshes: found '{}'{}", one_line(name), suggestion(name, known)));
+  }
+
+  void check_meshes() const {
+    for (const CaseBlock& block : current_->cases)
+      for (const std::string& mesh : block.meshes) check_mesh(mesh, block.place);
+    for (const StatementSpec& statement : current_->statements)
+      for (const std::string& mesh : statement.meshes) check_mesh(mesh, statement.place);
+    for (const std::string& mesh : current_->beside.meshes) check_mesh(mesh, current_->beside.place);
   }
 
   /// Refuses a file that neither lies next to the figure's file nor is made by a script.

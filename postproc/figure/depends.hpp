@@ -14,13 +14,14 @@ struct DependsRequest {
   std::string description;                ///< file that it was made from
   Settings common_settings;               ///< element, contact surface …: for every run that does not decline them
   std::vector<std::string> commands = {}; ///< of postproc, for metrics; empty: any
+  std::vector<std::string> meshes = {};   ///< values of MESH; empty: any
   /// Throws InputError for words that postproc refuses, before their files exist. Empty: nothing is refused.
   std::function<void(const std::vector<std::string>&)> check_words = {};
 };
 
 /// Rules for make (docs/figure-file.md, "What make does"), for all figures together, so that they share runs. Where the
 /// settings of a run differ from those in the file next to it, that settings file depends on FORCE.
-/// Throws InputError: runs that two figures describe differently, a metric whose command is not among `commands`, metrics
+/// Throws InputError: names that are no mesh, runs that two figures describe differently, a metric whose command is not among `commands`, metrics
 /// and pictures with options that `check_words` refuses.
 std::string make_rules(const std::vector<Figure>& figures, const DependsRequest& request);
 

@@ -227,6 +227,7 @@ struct StatementSpec {
 struct BesideSpec {
   std::string folder, title;       ///< that of all figures' results; for the plots' keys. Empty: none
   std::vector<std::string> meshes; ///< only beside results of these; empty: of all
+  Place place;
 };
 
 /// Everything that a figure's file declares.
@@ -235,6 +236,7 @@ struct Figure {
   std::vector<std::string> files; ///< all that were read
   Words defaults;
   std::map<std::string, std::map<std::string, Words>> follows; ///< values implied by another one: name, text, values
+  Place follows_place;
   std::vector<CaseBlock> cases;
   std::vector<RunTemplate> runs;
   std::vector<MetricSpec> metrics;

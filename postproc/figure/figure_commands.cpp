@@ -25,7 +25,7 @@ struct FigureCommands::State {
   std::string figure, name, output, results = "out/coarse", mesh = "coarse", programmes = "studies/branches", packing,
                                     description;
   std::string title, run, beside;
-  std::vector<std::string> files, settings;
+  std::vector<std::string> files, settings, known_meshes;
   int packings = 0;
   const CLI::App* program = nullptr;
   std::function<void(const std::vector<std::string>&)> check_words;
@@ -61,6 +61,8 @@ struct FigureCommands::State {
     command.add_option("figures", files, "Figures' files (TOML)")->required()->check(existing_file());
     add_common(command);
     command.add_option("--packing", packing, "The meshed packing")->required();
+    separated_by_commas(command.add_option("--meshes", known_meshes,
+                                           "All names of meshes; others in the files are refused (default: any)"));
     command.add_option("--description", description, "The file that the packing was made from, for metrics");
     add_assignments(command, settings, "Setting of every run, unless it has common_settings = false: KEY=VALUE");
   }
@@ -168,7 +170,7 @@ struct FigureCommands::State {
   void depends() const {
     std::vector<Figure> figures;
     for (const std::string& file : files) figures.push_back(read(file));
-    DependsRequest request{{results, mesh}, packing, description, {}, {}, check_words};
+    DependsRequest request{{results, mesh}, packing, description, {}, {}, known_meshes, check_words};
     for (const CLI::App* command : program->get_subcommands({})) request.commands.push_back(command->get_name());
     for (const std::string& setting : settings) {
       const std::size_t equals = setting.find('=');

@@ -50,6 +50,9 @@ Filter Texts::filter(const std::string& key, TableReader& table, const std::stri
     Texts texts(limits, words_);
     filter.at_least = texts.number("at_least");
     filter.at_most = texts.number("at_most");
+    if (filter.at_least && filter.at_most && *filter.at_least > *filter.at_most)
+      limits.fail("at_most", fmt::format("found {:g}, below 'at_least' = {:g}, allowed: no smaller number",
+                                         *filter.at_most, *filter.at_least));
     limits.finish();
     return filter;
   }

@@ -130,7 +130,8 @@ private:
   void read_runs(TableReader& root, const filesystem::path& folder) {
     if (auto defaults = root.optional_table("defaults"))
       for (const std::string& key : defaults->keys()) figure_.defaults[key] = values_of(*defaults, key).front();
-    if (auto follows = root.optional_table("follows"))
+    if (auto follows = root.optional_table("follows")) {
+      figure_.follows_place = Place(root, "follows");
       for (const std::string& name : follows->keys()) {
         TableReader of_name = follows->table(name);
         for (const std::string& text : of_name.keys()) {
@@ -139,6 +140,7 @@ private:
             figure_.follows[name][text][key] = values_of(values, key).front();
         }
       }
+    }
     for (TableReader& r : root.tables("packings")) figure_.runs.push_back(read_packing(r));
     for (TableReader& r : root.tables("runs")) figure_.runs.push_back(read_run(r, folder, programmes_));
     append_each(root, "cases", read_case, figure_.cases);
@@ -168,6 +170,7 @@ private:
     figure_.beside.folder = (folder / table.string("results")).lexically_normal().string();
     figure_.beside.title = table.string("title");
     figure_.beside.meshes = table.strings_or("meshes", {});
+    figure_.beside.place = Place(table, "results");
     table.finish();
   }
 

@@ -47,6 +47,13 @@ std::string programme_path(TableReader& r, const std::string& name, const filesy
   return path.string();
 }
 
+/// A value that stands twice in a list would make rows twice, and a chain without end.
+void refuse_repeated(const std::vector<Value>& values, const Place& place) {
+  for (auto value = values.begin(); value != values.end(); ++value)
+    if (std::find(values.begin(), value, *value) != value)
+      place.fail(fmt::format("found {} twice, allowed: every value once", value->text));
+}
+
 } // namespace
 
 RunTemplate read_packing(TableReader& r) {
@@ -93,6 +100,7 @@ CaseBlock read_case(Texts& t) {
   for (const std::string& key : t.reader().keys()) {
     if (key == "series" || key == "meshes" || key == "only" || key == "for_each") continue;
     block.values.emplace_back(key, t.values(key));
+    refuse_repeated(block.values.back().second, Place(t.reader(), key));
   }
   return block;
 }

@@ -100,6 +100,13 @@ std::optional<Case> before_in_chain(const RunTemplate& run, const Case& row) {
   return before;
 }
 
+/// Refuses a run's folder outside that of the results.
+void refuse_outside(const std::filesystem::path& folder, const Place& place) {
+  const auto is_up = [](const std::filesystem::path& part) { return part == ".."; };
+  if (folder.is_absolute() || std::ranges::any_of(folder, is_up))
+    place.fail(fmt::format("folder: found '{}', allowed: a folder below that of the results", folder.string()));
+}
+
 void collect_names(std::string_view pattern, std::set<std::string>& names) {
   for (std::size_t begin = pattern.find('{'); begin != std::string_view::npos; begin = pattern.find('{', begin + 1))
     names.emplace(pattern.substr(begin + 1, pattern.find_first_of(":}", begin) - begin - 1));
@@ -236,12 +243,12 @@ std::string folder_of_file(const std::string& path) {
 }
 
 std::string folder_of(const Figure& figure, const RunTemplate& run, const Case& row) {
-  if (!run.mesh.empty()) {
-    const std::string mesh = filled_at(run.place, run.mesh, row.values);
+  if (!run.folder.empty()) {
     const std::string folder = filled_at(run.place, run.folder, row.values);
+    refuse_outside(folder, run.place);
+    const std::string mesh = run.mesh.empty() ? row.mesh : filled_at(run.place, run.mesh, row.values);
     return mesh == row.mesh ? folder : fmt::format("../{}/{}", mesh, folder);
   }
-  if (!run.folder.empty()) return filled_at(run.place, run.folder, row.values);
   // Packings shared by figures have one folder.
   if (run.is_packing && run.command.empty())
     return run.size.empty() ? "packing" : fmt::format("packing-{}", filled_at(run.place, run.size, row.values));

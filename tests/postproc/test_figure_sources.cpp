@@ -235,6 +235,35 @@ command = "{}"
     CHECK(refused(metric).exit_code == 0);
 }
 
+TEST_CASE("selectors that match nothing, and values that define no study, are refused with their line") {
+  const Studies studies;
+  const std::string run = "[[runs]]\nname = \"r\"\nprogramme = \"press\"\n";
+  const std::string table = "[[tables]]\nname = \"t\"\ncolumns = [\"y = r/strength.value\"]\n";
+  const auto refused = [&](const std::string& text, const std::string& message) {
+    CAPTURE(text);
+    CHECK_THROWS_WITH(
+        make_rules({studies.figure(text)}, {studies.results(), "p.h5", "d.toml", {}, {}, {"coarse", "smoke"}}),
+        Contains("study.toml:") && Contains(message));
+  };
+  const std::string cases = "[[cases]]\nseries = \"a\"\nx = [1, 2]\n";
+  refused(cases + run + "series = [\"b\"]\n" + table, "series: there are no [[cases]] of the series 'b'");
+  refused(cases + run + table + "series = [\"a\", \"b\"]\n", "there are no [[cases]] of the series 'b'");
+  refused(cases + "only = { y = 1 }\n" + run + table, "only: these cases have no value 'y'");
+  refused(cases + "only = { x = [1, 3] }\n" + run + table, "only: found x = 3, allowed: 1, 2");
+  refused(cases + "meshes = [\"coars\"]\n" + run + table, "meshes: found 'coars'; did you mean 'coarse'?");
+  refused(cases + run + table + "where = { x = { at_least = 3, at_most = 2 } }\n",
+          "found 2, below 'at_least' = 3, allowed: no smaller number");
+  refused(cases + run + table +
+              "[[statements]]\ntext = \"s\"\npaper = \"p\"\nours = \"o\"\nquantities = {}\nmeshes = [\"medum\"]\n",
+          "meshes: found 'medum', allowed: coarse, smoke");
+  refused("[[cases]]\nx = [20, 30, 2e1]\n" + run + table, "found 20 twice, allowed: every value once");
+  refused("[[cases]]\nx = 1\n[follows.x]\n\"1\" = { y = 1 }\n[follows.y]\n\"1\" = { x = 1 }\n" + run + table,
+          "from which 'x' follows, allowed: only one way");
+  for (const std::string folder : {"../other", "/tmp/other", "a/../b", "{x}/.."})
+    refused(cases + run + "folder = \"" + folder + "\"\n" + table, "allowed: a folder below that of the results");
+  CHECK_NOTHROW(studies.rules(studies.figure(cases + "only = { x = 2.0 }\nmeshes = [\"any\"]\n" + run + table)));
+}
+
 TEST_CASE("stages, values, pictures and files that cannot be there are refused before anything is made") {
   const Studies studies;
   const std::string begin = "[[cases]]\nx = 1\n[[runs]]\nname = \"r\"\nprogramme = \"press\"\n";

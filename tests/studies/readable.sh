@@ -7,8 +7,9 @@ cd "$(dirname "${BASH_SOURCE[0]}")/../.."
 mapfile -t studies < <(grep -l '^question' studies/*/*.toml)
 ((${#studies[@]} > 40)) || { echo "readable.sh: only ${#studies[@]} studies found" >&2 && exit 1; }
 
+meshes=$(sed -n 's/^meshes := //p' studies/rules.mk | tr ' ' ,)
 code=0
 for study in "${studies[@]}"; do
-  "$postproc" depends "$study" --packing packing.h5 --description powder.toml >/dev/null || code=1
+  "$postproc" depends "$study" --meshes "$meshes" --packing packing.h5 --description powder.toml >/dev/null || code=1
 done
 exit "$code"
