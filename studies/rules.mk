@@ -195,8 +195,10 @@ $(packings)/spheres.h5: $(packings)/spheres.settings | $(BIN)/pack-gen
 	$(BIN)/pack-gen spheres $(description) $(SEED:%=--seed %) -o $(@D)/new-spheres.h5
 	mv $(@D)/new-spheres.h5 $@
 
+# A mesh is as old as its spheres, so that one which was removed and made again for a branch makes no runs old.
 $(packings)/mesh-%.h5: $(packings)/spheres.h5 | $(BIN)/pack-gen
 	$(RUN) $(BIN)/pack-gen mesh $< --size $* $(threads) -o $(@D)/new-mesh-$*.h5
+	touch -r $< $(@D)/new-mesh-$*.h5
 	mv $(@D)/new-mesh-$*.h5 $@
 
 # -------------------------------------------------------------------------------- what is declared

@@ -378,7 +378,8 @@ private:
         "{} {}{}", run.programme, hash_text(hash_string(TomlDocument::from_file(run.programme).text())), options);
     std::erase(settings_text, '\''); // as make writes it to the file
     const std::string parent = run.parent.empty() ? packing : request_.results.of(run.parent) + "/run.h5";
-    text_ += fmt::format("{}: {} {}\n", file, parent, settings_file);
+    // A branch reads the packing, too. A new one makes its parent again, so it need not be newer for the branch.
+    text_ += fmt::format("{}: {} {}{}\n", file, parent, settings_file, run.parent.empty() ? "" : " | " + packing);
     variable(file, "programme", run.programme);
     variable(file, "options", options);
     stamp(settings_file, settings_text);
