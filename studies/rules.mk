@@ -131,9 +131,9 @@ endif
 ifneq ($(and $(filter study,$(MAKECMDGOALS)),$(if $(wildcard $(STUDY)),,missing)),)
   $(error STUDY=$(STUDY): allowed: the file of a study, e.g. make -f $(makefile) study STUDY=my.toml)
 endif
-# Of the whole path, so that ./figure.toml has the name of its folder.
-study_path := $(lastword $(abspath $(STUDY)))
-study_name := $(patsubst %.toml,%,$(notdir $(patsubst %/figure.toml,%.toml,$(study_path))))
+# Of the whole path, so that ./figure.toml has the name of its folder. The path may have spaces before STUDY.
+study_path := $(abspath $(STUDY))
+study_name := $(patsubst %.toml,%,$(notdir $(patsubst %/figure.toml,%.toml,$(lastword $(study_path)))))
 powder = $(BIN)/postproc powder '$(STUDY)' --programmes $(studies)/branches
 of_powder := $(if $(STUDY),$(shell $(powder) | sed -n '1s/^# element_size = //p'))
 packing_smoke := smoke
@@ -207,8 +207,8 @@ declared_sources := $(or $(STUDY),$(wildcard $(studies)/fig*/figure.toml))
 declared := $(out)/$(if $(STUDY),$(study_name)/study,figures).mk
 # Two studies of one name would replace each other's results.
 study_record := $(dir $(declared))study.path
-recorded_study := $(if $(STUDY),$(if $(wildcard $(study_record)),$(shell cat $(study_record))))
-ifneq ($(filter-out $(study_path),$(if $(wildcard $(recorded_study)),$(recorded_study))),)
+recorded_study := $(if $(STUDY),$(shell path=$$(cat $(study_record) 2>/dev/null) && [ -e "$$path" ] && echo "$$path"))
+ifneq ($(if $(recorded_study),$(filter-out |$(subst $(space),|,$(study_path)),|$(subst $(space),|,$(recorded_study)))),)
   $(error STUDY=$(STUDY): $(dir $(declared)) has the results of $(recorded_study), allowed: a study with another name; \
     rename its file or folder, or remove those results)
 endif
@@ -219,7 +219,7 @@ ifneq ($(filter-out help clean clean-figures,$(goals)),)
 $(declared): FORCE
 	@[ -x $(BIN)/postproc ] || { echo '$(makefile): $(BIN)/postproc is not built; ./bootstrap builds it' >&2; exit 1; }
 	@mkdir -p $(@D)
-	@$(if $(STUDY),printf '%s\n' '$(study_path)' > $(study_record))
+	@$(if $(STUDY),printf '%s\n' '$(subst ','\'',$(study_path))' > $(study_record))
 	@$(BIN)/postproc depends $(declared_sources) $(of_mesh) --meshes $(subst $(space),$(comma),$(meshes)) \
 	  --packing $(mesh) --description $(description) \
 	  --set element.type=$(ELEMENT) --set contact.surface=$(SURFACE) -o $@

@@ -69,6 +69,22 @@ message=$(make -n -f "$here/studies/rules.mk" study STUDY=two/tablet/figure.toml
   { echo "settings.sh: two studies of one name: $message" && code=1; }
 rm -r out
 
+# So it is in a folder whose path has spaces. The same study is taken again.
+mkdir -p "it's a folder/"{one,two}
+cp my.toml "it's a folder/one/s.toml"
+cp my.toml "it's a folder/two/s.toml"
+in_folder() {
+  (cd "it's a folder" && make -n -f "$here/studies/rules.mk" study STUDY="$1/s.toml" BIN="$bin" 2>&1)
+}
+mkdir -p "it's a folder/out/own/s"
+realpath "it's a folder/one/s.toml" >"it's a folder/out/own/s/study.path"
+message=$(in_folder one) || { echo "settings.sh: $message" && code=1; }
+[[ $(cat "it's a folder/out/own/s/study.path") == "$work/it's a folder/one/s.toml" ]] ||
+  { echo "settings.sh: study.path has: $(cat "it's a folder/out/own/s/study.path")" && code=1; }
+message=$(in_folder two) && code=1
+[[ $message == *"has the results of $work/it's a folder/one/s.toml, allowed"* ]] ||
+  { echo "settings.sh: two studies of one name in a folder with spaces: $message" && code=1; }
+
 # A source tree takes its own build, whatever lies in a folder bin beside it; an installation takes its own programs.
 mkdir -p bin tree share/mpfem
 printf '#!/bin/sh\necho "bin beside" >&2\nexit 1\n' >bin/postproc
