@@ -322,6 +322,13 @@ $(call seed_tables,$(1)): seed-$(1)
 endef
 $(foreach s,$(seeds_wanted),$(eval $(call seed_rules,$(s))))
 
+# A recipe, because the plots are known only once make has read its files again.
+.PHONY: note-on-seeds
+note-on-seeds:
+	@echo '$(makefile): note: SEEDS=$(SEEDS) has no effect: no series has spread = true' >&2
+without_spread := $(if $(wanted_figures),$(if $(filter $(wanted_figures:%=$(out)/%/%),$(spread_plots)),,note-on-seeds))
+$(wanted_figures) $(if $(wanted_figures),$(all_wanted)): | $(without_spread)
+
 # -------------------------------------------------------------------------------- a user's study
 #: study STUDY=FILE a study of your own (docs/own-study.md), and a page of it
 study: $(out)/$(study_name)/index.html

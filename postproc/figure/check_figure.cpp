@@ -192,6 +192,17 @@ void check_command(const Figure& figure, const CommandSpec& command) {
   check_series(figure, command.series, command.place);
 }
 
+/// Mean and deviation over packings are drawn of columns that the table's `spread` names.
+void check_spread(const Figure& figure, const SeriesSpec& series) {
+  const std::vector<std::string>& columns = figure.table(series.table, series.place).spread;
+  for (const std::string& column : {series.x, series.y})
+    if (series.spread && std::find(columns.begin(), columns.end(), column) == columns.end())
+      series.place.fail(
+          fmt::format("spread: found true, but 'spread' of the table '{}' has no column '{}', allowed: x and "
+                      "y of the series in it",
+                      series.table, column));
+}
+
 void check_plots(const Figure& figure) {
   for (const PlotSpec& plot : figure.plots) {
     for (const SeriesSpec& series : plot.series) {
@@ -201,6 +212,7 @@ void check_plots(const Figure& figure) {
       for (const std::string& column : {series.x, series.y, series.error, series.group, series.colour_by})
         check_column(figure, series.table, column, series.place);
       check_filters(figure, series.table, series.where, series.place);
+      check_spread(figure, series);
     }
     if (plot.inset && !plot.series.empty())
       check_filters(figure, plot.series.front().table, plot.inset->where, plot.place);

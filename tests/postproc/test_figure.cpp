@@ -457,6 +457,8 @@ TEST_CASE("names that a statement, fit, plot or table misspells are found before
   refused(plot + "series = [{ table = \"strength\", x = \"density\", y = \"strength\" }]\ninset = { x = {}, y = {}, "
                  "place = [0, 0, 1, 1], where = { densty = 1 } }\n",
           "has no column 'densty'");
+  refused(plot + "series = [{ table = \"strength\", x = \"density\", y = \"strength\", spread = true }]\n",
+          "spread: found true, but 'spread' of the table 'strength' has no column 'density'");
   refused("[[tables]]\nname = \"t\"\nlist = \"pressed\"\ncolumns = [\"x [1] = y\"]\n",
           "list: found 'pressed', allowed: RUN/METRIC");
   refused("[[tables]]\nname = \"t\"\ncolumns = [\"x [1] = pressed/strength.value:.2q\"]\n", "found the format '.2q'");

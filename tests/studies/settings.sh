@@ -43,6 +43,15 @@ refused "${study[1]}: allowed: a path without spaces" "${study[@]}"
 study[1]=$here/studies/rules.mk
 make -n "${study[@]}" SEEDS='2 3' THREADS=2 BIN="$bin" >plan 2>&1 || { cat plan && code=1; }
 
+# SEEDS without a series that shows a spread has no effect, and make says so.
+note='note: SEEDS=2 3 has no effect: no series has spread = true'
+grep -q "$note" plan || { echo "settings.sh: make says nothing of SEEDS without effect" && code=1; }
+sed 's/^\(name = "strength"\)$/&\nspread = ["compaction_stress", "strength"]/; s/group = [^,]*,/spread = true,/' my.toml |
+  awk '/^\[\[plots/ { plots = 1 } !(plots && /^spread/)' >spread.toml
+make -n "${study[@]}" STUDY=spread.toml SEEDS='2 3' BIN="$bin" >plan 2>&1 || { cat plan && code=1; }
+grep -q 'SEED=2 out/own-seed2/spread/strength.csv' plan || { echo "settings.sh: SEEDS makes no packings" && code=1; }
+! grep -q "$note" plan || { echo "settings.sh: make says that SEEDS of spread.toml has no effect" && code=1; }
+
 # No name of a study is that of a variable of the rules: the plans of such studies differ only in their names.
 plan_of() {
   cp my.toml "$1.toml"
