@@ -30,11 +30,30 @@ Line branch(const StageCurve& c, RowRange rows) {
   return theil_sen_line(thinned(c.axial_strain, rows), thinned(c.axial_stress, rows));
 }
 
-/// Area of the loop (MPa): stress over strain, once around, by trapezoids.
+/// The part of the loop's last step up to where the strain or the stress of its top is reached, whichever comes first.
+double closing_share(const StageCurve& c, const UnloadReloadLoop& loop) {
+  double share = 1;
+  for (const auto* column : {&c.axial_strain, &c.axial_stress}) {
+    const double before = (*column)[loop.closed - 1], after = (*column)[loop.closed], top = (*column)[loop.top];
+    if (after > top && after > before) share = std::min(share, (top - before) / (after - before));
+  }
+  return share;
+}
+
+/// Area of the loop (MPa): stress over strain, once around, by trapezoids. The last step ends where the loop closes, and
+/// a straight line leads from there to its top.
 double loop_area(const StageCurve& c, const UnloadReloadLoop& loop) {
-  double area = 0;
-  for (std::size_t row = loop.top; row < loop.closed; ++row)
-    area += 0.5 * (c.axial_stress[row] + c.axial_stress[row + 1]) * (c.axial_strain[row + 1] - c.axial_strain[row]);
+  double area = 0, strain = c.axial_strain[loop.top], stress = c.axial_stress[loop.top];
+  const auto move_to = [&](double next_strain, double next_stress) {
+    area += 0.5 * (stress + next_stress) * (next_strain - strain);
+    strain = next_strain;
+    stress = next_stress;
+  };
+  for (std::size_t row = loop.top + 1; row < loop.closed; ++row) move_to(c.axial_strain[row], c.axial_stress[row]);
+  const double share = closing_share(c, loop);
+  move_to(strain + share * (c.axial_strain[loop.closed] - strain),
+          stress + share * (c.axial_stress[loop.closed] - stress));
+  move_to(c.axial_strain[loop.top], c.axial_stress[loop.top]);
   return area;
 }
 

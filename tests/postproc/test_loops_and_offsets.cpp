@@ -71,6 +71,27 @@ TEST_CASE("the axial work in a round container is that of the walls' force, whic
   }
 }
 
+TEST_CASE("a loop that is elastic has no area, wherever its rows lie") {
+  for (const int steps : {4, 5, 7, 9, 13}) {
+    const Folder folder;
+    const StageCurve curve = curve_of(folder, along({{0, 0}, {0.01, 10}, {0.006, 6}, {0.02, 20}}, steps));
+    CAPTURE(steps);
+    CHECK(std::abs(unload_reload_modulus(curve, 0).details["loop_area_MPa"].get<double>()) < 1e-12);
+  }
+}
+
+TEST_CASE("a loop's area ends at its closing strain: a parallelogram of known sides") {
+  // Down and up at 1000 MPa, with a drop of 2 MPa at the top and a rise of 2 MPa at the bottom.
+  const Folder folder;
+  const std::vector<std::array<double, 2>> down = {{0, 0}, {0.01, 10}, {0.0099999, 8}, {0.006, 4}};
+  auto corners = down;
+  corners.insert(corners.end(), {{0.0060001, 6}, {0.02, 20}});
+  for (const int steps : {5, 6, 11}) {
+    const StageCurve curve = curve_of(folder, along(corners, steps));
+    CHECK(within(unload_reload_modulus(curve, 0).details["loop_area_MPa"].get<double>(), 0.004 * 2, 1e-3));
+  }
+}
+
 TEST_CASE("a loop with hysteresis has the mean slope of its branches, and the area between them") {
   const Folder folder;
   // Down along two lines, and up along the lower of them, on and on.
