@@ -202,7 +202,7 @@ public:
                "Young's modulus of the grains (default: the scenario's)");
     add_number(options(), "--mean-radius", scale_.mean_radius, positive_length, "mm",
                "Mean radius of the grains (default: from --packing, else from a snapshot)");
-    add_input("--packing", packing_, "Packing file (HDF5) to take the mean radius from");
+    add_input("--packing", packing_, "Packing file (HDF5) of the run, to take the mean radius from");
   }
 
 private:
@@ -214,10 +214,12 @@ private:
   }
 
   Measurement measure(const schema::FileReader& run) const override {
+    if (scale_.mean_radius && !packing_.empty())
+      throw InputError("--mean-radius: found together with --packing, allowed: one of them");
     EnergyScale scale = scale_;
     if (!scale.youngs_modulus) scale.youngs_modulus = scenario_facts(run).youngs_modulus;
     if (!scale.mean_radius)
-      scale.mean_radius = packing_.empty() ? mean_radius_of_run(run) : mean_radius_of_packing(packing_);
+      scale.mean_radius = packing_.empty() ? mean_radius_of_run(run) : mean_radius_of_packing(packing_, run);
     return measure_energy(run, stage(), scale);
   }
 

@@ -3,18 +3,48 @@
 #include <cmath>
 #include <numbers>
 #include <numeric>
+#include <span>
 #include <vector>
 
 #include <Eigen/Dense>
+#include <fmt/format.h>
 
+#include "common/errors.hpp"
+#include "common/hash.hpp"
+#include "common/one_line.hpp"
 #include "postproc/run_data/snapshot.hpp"
 #include "results-schema/packing_file.hpp"
 
 namespace mpfem {
 
-double mean_radius_of_packing(const std::string& path) {
+namespace {
+
+/// As the solver writes it to /provenance/packing_hash.
+std::string hash_of_packing(const schema::PackingTets& mesh, const std::vector<double>& box_lengths) {
+  std::uint64_t hash = hash_values(std::span<const double>(mesh.node));
+  hash = hash_values(std::span<const std::int32_t>(mesh.tet), hash);
+  hash = hash_values(std::span<const std::int32_t>(mesh.grain_node_offset), hash);
+  return hash_text(hash_values(std::span<const double>(box_lengths), hash));
+}
+
+/// Whether the run's grains are those of a packing. Spheres without meshes are compared by number.
+bool is_packing_of(const schema::FileReader& run, const schema::FileReader& file,
+                   const schema::PackingSpheres& spheres) {
+  if (file.has(schema::packing::mesh_tet))
+    return hash_of_packing(schema::read_packing_tets(file, spheres.radius.size()), spheres.box_lengths) ==
+           run.read_scalar(schema::run::provenance_packing_hash);
+  return spheres.radius.size() + 1 == run.rows(schema::run::mesh_grain_tet_offset);
+}
+
+} // namespace
+
+double mean_radius_of_packing(const std::string& path, const schema::FileReader& run) {
   const schema::FileReader file(path, schema::FileKind::packing);
-  const auto radius = schema::read_packing_spheres(file).radius;
+  const schema::PackingSpheres spheres = schema::read_packing_spheres(file);
+  if (!is_packing_of(run, file, spheres))
+    throw InputError(fmt::format("{}: is not the packing of {}, allowed: the one that the run began with",
+                                 one_line(path), one_line(run.path())));
+  const std::vector<double>& radius = spheres.radius;
   return std::accumulate(radius.begin(), radius.end(), 0.0) / static_cast<double>(radius.size());
 }
 

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "common/errors.hpp"
+#include "common/hash.hpp"
 #include "postproc/metrics/contact_history.hpp"
 #include "postproc/metrics/elastic_recovery.hpp"
 #include "postproc/metrics/energy_release.hpp"
@@ -16,7 +17,9 @@
 #include "postproc/metrics/yield_point.hpp"
 #include "postproc/run_data/mean_radius.hpp"
 #include "run_postproc.hpp"
+#include "solver/model/model.hpp"
 #include "stage_run.hpp"
+#include "tests/support/packing_file.hpp"
 #include "tests/support/tolerances.hpp"
 
 using namespace mpfem;
@@ -579,6 +582,22 @@ TEST_CASE("the mean radius is that of the grains' volumes at the reference densi
   CHECK(within(*radius, std::cbrt(3 * 0.4 * 27 / 2 / (4 * std::numbers::pi)), 0.02));
 }
 
+TEST_CASE("a mean radius is taken from the run's own packing only, as the solver recognises it") {
+  const Folder folder;
+  const MeshedPacking grains = eight_grains(4);
+  write_packing(folder / "own.h5", grains, std::vector<double>(8, 0.125));
+  write_packing(folder / "other.h5", eight_grains(5), std::vector<double>(8, 0.125));
+  RunContents contents = small_run();
+  const std::uint64_t of_nodes_and_tets =
+      hash_values(std::span<const std::int32_t>(grains.tet), hash_values(std::span<const double>(grains.node)));
+  contents.texts["/provenance/packing_hash"] = {hash_text(hash_of_mesh(of_nodes_and_tets, grains))};
+  write_run(folder / "run.h5", contents);
+  const schema::FileReader run(folder / "run.h5");
+  CHECK(mean_radius_of_packing(folder / "own.h5", run) == 0.125);
+  CHECK_THROWS_WITH(mean_radius_of_packing(folder / "other.h5", run),
+                    Catch::Contains("other.h5: is not the packing of ") && Catch::Contains("run.h5, allowed: "));
+}
+
 TEST_CASE("the contact-area ratio is followed through the run") {
   const Folder folder;
   std::vector<Row> rows = loaded_and_unloaded(0, 1);
@@ -702,6 +721,8 @@ TEST_CASE("metric commands refuse what they cannot use with one line and exit co
            {"unload-reload-modulus " + run, "found no stage of type unconfined_compression, allowed: a run"},
            {"energy " + run + " --stage 7 -o " + (folder / "x.json"), "found 7"},
            {"energy " + run + " --packing " + run + " -o " + (folder / "x.json"), "run"},
+           {"energy " + run + " --packing " + run + " --mean-radius 0.1 -o " + (folder / "x.json"),
+            "--mean-radius: found together with --packing, allowed: one of them"},
            {"contact --history " + run + " --stage 7", "found 7"},
            {"contact " + run + " --stage 0", "--history"},
            {"contact --history " + run + " --pair 0,1", "allowed: one of them"},
