@@ -10,6 +10,7 @@
 #include "common/one_line.hpp"
 #include "postproc/fits/statistics.hpp"
 #include "postproc/metrics/bond_energy.hpp"
+#include "postproc/run_data/snapshot.hpp"
 #include "postproc/run_data/snapshot_window.hpp"
 
 namespace mpfem {
@@ -97,6 +98,12 @@ Measurement measure_damage_of_test(const schema::FileReader& file, int snapshot,
   namespace run = schema::run;
   if (file.read_scalar(run::provenance_packing_hash) != before.read_scalar(run::provenance_packing_hash))
     throw InputError(fmt::format("{}: its packing is not that of {}, allowed: the run that it branched from, or itself",
+                                 one_line(before.path()), one_line(file.path())));
+  const auto time_of = [](const schema::FileReader& reader, int number) {
+    return reader.read_scalar(run::snapshots_time, snapshot_name(reader, number));
+  };
+  if (time_of(before, snapshot_before) > time_of(file, snapshot))
+    throw InputError(fmt::format("{}: found the snapshot before later than that of {}, allowed: an earlier one",
                                  one_line(before.path()), one_line(file.path())));
   const BondsSince since = bonds_since(read_bond_table(before, snapshot_before), read_bond_table(file, snapshot));
   if (since.found.empty())

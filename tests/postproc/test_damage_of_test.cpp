@@ -87,6 +87,11 @@ TEST_CASE("the damage of a test is the growth of damage in the bonds that it fou
   CHECK(all.details["damage_dissipation_mJ"].get<double>() == Approx(energy).epsilon(1e-12));
   CHECK(measure_damage(first, -1).details["energy_spent_share"].is_null());
 
+  RunContents later = before;
+  later.numbers["/snapshots/*/time"] = {1};
+  write_run(folder / "later.h5", later);
+  CHECK_THROWS_WITH(measure_damage_of_test(second, -1, schema::FileReader(folder / "later.h5"), -1),
+                    Catch::Contains("later.h5: found the snapshot before later than that of "));
   now.texts["/provenance/packing_hash"] = {"another"};
   write_run(folder / "other.h5", now);
   CHECK_THROWS_WITH(measure_damage_of_test(schema::FileReader(folder / "other.h5"), -1, first, -1),
