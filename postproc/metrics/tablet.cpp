@@ -71,6 +71,9 @@ const std::vector<double>& tool_column(const Tablet& tablet, const std::string& 
 
 void read_tools(Tablet& tablet) {
   const TabletTools& tools = tablet.rule.tools;
+  if (tools.upper == tools.lower)
+    throw InputError(
+        fmt::format("--lower: found '{}', which is the upper punch, allowed: another tool", one_line(tools.lower)));
   tablet.upper = tool_column(tablet, tools.upper, "--upper", "force_2");
   tablet.lower = tool_column(tablet, tools.lower, "--lower", "force_2");
   for (double& force : tablet.lower) force = -force; // the grains push it down

@@ -439,6 +439,7 @@ TEST_CASE("postproc tablet writes JSON and a table, and refuses what it does not
   CHECK(json.contains("thickness_uncertainty_mm"));
   for (const auto& [options, expected] : std::vector<std::pair<std::string, std::string>>{
            {"--press squeeze", "--press: found no stage 'squeeze', allowed: press, unload, eject"},
+           {"--lower upper", "--lower: found 'upper', which is the upper punch, allowed: another tool"},
            {"--hold dwell", "--hold: found no stage 'dwell'"},
            {"--upper ram", "--upper: found no tool 'ram' with force_2 in /history/tools, allowed: die, lower, upper"},
            {"--snapshot 7", "no snapshot 7"},
