@@ -91,6 +91,8 @@ std::vector<std::filesystem::path> files_with(const std::filesystem::path& folde
 /// The statements of a figure. Throws InputError where verdict.json is missing or not a list.
 nlohmann::json statements_in(const std::filesystem::path& folder) {
   const std::filesystem::path path = folder / "verdict.json";
+  if (!std::filesystem::exists(path))
+    throw InputError(fmt::format("{}: no such file; postproc verdict writes it", one_line(path.string())));
   auto list = nlohmann::json::parse(content_of(path), nullptr, false);
   if (!list.is_array()) throw InputError(fmt::format("{}: is not a list of statements", one_line(path.string())));
   return list;

@@ -670,6 +670,8 @@ TEST_CASE("verdicts of meshes stand side by side, counted, and what a mesh did n
                        Contains("| expected | here |") && Contains("| s | p | o | not judged |"));
   write_text(studies.path("c/fig03/verdict.json"), "{}");
   CHECK_THROWS_WITH(verdicts_of_mesh({"coarse", studies.path("c")}), Contains("is not a list of statements"));
+  CHECK_THROWS_WITH(report_page({{"none", "n", "q"}}, {studies.path("c"), "Studies"}),
+                    Contains("none/verdict.json: no such file"));
   CHECK_THROWS_WITH(verdicts_of_mesh({"coarse", studies.path("nothing")}),
                     Contains("nothing: cannot be read as a folder") && Contains("allowed: a folder of results"));
 }
