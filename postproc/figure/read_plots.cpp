@@ -30,7 +30,8 @@ AxisSpec read_axis(TableReader reader, const Words& words) {
   return axis;
 }
 
-SeriesSpec read_series(Texts& t) {
+/// `points_before`: number of series of points before this one in the plot.
+SeriesSpec read_series(Texts& t, int points_before) {
   TableReader& r = t.reader();
   SeriesSpec s;
   s.place = Place(r, "");
@@ -62,7 +63,9 @@ SeriesSpec read_series(Texts& t) {
   s.y_scale = r.number_or("y_scale", 1);
   const bool of_fit = s.table.empty();
   s.style = r.choice_or("style", of_fit ? "lines" : "points", {"points", "lines", "linespoints"});
-  s.colour = t.integer("colour", 1, Range::between(1, 8));
+  constexpr int colours = 8;
+  s.colour =
+      t.integer("colour", of_fit || !s.group.empty() ? 1 : points_before % colours + 1, Range::between(1, colours));
   s.point = t.integer("point", 0, Range::between(0, 15));
   s.width = r.number_or("width", 0, Range::non_negative());
   s.size = r.number_or("size", 1.5, Range::positive());
@@ -94,7 +97,9 @@ std::vector<SeriesSpec> read_all_series(Texts& plot) {
       Words words = plot.words();
       words.insert(s.words().begin(), s.words().end());
       Texts both(s.reader(), words);
-      list.push_back(read_series(both));
+      const auto points_before =
+          std::ranges::count_if(list, [](const SeriesSpec& before) { return !before.table.empty(); });
+      list.push_back(read_series(both, static_cast<int>(points_before)));
     });
   return list;
 }

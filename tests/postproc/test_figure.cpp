@@ -620,6 +620,25 @@ series = [
   CHECK_NOTHROW(run_gnuplot(nothing_drawn));
 }
 
+TEST_CASE("series of points differ in colour, also where none is given") {
+  const Toolkit toolkit;
+  const Figure figure = toolkit.figure(tablets + R"([[plots]]
+name = "p"
+x = {}
+y = {}
+series = [
+  { table = "strength", x = "density", y = "strength" },
+  { model = { name = "linear", a = 0, b = 1 } },
+  { table = "strength", x = "density", y = "strength" },
+  { table = "strength", x = "density", y = "strength", colour = 7 },
+  { table = "strength", x = "density", y = "strength" },
+]
+)");
+  std::vector<int> colours;
+  for (const SeriesSpec& series : figure.plots[0].series) colours.push_back(series.colour);
+  CHECK(colours == std::vector<int>{1, 1, 2, 7, 4});
+}
+
 TEST_CASE("every model is drawn with the coefficients that its fit gives, which have the names that are known") {
   const std::vector<double> x = {0.1, 0.15, 0.2, 0.3, 0.35, 0.4, 0.45}, z = {0, 0.1, 0.3, 0, 0.1, 0.3, 0.5};
   for (const std::string& model : fit_models()) {
