@@ -33,11 +33,12 @@ FitPoints fit_points(const FitSpec& spec, const TextTable& table) {
   const std::size_t x = table.column(spec.x, spec.place), y = table.column(spec.y, spec.place);
   const std::size_t z = spec.z.empty() ? x : table.column(spec.z, spec.place);
   for (const std::size_t row : table.rows_of(spec.where, spec.place)) {
-    const auto& cells = table.rows[row];
-    if (!cells[x].number || !cells[y].number || !cells[z].number) continue;
-    points.x.push_back(*cells[x].number);
-    points.y.push_back(*cells[y].number);
-    if (!spec.z.empty()) points.z.push_back(*cells[z].number);
+    const auto x_here = table.number(row, x, spec.place), y_here = table.number(row, y, spec.place),
+               z_here = table.number(row, z, spec.place);
+    if (!x_here || !y_here || !z_here) continue;
+    points.x.push_back(*x_here);
+    points.y.push_back(*y_here);
+    if (!spec.z.empty()) points.z.push_back(*z_here);
   }
   return points;
 }

@@ -180,11 +180,12 @@ private:
     std::string block;
     DrawnLine line{{}, s.style != "points"};
     for (const std::size_t row : table.rows_of(where, s.place)) {
-      const auto& cells = table.rows[row];
-      for (const auto& [column, scale] : columns)
-        block += cells[column].number ? fmt::format("{:.9g} ", *cells[column].number * scale) : "NaN ";
+      for (const auto& [column, scale] : columns) {
+        const auto value = table.number(row, column, s.place);
+        block += value ? fmt::format("{:.9g} ", *value * scale) : "NaN ";
+      }
       block += '\n';
-      const auto x = cells[columns[0].first].number, y = cells[columns[1].first].number;
+      const auto x = table.number(row, columns[0].first, s.place), y = table.number(row, columns[1].first, s.place);
       if (x && y) line.points.push_back({*x * s.x_scale, *y * s.y_scale});
     }
     if (line.points.empty()) return; // none of it could be measured

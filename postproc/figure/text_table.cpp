@@ -58,6 +58,14 @@ std::size_t TextTable::column(const std::string& name, const Place& place) const
   return static_cast<std::size_t>(found - names.begin());
 }
 
+std::optional<double> TextTable::number(std::size_t row, std::size_t column, const Place& place) const {
+  const Value& cell = rows[row][column];
+  if (!cell.number && !cell.text.empty())
+    place.fail(fmt::format("{}: found '{}' in the column '{}', allowed: finite numbers and empty cells", one_line(path),
+                           one_line(cell.text), one_line(names[column])));
+  return cell.number;
+}
+
 Words TextTable::words(std::size_t row) const {
   Words words;
   for (std::size_t i = 0; i < names.size(); ++i) words[names[i]] = rows[row][i];

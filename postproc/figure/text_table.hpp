@@ -20,6 +20,8 @@ struct TextTable {
   /// Index of a column. Throws InputError that suggests the nearest name.
   std::size_t column(const std::string& name) const;
   std::size_t column(const std::string& name, const Place& place) const;
+  /// The number in a cell; empty where the cell is. Throws InputError with the place for any other text.
+  std::optional<double> number(std::size_t row, std::size_t column, const Place& place) const;
   /// The values of a row by column name.
   Words words(std::size_t row) const;
   /// Indices of the rows that all filters accept.

@@ -27,11 +27,11 @@ struct Entry {
 };
 
 /// The value in `column` of the row, over that in column `over` if given.
-std::optional<double> cell(const TextTable& table, std::size_t row, std::size_t column,
-                           std::optional<std::size_t> over) {
-  const auto& value = table.rows[row][column].number;
+std::optional<double> cell(const TextTable& table, std::size_t row, std::size_t column, std::optional<std::size_t> over,
+                           const Place& place) {
+  const auto value = table.number(row, column, place);
   if (!value || !over) return value;
-  const auto& divisor = table.rows[row][*over].number;
+  const auto divisor = table.number(row, *over, place);
   if (!divisor || *divisor == 0) return {};
   return *value / *divisor;
 }
@@ -43,14 +43,14 @@ std::vector<Entry> entries_of(const QuantitySpec& q, const TextTable& table) {
   if (!q.over.empty()) over = table.column(q.over, q.place);
   std::vector<Entry> entries;
   for (const std::size_t row : table.rows_of(q.where, q.place))
-    if (const auto value = cell(table, row, column, over)) entries.push_back({*value, row});
+    if (const auto value = cell(table, row, column, over, q.place)) entries.push_back({*value, row});
   if (q.relative_to.empty()) return entries;
   const std::size_t by = table.column(q.by, q.place);
   const auto others = table.rows_of(q.relative_to, q.place);
   std::vector<Entry> relative;
   for (const Entry& entry : entries)
     for (const std::size_t other : others) {
-      const auto divisor = cell(table, other, column, over);
+      const auto divisor = cell(table, other, column, over, q.place);
       if (table.rows[other][by] == table.rows[entry.row][by] && divisor && *divisor != 0)
         relative.push_back({entry.value / *divisor, entry.row});
     }
@@ -150,11 +150,7 @@ std::vector<Entry> sorted_along(const std::vector<Entry>& entries, const TextTab
   const std::size_t along = table.column(c.along, c.place);
   std::vector<Entry> sorted;
   for (const Entry& entry : entries) {
-    const Value& value = table.rows[entry.row][along];
-    if (!value.number && !value.text.empty())
-      c.place.fail(fmt::format("along: found the text '{}' in the column '{}', allowed: a column of numbers",
-                               one_line(value.text), c.along));
-    if (value.number) sorted.push_back(entry);
+    if (table.number(entry.row, along, c.place)) sorted.push_back(entry);
   }
   const auto at = [&](const Entry& entry) { return *table.rows[entry.row][along].number; };
   std::stable_sort(sorted.begin(), sorted.end(), [&](const Entry& a, const Entry& b) { return at(a) < at(b); });

@@ -338,6 +338,15 @@ TEST_CASE("a curve has the columns of the history and what follows from them, ro
   CHECK(within(*make_table(figure, figure.tables[0], toolkit.results()).rows[2][1].number, 0.02 / 8, 1e-6));
 }
 
+TEST_CASE("a curve over a metric that could not be measured has empty cells") {
+  const Toolkit toolkit;
+  const Figure figure =
+      toolkit.figure(curves_of_a + R"(columns = ["p [1] = mean_stress over pressed/strength.value"])");
+  write_run_of_a(toolkit, small_run());
+  write_text(toolkit.path("out/a/strength.json"), R"({"value": null})");
+  for (const auto& row : make_table(figure, figure.tables[0], toolkit.results()).rows) CHECK(row[0].text.empty());
+}
+
 TEST_CASE("a curve has the rows of the stages that its table lists") {
   const Toolkit toolkit;
   const auto stages_of_rows = [&](const std::string& stages) {
@@ -530,7 +539,7 @@ TEST_CASE(
   CHECK(verdict("a,-1,5,0\nb,1,6,0\nc,,7,0\n", "rises = true, along = \"x\"")["agrees"] == true);
   CHECK_THROWS_WITH(verdict("a,1,5,0\nb,2,6,0\n", "rises = true, along = \"name\""),
                     Contains("study.toml:") &&
-                        Contains("along: found the text 'a' in the column 'name', allowed: a column of numbers"));
+                        Contains("found 'a' in the column 'name', allowed: finite numbers and empty cells"));
 }
 
 TEST_CASE(
@@ -618,6 +627,38 @@ series = [
   const std::string nothing_drawn = plot_script(figure.plots[0], empty, folder, "svg", folder + "/p.svg", 0);
   CHECK_THAT(nothing_drawn, Contains("none of these values could be measured") && Contains("plot NaN notitle"));
   CHECK_NOTHROW(run_gnuplot(nothing_drawn));
+}
+
+TEST_CASE("a cell that is no number is refused where a fit, a plot or a statement needs one") {
+  const Toolkit toolkit;
+  const Figure figure = toolkit.figure(tablets + R"([[fits]]
+name = "line"
+table = "strength"
+x = "density"
+y = "strength"
+model = "linear"
+[[plots]]
+name = "p"
+x = {}
+y = {}
+series = [{ table = "strength", x = "density", y = "strength" }]
+[[statements]]
+text = "s"
+paper = "p"
+ours = "{y:.1f}"
+quantities.y = { table = "strength", column = "strength", take = "largest" }
+)");
+  const std::string folder = toolkit.path("out");
+  for (const std::string cell : {"abc", "nan", "inf", "1 2"}) {
+    CAPTURE(cell);
+    write_text(folder + "/strength.csv", "name,density [1],strength [MPa]\na,1,3\nb,2,4\nc,3,5\nd,4," + cell + "\n");
+    const auto refusal =
+        Contains("strength.csv: found '" + cell + "' in the column 'strength', allowed: finite numbers");
+    FigureData data(figure, folder);
+    CHECK_THROWS_WITH(make_fits(figure, folder), Contains("study.toml:") && refusal);
+    CHECK_THROWS_WITH(plot_script(figure.plots[0], data, folder, "svg", "p.svg", 0), refusal);
+    CHECK_THROWS_WITH(judge(figure.statements[0], data), refusal);
+  }
 }
 
 TEST_CASE("series of points differ in colour, also where none is given") {
