@@ -1,5 +1,7 @@
 // fit: models through the points of a CSV file.
 
+#include <cmath>
+
 #include <fmt/format.h>
 
 #include "common/errors.hpp"
@@ -57,12 +59,18 @@ nlohmann::ordered_json fits_json(const std::vector<Fit>& fits, const NamedPoints
   return list;
 }
 
+/// "-" where the points do not determine it.
+std::string number_text(const char* format, double number) {
+  return std::isfinite(number) ? fmt::format(fmt::runtime(format), number) : "-";
+}
+
 std::string text_of(const Fit& fit) {
   std::string coefficients;
   for (const Coefficient& c : fit.coefficients)
-    coefficients += fmt::format("{} = {:.5g} [{:.4g}, {:.4g}], ", c.name, c.value, c.low, c.high);
-  return fmt::format("{}: {}; {}R^2 = {:.4f} of {}, {} points\n", fit.model, fit.formula, coefficients, fit.r_squared,
-                     fit.fitted_in, fit.points);
+    coefficients += fmt::format("{} = {:.5g} [{}, {}], ", c.name, c.value, number_text("{:.4g}", c.low),
+                                number_text("{:.4g}", c.high));
+  return fmt::format("{}: {}; {}R^2 = {} of {}, {} points\n", fit.model, fit.formula, coefficients,
+                     number_text("{:.4f}", fit.r_squared), fit.fitted_in, fit.points);
 }
 
 class FitCommand : public ResultCommand {

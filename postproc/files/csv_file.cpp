@@ -17,6 +17,9 @@ namespace {
 /// The number of a column by its name. Throws InputError.
 std::size_t place_of(const WantedColumn& wanted, const std::vector<std::string>& names, const CsvReader& reader) {
   const auto found = std::find(names.begin(), names.end(), wanted.name);
+  if (found != names.end() && std::find(found + 1, names.end(), wanted.name) != names.end())
+    reader.fail(fmt::format("{}found the column '{}' twice, allowed: every name once",
+                            wanted.option.empty() ? "" : wanted.option + ": ", shortened(wanted.name)));
   if (found != names.end()) return static_cast<std::size_t>(found - names.begin());
   const auto near = nearest_word(wanted.name, names);
   reader.fail(

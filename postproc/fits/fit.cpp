@@ -74,8 +74,16 @@ Fit fit_log_log(const FitProblem& problem) {
   return result;
 }
 
+void need_porosity(const FitProblem& problem) {
+  for (const double porosity : problem.points.x)
+    if (!(porosity >= 0 && porosity < 1))
+      throw InputError(fmt::format("{}: model '{}': found a porosity of {:g}, allowed: from 0 to below 1",
+                                   one_line(problem.points.path), problem.model, porosity));
+}
+
 Fit fit_spriggs(const FitProblem& problem) {
   const FitPoints& points = problem.points;
+  need_porosity(problem);
   need_positive(problem, points.y, "y");
   Fit result = linear_fit(problem, line_basis(-as_vector(points.x)), as_vector(points.y).array().log(), {"b", "a"});
   result.fitted_in = "ln y";
@@ -116,6 +124,7 @@ Fit fit_growth(const FitProblem& problem) {
 }
 
 Fit fit_ryshkewitch_duckworth(const FitProblem& problem) {
+  need_porosity(problem);
   return fit_exponential(problem, "sigma_0", "B", -1);
 }
 

@@ -1,6 +1,7 @@
 // Fits on points that were made from known coefficients, exact and with noise, and what they refuse.
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 
@@ -287,9 +288,25 @@ TEST_CASE("points that do not determine a model are refused") {
   std::fill(same.x.begin(), same.x.end(), 0.5);
   CHECK_THROWS_WITH(fit("linear", same), Catch::Contains("1 different x"));
   CHECK_THROWS_WITH(fit("log-log", points_of(5, -1, 1, [](double) { return 1; })), Catch::Contains("x = -1"));
-  CHECK_THROWS_WITH(fit("spriggs", points_of(5, 0, 1, [](double x) { return x; })), Catch::Contains("y = 0"));
+  CHECK_THROWS_WITH(fit("spriggs", points_of(5, 0, 0.8, [](double x) { return x; })), Catch::Contains("y = 0"));
   CHECK_THROWS_WITH(fit("rumpf", points_of(5, 0, 1, [](double x) { return x; })), Catch::Contains("porosity of 0"));
+  for (const char* model : {"spriggs", "ryshkewitch-duckworth"})
+    for (const auto& [low, high] : {std::array{-0.1, 0.5}, std::array{0.2, 1.0}})
+      CHECK_THROWS_WITH(fit(model, points_of(5, low, high, [](double) { return 1; })),
+                        Catch::Contains("found a porosity of ") && Catch::Contains("allowed: from 0 to below 1"));
   CHECK_THROWS_WITH(fit("linaer", line), Catch::Contains("did you mean 'linear'?"));
+}
+
+TEST_CASE("a fit of constant values has no R^2, and says so with a dash") {
+  const Folder folder;
+  write_text(folder / "p.csv", "x,y,y\n1,2,2\n2,2,2\n3,2,2\n4,2,2\n");
+  const Outcome twice = postproc("fit '" + (folder / "p.csv") + "' --x x --y y --model linear");
+  CHECK(twice.exit_code == 2);
+  CHECK_THAT(twice.messages, Catch::Contains("--y: found the column 'y' twice, allowed: every name once"));
+  write_text(folder / "p.csv", "x,y\n1,2\n2,2\n3,2\n4,2\n");
+  const Outcome constant = postproc("fit '" + (folder / "p.csv") + "' --x x --y y --model linear");
+  CHECK(constant.exit_code == 0);
+  CHECK_THAT(constant.output, Catch::Contains("R^2 = - of y") && !Catch::Contains("nan"));
 }
 
 TEST_CASE("a CSV file is read with units, quotes and comments") {
