@@ -21,8 +21,8 @@ struct DependsRequest {
 
 /// Rules for make (docs/figure-file.md, "What make does"), for all figures together, so that they share runs. Where the
 /// settings of a run differ from those in the file next to it, that settings file depends on FORCE.
-/// Throws InputError: names that are no mesh, runs that two figures describe differently, a metric whose command is not among `commands`, metrics
-/// and pictures with options that `check_words` refuses.
+/// Throws InputError: names that are no mesh, runs that two figures describe differently, a metric whose command is not
+/// among `commands`, metrics and pictures with options that `check_words` refuses, files that nothing makes.
 std::string make_rules(const std::vector<Figure>& figures, const DependsRequest& request);
 
 } // namespace mpfem

@@ -174,8 +174,8 @@ std::vector<double> divisors_of(const Figure& figure, const TableSpec& spec, con
   return divisors;
 }
 
-/// A number in the column's format (empty if it is not finite, as over a metric that could not be measured), otherwise with the table's digits; 17 digits stand for the shortest text that reads
-/// back to the same number.
+/// A number in the column's format, otherwise with the table's digits; 17 digits stand for the shortest text that reads
+/// back to the same number. Empty if it is not finite, as over a metric that could not be measured.
 Value curve_cell(double number, const TableSpec& spec, const ColumnSpec& column) {
   if (!std::isfinite(number)) return {};
   if (!column.format.empty())

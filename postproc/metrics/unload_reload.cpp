@@ -40,7 +40,7 @@ double closing_share(const StageCurve& c, const UnloadReloadLoop& loop) {
   return share;
 }
 
-/// Area of the loop (MPa): stress over strain, once around, by trapezoids. The last step ends where the loop closes, and
+/// Area of the loop (MPa): stress over strain, once around, by trapezoids. The last step ends where the loop closes;
 /// a straight line leads from there to its top.
 double loop_area(const StageCurve& c, const UnloadReloadLoop& loop) {
   double area = 0, strain = c.axial_strain[loop.top], stress = c.axial_stress[loop.top];
