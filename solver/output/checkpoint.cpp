@@ -1,6 +1,7 @@
 #include "solver/output/checkpoint.hpp"
 
 #include <algorithm>
+#include <filesystem>
 #include <stdexcept>
 
 #include <fmt/format.h>
@@ -8,6 +9,7 @@
 #include "common/errors.hpp"
 #include "common/hash.hpp"
 #include "common/one_line.hpp"
+#include "common/output_file.hpp"
 #include "results-schema/descriptors.hpp"
 #include "solver/output/checkpoint_datasets.hpp"
 #include "solver/output/history.hpp"
@@ -116,6 +118,13 @@ FieldValues CheckpointReader::fields() const {
 
 std::string checkpoint_checksum(const std::string& path) {
   return CheckpointReader(path).content_hash();
+}
+
+bool holds_something_else(const std::string& path) {
+  std::error_code ignored;
+  if (!std::filesystem::is_regular_file(path, ignored) || std::filesystem::file_size(path, ignored) == 0) return false;
+  return !is_hdf5(path) || schema::states_kind(path, schema::FileKind::run) ||
+         schema::states_kind(path, schema::FileKind::packing);
 }
 
 void verify_checkpoint(const std::string& path) {

@@ -100,6 +100,9 @@ private:
 /// Reads all arrays of a checkpoint. Throws InputError if they do not match its checksum or cannot be read.
 void verify_checkpoint(const std::string& path);
 
+/// Whether a file is there that is not empty and no checkpoint. A damaged one counts as a checkpoint.
+bool holds_something_else(const std::string& path);
+
 /// A checksum that identifies a checkpoint's state. Throws InputError if the file is no checkpoint.
 std::string checkpoint_checksum(const std::string& path);
 

@@ -13,7 +13,7 @@
 #include "common/output_file.hpp"
 #include "common/run_stem.hpp"
 #include "common/table_reader.hpp"
-#include "results-schema/file.hpp"
+#include "solver/output/checkpoint.hpp"
 #include "solver/run/checkpoints.hpp"
 #include "solver/scenario/read_scenario.hpp"
 
@@ -67,13 +67,10 @@ void refuse_checkpoints_of_other_runs(const Scenario& scenario, const std::strin
   if (const std::string run = stem == output ? output + ".h5" : stem; fs::is_regular_file(run)) refuse(rolling, run);
 }
 
-/// Refuses to write a checkpoint over something else than a checkpoint. A damaged one may be replaced.
+/// Refuses to write a checkpoint over something else than a checkpoint.
 void refuse_no_checkpoints(const Scenario& scenario, const std::string& output) {
   for (const std::string& checkpoint : all_checkpoints(scenario, output)) {
-    std::error_code ignored;
-    if (!fs::is_regular_file(checkpoint, ignored) || fs::file_size(checkpoint, ignored) == 0) continue;
-    if (!is_hdf5(checkpoint) || schema::states_kind(checkpoint, schema::FileKind::run) ||
-        schema::states_kind(checkpoint, schema::FileKind::packing))
+    if (holds_something_else(checkpoint))
       throw InputError(fmt::format("--output {}: its checkpoint would replace {}, which is no checkpoint, allowed: "
                                    "another --output",
                                    one_line(output), one_line(checkpoint)));

@@ -19,9 +19,9 @@ Figure figure_in(const Folder& folder) {
   std::string points = "x,y\n", series;
   for (int i = 1; i <= 9; ++i) points += fmt::format("{0},{0}\n", i);
   for (int shape = 1; shape <= 15; ++shape)
-    series +=
-        fmt::format("  {{ table = \"t\", x = \"x\", y = \"y\", y_scale = {}, point = {}, title = \"points {}\" }},\n",
-                    0.1 * shape, shape, shape);
+    series += fmt::format(
+        "  {{ table = \"t\", x = \"x\", y = \"y\", y_scale = {}, point = {}, colour = 1, title = \"points {}\" }},\n",
+        0.1 * shape, shape, shape);
   write_text(folder / "out/t.csv", points);
   write_text(folder / "study.toml", fmt::format(R"(title = "x"
 [[tables]]
