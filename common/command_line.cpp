@@ -168,6 +168,7 @@ void check_words(CLI::App& app, const std::string& program, std::vector<std::str
   for (CLI::App* command : app.get_subcommands({})) accept_missing_files(*command);
   words.insert(words.begin(), program);
   std::vector<char*> pointers;
+  pointers.reserve(words.size());
   for (std::string& word : words) pointers.push_back(word.data());
   parse_command_line(app, program, static_cast<int>(pointers.size()), pointers.data());
 }

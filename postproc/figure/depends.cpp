@@ -204,7 +204,7 @@ private:
 
   /// The command of a metric: of pack-gen where it says so, otherwise of postproc.
   std::string command_of(const std::string& metric, const Place& place) const {
-    const std::string command = metric_of(metric, place).command;
+    std::string command = metric_of(metric, place).command;
     if (command.starts_with("pack-gen ")) return command;
     const std::string name = command.substr(0, command.find(' '));
     const auto& known = request_.commands;
