@@ -6,6 +6,7 @@
 #include <fmt/ranges.h>
 
 #include "common/errors.hpp"
+#include "common/hash.hpp"
 #include "common/one_line.hpp"
 
 namespace mpfem::schema {
@@ -139,6 +140,11 @@ PackingTets read_packing_tets(const FileReader& file, std::size_t spheres) {
   mesh.grain_tet_offset = std::move(offsets.tet);
   refuse_foreign_nodes(mesh, at(packing::mesh_tet));
   return mesh;
+}
+
+std::uint64_t hash_of_mesh(std::uint64_t of_nodes_and_tets, std::span<const std::int32_t> grain_node_offset,
+                           std::span<const double> box_lengths) {
+  return hash_values(box_lengths, hash_values(grain_node_offset, of_nodes_and_tets));
 }
 
 } // namespace mpfem::schema

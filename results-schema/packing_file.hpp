@@ -2,6 +2,7 @@
 // Requirements on a packing file beyond the schema, for every program that reads one.
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "results-schema/container.hpp"
@@ -40,5 +41,10 @@ PackingOffsets read_packing_offsets(const FileReader& file, std::size_t spheres)
 /// Reads the meshes of a packing file with this number of spheres and with /mesh/tet. Throws InputError in the same
 /// form.
 PackingTets read_packing_tets(const FileReader& file, std::size_t spheres);
+
+/// Identifies a mesh, as runs keep it (/provenance/packing_hash). `of_nodes_and_tets`: hash of its nodes, with that of
+/// its tets chained to it (common/hash.hpp).
+std::uint64_t hash_of_mesh(std::uint64_t of_nodes_and_tets, std::span<const std::int32_t> grain_node_offset,
+                           std::span<const double> box_lengths);
 
 } // namespace mpfem::schema

@@ -21,10 +21,9 @@ namespace {
 
 /// As the solver writes it to /provenance/packing_hash.
 std::string hash_of_packing(const schema::PackingTets& mesh, const std::vector<double>& box_lengths) {
-  std::uint64_t hash = hash_values(std::span<const double>(mesh.node));
-  hash = hash_values(std::span<const std::int32_t>(mesh.tet), hash);
-  hash = hash_values(std::span<const std::int32_t>(mesh.grain_node_offset), hash);
-  return hash_text(hash_values(std::span<const double>(box_lengths), hash));
+  const std::uint64_t nodes = hash_values(std::span<const double>(mesh.node)),
+                      tets = hash_values(std::span<const std::int32_t>(mesh.tet), nodes);
+  return hash_text(schema::hash_of_mesh(tets, mesh.grain_node_offset, box_lengths));
 }
 
 /// Whether the run's grains are those of a packing. Spheres without meshes are compared by number.

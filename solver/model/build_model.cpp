@@ -12,6 +12,7 @@
 #include "common/hash.hpp"
 #include "common/index.hpp"
 #include "common/morton_key.hpp"
+#include "results-schema/packing_file.hpp"
 #include "solver/model/boundary_faces.hpp"
 #include "solver/model/check_packing.hpp"
 #include "solver/model/model.hpp"
@@ -317,8 +318,7 @@ void set_patch_volumes(const MeshedPacking& packing, Model& model) {
 } // namespace
 
 std::uint64_t hash_of_mesh(std::uint64_t of_nodes_and_tets, const MeshedPacking& packing) {
-  const std::uint64_t hash = hash_values(std::span<const Index>(packing.grain_node_offset), of_nodes_and_tets);
-  return hash_values(std::span<const double>(packing.box_lengths), hash);
+  return schema::hash_of_mesh(of_nodes_and_tets, packing.grain_node_offset, packing.box_lengths);
 }
 
 Model build_model(const MeshedPacking& packing, const Scenario& scenario, const std::string& name,
