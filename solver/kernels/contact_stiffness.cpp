@@ -36,13 +36,6 @@ void contact_stiffness_rate(const Model& model, const Contact& contact, int grai
 
 namespace {
 
-/// Stiffness to which bonds raise a point with this penalty (MPa/mm), over that penalty.
-double raised_by_bonds(const Contact& contact, double penalty) {
-  double largest = 1;
-  for (const BondLaw& law : contact.bond_laws) largest = std::max(largest, raised_by_bond(law, penalty));
-  return largest;
-}
-
 /// A node of a grain that is r times as coarse adds r^2/(1 + r) times the rate expected of an equal grain (the harmonic
 /// mean of both penalties, r^2 times the area). Below r = 1.5 that is less.
 void raise_near_coarser_grains(const Model& model, const Contact& contact, int grain, std::span<double> rate) {
@@ -56,7 +49,7 @@ void raise_near_coarser_grains(const Model& model, const Contact& contact, int g
     for (std::int32_t p = candidates.pair_point_offset[pair]; p < candidates.pair_point_offset[pair + 1]; ++p) {
       const std::size_t node = at(candidates.point_node[at(p)]);
       const double k = stiffness * model.local_stiffness(node) * model.reference_area[node] *
-                       raised_by_bonds(contact, 2 * stiffness * model.local_stiffness(node));
+                       raised_by_bonds(contact.bond_laws, 2 * stiffness * model.local_stiffness(node));
       for (std::int32_t f = candidates.point_facet_offset[at(p)]; f < candidates.point_facet_offset[at(p) + 1]; ++f)
         for (std::size_t corner = 0; corner < 3; ++corner) {
           const std::size_t touched = at(model.facet[3 * at(candidates.point_facet[at(f)]) + corner]);
@@ -91,7 +84,7 @@ void raise_to_expected_rate(const Model& model, const Contact& contact, int grai
   const double contrast = stiffness_contrast(model, contact, grain);
   for (std::int32_t node = first; node < first + model.surface_node_count[g]; ++node) {
     const double penalty = model.penalty_stiffness[g] * model.local_stiffness(at(node));
-    const double raised = contrast * raised_by_bonds(contact, penalty) * penalty;
+    const double raised = contrast * raised_by_bonds(contact.bond_laws, penalty) * penalty;
     const double expected =
         expected_contact_rate(raised * model.reference_area[at(node)], model.inverse_mass[at(node)]);
     rate[at(node)] = std::max(rate[at(node)], expected);

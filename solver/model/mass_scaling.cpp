@@ -27,8 +27,7 @@ struct BondsOfScenario {
   /// Stiffness to which they raise contact with this penalty (MPa/mm) between grains, over that penalty. A rigid tool
   /// adds half of what a grain does.
   double raised(double penalty) const {
-    double largest = 1;
-    for (const BondLaw& law : of_grains) largest = std::max(largest, raised_by_bond(law, penalty));
+    double largest = raised_by_bonds(of_grains, penalty);
     for (const BondLaw& law : of_tools)
       largest = std::max(largest, 0.5 * law_at_point(law, penalty).stiffness / penalty);
     return largest;

@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 
 namespace mpfem {
 
@@ -36,10 +37,12 @@ inline BondLaw law_at_point(BondLaw law, double penalty) {
   return law;
 }
 
-/// Stiffness to which a bond between grains raises a contact with this penalty (MPa/mm), over that penalty, at least 1:
-/// a closed, intact bond with the stiffness ratio r counts |1 - r| + r.
-inline double raised_by_bond(const BondLaw& law, double penalty) {
-  return std::max(1.0, 2.0 * law_at_point(law, penalty).stiffness / penalty - 1.0);
+/// Stiffness to which bonds between grains raise a contact with this penalty (MPa/mm), over that penalty, at least 1: a
+/// closed, intact bond with the stiffness ratio r counts |1 - r| + r.
+inline double raised_by_bonds(std::span<const BondLaw> laws, double penalty) {
+  double largest = 1;
+  for (const BondLaw& law : laws) largest = std::max(largest, 2 * law_at_point(law, penalty).stiffness / penalty - 1);
+  return largest;
 }
 
 /// The largest strength (MPa) in the directions in which the law holds.
