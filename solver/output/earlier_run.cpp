@@ -61,6 +61,7 @@ bool is_unfinished(const std::string& output) {
 }
 
 std::string keep_earlier_run(const std::string& output, bool resume) {
+  refuse_other_files(output);
   const std::string file = output_target(output), backup = backup_of(file);
   if (size_of(file) == 0) return {};
   const bool interrupted = status_of(file) == "interrupted";

@@ -15,7 +15,7 @@ bool is_unfinished(const std::string& output);
 
 /// Renames the run file that is there to its backup, which replaces an earlier backup, and returns what to say about
 /// it; empty if there is none or an empty file. For a symbolic link, this is done with the file to which it leads.
-/// `resume`: whether the run was to be continued. Throws StorageError.
+/// `resume`: whether the run was to be continued. Throws InputError as refuse_other_files(), and StorageError.
 std::string keep_earlier_run(const std::string& output, bool resume);
 
 /// Disk space (bytes) that is not free because the earlier run is kept; negative if an earlier backup was larger.

@@ -71,11 +71,9 @@ void check_disk_space(const Scenario& scenario, const RunOptions& options, doubl
 /// What an earlier run of this name has left: the run file is kept, unless --resume makes a complete run again whose
 /// checkpoints were lost; its rolling checkpoints go.
 void clear_way(const Continuation& continuation, const RunOptions& options, const RunReport& report) {
-  if (options.keeps_earlier_run || is_unfinished(options.output)) {
-    refuse_other_files(options.output);
+  if (options.keeps_earlier_run || is_unfinished(options.output))
     if (const std::string kept = keep_earlier_run(options.output, !options.keeps_earlier_run); !kept.empty())
       report.note_despite_quiet(kept);
-  }
   continuation.discard_unfinished_run();
 }
 
