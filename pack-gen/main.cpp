@@ -58,13 +58,9 @@ void refuse_overwriting_any(const Arguments& arguments, const std::vector<std::s
 
 /// Refuses to replace a run, a checkpoint or what is no HDF5 file. A damaged packing may be replaced.
 void refuse_other_file(const std::string& output) {
-  std::error_code ignored;
-  if (!std::filesystem::is_regular_file(output, ignored) || std::filesystem::file_size(output, ignored) == 0) return;
-  const bool other =
-      schema::states_kind(output, schema::FileKind::run) || schema::states_kind(output, schema::FileKind::checkpoint);
-  if (is_hdf5(output) && !other) return;
+  if (!schema::is_other_file(output, schema::FileKind::packing)) return;
   throw InputError(fmt::format("--output {}: would replace {}, allowed: another name", one_line(output),
-                               other ? "a run or a checkpoint" : "a file that is no packing"));
+                               is_hdf5(output) ? "a run or a checkpoint" : "a file that is no packing"));
 }
 
 /// Checked before hours of work, not after them. `kind`: of --output, which only `quality` may lack.

@@ -147,6 +147,9 @@ private:
 /// seal.
 bool states_kind(const std::string& path, FileKind kind);
 
+/// Whether a file is there that is not empty and not of this kind. A damaged HDF5 file counts as of this kind.
+bool is_other_file(const std::string& path, FileKind kind);
+
 /// Result of validate().
 struct Validation {
   std::vector<std::string> findings; ///< one line each; empty for a good file

@@ -10,6 +10,7 @@
 
 #include "common/errors.hpp"
 #include "common/one_line.hpp"
+#include "common/output_file.hpp"
 #include "results-schema/checksum.hpp"
 
 namespace mpfem::schema {
@@ -96,6 +97,15 @@ bool states_kind(const std::string& path, FileKind kind) {
   prepare_hdf5();
   const Handle file(H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), H5Fclose);
   return file && read_text_attribute(file, attribute::file_kind) == kinds[static_cast<std::size_t>(kind)].name;
+}
+
+bool is_other_file(const std::string& path, FileKind kind) {
+  std::error_code ignored;
+  if (!std::filesystem::is_regular_file(path, ignored) || std::filesystem::file_size(path, ignored) == 0) return false;
+  if (!is_hdf5(path)) return true;
+  for (const FileKind other : {FileKind::packing, FileKind::run, FileKind::checkpoint})
+    if (other != kind && states_kind(path, other)) return true;
+  return false;
 }
 
 FileReader::FileReader(const std::string& path) {

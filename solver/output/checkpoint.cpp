@@ -1,7 +1,6 @@
 #include "solver/output/checkpoint.hpp"
 
 #include <algorithm>
-#include <filesystem>
 #include <stdexcept>
 
 #include <fmt/format.h>
@@ -9,7 +8,6 @@
 #include "common/errors.hpp"
 #include "common/hash.hpp"
 #include "common/one_line.hpp"
-#include "common/output_file.hpp"
 #include "results-schema/descriptors.hpp"
 #include "solver/output/checkpoint_datasets.hpp"
 #include "solver/output/history.hpp"
@@ -121,10 +119,7 @@ std::string checkpoint_checksum(const std::string& path) {
 }
 
 bool holds_something_else(const std::string& path) {
-  std::error_code ignored;
-  if (!std::filesystem::is_regular_file(path, ignored) || std::filesystem::file_size(path, ignored) == 0) return false;
-  return !is_hdf5(path) || schema::states_kind(path, schema::FileKind::run) ||
-         schema::states_kind(path, schema::FileKind::packing);
+  return schema::is_other_file(path, schema::FileKind::checkpoint);
 }
 
 void verify_checkpoint(const std::string& path) {
