@@ -166,7 +166,8 @@ lines = [
   "# Two hundred spheres in a round die as discrete elements",
   `# ${source}.`,
   "# Pressing and unloading. Case bare: no surface energy, no rolling friction, as in tableting.toml; example: 2 J/m^2",
-  "# and 0.6, as in the example of LAMMPS; late: as bare with psi_b = 0.1 instead of 0.5.",
+  "# and 0.6, as in the example of LAMMPS; late: as bare with psi_b = 0.1 instead of 0.5; adhesive: as late with 2 J/m^2;",
+  "# rolling: as adhesive with rolling friction, the example with psi_b = 0.1.",
   "case,punch_distance [mm],relative_density [1],upper_punch_force [N],lower_punch_force [N]",
 ];
 const powder = spheres("two-hundred-spheres.csv");
@@ -174,6 +175,8 @@ for (const [name, ...numbers] of [
   ["bare", 0, 0, 0.5],
   ["example", 2, 0.6, 0.5],
   ["late", 0, 0, 0.1],
+  ["adhesive", 2, 0, 0.1],
+  ["rolling", 2, 0.6, 0.1],
 ])
   for (const [distance, upper, lower] of await rowsOf(tablet(powder, ...numbers)))
     if (distance < 6) lines.push(text([name, distance, volumeOf(powder) / (16 * Math.PI * distance), upper, lower]));
