@@ -62,6 +62,7 @@ constexpr MakeCommand* before_figures[] = {summary_command,
                                            coordination_command,
                                            inner_stress_command,
                                            damage_of_test_command,
+                                           damage_band_command,
                                            tablet_command,
                                            heckel_command,
                                            diametral_command};

@@ -26,7 +26,7 @@ MakeCommand damage_command, stress_path_command, section_stress_command, section
 
 // One number that the paper does not have.
 MakeCommand unload_reload_modulus_command, offset_yield_command, coordination_command, inner_stress_command,
-    damage_of_test_command;
+    damage_of_test_command, damage_band_command;
 
 // Measurements of tablets.
 MakeCommand tablet_command, heckel_command, diametral_command;

@@ -4,6 +4,7 @@
 #include "postproc/commands/commands.hpp"
 #include "postproc/commands/metric_command.hpp"
 #include "postproc/metrics/coordination.hpp"
+#include "postproc/metrics/damage_band.hpp"
 #include "postproc/metrics/damage_of_test.hpp"
 #include "postproc/metrics/inner_stress.hpp"
 #include "postproc/metrics/offset_yield.hpp"
@@ -97,13 +98,10 @@ private:
   double share_ = 0.5;
 };
 
-class DamageOfTestCommand : public MetricCommand {
-public:
-  explicit DamageOfTestCommand(CLI::App& app)
-      : MetricCommand(app, "damage-of-test",
-                      "Damage that a test did to existing bonds, apart from bonds formed during the test.\n"
-                      "Example: postproc damage-of-test test.h5 --before compact.h5 -o damage.json\n"
-                      "Example: postproc damage-of-test run.h5 --snapshot-before 1") {
+/// A metric of what a test did to bonds, between a snapshot before it and one of the run.
+class BondsOfTestCommand : public MetricCommand {
+protected:
+  BondsOfTestCommand(CLI::App& app, const char* name, const char* description) : MetricCommand(app, name, description) {
     add_snapshot(options(), snapshot_);
     add_input("--before", before_,
               "Run file with the state in which the test began (default: the run's own snapshot 0)");
@@ -111,16 +109,63 @@ public:
                "Number of the snapshot of that state (default: 0 for the run itself, -1 with --before)");
   }
 
+  virtual Measurement measure(const schema::FileReader& run, int snapshot, const schema::FileReader& before,
+                              int snapshot_before) const = 0;
+
 private:
-  Measurement measure(const schema::FileReader& run) const override {
+  Measurement measure(const schema::FileReader& run) const final {
     const bool of_itself = before_.empty();
-    return measure_damage_of_test(run, snapshot_, {of_itself ? path_of_run() : before_, schema::FileKind::run},
-                                  snapshot_before_.value_or(of_itself ? 0 : -1));
+    return measure(run, snapshot_, {of_itself ? path_of_run() : before_, schema::FileKind::run},
+                   snapshot_before_.value_or(of_itself ? 0 : -1));
   }
 
   int snapshot_ = -1;
   std::string before_;
   std::optional<int> snapshot_before_;
+};
+
+class DamageOfTestCommand : public BondsOfTestCommand {
+public:
+  explicit DamageOfTestCommand(CLI::App& app)
+      : BondsOfTestCommand(app, "damage-of-test",
+                           "Damage that a test did to existing bonds, apart from bonds formed during the test.\n"
+                           "Example: postproc damage-of-test test.h5 --before compact.h5 -o damage.json\n"
+                           "Example: postproc damage-of-test run.h5 --snapshot-before 1") {}
+
+private:
+  Measurement measure(const schema::FileReader& run, int snapshot, const schema::FileReader& before,
+                      int snapshot_before) const override {
+    return measure_damage_of_test(run, snapshot, before, snapshot_before);
+  }
+};
+
+class DamageBandCommand : public BondsOfTestCommand {
+public:
+  explicit DamageBandCommand(CLI::App& app)
+      : BondsOfTestCommand(app, "damage-band",
+                           "Whether the bonds that a test opens lie in an inclined band: how much more often they open "
+                           "there, and how often chance gives as much.\n"
+                           "Example: postproc damage-band test.h5 --threshold 0.5 -o band.json\n"
+                           "Example: postproc damage-band test.h5 --threshold 0.998 --before compact.h5") {
+    add_number(options(), "--threshold", rule_.threshold, Range::between(1e-9, 1), "",
+               "Smallest damage at which a bond counts as opened")
+        ->capture_default_str();
+    add_axis(options(), axis_, "Axis of compression; bands are inclined to it");
+    add_number(options(), "--trials", rule_.trials, Range::between(1, 1e6), "",
+               "How often the opened shares are dealt out anew among the pairs of grains")
+        ->capture_default_str();
+  }
+
+private:
+  Measurement measure(const schema::FileReader& run, int snapshot, const schema::FileReader& before,
+                      int snapshot_before) const override {
+    BandRule rule = rule_;
+    rule.axis = axis_number(axis_);
+    return measure_damage_band(run, snapshot, before, snapshot_before, rule);
+  }
+
+  BandRule rule_;
+  std::string axis_ = "z";
 };
 
 } // namespace
@@ -143,6 +188,10 @@ std::unique_ptr<Command> inner_stress_command(CLI::App& app) {
 
 std::unique_ptr<Command> damage_of_test_command(CLI::App& app) {
   return std::make_unique<DamageOfTestCommand>(app);
+}
+
+std::unique_ptr<Command> damage_band_command(CLI::App& app) {
+  return std::make_unique<DamageBandCommand>(app);
 }
 
 } // namespace mpfem

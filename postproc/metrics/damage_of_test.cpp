@@ -93,8 +93,8 @@ BondsSince bonds_since(const std::vector<BondRow>& before, const std::vector<Bon
   return since;
 }
 
-Measurement measure_damage_of_test(const schema::FileReader& file, int snapshot, const schema::FileReader& before,
-                                   int snapshot_before) {
+BondsSince bonds_of_test(const schema::FileReader& file, int snapshot, const schema::FileReader& before,
+                         int snapshot_before) {
   namespace run = schema::run;
   if (file.read_scalar(run::provenance_packing_hash) != before.read_scalar(run::provenance_packing_hash))
     throw InputError(fmt::format("{}: its packing is not that of {}, allowed: the run that it branched from, or itself",
@@ -105,11 +105,17 @@ Measurement measure_damage_of_test(const schema::FileReader& file, int snapshot,
   if (time_of(before, snapshot_before) > time_of(file, snapshot))
     throw InputError(fmt::format("{}: found the snapshot before later than that of {}, allowed: an earlier one",
                                  one_line(before.path()), one_line(file.path())));
-  const BondsSince since = bonds_since(read_bond_table(before, snapshot_before), read_bond_table(file, snapshot));
+  BondsSince since = bonds_since(read_bond_table(before, snapshot_before), read_bond_table(file, snapshot));
   if (since.found.empty())
     throw InputError(fmt::format("{}: no bond is intact at that snapshot, allowed: --before and --snapshot-before of a "
                                  "bonded compact",
                                  one_line(before.path())));
+  return since;
+}
+
+Measurement measure_damage_of_test(const schema::FileReader& file, int snapshot, const schema::FileReader& before,
+                                   int snapshot_before) {
+  const BondsSince since = bonds_of_test(file, snapshot, before, snapshot_before);
   const std::vector<double> damage_before = values_of(since.found_before, damage_of);
   std::vector<double> growth = values_of(since.found, damage_of);
   for (std::size_t b = 0; b < growth.size(); ++b) growth[b] -= damage_before[b];

@@ -21,11 +21,16 @@ struct BondsSince {
 /// `before` must also be in `now`.
 BondsSince bonds_since(const std::vector<BondRow>& before, const std::vector<BondRow>& now);
 
+/// The bonds of snapshot `snapshot` of `file`, grouped by their state at snapshot `snapshot_before` of `before`, which
+/// may be the run that this one branched from, or this run. Throws InputError where the files' packings differ, the
+/// snapshot before is later, or no bond was intact at it.
+BondsSince bonds_of_test(const schema::FileReader& file, int snapshot, const schema::FileReader& before,
+                         int snapshot_before);
+
 /// Growth of the area-weighted mean damage, of the bonds that were intact at snapshot `snapshot_before` of `before`,
 /// up to snapshot `snapshot` of `file`. The details hold both means, the broken share, the damage energy over the
 /// energy that breaks them, and the same for the bonds formed since. Uncertainty: as of `damage`, by pairs of grains.
-/// `before` may be the run that this one branched from, or this run. Throws InputError where the files' packings
-/// differ, or where no bond was intact.
+/// Throws InputError as bonds_of_test does.
 Measurement measure_damage_of_test(const schema::FileReader& file, int snapshot, const schema::FileReader& before,
                                    int snapshot_before);
 
