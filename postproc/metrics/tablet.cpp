@@ -24,7 +24,8 @@ namespace mpfem {
 namespace {
 
 constexpr std::size_t fewest_smoothed_rows = 7;
-constexpr double force_gone = 0.01; ///< share of the peak force below which a punch has left
+constexpr double force_gone = 0.01;          ///< share of the peak force below which a punch has left
+constexpr double largest_lower_share = 0.02; ///< of the way of both punches, in single-ended pressing
 
 /// A value in one row, with half of its 95 % interval.
 struct Reading {
@@ -120,6 +121,34 @@ double relative(const Reading& reading) {
   return reading.uncertainty / reading.value;
 }
 
+/// Share of the way of both punches along the die that the lower one goes until the peak: 0 of single-ended pressing, a
+/// half where both press alike or the die floats.
+double share_of_lower_punch(const Tablet& tablet) {
+  const TabletTools& tools = tablet.rule.tools;
+  const auto way = [&](const std::string& tool, const std::string& option) {
+    const std::vector<double>& place = tool_column(tablet, tool, option, "displacement_2");
+    return place[tablet.peak.row] - place[tablet.press.first];
+  };
+  const double die = way(tools.die, "--die");
+  const double upper = std::abs(way(tools.upper, "--upper") - die), lower = std::abs(way(tools.lower, "--lower") - die);
+  return upper + lower > 0 ? lower / (upper + lower) : 0;
+}
+
+/// mu by Janssen's law, which holds where all grains slide along the die in one direction.
+void add_wall_friction(Tablet& tablet, const DieSlice& slice, const Reading& radial, double force_uncertainty) {
+  if (const double share = share_of_lower_punch(tablet); share > largest_lower_share) {
+    tablet.note(fmt::format("the lower punch does {:.0f} % of the way along the die: grains slide in both directions, "
+                            "and no wall friction follows from the punches",
+                            100 * share));
+    tablet.add("wall_friction_coefficient", "1", {});
+    return;
+  }
+  const double friction = wall_friction(slice, radial.value);
+  const double wall = std::numbers::pi * slice.diameter * slice.height; // mm^2
+  tablet.add("wall_friction_coefficient", "1", friction,
+             std::hypot(force_uncertainty / (radial.value * wall), friction * relative(radial)));
+}
+
 void add_wall_at_peak(Tablet& tablet, const Reading& lower) {
   const Reading normal = reading_at(tablet.die_normal, tablet.loaded, tablet.peak.row);
   const double height = tablet.height(tablet.peak.row), wall = std::numbers::pi * tablet.diameter * height;
@@ -135,14 +164,12 @@ void add_wall_at_peak(Tablet& tablet, const Reading& lower) {
     return;
   }
   const double transmission = lower.value / tablet.peak.value, ratio = radial / mean_axial_stress_in_die(slice);
-  const double friction = wall_friction(slice, radial);
   const double forces = std::hypot(tablet.peak.uncertainty, lower.uncertainty);
   tablet.add("axial_transmission", "1", transmission,
              transmission * std::hypot(relative(tablet.peak), relative(lower)));
   tablet.add("radial_over_axial_stress", "1", ratio,
              ratio * std::hypot(relative(normal), forces / (tablet.peak.value + lower.value)));
-  tablet.add("wall_friction_coefficient", "1", friction,
-             std::hypot(forces / normal.value, friction * relative(normal)));
+  add_wall_friction(tablet, slice, {normal.row, radial, normal.uncertainty / wall}, forces);
   const Reading rubbing = reading_at(tablet.die_axial, tablet.loaded, tablet.peak.row);
   const double of_die = std::abs(rubbing.value) / normal.value;
   tablet.add("die_friction_over_normal_force", "1", of_die,

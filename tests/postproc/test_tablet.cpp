@@ -406,6 +406,25 @@ TEST_CASE("numbers that do not follow from a tablet's run are null, and a note s
     CHECK(std::isnan(number(unborne, name)));
 }
 
+TEST_CASE("no wall friction follows from the punches where both move along the die") {
+  const Folder folder;
+  for (const std::string mover : {"lower", "die"}) { // two punches that press alike; a floating die
+    RunContents run = tablet_run({});
+    auto& n = run.numbers;
+    for (std::size_t row = 0; row < n["/history/time"].size(); ++row) {
+      n["/history/tools/upper/displacement"][3 * row + 2] = -0.01 * static_cast<double>(row);
+      n["/history/tools/" + mover + "/displacement"][3 * row + 2] =
+          (mover == "die" ? -0.005 : 0.01) * static_cast<double>(row);
+    }
+    write_run(folder / "both.h5", run);
+    const TabletMeasurement tablet = measure_tablet({folder / "both.h5", schema::FileKind::run}, near_faces());
+    CHECK(std::isnan(number(tablet, "wall_friction_coefficient")));
+    CHECK(number(tablet, "axial_transmission") > 0);
+    REQUIRE(tablet.measurement.notes.size() == 1);
+    CHECK_THAT(tablet.measurement.notes[0], Catch::Contains("the lower punch does 50 % of the way along the die"));
+  }
+}
+
 TEST_CASE("a note says that grains which lie flatter or denser out of the die than is possible are no tablet") {
   const Folder folder;
   TabletCase flat;
