@@ -88,7 +88,7 @@ that was tried makes samples looser; the ratio of both dissipations is the paper
 - We had the paper's text, but not its plots. What it only draws is judged by what its text says of the curve.
 - Statements are judged by the softening law \`energy\`, which reads Eq. 5 literally. The law \`exponential\`, the
   curve that Fig. 3 draws, is reported without verdicts. Exceptions: fig03 judges both laws. fig04 and fig05 are judged
-  by the law \`exponential\`, since no mesh there resolves the cohesive zone of the law \`energy\`. What fig10 to fig20
+  by the law \`exponential\`, since no mesh there resolves the law \`energy\` with bonds as stiff as the penalty. What fig10 to fig20
   say of kinetic energy, forces and the energy balance covers both.
 - Limits such as 2 % are this project's. Some statements are its own aims and not the paper's: loading and unloading in
   fig04, loading in fig05, and that tests are quasi-static and forces even (fig10 to fig20). They count like the others,
