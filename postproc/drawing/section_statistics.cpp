@@ -22,7 +22,7 @@ CutPlane middle(const Snapshot& snapshot, int axis) {
 Measurement of_section(const char* metric, const schema::FileReader& file, int number) {
   Measurement m;
   m.metric = metric;
-  m.uncertainty_meaning = "none: a section of one snapshot";
+  m.uncertainty_meaning = "not known: a section of one snapshot";
   m.snapshot = snapshot_window(file, number);
   return m;
 }

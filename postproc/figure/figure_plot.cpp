@@ -180,9 +180,14 @@ private:
     std::string block;
     DrawnLine line{{}, s.style != "points"};
     for (const std::size_t row : table.rows_of(where, s.place)) {
-      for (const auto& [column, scale] : columns) {
-        const auto value = table.number(row, column, s.place);
-        block += value ? fmt::format("{:.9g} ", *value * scale) : "NaN ";
+      for (std::size_t i = 0; i < columns.size(); ++i) {
+        const auto value = table.number(row, columns[i].first, s.place);
+        // gnuplot leaves out a point without an error, but not one whose error is 0.
+        const bool error_not_known = i == 2 && !s.error.empty() && !value;
+        if (error_not_known)
+          block += "0 ";
+        else
+          block += value ? fmt::format("{:.9g} ", *value * columns[i].second) : "NaN ";
       }
       block += '\n';
       const auto x = table.number(row, columns[0].first, s.place), y = table.number(row, columns[1].first, s.place);

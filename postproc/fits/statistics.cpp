@@ -111,7 +111,8 @@ Ratio ratio_of_sums(std::span<const double> y, std::span<const double> x) {
     sum_y += y[i];
     sum_x += x[i];
   }
-  Ratio ratio{sum_y / sum_x, 0};
+  Ratio ratio;
+  ratio.value = sum_y / sum_x;
   if (x.size() < 2) return ratio;
   double squares = 0;
   for (std::size_t i = 0; i < x.size(); ++i) {
@@ -133,7 +134,7 @@ Ratio standard_deviation(std::span<const double> values) {
     fourths += square * square;
   }
   const double variance = squares / (n - 1);
-  if (!(variance > 0)) return {};
+  if (!(variance > 0)) return {0, 0};
   const double variance_of_variance = std::max(0.0, (fourths / n - variance * variance) / n);
   return {std::sqrt(variance),
           student_t_95(values.size() - 1) * std::sqrt(variance_of_variance) / (2 * std::sqrt(variance))};

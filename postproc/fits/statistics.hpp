@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstddef>
+#include <limits>
 #include <optional>
 #include <span>
 #include <utility>
@@ -30,12 +31,13 @@ private:
 /// A straight line value = intercept + slope * x.
 struct Line {
   double intercept = 0, slope = 0;
-  double slope_half_width = 0;     ///< half of the 95 % interval of the slope
-  double intercept_half_width = 0; ///< and of the intercept; least squares only
-  double scatter = 0;              ///< standard deviation of the residuals
+  /// Half of the 95 % intervals; that of the intercept by least squares only. NaN where they are not known.
+  double slope_half_width = std::numeric_limits<double>::quiet_NaN();
+  double intercept_half_width = std::numeric_limits<double>::quiet_NaN();
+  double scatter = 0; ///< standard deviation of the residuals
 };
 
-/// Ordinary least squares. Needs two different x; half widths and scatter are 0 below three points.
+/// Ordinary least squares. Needs two different x; below three points half widths are not known and the scatter is 0.
 Line least_squares_line(std::span<const double> x, std::span<const double> y);
 
 /// Theil-Sen: the median slope of all pairs of points (Sen 1968), which is robust against up to 29 % of outliers;
@@ -70,17 +72,17 @@ Parabola least_squares_parabola(std::span<const double> x, std::span<const doubl
 /// A statistic with its uncertainty.
 struct Ratio {
   double value = 0;
-  double half_width = 0; ///< half of the 95 % interval; 0 where it cannot be estimated
+  double half_width = std::numeric_limits<double>::quiet_NaN(); ///< half of the 95 % interval; NaN: not known
 };
 
 /// sum(y) / sum(x) over units that are independent of each other (y and x of one unit need not be): the ratio estimator
 /// of cluster samples. Variance by linearisation, n / (n - 1) sum((y - R x)^2) / sum(x)^2 (Cochran, Sampling
-/// Techniques, 3rd ed. 1977, chapter 6), interval by Student's t with n - 1 degrees of freedom; the half width is 0 for
-/// one unit. Needs sum(x) > 0.
+/// Techniques, 3rd ed. 1977, chapter 6), interval by Student's t with n - 1 degrees of freedom; that of one unit is not
+/// known. Needs sum(x) > 0.
 Ratio ratio_of_sums(std::span<const double> y, std::span<const double> x);
 
 /// Standard deviation (n - 1) and half of its 95 % interval from its variance (m_4 - s^4) / (4 n s^2), m_4 the fourth
-/// central moment; no normal distribution is assumed. Both 0 for fewer than two values.
+/// central moment; no normal distribution is assumed. For fewer than two values it is 0 and its interval not known.
 Ratio standard_deviation(std::span<const double> values);
 
 /// The middle value, or the mean of the two middle ones; needs at least one value.

@@ -61,7 +61,7 @@ Measurement measure_stress_at_densities(const schema::FileReader& file, const st
   const auto found = at_densities(history, wanted, "mean_stress");
   Measurement m = of_rows("stress-at-densities", history, 0);
   m.unit = "MPa";
-  m.uncertainty_meaning = "none: between two rows of the history";
+  m.uncertainty_meaning = "not known: between two rows of the history";
   m.method = "mean stress where the relative density is passed first, linear between the neighbouring rows";
   if (!found.back())
     throw InputError(fmt::format("{}: a relative density of {} is not reached, allowed: densities that the run reaches",
@@ -124,7 +124,7 @@ Measurement measure_compaction_quality(const schema::FileReader& file, double fr
   Measurement m = of_rows("compaction-quality", history, first);
   const Inertia inertia = inertia_of_rows(history, rows, grain_inertia(file, history));
   m.value = inertia.kinetic_over_internal;
-  m.uncertainty_meaning = "none: a largest value over rows";
+  m.uncertainty_meaning = "not known: a largest value over rows";
   m.method = fmt::format("largest values over the rows from a relative density of {:g} on", from_density);
   m.details = {{"kinetic_over_internal", inertia.kinetic_over_internal},
                {"residual_over_work", residual},

@@ -20,7 +20,7 @@ std::size_t at(std::int32_t index) {
   return static_cast<std::size_t>(index);
 }
 
-/// Mean over the counted grains, and half of its 95 % interval; both 0 without grains.
+/// Mean over the counted grains, 0 without grains, and half of its 95 % interval.
 Ratio mean_of(const std::vector<double>& contacts, const std::vector<bool>& counted) {
   std::vector<double> values, ones;
   for (std::size_t grain = 0; grain < contacts.size(); ++grain)

@@ -97,8 +97,10 @@ DamageStatistics damage_statistics(std::span<const BondSample> bonds) {
     const double below = damage_percentiles[i] / 100.0;
     const double value = damage_percentile(distribution, below);
     const double reach = share([&](const BondSample& bond) { return bond.damage <= value; }).half_width;
-    s.percentile[i] = {
-        value, 0.5 * (damage_percentile(distribution, below + reach) - damage_percentile(distribution, below - reach))};
+    s.percentile[i].value = value;
+    if (!std::isnan(reach))
+      s.percentile[i].half_width =
+          0.5 * (damage_percentile(distribution, below + reach) - damage_percentile(distribution, below - reach));
   }
   return s;
 }
@@ -122,7 +124,7 @@ Measurement measure_damage(const schema::FileReader& file, int snapshot) {
 
   const auto add = [&](const std::string& key, Ratio ratio) {
     m.details[key] = ratio.value;
-    m.details[key + "_uncertainty"] = s.pairs > 1 ? nlohmann::ordered_json(ratio.half_width) : nlohmann::ordered_json();
+    m.details[key + "_uncertainty"] = ratio.half_width;
   };
   add("broken_share", s.broken_share);
   add("undamaged_share", s.undamaged_share);
@@ -140,7 +142,7 @@ Measurement measure_damage(const schema::FileReader& file, int snapshot) {
   m.brief =
       fmt::format("{:.3g} % of the area broken, {:.3g} % undamaged, median {:.4g}; {} bonds of {} pairs of grains",
                   100 * s.broken_share.value, 100 * s.undamaged_share.value, s.percentile[2].value, s.bonds, s.pairs);
-  if (s.pairs == 1) m.notes.emplace_back("one pair of grains has bonds: the uncertainty is unknown and reported as 0");
+  if (s.pairs == 1) m.notes.emplace_back("one pair of grains has bonds: the uncertainty is not known");
   return m;
 }
 

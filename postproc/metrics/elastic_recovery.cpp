@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <vector>
 
 #include <fmt/format.h>
@@ -48,6 +49,8 @@ ElasticRecovery elastic_recovery(std::span<const double> density, std::span<cons
     const Line& better = linear ? line : hertz_line;
     const double last_on_line = better.intercept + (linear ? rest : rest_of_hertz);
     ringing = better.intercept_half_width + std::abs(r.smallest_density - last_on_line);
+  } else if (r.residual_stress != 0) { // no line leads from this stress to zero
+    rest = rest_of_hertz = std::numeric_limits<double>::quiet_NaN();
   }
   r.recovery_at_zero_stress = r.recovery + rest / r.largest_density;
   r.uncertainty_at_zero_stress = (std::abs(rest - rest_of_hertz) + ringing) / r.largest_density;

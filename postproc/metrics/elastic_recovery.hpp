@@ -15,7 +15,7 @@ struct ElasticRecovery {
   double recovery = 0;                    ///< Eq. 9: (D_max - D_min) / D_max, relative to the unloaded volume
   double recovery_over_loaded_volume = 0; ///< R / (1 - R) = (D_max - D_min) / D_min
   double recovery_at_zero_stress = 0;     ///< with D_min extrapolated to zero mean stress
-  double uncertainty = 0;                 ///< of the recovery
+  double uncertainty = 0;                 ///< of the recovery; NaN where it is not known
   /// Of recovery_at_zero_stress: the difference of both extrapolations, plus the effect of ringing.
   double uncertainty_at_zero_stress = 0;
   std::size_t densest_row = 0, extrapolated_from_row = 0; ///< row numbers in the spans

@@ -37,7 +37,7 @@ Measurement quasi_static(const HistoryTable& history, const StageRows& stage,
   Measurement m;
   m.metric = "quasi-static";
   m.value = inertia.kinetic_over_internal;
-  m.uncertainty_meaning = "none: a largest value over rows";
+  m.uncertainty_meaning = "not known: a largest value over rows";
   m.window.stage = stage.number;
   m.window.stage_type = stage.type;
   m.window.first_row = rows.front();

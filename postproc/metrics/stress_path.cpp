@@ -20,7 +20,7 @@ Measurement stress_path(const HistoryTable& h) {
   m.metric = "stress-path";
   m.value = p[last];
   m.unit = "MPa";
-  m.uncertainty_meaning = "none: read at the last row";
+  m.uncertainty_meaning = "not known: read at the last row";
   m.window.stage = static_cast<int>(h["stage"][last]);
   m.window.first_row = 0;
   m.window.last_row = last;

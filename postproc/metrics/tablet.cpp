@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include <fmt/format.h>
@@ -27,7 +28,7 @@ constexpr std::size_t fewest_smoothed_rows = 7;
 constexpr double force_gone = 0.01;          ///< share of the peak force below which a punch has left
 constexpr double largest_lower_share = 0.02; ///< of the way of both punches, in single-ended pressing
 
-/// A value in one row, with half of its 95 % interval.
+/// A value in one row, with half of its 95 % interval; NaN where that is not known.
 struct Reading {
   std::size_t row = 0; ///< of the history
   double value = 0, uncertainty = 0;
@@ -100,10 +101,10 @@ void read_stages(Tablet& tablet) {
   tablet.loaded = {tablet.press.first, std::max(tablet.press.last, tablet.hold ? tablet.hold->last : 0)};
 }
 
-/// A column in one row of `rows`: smoothed if there are enough rows, with the uncertainty of peaks (ringing).
+/// A column in one row of `rows`: smoothed, with the uncertainty of peaks (ringing), if there are enough rows.
 Reading reading_at(const std::vector<double>& column, RowRange rows, std::size_t row) {
   const auto part = rows.of(column);
-  if (part.size() < fewest_smoothed_rows) return {row, column[row], 0};
+  if (part.size() < fewest_smoothed_rows) return {row, column[row], std::numeric_limits<double>::quiet_NaN()};
   const std::vector<double> raw(part.begin(), part.end());
   return {row, smoothed(raw)[row - rows.first], ringing(raw, row - rows.first)};
 }
@@ -200,7 +201,7 @@ void add_peak(Tablet& tablet) {
   tablet.add("smallest_height", "mm", tablet.smallest_height);
   if (tablet.loaded.count() < fewest_smoothed_rows)
     tablet.note(fmt::format("pressing has {} rows, fewer than {}: forces are those of a row, their uncertainty is not "
-                            "known and reported as 0",
+                            "known",
                             tablet.loaded.count(), fewest_smoothed_rows));
 }
 
@@ -363,6 +364,7 @@ void fill_measurement(Tablet& tablet) {
   Measurement& m = tablet.result.measurement;
   m.metric = "tablet";
   m.value = tablet.history["relative_density"][tablet.peak.row];
+  m.uncertainty = 0;
   m.uncertainty_meaning =
       "none: the relative density at the peak is exact; of the other numbers half of a 95 % interval";
   m.method = "relative density in the die where the smoothed force of the upper punch is largest";
@@ -402,7 +404,7 @@ std::string to_table(const std::vector<TabletNumber>& numbers) {
   for (const TabletNumber& number : numbers) {
     std::string name = number.name;
     std::replace(name.begin(), name.end(), '_', ' ');
-    const std::string uncertainty = number.uncertainty ? fmt::format(" ± {:.2g}", *number.uncertainty) : "";
+    const std::string uncertainty = number.uncertainty ? plus_minus(*number.uncertainty) : "";
     text += number.value ? fmt::format("{:<34}{:.5g}{}{}\n", name, *number.value, uncertainty,
                                        number.unit == "1" ? "" : " " + number.unit)
                          : fmt::format("{:<34}not known\n", name);

@@ -31,7 +31,7 @@ struct TabletRule {
 /// One number of a tablet; without a value where the run does not give it.
 struct TabletNumber {
   std::string name, unit;
-  std::optional<double> value, uncertainty; ///< in `unit`; no uncertainty where the number is exact
+  std::optional<double> value, uncertainty; ///< in `unit`; no uncertainty where the number is exact, NaN: not known
 };
 
 /// All numbers of a tablet.

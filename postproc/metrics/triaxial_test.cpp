@@ -100,7 +100,7 @@ Measurement triaxial_test(const HistoryTable& h, const StageRows& stage, double 
   m.metric = "triaxial";
   m.value = q[stage.last];
   m.unit = "MPa";
-  m.uncertainty_meaning = "none: read at the last row";
+  m.uncertainty_meaning = "not known: read at the last row";
   m.window.stage = stage.number;
   m.window.stage_type = stage.type;
   m.window.first_row = stage.first;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include <fmt/format.h>
 
@@ -14,10 +15,10 @@ namespace mpfem {
 
 namespace {
 
-/// Half width of the 95 % interval of one row's value, from the scatter of the rows about the smoothed curve; 0 for
+/// Half width of the 95 % interval of one row's value, from the scatter of the rows about the smoothed curve; NaN for
 /// curves too short to be smoothed.
 double ringing(const std::vector<double>& values) {
-  if (values.size() < 2 * smoothing_half_rows(values.size()) + 1) return 0;
+  if (values.size() < 2 * smoothing_half_rows(values.size()) + 1) return std::numeric_limits<double>::quiet_NaN();
   const std::vector<double> smooth = smoothed(values);
   double squares = 0;
   for (std::size_t row = 0; row < values.size(); ++row)
@@ -95,8 +96,8 @@ Measurement yield_point(const StageCurve& c, double ratio) {
                          "beginning, linear between rows",
                          ratio);
   m.details = details_of(yield, c);
-  m.brief = fmt::format("q at p = {:.5g} ± {:.2g} MPa", yield.at.of(c.mean_stress),
-                        stress_uncertainty(c.mean_stress, yield.at));
+  m.brief = fmt::format("q at p = {:.5g}{} MPa", yield.at.of(c.mean_stress),
+                        plus_minus(stress_uncertainty(c.mean_stress, yield.at)));
   if (row == 0) m.notes.emplace_back("yields before the stage's first row: record more rows");
   return m;
 }

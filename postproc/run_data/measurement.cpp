@@ -59,9 +59,13 @@ nlohmann::ordered_json to_json(const Measurement& m) {
   return json;
 }
 
+std::string plus_minus(double uncertainty) {
+  return std::isnan(uncertainty) ? "" : fmt::format(" ± {:.2g}", uncertainty);
+}
+
 std::string to_text(const Measurement& m) {
   if (std::isnan(m.value)) return fmt::format("{}: none\n", m.metric);
-  return fmt::format("{}: {:.5g} ± {:.2g}{}{}{} ({})\n", m.metric, m.value, m.uncertainty,
+  return fmt::format("{}: {:.5g}{}{}{}{} ({})\n", m.metric, m.value, plus_minus(m.uncertainty),
                      m.unit == "1" ? "" : fmt::format(" {}", m.unit), m.brief.empty() ? "" : "; ", m.brief,
                      window_text(m));
 }

@@ -2,6 +2,7 @@
 // A number read from a run: what it is, its uncertainty, the rows it comes from and the rule.
 
 #include <array>
+#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
@@ -36,7 +37,8 @@ struct Measurement {
   std::string metric;
   double value = 0; ///< NaN (null in the file) where the run has no such number; a note says why
   std::string unit = "1";
-  double uncertainty = 0;          ///< in the value's unit
+  /// In the value's unit; 0 where the value is exact, NaN (null in the file) where it is not known how far it is off.
+  double uncertainty = std::numeric_limits<double>::quiet_NaN();
   std::string uncertainty_meaning; ///< what it covers
   Window window;
   std::optional<SnapshotWindow> snapshot; ///< instead of `window`
@@ -54,6 +56,9 @@ nlohmann::ordered_json number_or_null(const std::optional<double>& number);
 
 /// The content of the JSON file of a metric.
 nlohmann::ordered_json to_json(const Measurement& measurement);
+
+/// " ± 56"; empty where the uncertainty is not known (NaN).
+std::string plus_minus(double uncertainty);
 
 /// One line: "modulus: 1234 ± 56 MPa; BRIEF (stage 2, rows 401 … 433)", or "… (stage 2, snapshot 3)".
 std::string to_text(const Measurement& measurement);

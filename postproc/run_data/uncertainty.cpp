@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include <fmt/format.h>
 
@@ -26,7 +27,7 @@ RowRange rows_about(std::size_t row, RowRange allowed) {
 }
 
 double row_uncertainty(std::span<const double> x, std::span<const double> y) {
-  if (x.size() < fewest_rows) return 0;
+  if (x.size() < fewest_rows) return std::numeric_limits<double>::quiet_NaN();
   const Parabola parabola = least_squares_parabola(x, y);
   return student_t_95(parabola.freedom) * parabola.scatter;
 }
@@ -65,7 +66,7 @@ double energy_change_uncertainty(const HistoryTable& history, std::string_view e
 void note_short_stage(Measurement& m, RowRange stage) {
   if (stage.count() < fewest_rows)
     m.notes.push_back(
-        fmt::format("the stage has {} rows, needed for the scatter of its rows: {}; not included in the uncertainty",
+        fmt::format("the stage has {} rows, needed for the scatter of its rows: {}; uncertainties are not known",
                     stage.count(), fewest_rows));
 }
 

@@ -1,7 +1,7 @@
 #pragma once
 // Uncertainty of numbers that are read from single rows of a history: one rule for each kind of number. All are half of
 // a 95 % interval, in the number's own unit. They cover vibration (ringing) of the rows, their spacing, and for
-// energies the error of the ledger; not the mesh, the loading rate or another packing.
+// energies the error of the ledger; not the mesh, the loading rate or another packing. NaN stands for "not known".
 
 #include <span>
 #include <string_view>
@@ -16,7 +16,7 @@ namespace mpfem {
 RowRange rows_about(std::size_t row, RowRange allowed);
 
 /// Uncertainty of the value in one row, from a few rows around it: Student's t times the standard deviation of their
-/// values y about their least-squares parabola over x, so that a steady change of the value does not count. 0 below
+/// values y about their least-squares parabola over x, so that a steady change of the value does not count. NaN below
 /// four rows, which are too few for an estimate.
 double row_uncertainty(std::span<const double> x, std::span<const double> y);
 
@@ -44,7 +44,7 @@ double energy_uncertainty(const HistoryTable& history, std::string_view energy, 
 /// of both rows and, except for bonds, the change of the ledger's residual between them.
 double energy_change_uncertainty(const HistoryTable& history, std::string_view energy, RowRange stage);
 
-/// Adds a note where a stage has too few rows for row_uncertainty, which is then 0.
+/// Adds a note where a stage has too few rows for row_uncertainty, which is then NaN.
 void note_short_stage(Measurement& measurement, RowRange stage);
 
 } // namespace mpfem

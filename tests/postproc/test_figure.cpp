@@ -606,6 +606,10 @@ series = [
   CHECK_THAT(script, Contains("using 1:2:3 with yerrorbars linetype 1") && Contains("title 'computed'"));
   CHECK_THAT(script, Contains("with yerrorlines linetype") && Contains("title 'joined'"));
   CHECK_THAT(script, Contains("\n2 5\nEOD") && Contains("dashtype (12, 10)"));
+  // gnuplot leaves out a point whose error is missing, but not one without length.
+  PlotSpec reversed = figure.plots[0];
+  std::swap(reversed.series[0].y, reversed.series[0].error);
+  CHECK_THAT(plot_script(reversed, data, folder, "svg", "p.svg", 0), Contains("1 10 30 \n2 20 0 \n"));
   // Of other results, the points.
   write_text(toolkit.path("other") + "/strength.csv", "name,density [1],strength [MPa]\na,1,4\n");
   OtherResults other{"finer", FigureData(figure, toolkit.path("other"))};

@@ -7,6 +7,7 @@
 #include "postproc/metrics/quasi_static.hpp"
 #include "postproc/metrics/stress_path.hpp"
 #include "postproc/metrics/triaxial_test.hpp"
+#include "run_postproc.hpp"
 #include "small_run.hpp"
 #include "stage_run.hpp"
 
@@ -139,6 +140,42 @@ TEST_CASE(
   CHECK_THROWS_WITH(read_compaction_curve(folder / "r.csv"), Catch::Contains("mean_stress_MPa"));
   CHECK_THROWS_WITH(measure_stress_at_densities(file, {0.9}), Catch::Contains("0.9 is not reached"));
   CHECK_THROWS_WITH(measure_stress_at_densities(file, {0.8, 0.7}), Catch::Contains("each larger than the one before"));
+}
+
+TEST_CASE("extremes, numbers of a last row and sections have no known uncertainty: null, and a line without ±") {
+  const Folder folder;
+  RunContents run = small_run();
+  run.numbers["/history/wall_stress"] = {0, 0, 0, 0, 0, 0, 1, 1, 1, 1, 5, 5, 2, 2, 2, 2, 10, 10};
+  write_run(folder / "run.h5", run);
+  const std::string out = folder / "out.json";
+  for (const std::string command :
+       {"quasi-static", "triaxial --stage 0 --lateral-stress 8", "stress-path", "section-stress --threshold 1",
+        "stress-at-densities --densities 0.6", "compaction-quality --from-density 0.7"}) {
+    const Outcome outcome = postproc(fmt::format("{} {} -o {}", command, folder / "run.h5", out));
+    INFO(command << ": " << outcome.output << outcome.messages);
+    REQUIRE(outcome.exit_code == 0);
+    CHECK_THAT(outcome.output, !Catch::Contains("±") && !Catch::Contains("nan"));
+    const auto json = nlohmann::json::parse(read_text(out));
+    CHECK(json.at("value").is_number());
+    CHECK(json.at("uncertainty").is_null());
+    CHECK_THAT(json.at("uncertainty_meaning").get<std::string>(), Catch::StartsWith("not known: "));
+  }
+}
+
+TEST_CASE("energies and contacts of a stage with too few rows have no known uncertainty, and a note says so") {
+  const Folder folder;
+  write_run(folder / "run.h5", run_of({{.axial_stress = 9, .relative_density = 0.8, .elastic = 2},
+                                       {.stage = 1, .axial_stress = 4, .relative_density = 0.7, .elastic = 1},
+                                       {.stage = 1, .axial_stress = 1, .relative_density = 0.6, .elastic = 0.5}}));
+  const std::string out = folder / "out.json";
+  for (const std::string command : {"energy", "contact --history"}) {
+    const Outcome outcome = postproc(fmt::format("{} {} -o {}", command, folder / "run.h5", out));
+    INFO(command << ": " << outcome.output << outcome.messages);
+    REQUIRE(outcome.exit_code == 0);
+    CHECK_THAT(outcome.output, !Catch::Contains("±") && !Catch::Contains("nan"));
+    CHECK_THAT(outcome.messages, Catch::Contains("the stage has 3 rows") && Catch::Contains("are not known"));
+    CHECK(nlohmann::json::parse(read_text(out)).at("uncertainty").is_null());
+  }
 }
 
 TEST_CASE("a compaction's quality is that of its worst row from a density on") {
