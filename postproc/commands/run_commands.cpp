@@ -46,7 +46,8 @@ public:
 private:
   void execute() const override {
     const schema::FileReader file = open_run();
-    const HistoryTable history(file);
+    const HistoryTable history(file, NotFinite::kept);
+    if (!history.not_finite().empty()) print_notes({history.not_finite()});
     deliver(columns_.empty() ? csv_text(history.columns()) : csv_text(history.select(columns_)));
   }
 

@@ -21,6 +21,14 @@
 
 namespace mpfem {
 
+namespace {
+
+void print_notes(const std::vector<std::string>& notes) {
+  for (const std::string& note : notes) fmt::print(stderr, "postproc: note: {}\n", note);
+}
+
+} // namespace
+
 struct FigureCommands::State {
   std::string figure, name, output, results = "out/coarse", mesh = "coarse", programmes = "studies/branches", packing,
                                     description;
@@ -194,6 +202,7 @@ struct FigureCommands::State {
     const TableSpec& spec = f.table(name, {});
     const TextTable result = files.empty() ? make_table(f, spec, {results, mesh}) : spread_of(spec, files);
     refuse_overwriting_any(result.sources);
+    print_notes(result.notes);
     deliver(csv_text(result));
   }
 

@@ -188,7 +188,8 @@ void add_curve(TextTable& table, const TableSpec& spec, const Words& values, con
                const std::string& path) {
   table.sources.push_back(path);
   const schema::FileReader file(path, schema::FileKind::run);
-  const HistoryTable history(file);
+  const HistoryTable history(file, NotFinite::kept); // the curve of a run that diverged is drawn as far as it goes
+  if (!history.not_finite().empty()) table.notes.push_back(history.not_finite() + "; such cells are empty");
   const auto stages = stages_of(history, scenario_facts(file));
   std::set<int> wanted;
   for (const int stage : spec.stages) wanted.insert(stage_by_number(stages, stage, path).number);

@@ -14,6 +14,7 @@ struct TextTable {
   std::vector<std::string> titles, names; ///< "name [unit]" and "name" of each column
   std::vector<std::vector<Value>> rows;
   std::vector<std::string> sources; ///< files from which it was made
+  std::vector<std::string> notes;   ///< what a reader must know before using it
 
   void add_column(const std::string& title);
   bool has(const std::string& name) const;

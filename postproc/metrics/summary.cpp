@@ -127,7 +127,7 @@ std::vector<QualityRow> quality_rows(const HistoryTable& history) {
 } // namespace
 
 Summary summarise(const schema::FileReader& file) {
-  const HistoryTable history(file);
+  const HistoryTable history(file, NotFinite::kept); // a run that diverged is summarised too
   Summary s;
   add_provenance(s, file);
   add_state_at_end(s, history);
@@ -136,6 +136,8 @@ Summary summarise(const schema::FileReader& file) {
   add_inertial_number(s, history, loaded, grain_inertia(file, history));
   add_extremes(s, history);
   s.warnings = quality_warnings(quality_rows(history));
+  if (!history.not_finite().empty())
+    s.warnings.push_back(fmt::format("{}: numbers here do not count it, or are not finite", history.not_finite()));
   return s;
 }
 

@@ -1,6 +1,7 @@
 #include "postproc/run_data/history_table.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include <fmt/format.h>
 
@@ -40,13 +41,15 @@ std::vector<double> read_numbers(const schema::FileReader& file, const schema::D
 
 } // namespace
 
-HistoryTable::HistoryTable(const schema::FileReader& file) : path_(one_line(file.path())) {
+HistoryTable::HistoryTable(const schema::FileReader& file, NotFinite not_finite) : path_(one_line(file.path())) {
   constexpr std::string_view group = "/history/";
   for (const schema::DatasetDescription& line : schema::run::all) {
     if (!line.path.starts_with(group)) continue;
     for (const std::string& tool : file.members(line)) add_columns(file, line, tool);
   }
   if (rows() == 0) throw InputError(fmt::format("{}: the history has no rows", path_));
+  if (not_finite == NotFinite::refused && !not_finite_.empty())
+    throw InputError(fmt::format("{}, allowed: finite numbers; postproc curve shows the rows", not_finite_));
 }
 
 void HistoryTable::add_columns(const schema::FileReader& file, const schema::DatasetDescription& line,
@@ -59,6 +62,10 @@ void HistoryTable::add_columns(const schema::FileReader& file, const schema::Dat
   if (!columns_.empty() && values.size() != width * rows())
     throw InputError(fmt::format("{}: dataset /history/{}: found {} rows, allowed: {}, as many as the history has",
                                  path_, one_line(name), values.size() / width, rows()));
+  const auto bad = std::find_if(values.begin(), values.end(), [](double value) { return !std::isfinite(value); });
+  if (bad != values.end() && not_finite_.empty())
+    not_finite_ = fmt::format("{}: dataset /history/{}, row {}: found {}", path_, one_line(name),
+                              static_cast<std::size_t>(bad - values.begin()) / width, *bad);
   for (std::size_t c = 0; c < width; ++c) {
     Column column{width == 1 ? name : fmt::format("{}_{}", name, c), std::string(line.unit), {}};
     for (std::size_t i = c; i < values.size(); i += width) column.values.push_back(values[i]);

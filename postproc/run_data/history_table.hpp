@@ -16,12 +16,20 @@ struct Column {
   std::vector<double> values;
 };
 
+/// What is done with a history that has numbers that are not finite. Only a run that diverged writes such a row, as
+/// its last one.
+enum class NotFinite { refused, kept };
+
 /// All columns of /history, in the schema's order; those of rigid tools last.
 class HistoryTable {
 public:
-  /// Throws InputError where the file is no run file or has no rows, or a column has more or fewer than the others.
-  explicit HistoryTable(const schema::FileReader& file);
+  /// Throws InputError where the file is no run file or has no rows, a column has more or fewer than the others, or,
+  /// unless they are kept, a number is not finite.
+  explicit HistoryTable(const schema::FileReader& file, NotFinite not_finite = NotFinite::refused);
 
+  /// The first number that is not finite, "PATH: dataset /history/NAME, row 3: found nan" with rows from 0; empty where
+  /// there is none.
+  const std::string& not_finite() const { return not_finite_; }
   const std::vector<Column>& columns() const { return columns_; }
   std::size_t rows() const { return columns_.front().values.size(); }
   /// Throws InputError that suggests the nearest name where there is no such column.
@@ -40,7 +48,7 @@ private:
   std::string unknown_column(std::string_view name) const;
   void add_columns(const schema::FileReader& file, const schema::DatasetDescription& line, const std::string& tool);
 
-  std::string path_;
+  std::string path_, not_finite_;
   std::vector<Column> columns_;
 };
 

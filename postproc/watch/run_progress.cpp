@@ -93,7 +93,7 @@ std::vector<ProgressRow> rows_of_checkpoint(const schema::FileReader& file) {
 }
 
 std::vector<ProgressRow> rows_of_run(const schema::FileReader& file) {
-  const HistoryTable history(file);
+  const HistoryTable history(file, NotFinite::kept); // a run that diverged is shown too
   const bool friction = history.has("friction_energy");
   std::vector<ProgressRow> rows;
   for (std::size_t i = 0; i < history.rows(); ++i) {

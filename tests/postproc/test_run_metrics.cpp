@@ -1,5 +1,9 @@
 // Quality of loadings, triaxial tests, stress paths and sections, on runs written down row by row.
 
+#include <cmath>
+#include <filesystem>
+#include <limits>
+
 #include <catch2/catch.hpp>
 
 #include "postproc/drawing/section_statistics.hpp"
@@ -176,6 +180,36 @@ TEST_CASE("energies and contacts of a stage with too few rows have no known unce
     CHECK_THAT(outcome.messages, Catch::Contains("the stage has 3 rows") && Catch::Contains("are not known"));
     CHECK(nlohmann::json::parse(read_text(out)).at("uncertainty").is_null());
   }
+}
+
+TEST_CASE("a history with a number that is not finite gives no metric, but can be looked at") {
+  const Folder folder;
+  const std::string run = folder / "run.h5", out = folder / "out.json";
+  RunContents contents = small_run();
+  contents.numbers["/history/mean_stress"][2] = std::nan("");
+  write_run(run, contents);
+  const std::string found = run + ": dataset /history/mean_stress, row 2: found nan";
+  for (const std::string command :
+       {"quasi-static", "stress-path", "energy", "contact --history", "strength", "hysteresis", "heckel",
+        "compaction-quality --from-density 0.7", "section-stress --threshold 1"}) {
+    const Outcome outcome = postproc(fmt::format("{} {} -o {}", command, run, out));
+    INFO(command << ": " << outcome.output << outcome.messages);
+    CHECK(outcome.exit_code == 2);
+    CHECK_THAT(outcome.messages, Catch::Contains(found + ", allowed: finite numbers"));
+    CHECK_FALSE(std::filesystem::exists(out));
+  }
+  const Outcome curve = postproc("curve " + run + " --columns mean_stress"), summary = postproc("summary " + run);
+  CHECK(curve.exit_code == 0);
+  CHECK(curve.output == "mean_stress [MPa]\n0\n5\nnan\n");
+  CHECK_THAT(curve.messages, Catch::Contains(found));
+  CHECK(summary.exit_code == 0);
+  CHECK_THAT(summary.output, Catch::Contains("warning") && Catch::Contains(found));
+  // Of a component, the row and not the place in the file.
+  contents = small_run();
+  contents.numbers["/history/wall_stress"][10] = std::numeric_limits<double>::infinity();
+  write_run(run, contents);
+  CHECK_THAT(postproc("quasi-static " + run).messages,
+             Catch::Contains("dataset /history/wall_stress, row 1: found inf"));
 }
 
 TEST_CASE("a compaction's quality is that of its worst row from a density on") {
