@@ -120,10 +120,29 @@ void check_output_path(std::string_view option, const std::string& path, OutputK
         fmt::format("{} {}: the folder does not exist, allowed: a file in an existing folder", option, one_line(path)));
 }
 
-void refuse_other_endings(std::string_view option, const std::string& path, const std::vector<std::string>& endings) {
+namespace {
+
+/// ".png" of "run.png" and "run.png.partial".
+std::string ending_of(const std::string& path) {
   std::filesystem::path name = path;
   if (name.extension() == ".partial") name = name.stem();
-  const std::string ending = name.extension().string();
+  return name.extension().string();
+}
+
+} // namespace
+
+void refuse_ending_of_other_format(std::string_view option, const std::string& path,
+                                   const std::vector<std::string>& endings) {
+  constexpr std::array known = {".csv", ".json", ".html", ".md",  ".toml", ".png", ".svg",
+                                ".jpg", ".jpeg", ".pdf",  ".vtu", ".pvd",  ".h5",  ".stl"};
+  std::string ending = ending_of(path);
+  for (char& c : ending)
+    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+  if (std::find(known.begin(), known.end(), ending) != known.end()) refuse_other_endings(option, path, endings);
+}
+
+void refuse_other_endings(std::string_view option, const std::string& path, const std::vector<std::string>& endings) {
+  const std::string ending = ending_of(path);
   if (std::find(endings.begin(), endings.end(), ending) != endings.end()) return;
   throw InputError(fmt::format("{} {}: found {}, allowed: {}", option, one_line(path),
                                ending.empty() ? "no ending" : fmt::format("the ending '{}'", one_line(ending)),

@@ -1,5 +1,7 @@
 #include "postproc/commands/command.hpp"
 
+#include <utility>
+
 #include <fmt/format.h>
 
 #include "common/errors.hpp"
@@ -30,22 +32,33 @@ CLI::Option* Command::add_later_input(const std::string& name, std::string& path
   return options_->add_option(name, path, help);
 }
 
-CLI::Option* Command::add_output(const std::string& name, std::string& path, const std::string& help, OutputKind kind) {
-  outputs_.push_back({name.substr(name.find("--")), &path, kind});
+void Command::refuse_given(const std::vector<std::string>& options, const std::string& found,
+                           const std::string& allowed) const {
+  for (const std::string& option : options)
+    if (given(option)) throw InputError(fmt::format("{}: found {}, allowed: {}", option, found, allowed));
+}
+
+CLI::Option* Command::add_output(const std::string& name, std::string& path, const std::string& help,
+                                 OutputFormat format) {
+  outputs_.push_back({name.substr(name.find("--")), &path, std::move(format)});
   return options_->add_option(name, path, help);
 }
 
 void Command::check_outputs() const {
   for (const OutputFile& output : outputs_) {
     if (output.path->empty()) continue;
-    check_output_path(output.option, *output.path, output.kind);
-    if (output.kind == OutputKind::binary) refuse_other_endings(output.option, *output.path, {".png"});
+    const OutputFormat& format = output.format;
+    check_output_path(output.option, *output.path, format.kind);
+    if (format.kind == OutputKind::binary)
+      refuse_other_endings(output.option, *output.path, format.endings);
+    else
+      refuse_ending_of_other_format(output.option, *output.path, format.endings);
   }
 }
 
 ResultCommand::ResultCommand(CLI::App& app, const std::string& name, const std::string& help,
-                             const std::string& output_help, OutputKind kind)
-    : Command(app, name, help), output_option_(add_output("-o,--output", output_, output_help, kind)) {
+                             const std::string& output_help, OutputFormat format)
+    : Command(app, name, help), output_option_(add_output("-o,--output", output_, output_help, std::move(format))) {
   options().add_flag("--quiet", quiet_, "Print only the result");
 }
 
@@ -56,14 +69,15 @@ void ResultCommand::deliver(const std::string& text) const {
     write_file(output_, text);
 }
 
-RunCommand::RunCommand(CLI::App& app, const std::string& name, const std::string& help, const std::string& output_help)
-    : ResultCommand(app, name, help, output_help) {
+RunCommand::RunCommand(CLI::App& app, const std::string& name, const std::string& help, const std::string& output_help,
+                       OutputFormat format)
+    : ResultCommand(app, name, help, output_help, std::move(format)) {
   add_input("run", run_, "Run file (HDF5)")->required();
 }
 
 StateCommand::StateCommand(CLI::App& app, const std::string& name, const std::string& help,
-                           const std::string& output_help, OutputKind kind)
-    : ResultCommand(app, name, help, output_help, kind) {
+                           const std::string& output_help, OutputFormat format)
+    : ResultCommand(app, name, help, output_help, std::move(format)) {
   add_input("run", run_, "Run file (HDF5)");
   add_input("--packing", packing_, "Meshed packing, instead of a run (HDF5)");
 }

@@ -12,6 +12,16 @@
 
 namespace mpfem {
 
+/// What an output holds, and the endings that name it.
+struct OutputFormat {
+  OutputKind kind = OutputKind::text;
+  std::vector<std::string> endings;
+};
+inline const OutputFormat json_file{OutputKind::text, {".json"}}, csv_file{OutputKind::text, {".csv"}},
+    csv_or_json_file{OutputKind::text, {".csv", ".json"}}, csv_or_png_file{OutputKind::text, {".csv", ".png"}},
+    html_file{OutputKind::text, {".html"}}, vtu_file{OutputKind::text, {".vtu"}},
+    png_file{OutputKind::binary, {".png"}};
+
 /// One class for each subcommand. Its constructor adds the options; execute() does the work once they are parsed.
 class Command {
 public:
@@ -27,14 +37,17 @@ public:
 protected:
   CLI::App& options() { return *options_; }
   bool given(const std::string& option) const { return options_->count(option) > 0; }
+  /// Refuses those of these options that are given: they have no effect. The message is "OPTION: found FOUND, allowed:
+  /// ALLOWED". Throws InputError.
+  void refuse_given(const std::vector<std::string>& options, const std::string& found,
+                    const std::string& allowed) const;
 
   /// An option with an input file, which must exist; no output of this subcommand may overwrite it.
   CLI::Option* add_input(const std::string& name, std::string& path, const std::string& help);
   /// The same for a file that may be written later.
   CLI::Option* add_later_input(const std::string& name, std::string& path, const std::string& help);
-  /// An option that names a file to write; binary ones are PNG pictures, and end so.
-  CLI::Option* add_output(const std::string& name, std::string& path, const std::string& help,
-                          OutputKind kind = OutputKind::text);
+  /// An option that names a file to write. A binary one must have an ending of its format, a text none of another.
+  CLI::Option* add_output(const std::string& name, std::string& path, const std::string& help, OutputFormat format);
 
   virtual void check_outputs() const;
   virtual void execute() const = 0;
@@ -43,7 +56,7 @@ private:
   struct OutputFile {
     std::string option; ///< its long name, for messages
     const std::string* path;
-    OutputKind kind;
+    OutputFormat format;
   };
   CLI::App* options_;
   std::vector<const std::string*> inputs_;
@@ -54,7 +67,7 @@ private:
 class ResultCommand : public Command {
 protected:
   ResultCommand(CLI::App& app, const std::string& name, const std::string& help, const std::string& output_help,
-                OutputKind kind = OutputKind::text);
+                OutputFormat format);
 
   const std::string& output() const { return output_; }
   CLI::Option* output_option() { return output_option_; }
@@ -71,7 +84,8 @@ private:
 /// A subcommand whose result is read from a run file.
 class RunCommand : public ResultCommand {
 protected:
-  RunCommand(CLI::App& app, const std::string& name, const std::string& help, const std::string& output_help);
+  RunCommand(CLI::App& app, const std::string& name, const std::string& help, const std::string& output_help,
+             OutputFormat format);
   schema::FileReader open_run() const { return {run_, schema::FileKind::run}; }
   const std::string& path_of_run() const { return run_; }
 
@@ -83,7 +97,7 @@ private:
 class StateCommand : public ResultCommand {
 protected:
   StateCommand(CLI::App& app, const std::string& name, const std::string& help, const std::string& output_help,
-               OutputKind kind);
+               OutputFormat format);
   bool of_packing() const { return !packing_.empty(); }
   const std::string& path_of_run() const { return run_; }
   const std::string& path_of_packing() const { return packing_; }

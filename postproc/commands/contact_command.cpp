@@ -25,7 +25,7 @@ public:
             "Example: postproc contact run.h5 --snapshot -1 -o contacts.csv\n"
             "Example: postproc contact run.h5 --pair 3,17 -o contact.json --data bonds.csv --view damage.png\n"
             "Example: postproc contact run.h5 --history -o contacts.csv",
-            "File to write, .json or .csv (default: CSV on standard output); with --pair JSON") {
+            "File to write, .json or .csv (default: CSV on standard output); with --pair JSON", csv_or_json_file) {
     CLI::App& command = options();
     add_snapshot(command, snapshot_);
     add_numbers(command, "--pair", pair_, 2, whole_numbers, "",
@@ -35,8 +35,8 @@ public:
                      "with -o FILE.json at the end of a stage");
     add_number(command, "--stage", stage_, whole_numbers, "",
                "With --history: stage as in the scenario, from 0; negative from the end (default: the last)");
-    add_output("--data", data_, "With --pair: CSV file to write, one row per bond");
-    add_output("--view", view_, "With --pair: PNG file to write, damage in the contact's plane", OutputKind::binary);
+    add_output("--data", data_, "With --pair: CSV file to write, one row per bond", csv_file);
+    add_output("--view", view_, "With --pair: PNG file to write, damage in the contact's plane", png_file);
     add_drawing(command, picture_, "With --view: ", "the grains and the relative density", "the nodes' patches");
   }
 
@@ -46,7 +46,8 @@ private:
       execute_through_run();
       return;
     }
-    if (stage_) throw InputError("--stage: found without --history, allowed: with it");
+    refuse_given({"--stage"}, "without --history", "with it");
+    if (view_.empty()) refuse_given({"--mesh", "--title", "--pixels"}, "without --view", "with --pair and --view");
     if (!pair_.empty()) {
       execute_for_pair();
       return;
@@ -58,6 +59,8 @@ private:
 
   void execute_through_run() const {
     if (!pair_.empty()) throw InputError("found --pair and --history, allowed: one of them");
+    refuse_given({"--snapshot", "--data", "--view", "--mesh", "--title", "--pixels"},
+                 "together with --history, which is of all contacts and rows", "without it");
     const schema::FileReader file = open_run();
     Measurement end = measure_contact(file, stage_); // also refuses a missing stage
     note_unfinished(end, file);

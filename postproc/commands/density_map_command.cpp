@@ -19,13 +19,13 @@ public:
                    "Solid fraction over radius and height of a round die.\n"
                    "Example: postproc density-map run.h5 --snapshot 0 -o density.png --data density.csv\n"
                    "Example: postproc density-map run.h5 --rings 6 --layers 8 -o density.csv",
-                   "File to write, .csv or .png (default: CSV on standard output)") {
+                   "File to write, .csv or .png (default: CSV on standard output)", csv_or_png_file) {
     add_snapshot(options(), snapshot_);
     add_number(options(), "--rings", rule_.rings, parts, "", "Rings of equal width, from the axis to the wall")
         ->capture_default_str();
     add_number(options(), "--layers", rule_.layers, parts, "", "Layers of equal height between the punches")
         ->capture_default_str();
-    add_output("--data", data_, "CSV file to write in addition to a picture");
+    add_output("--data", data_, "CSV file to write in addition to a picture", csv_file);
     options().add_option("--title", title_, "Title of the picture (default: the solid fraction of the whole)");
     add_number(options(), "--pixels", pixels_, Range::between(50, 4000), "", "Pixels along the picture's longer side")
         ->capture_default_str();
@@ -41,6 +41,7 @@ private:
   }
 
   void execute() const override {
+    if (!output().ends_with(".png")) refuse_given({"--title", "--pixels"}, "without a picture", "with -o FILE.png");
     const schema::FileReader run = open_run();
     refuse_other_than_round_dies(run, true);
     const DensityMap map = density_map(read_snapshot(run, snapshot_), rule_);

@@ -83,7 +83,7 @@ public:
                 "Example: postproc fit strength.csv --x porosity --y strength --model "
                 "ryshkewitch-duckworth,rumpf -o fits.json\n"
                 "Example: postproc fit q.csv --x p_c --z G_c --y q --model pc-gc-surface",
-            "JSON file to write, a list of fits") {
+            "JSON file to write, a list of fits", json_file) {
     add_input("points", points_,
               "CSV file with a heading, \"name [unit],…\"; columns that are not used may hold text, rows with "
               "an empty cell in those that are used are left out")
@@ -94,7 +94,7 @@ public:
     separated_by_commas(options().add_option("--model", models_, "Models, separated by commas"))->required();
     options().add_flag("--relative-density", x_is_relative_density_,
                        "x holds relative densities: the porosity P is 1 - x");
-    add_output("--curve", curve_, "CSV file to write: the fitted curves at 201 values of x");
+    add_output("--curve", curve_, "CSV file to write: the fitted curves at 201 values of x", csv_file);
   }
 
 private:

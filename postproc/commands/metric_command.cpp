@@ -18,8 +18,9 @@ void MetricCommand::deliver_measurement(Measurement measurement, const schema::F
 }
 
 StageMetricCommand::StageMetricCommand(CLI::App& app, const std::string& name, const std::string& help,
-                                       const std::string& default_stage, const std::string& output_help)
-    : MetricCommand(app, name, help, output_help) {
+                                       const std::string& default_stage, const std::string& output_help,
+                                       const OutputFormat& format)
+    : MetricCommand(app, name, help, output_help, format) {
   add_number(options(), "--stage", stage_, whole_numbers, "",
              "Stage as in the scenario, from 0; negative from the end (default: " + default_stage + ")");
 }

@@ -13,8 +13,8 @@ namespace mpfem {
 class MetricCommand : public RunCommand {
 protected:
   MetricCommand(CLI::App& app, const std::string& name, const std::string& help,
-                const std::string& output_help = "JSON file to write")
-      : RunCommand(app, name, help, output_help) {}
+                const std::string& output_help = "JSON file to write", const OutputFormat& format = json_file)
+      : RunCommand(app, name, help, output_help, format) {}
 
   virtual Measurement measure(const schema::FileReader& run) const = 0;
 
@@ -27,7 +27,7 @@ protected:
 class StageMetricCommand : public MetricCommand {
 protected:
   StageMetricCommand(CLI::App& app, const std::string& name, const std::string& help, const std::string& default_stage,
-                     const std::string& output_help = "JSON file to write");
+                     const std::string& output_help = "JSON file to write", const OutputFormat& format = json_file);
   std::optional<int> stage() const { return stage_; }
 
 private:

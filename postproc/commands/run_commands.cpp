@@ -20,7 +20,7 @@ class SummaryCommand : public RunCommand {
 public:
   explicit SummaryCommand(CLI::App& app)
       : RunCommand(app, "summary", "Summarise a run.\nExample: postproc summary run.h5 -o summary.json",
-                   "JSON file to write, or CSV of its numbers (.csv)") {}
+                   "JSON file to write, or CSV of its numbers (.csv)", csv_or_json_file) {}
 
 private:
   void execute() const override {
@@ -38,7 +38,7 @@ public:
             app, "curve",
             "Write history columns as CSV.\nExample: postproc curve run.h5 --columns relative_density,mean_stress -o "
             "curve.csv",
-            "CSV file to write (default: standard output)") {
+            "CSV file to write (default: standard output)", csv_file) {
     separated_by_commas(options().add_option("--columns", columns_,
                                              "Columns, separated by commas (default: all); wall_stress means its six"));
   }
@@ -60,7 +60,7 @@ public:
       : StateCommand(app, "vtk",
                      "Write snapshots for ParaView.\nExample: postproc vtk run.h5 -o vtk\nExample: postproc vtk "
                      "--packing packing.h5 -o packing.vtu",
-                     "Folder to write, or with --packing a .vtu file", OutputKind::text) {
+                     "Folder to write, or with --packing a .vtu file", vtu_file) {
     output_option()->required();
   }
 

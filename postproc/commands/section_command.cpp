@@ -30,12 +30,13 @@ public:
             "Draw a plane section through the grains.\n"
             "Example: postproc section run.h5 --axis z --position 0.5 --relative --field von_mises -o section.png\n"
             "Example: postproc section run.h5 --axis x --field damage -o damage.png --data boundaries.csv",
-            "PNG file to write", OutputKind::binary) {
+            "PNG file to write", png_file) {
     add_snapshot(options(), snapshot_);
     add_plane_options();
     add_picture_options();
     add_output("--data", data_,
-               "Also write the section's polygons as CSV; for damage the cut boundaries, one row per segment");
+               "Also write the section's polygons as CSV; for damage the cut boundaries, one row per segment",
+               csv_file);
   }
 
 private:
@@ -96,15 +97,23 @@ private:
   void execute() const override {
     if (output().empty() && data_.empty())
       throw InputError("found neither of --output and --data, allowed: one or both (see postproc section --help)");
+    if (output().empty())
+      refuse_given({"--range", "--view", "--mesh", "--title", "--pixels", "--without-tools"}, "without a picture",
+                   "with -o FILE.png");
+    if (of_packing()) refuse_given({"--snapshot"}, "together with --packing", "with a run");
     const Snapshot state = read_state(snapshot_);
     PictureRequest request = picture_;
     request.plane = plane_in(state);
     request.range = range();
     request.view = view();
     if (of_packing() && !given("--field")) request.field = "grain";
-    if (!data_.empty())
+    if (request.field == "grain")
+      refuse_given({"--range"}, "with the field grain, whose colours have no scale", "with another field");
+    if (!data_.empty()) {
+      const std::vector<SectionPolygon> polygons = cut_grains(state, request.plane);
       write_file(data_, request.field == "damage" ? damage_section_csv(cut_boundaries(state, request.plane))
-                                                  : section_csv(state, cut(state, request.plane), request.field));
+                                                  : section_csv(state, polygons, request.field));
+    }
     if (!output().empty()) write_section_picture(output(), state, request);
   }
 

@@ -66,6 +66,9 @@ private:
     if (!strain_range_.empty() && !(strain_range_[1] > strain_range_[0]))
       throw InputError(fmt::format("--strain-range: found {:g},{:g}, allowed: low,high with low < high",
                                    strain_range_[0], strain_range_[1]));
+    if (!strain_range_.empty())
+      refuse_given({"--slope-change", "--damage-share", "--stress-fraction", "--need-window"},
+                   "together with --strain-range, which replaces the rule", "one of them");
     StageMetricCommand::execute();
   }
 
@@ -108,7 +111,15 @@ public:
   }
 
 private:
-  Measurement measure(const schema::FileReader& run) const override { return measure_strength(run, stage(), rule_); }
+  Measurement measure(const schema::FileReader& run) const override {
+    if (rule_.criterion == StrengthCriterion::damage_onset)
+      refuse_given({"--drop", "--at-strain"}, "together with --criterion damage-onset", "with --criterion peak");
+    const Measurement m = measure_strength(run, stage(), rule_);
+    if (m.details["test"] == "unconfined")
+      refuse_given({"--at-strain"}, fmt::format("for stage {}, an unconfined test", m.window.stage),
+                   "for a triaxial test");
+    return m;
+  }
 
   StrengthRule rule_;
 };
@@ -139,7 +150,7 @@ public:
                            "Isotropic load cycles: loop area, drift of the density and dissipation of each.\n"
                            "Example: postproc hysteresis run.h5 -o hysteresis.json --cycles cycles.csv",
                            "the last stress_cycles, else the whole run") {
-    add_output("--cycles", cycles_, "CSV file to write, one row per cycle");
+    add_output("--cycles", cycles_, "CSV file to write, one row per cycle", csv_file);
   }
 
 private:
@@ -197,7 +208,8 @@ public:
                            "Example: postproc energy run.h5 -o energy.csv\n"
                            "Example: postproc energy run.h5 --packing packing.h5 -o energy.json",
                            "as for elastic-recovery",
-                           "File to write, .json, or CSV with any other ending (default: CSV on standard output)") {
+                           "File to write, .json, or CSV with any other ending (default: CSV on standard output)",
+                           csv_or_json_file) {
     add_number(options(), "--youngs-modulus", scale_.youngs_modulus, positive_modulus, "MPa",
                "Young's modulus of the grains (default: the scenario's)");
     add_number(options(), "--mean-radius", scale_.mean_radius, positive_length, "mm",
@@ -207,10 +219,10 @@ public:
 
 private:
   void execute() const override {
-    if (output().ends_with(".json"))
-      StageMetricCommand::execute();
-    else
-      deliver(csv_text(energy_ledger(HistoryTable(open_run()))));
+    if (output().ends_with(".json")) return StageMetricCommand::execute();
+    refuse_given({"--stage", "--youngs-modulus", "--mean-radius", "--packing"},
+                 "with CSV, which has the energies of all rows", "with -o FILE.json");
+    deliver(csv_text(energy_ledger(HistoryTable(open_run()))));
   }
 
   Measurement measure(const schema::FileReader& run) const override {

@@ -24,7 +24,8 @@ public:
                       "contacts.\n"
                       "Example: postproc damage run.h5 --snapshot -1 -o damage.json --data distribution.csv") {
     add_snapshot(options(), snapshot_);
-    add_output("--data", data_, "CSV file to write: the share of the area whose damage is not above each value");
+    add_output("--data", data_, "CSV file to write: the share of the area whose damage is not above each value",
+               csv_file);
   }
 
 private:
@@ -83,7 +84,7 @@ public:
     add_numbers(options(), "--densities", densities_, 0, relative_densities, "",
                 "Relative densities, separated by commas, ascending")
         ->required();
-    add_output("--data", data_, "CSV file to write: one row per density, with the contact area");
+    add_output("--data", data_, "CSV file to write: one row per density, with the contact area", csv_file);
     add_input("--reference", reference_,
               "CSV file with relative_density, mean_stress_MPa: the run is compared with it in --data");
   }

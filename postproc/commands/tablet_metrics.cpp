@@ -37,6 +37,7 @@ public:
 private:
   void execute() const override {
     const schema::FileReader run = open_run();
+    if (given("--snapshot")) snapshot_name(run, rule_.snapshot); // refuses a wrong number, also without an ejection
     const TabletMeasurement tablet = measure_tablet(run, rule_);
     deliver_measurement(tablet.measurement, run);
     if (!quiet()) fmt::print("{}", to_table(tablet.numbers));
@@ -109,11 +110,14 @@ public:
     add_number(options(), "--face-distance", rule_.face_distance, positive_length, "mm",
                "Pressed nodes within this distance of the outermost one count as a flat (default: a hundredth of the "
                "diameter)");
-    add_output("--data", data_, "CSV file to write: where bonds have broken up to each snapshot of the stage");
+    add_output("--data", data_, "CSV file to write: where bonds have broken up to each snapshot of the stage",
+               csv_file);
   }
 
 private:
   Measurement measure(const schema::FileReader& run) const override {
+    if (rule_.flat_angle)
+      refuse_given({"--face-distance"}, "together with --flat-angle, which it would measure", "one of them");
     DiametralRule rule = rule_;
     rule.stage = stage();
     rule.disc_axis = axis_number(disc_axis_);

@@ -17,7 +17,7 @@ public:
                    "Write one page for a browser: turn, zoom, cut and colour the grains, see bonds and contacts, step "
                    "through snapshots.\n"
                    "Example: postproc view run.h5 -o view.html",
-                   "HTML file to write") {
+                   "HTML file to write", html_file) {
     output_option()->required();
     add_number(options(), "--most", most_, Range::between(1, 1000), "",
                "Largest number of snapshots, evenly spread over the run")

@@ -44,6 +44,7 @@ public:
 
 private:
   void execute() const override {
+    if (once_) refuse_given({"--interval"}, "together with --once", "one of them");
     RunProgress progress = read_progress(run_);
     show(watch_frame(progress, now(), terminal_width()));
     while (!once_ && !progress.ended()) {

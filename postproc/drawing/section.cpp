@@ -2,6 +2,10 @@
 
 #include <cmath>
 
+#include <fmt/format.h>
+
+#include "common/errors.hpp"
+
 namespace mpfem {
 
 std::vector<SectionPolygon> cut(const Snapshot& snapshot, const CutPlane& plane) {
@@ -41,6 +45,15 @@ std::vector<SectionPolygon> cut(const Snapshot& snapshot, const CutPlane& plane)
     polygons.push_back(polygon);
   }
   return polygons;
+}
+
+std::vector<SectionPolygon> cut_grains(const Snapshot& snapshot, const CutPlane& plane) {
+  std::vector<SectionPolygon> polygons = cut(snapshot, plane);
+  if (!polygons.empty()) return polygons;
+  const auto axis = static_cast<std::size_t>(plane.axis);
+  throw InputError(
+      fmt::format("--position: the plane at {:g} mm cuts no grain; the box spans {:g} … {:g} mm along this axis",
+                  plane.position, snapshot.box_low[axis], snapshot.box_high[axis]));
 }
 
 double area(const SectionPolygon& polygon) {

@@ -25,6 +25,9 @@ struct SectionPolygon {
 /// The sections of all tets that the plane cuts. A node exactly in the plane counts as above it.
 std::vector<SectionPolygon> cut(const Snapshot& snapshot, const CutPlane& plane);
 
+/// The same, but throws InputError where the plane cuts no grain.
+std::vector<SectionPolygon> cut_grains(const Snapshot& snapshot, const CutPlane& plane);
+
 /// Area of a polygon (mm^2).
 double area(const SectionPolygon& polygon);
 

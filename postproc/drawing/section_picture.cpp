@@ -62,13 +62,9 @@ bool draws_tools(const Snapshot& snapshot, const PictureRequest& request) {
 
 /// Throws InputError where there are none.
 VisibleSection visible_section(const Snapshot& snapshot, const PictureRequest& request) {
-  std::vector<SectionPolygon> polygons = cut(snapshot, request.plane);
+  std::vector<SectionPolygon> polygons = cut_grains(snapshot, request.plane);
   const auto axis = static_cast<std::size_t>(request.plane.axis), u = (axis + 1) % 3, v = (axis + 2) % 3;
   const auto &low = snapshot.box_low, &high = snapshot.box_high;
-  if (polygons.empty())
-    throw InputError(
-        fmt::format("--position: the plane at {:g} mm cuts no grain; the box spans {:g} … {:g} mm along this axis",
-                    request.plane.position, low[axis], high[axis]));
   View view{{low[u], low[v]}, {high[u], high[v]}};
   if (draws_tools(snapshot, request)) {
     const DrawnExtent extent = drawn_extent(snapshot);

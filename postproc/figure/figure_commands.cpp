@@ -32,24 +32,31 @@ void print_notes(const std::vector<std::string>& notes) {
 struct FigureCommands::State {
   std::string figure, name, output, results = "out/coarse", mesh = "coarse", programmes = "studies/branches", packing,
                                     description;
-  std::string title, run, beside;
+  std::string title, run, beside, ending_of_output; ///< empty: any
   std::vector<std::string> files, settings, known_meshes;
   int packings = 0;
   const CLI::App* program = nullptr;
   std::function<void(const std::vector<std::string>&)> check_words;
-  std::vector<std::pair<CLI::App*, std::function<void()>>> commands;
 
-  CLI::App& add(CLI::App& app, const char* command_name, const std::string& help, std::function<void()> action) {
+  struct FigureCommand {
+    CLI::App* options;
+    std::function<void()> execute;
+    std::string ending; ///< of what it writes; empty: any
+  };
+  std::vector<FigureCommand> commands;
+
+  CLI::App& add(CLI::App& app, const char* command_name, const std::string& help, std::function<void()> action,
+                const std::string& ending = "") {
     CLI::App* command = app.add_subcommand(command_name, help);
     command->add_option("-o,--output", output, "File to write (default: standard output)");
     command->add_option("--results", results, "Folder of the mesh's results")->capture_default_str();
-    commands.emplace_back(command, std::move(action));
+    commands.push_back({command, std::move(action), ending});
     return *command;
   }
 
   CLI::App& add_on_figure(CLI::App& app, const char* command_name, const std::string& help,
-                          std::function<void()> action) {
-    CLI::App& command = add(app, command_name, help, std::move(action));
+                          std::function<void()> action, const std::string& ending = "") {
+    CLI::App& command = add(app, command_name, help, std::move(action), ending);
     command.add_option("figure", figure, "The figure's file (TOML)")->required()->check(existing_file());
     add_common(command);
     return command;
@@ -76,14 +83,14 @@ struct FigureCommands::State {
   }
 
   void add_table(CLI::App& app) {
-    CLI::App& command =
-        add_on_figure(app, "table",
-                      "Make a table of a figure from its runs.\nColumns of curves in addition to those of the "
-                      "history:\n" +
-                          curve_help() +
-                          "Example: postproc table studies/fig12/figure.toml modulus --results out/smoke --mesh smoke "
-                          "-o modulus.csv",
-                      [this] { table(); });
+    CLI::App& command = add_on_figure(
+        app, "table",
+        "Make a table of a figure from its runs.\nColumns of curves in addition to those of the "
+        "history:\n" +
+            curve_help() +
+            "Example: postproc table studies/fig12/figure.toml modulus --results out/smoke --mesh smoke "
+            "-o modulus.csv",
+        [this] { table(); }, ".csv");
     command.add_option("name", name, "Name of the table")->required();
     command
         .add_option(
@@ -110,21 +117,22 @@ struct FigureCommands::State {
   }
 
   void add_verdicts(CLI::App& app) {
-    add(app, "verdicts",
+    add(
+        app, "verdicts",
         "Write verdicts as Markdown: one mesh figure by figure, or several meshes side by side.\n"
         "Example: postproc verdicts coarse=studies/results/coarse smoke=studies/results/smoke -o verdicts.md",
-        [this] { verdicts(); })
+        [this] { verdicts(); }, ".md")
         .add_option("folders", files, "MESH=FOLDER: name of a mesh and the folder with a verdict.json for each figure")
         ->required();
   }
 
   void add_report(CLI::App& app) {
-    CLI::App& command =
-        add(app, "report",
-            "Write pictures, verdicts and runs of figures as one HTML page; links are relative to its folder.\n"
-            "Example: postproc report studies/fig12/figure.toml --results out/smoke --mesh smoke --title Moduli "
-            "-o out/smoke/report/index.html",
-            [this] { report(); });
+    CLI::App& command = add(
+        app, "report",
+        "Write pictures, verdicts and runs of figures as one HTML page; links are relative to its folder.\n"
+        "Example: postproc report studies/fig12/figure.toml --results out/smoke --mesh smoke --title Moduli "
+        "-o out/smoke/report/index.html",
+        [this] { report(); }, ".html");
     command.add_option("figures", files, "Figures' files (TOML)")->required()->check(existing_file());
     add_common(command);
     command.add_option("--title", title, "Title of the page")->required();
@@ -133,11 +141,14 @@ struct FigureCommands::State {
     command.add_option("--view", run, "Run shown in three dimensions on the page (HDF5)")->check(existing_file());
   }
 
+  /// Refuses an output that ends as another format does than that of the command.
   void deliver(const std::string& text) const {
-    if (output.empty())
+    if (output.empty()) {
       fmt::print("{}", text);
-    else
-      write_file(output, text);
+      return;
+    }
+    if (!ending_of_output.empty()) refuse_ending_of_other_format("--output", output, {ending_of_output});
+    write_file(output, text);
   }
 
   /// Refuses an output that would overwrite one of these.
@@ -200,6 +211,10 @@ struct FigureCommands::State {
   void table() const {
     const Figure f = read(figure);
     const TableSpec& spec = f.table(name, {});
+    if (!files.empty() && spec.spread.empty())
+      throw InputError(fmt::format("--spread: found the table '{}', whose 'spread' names no columns, allowed: a table "
+                                   "with columns in 'spread'",
+                                   one_line(name)));
     const TextTable result = files.empty() ? make_table(f, spec, {results, mesh}) : spread_of(spec, files);
     refuse_overwriting_any(result.sources);
     print_notes(result.notes);
@@ -300,10 +315,11 @@ FigureCommands::FigureCommands(CLI::App& app, std::function<void(const std::vect
   s.add_on_figure(app, "powder", "Print the packing of a study as input for pack-gen; nothing if the study has none.",
                   [&s] { s.powder(); });
   s.add_table(app);
-  s.add_on_figure(app, "fits", "Make all fits of a figure from its tables, as JSON.", [&s] { s.fits(); });
+  s.add_on_figure(
+      app, "fits", "Make all fits of a figure from its tables, as JSON.", [&s] { s.fits(); }, ".json");
   s.add_plot(app);
-  s.add_on_figure(app, "verdict", "Compare the statements of a figure with the results, as JSON.",
-                  [&s] { s.verdict(); });
+  s.add_on_figure(
+      app, "verdict", "Compare the statements of a figure with the results, as JSON.", [&s] { s.verdict(); }, ".json");
   s.add_verdicts(app);
   s.add_report(app);
 }
@@ -311,10 +327,11 @@ FigureCommands::FigureCommands(CLI::App& app, std::function<void(const std::vect
 FigureCommands::~FigureCommands() = default;
 
 void FigureCommands::run() const {
-  for (const auto& [command, action] : state_->commands) {
-    if (!command->parsed()) continue;
+  for (const auto& command : state_->commands) {
+    if (!command.options->parsed()) continue;
+    state_->ending_of_output = command.ending;
     state_->check_output();
-    action();
+    command.execute();
   }
 }
 

@@ -46,7 +46,7 @@ public:
             "Example: postproc picture run.h5 --snapshot 3 --color plastic-strain --cut z --cut-at 0.6 -o z.png\n"
             "Example: postproc picture run.h5 --frames film\n"
             "Stresses and strains are averaged around nodes; postproc section shows the value of each tetrahedron.",
-            "PNG file to write (default: RUN.png next to RUN.h5)", OutputKind::binary) {
+            "PNG file to write (default: RUN.png next to RUN.h5)", png_file) {
     add_snapshot(options(), snapshot_);
     options().add_option("--frames", frames_, "Draw every snapshot as FOLDER/NNNN.png, all with the same scales");
     add_choices();
@@ -102,6 +102,10 @@ private:
       if (rods && (of_packing() || request.cut == "none"))
         throw InputError(fmt::format("{}: found {}, allowed: with a run, and a cut that shows them", option,
                                      of_packing() ? "--packing" : "--cut none"));
+    if (request.cut == "none") refuse_given({"--cut-at"}, "with --cut none", "with a cut");
+    if (request.colour == "grain" || request.colour == "plain")
+      refuse_given({"--range"}, fmt::format("with the colours '{}', which have no scale", request.colour),
+                   "with --color of a field");
     if (range_.empty()) return request;
     if (!(range_[1] > range_[0]))
       throw InputError(fmt::format("--range: found '{},{}', allowed: low,high with low < high", range_[0], range_[1]));
@@ -129,6 +133,8 @@ private:
 
   void execute() const override {
     const PictureSize size = size_of(size_);
+    if (!frames_.empty()) refuse_given({"--snapshot"}, "together with --frames, which draws all", "one of them");
+    if (of_packing()) refuse_given({"--snapshot"}, "together with --packing", "with a run");
     if (!frames_.empty()) return draw_frames(request(), size);
     const Snapshot state = read_state(snapshot_);
     const std::string path = picture_path(output(), of_packing() ? path_of_packing() : path_of_run());

@@ -10,6 +10,7 @@
 
 #include <catch2/catch.hpp>
 
+#include "common/errors.hpp"
 #include "common/output_file.hpp"
 #include "tests/common/one_line_error.hpp"
 #include "tests/support/folder.hpp"
@@ -147,6 +148,15 @@ TEST_CASE("An output with another ending than the allowed ones is refused with b
   CHECK(refusal_of("x.jpg.partial") == "--output x.jpg.partial: found the ending '.jpg', allowed: .png or .svg");
   CHECK(refusal_of("x.jpg") == "--output x.jpg: found the ending '.jpg', allowed: .png or .svg");
   CHECK(refusal_of("a.png/x") == "--output a.png/x: found no ending, allowed: .png or .svg");
+}
+
+TEST_CASE("An output that ends as another format does is refused, one with an ending of its own or none is not") {
+  for (const std::string good : {"t.csv", "t.csv.partial", "t", "t.txt", "t.d", "a.png/t", "/dev/stdout", ".csv"})
+    CHECK_NOTHROW(refuse_ending_of_other_format("--output", good, {".csv", ".json"}));
+  CHECK_THROWS_WITH(refuse_ending_of_other_format("--data", "run.png", {".csv", ".json"}),
+                    "--data run.png: found the ending '.png', allowed: .csv or .json");
+  for (const std::string bad : {"t.PNG", "t.h5", "t.svg.partial", "t.html", "t.CSV", "t.toml"})
+    CHECK_THROWS_AS(refuse_ending_of_other_format("--output", bad, {".csv"}), InputError);
 }
 
 TEST_CASE("An output is tried without a trace, and one that cannot be written is a StorageError") {

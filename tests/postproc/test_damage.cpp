@@ -347,11 +347,11 @@ TEST_CASE("missing bonds, contacts and snapshots are refused with one line and e
            {"contact " + run + " --pair 0,2 --view " + picture, "never had a bond"},
            {"contact " + run + " --pair 0,1 --snapshot 5 --view " + picture, "allowed: 0 … 0"},
            {"contact " + run + " --view " + picture, "allowed: --pair FIRST,SECOND"},
-           {"contact " + run + " --data " + picture, "allowed: --pair FIRST,SECOND"},
+           {"contact " + run + " --data " + (folder / "x.csv"), "allowed: --pair FIRST,SECOND"},
            {"contact " + run + " --pair 0,1 -o " + (folder / "x.csv"), "allowed: .json"},
            {"contact " + run + " --pair 0,1 --view " + run, "would overwrite the input"},
            {"section " + plain + " --field damage -o " + picture, "the run has no bonds"},
-           {"section " + plain + " --field damage --data " + picture, "the run has no bonds"},
+           {"section " + plain + " --field damage --data " + (folder / "x.csv"), "the run has no bonds"},
            {"section " + run + " --field damag -o " + picture, "grain, damage"}}) {
     const Outcome outcome = postproc(arguments);
     INFO(arguments << ": " << outcome.messages);
@@ -359,6 +359,7 @@ TEST_CASE("missing bonds, contacts and snapshots are refused with one line and e
     CHECK(outcome.one_error_line("postproc"));
     CHECK_THAT(outcome.messages, Catch::Contains(expected));
     CHECK_FALSE(std::filesystem::exists(picture));
+    CHECK_FALSE(std::filesystem::exists(folder / "x.csv"));
     CHECK(outcome.output.empty());
   }
   CHECK(postproc("contact " + run + " --pair 0").exit_code == 2);

@@ -723,6 +723,27 @@ TEST_CASE("a table without -o goes to standard output") {
   CHECK(outcome.output == "x [mm],y [MPa]\n1,3\n2,4\n");
 }
 
+TEST_CASE("nothing of a figure is written under the ending of another format, or as a spread that no column has") {
+  const Studies studies;
+  write_complete_study(studies);
+  const std::string figure = studies.path("study.toml") + " ",
+                    options = " --results " + studies.path("out") + " --programmes " + studies.path("programmes");
+  for (const auto& [command, ending] : {std::pair<std::string, std::string>{"table " + figure + "t", ".csv"},
+                                        {"fits " + figure, ".json"},
+                                        {"verdict " + figure, ".json"},
+                                        {"report --title x " + figure, ".html"}}) {
+    const auto outcome = test::postproc(command + options + " -o " + studies.path("x.png"));
+    INFO(command << ": " << outcome.messages);
+    CHECK(outcome.exit_code == 2);
+    CHECK_THAT(outcome.messages, Contains("x.png: found the ending '.png', allowed: " + ending));
+    CHECK_FALSE(std::filesystem::exists(studies.path("x.png")));
+  }
+  const auto spread =
+      test::postproc("table " + figure + "t" + options + " --spread " + studies.path("out/study/t.csv"));
+  CHECK(spread.exit_code == 2);
+  CHECK_THAT(spread.messages, Contains("--spread: found the table 't', whose 'spread' names no columns"));
+}
+
 TEST_CASE("a plot ends in .png or .svg, and goes where a link leads") {
   const Studies studies;
   write_complete_study(studies);

@@ -695,6 +695,47 @@ TEST_CASE("a metric of a run that did not end says so") {
   }
 }
 
+TEST_CASE("no command writes under the ending of another format") {
+  const Folder folder;
+  write_run(folder / "run.h5", run_of(loaded_and_unloaded(0, 1)));
+  write_text(folder / "points.csv", "x,y\n1,2\n2,4\n3,7\n");
+  const std::string run = " " + (folder / "run.h5") + " ", csv = folder / "out.csv", png = folder / "out.png",
+                    json = folder / "out.json";
+  const std::string fit = "fit " + (folder / "points.csv") + " --x x --y y --model linear ";
+  for (const auto& [arguments, expected] : std::vector<std::pair<std::string, std::string>>{
+           {"curve" + run + "-o " + png, "--output " + png + ": found the ending '.png', allowed: .csv"},
+           {"summary" + run + "-o " + png, "allowed: .csv or .json"},
+           {"energy" + run + "-o " + png, "allowed: .csv or .json"},
+           {"contact" + run + "-o " + png, "allowed: .csv or .json"},
+           {"elastic-recovery" + run + "-o " + csv, "found the ending '.csv', allowed: .json"},
+           {"view" + run + "-o " + png, "allowed: .html"},
+           {"hysteresis" + run + "--cycles " + json, "--cycles " + json + ": found the ending '.json', allowed: .csv"},
+           {"stress-at-densities" + run + "--densities 0.7 --data " + png, "--data " + png + ": found the ending"},
+           {fit + "-o " + csv, "allowed: .json"},
+           {fit + "--curve " + json, "allowed: .csv"}}) {
+    const Outcome outcome = postproc(arguments);
+    INFO(arguments << ": " << outcome.messages);
+    CHECK(outcome.exit_code == 2);
+    CHECK(outcome.one_error_line("postproc"));
+    CHECK_THAT(outcome.messages, Catch::Contains(expected));
+    for (const std::string& file : {csv, png, json}) CHECK_FALSE(std::filesystem::exists(file));
+  }
+  CHECK(postproc("curve" + run + "-o " + (folder / "curve.txt")).exit_code == 0);
+}
+
+TEST_CASE("an axial strain for the strength of an unconfined test is refused") {
+  const Folder folder;
+  std::vector<Row> rows;
+  for (int i = 0; i <= 40; ++i)
+    rows.push_back({.axial_strain = 0.001 * i, .axial_stress = 20.0 - 0.05 * (i - 20) * (i - 20)});
+  write_run(folder / "run.h5", run_of(rows));
+  REQUIRE(postproc("strength " + (folder / "run.h5")).exit_code == 0);
+  const Outcome outcome = postproc("strength " + (folder / "run.h5") + " --at-strain 0.02");
+  CHECK(outcome.exit_code == 2);
+  CHECK_THAT(outcome.messages,
+             Catch::Contains("--at-strain: found for stage 0, an unconfined test, allowed: for a tri"));
+}
+
 TEST_CASE("metric commands refuse what they cannot use with one line and exit code 2") {
   const Folder folder;
   std::vector<Row> loading(loaded_and_unloaded(0, 1));
@@ -726,6 +767,22 @@ TEST_CASE("metric commands refuse what they cannot use with one line and exit co
            {"contact --history " + run + " --stage 7", "found 7"},
            {"contact " + run + " --stage 0", "--history"},
            {"contact --history " + run + " --pair 0,1", "allowed: one of them"},
+           {"contact --history " + run + " --snapshot 99", "--snapshot: found together with --history"},
+           {"contact --history " + run + " --view " + (folder / "x.png"), "--view: found together with --history"},
+           {"contact " + run + " --title x", "--title: found without --view, allowed: with --pair and --view"},
+           {"contact " + run + " --pair 0,1 --pixels 99", "--pixels: found without --view"},
+           {"energy " + run + " --stage 99",
+            "--stage: found with CSV, which has the energies of all rows, allowed: with"},
+           {"energy " + run + " --packing " + run + " -o " + (folder / "x.csv"), "--packing: found with CSV"},
+           {"modulus " + run + " --strain-range 0,0.1 --need-window",
+            "--need-window: found together with --strain-range"},
+           {"strength " + run + " --criterion damage-onset --drop 0.1", "--drop: found together with --criterion"},
+           {"diametral " + run + " --flat-angle 10 --face-distance 0.1", "--face-distance: found together with"},
+           {"watch " + run + " --once --interval 3", "--interval: found together with --once"},
+           {"section " + run + " --data " + (folder / "x.csv") + " --title x", "--title: found without a picture"},
+           {"section " + run + " --data " + (folder / "x.csv") + " --position 99", "the plane at 99 mm cuts no grain"},
+           {"section " + run + " --field grain --range 0,1 -o " + (folder / "x.png"), "--range: found with the field"},
+           {"density-map " + run + " --pixels 99", "--pixels: found without a picture, allowed: with -o FILE.png"},
            {"elastic-recovery " + (folder / "absent.h5"), "no such file"},
            {"strength " + run + " -o " + run, "would overwrite the input"}}) {
     const Outcome outcome = postproc(arguments);
@@ -733,7 +790,7 @@ TEST_CASE("metric commands refuse what they cannot use with one line and exit co
     CHECK(outcome.exit_code == 2);
     CHECK(outcome.one_error_line("postproc"));
     CHECK_THAT(outcome.messages, Catch::Contains(expected));
-    CHECK_FALSE(std::filesystem::exists(folder / "x.json"));
+    for (const char* file : {"x.json", "x.csv", "x.png"}) CHECK_FALSE(std::filesystem::exists(folder / file));
   }
   for (const std::string arguments : {"yield --ratio 0.9 ", "strength --test bending ", "modulus --slope-change 2 "})
     CHECK(postproc(arguments + run).exit_code == 2);

@@ -114,6 +114,9 @@ TEST_CASE("what cannot be drawn is refused in one line") {
       {"--color damage", "the run has no bonds"},
       {"--cut none --bonds", "--bonds: found --cut"},
       {"--cut none --contacts", "--contacts: found --cut"},
+      {"--cut none --cut-at 0.3", "--cut-at: found with --cut none, allowed: with a cut"},
+      {"--color grain --range 0,1", "--range: found with the colours 'grain', which have no scale"},
+      {"--frames film --snapshot 0", "--snapshot: found together with --frames"},
       {"--bonds", "the run has no bonds"},
       {"--cut w", "--cut: found 'w', allowed: octant, x, y, z, none"},
       {"--color height", "--color"}};
