@@ -187,9 +187,19 @@ void check_model(const SeriesSpec& series) {
     if (std::find(given.begin(), given.end(), name) == given.end()) fault("found no coefficient", name);
 }
 
+/// Refuses names in a caption that no case has.
+void check_caption(const Figure& figure, const CommandSpec& command) {
+  Words words;
+  for (const CaseBlock& block : figure.cases)
+    if (command.series.empty() || std::ranges::find(command.series, block.series) != command.series.end())
+      for (const std::string& name : value_names(figure, block)) words[name] = Value::of(1);
+  if (!figure.cases.empty()) filled_at(command.place_of_caption, command.caption, words);
+}
+
 void check_command(const Figure& figure, const CommandSpec& command) {
   if (!command.run.empty()) figure.run(command.run, command.place);
   check_series(figure, command.series, command.place);
+  check_caption(figure, command);
 }
 
 /// Mean and deviation over packings are drawn of columns that the table's `spread` names.

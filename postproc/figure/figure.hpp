@@ -165,7 +165,7 @@ struct CommandSpec {
   std::string caption;            ///< of a picture in the report
   std::vector<std::string> series;
   std::vector<Filter> where;
-  Place place;
+  Place place, place_of_caption;
 };
 
 /// A picture or a table made from each run by another subcommand of postproc.

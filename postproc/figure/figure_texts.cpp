@@ -1,8 +1,46 @@
 #include "postproc/figure/figure_texts.hpp"
 
+#include <algorithm>
+
 #include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "common/one_line.hpp"
 
 namespace mpfem {
+
+namespace {
+
+/// Whether a field in braces is a name, with or without a format, as tables and for_each have them.
+bool is_name(std::string_view field) {
+  const std::string_view name = field.substr(0, field.find(':'));
+  constexpr std::string_view letters = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ_";
+  const auto belongs = [&](char c) {
+    return letters.find(c) != std::string_view::npos || (c >= '0' && c <= '9') || c == '.' || c == '-';
+  };
+  return !name.empty() && letters.find(name.front()) != std::string_view::npos &&
+         std::all_of(name.begin(), name.end(), belongs);
+}
+
+/// The names in braces of a text, with their formats. In exponents and indices ("x^{max}"), after other marks of
+/// gnuplot, and in double braces they are no names.
+std::vector<std::string> names_in(const std::string& text) {
+  std::vector<std::string> names;
+  for (std::size_t i = text.find('{'); i != std::string::npos; i = text.find('{', i + 1)) {
+    const std::size_t end = text.find('}', i);
+    if (end == std::string::npos) break;
+    if (text[i + 1] == '{') {
+      ++i;
+      continue;
+    }
+    const std::string field = text.substr(i + 1, end - i - 1);
+    const bool marked = i > 0 && std::string_view("^_@&").find(text[i - 1]) != std::string_view::npos;
+    if (!marked && is_name(field)) names.push_back(field);
+  }
+  return names;
+}
+
+} // namespace
 
 Value value_of(const toml::node& node, const Place& place) {
   if (const auto* text = node.as_string()) return {text->get(), {}};
@@ -86,6 +124,24 @@ std::vector<Value> Texts::values(const std::string& key) {
   for (Value& value : result)
     if (!value.number) value = Value::of_text(filled_in(key, value.text));
   return result;
+}
+
+std::string Texts::shown(const std::string& key, const std::string& later) {
+  std::string text = optional(key);
+  refuse_names(key, text, later);
+  return text;
+}
+
+void Texts::refuse_names(const std::string& key, const std::string& text, const std::string& later) const {
+  for (const std::string& field : names_in(text)) {
+    if (!later.empty() && field.substr(0, field.find(':')) == later) continue;
+    std::vector<std::string> known;
+    for (const auto& [name, value] : words_) known.push_back(fmt::format("{{{}}}", name));
+    if (!later.empty()) known.push_back(fmt::format("{{{}}}", later));
+    const std::string allowed = known.empty() ? "no names here; for_each gives them, and a series' group gives {value}"
+                                              : fmt::format("{}", fmt::join(known, ", "));
+    reader_.fail(key, fmt::format("found '{{{}}}', allowed: {}", one_line(field), allowed));
+  }
 }
 
 std::string Texts::filled_in(const std::string& key, const std::string& text) {

@@ -35,6 +35,11 @@ public:
   std::string optional(const std::string& key, std::string_view fallback = "") {
     return filled_in(key, reader_.string_or(key, fallback));
   }
+  /// A text that readers see, by refuse_names; empty where it is absent.
+  std::string shown(const std::string& key, const std::string& later = "");
+  /// Refuses a name in braces that nothing fills in, in a text that readers see. `later`: a name that is filled in when
+  /// the text is shown. Braces of gnuplot ("s^{-1}", "{/Italic x}") are fine.
+  void refuse_names(const std::string& key, const std::string& text, const std::string& later = "") const;
   std::string name(const std::string& key) { return checked_name(reader_, key, required(key)); }
   std::vector<std::string> list(const std::string& key);
   std::vector<Filter> filters(const std::string& key);

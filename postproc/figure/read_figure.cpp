@@ -169,6 +169,7 @@ private:
   void read_beside(TableReader table, const filesystem::path& folder) {
     figure_.beside.folder = (folder / table.string("results")).lexically_normal().string();
     figure_.beside.title = table.string("title");
+    Texts(table, Words()).refuse_names("title", figure_.beside.title);
     figure_.beside.meshes = table.strings_or("meshes", {});
     figure_.beside.place = Place(table, "results");
     table.finish();

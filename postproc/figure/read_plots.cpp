@@ -15,7 +15,7 @@ namespace {
 AxisSpec read_axis(TableReader reader, const Words& words) {
   Texts t(reader, words);
   AxisSpec axis;
-  axis.label = t.optional("label");
+  axis.label = t.shown("label");
   axis.format = t.optional("format");
   axis.ticks = t.optional("ticks");
   axis.low = t.number("low");
@@ -72,7 +72,7 @@ SeriesSpec read_series(Texts& t, int points_before) {
   s.dash = t.optional("dash", "solid");
   if (s.dash != "solid" && s.dash != "dashed" && s.dash != "dotted" && s.dash != "long")
     r.fail("dash", fmt::format("found '{}', allowed: 'solid', 'dashed', 'dotted', 'long'", s.dash));
-  s.title = t.optional("title");
+  s.title = t.shown("title", s.group.empty() ? "" : "value");
   return s;
 }
 
@@ -112,6 +112,7 @@ CommandSpec read_command(Texts& t, std::string (*read_run)(Texts&)) {
   spec.run = read_run(t);
   spec.command = t.required("command");
   spec.caption = t.optional("caption");
+  spec.place_of_caption = Place(t.reader(), "caption");
   spec.series = t.list("series");
   spec.where = t.filters("where");
   return spec;
@@ -124,10 +125,10 @@ PlotSpec read_plot(Texts& t) {
   PlotSpec plot;
   plot.place = Place(r, "name");
   plot.name = t.name("name");
-  plot.title = t.optional("title");
+  plot.title = t.shown("title");
   plot.key = t.optional("key");
-  plot.key_title = t.optional("key_title");
-  plot.caption = t.optional("caption");
+  plot.key_title = t.shown("key_title");
+  plot.caption = t.shown("caption");
   plot.x = read_axis(r.table("x"), t.words());
   plot.y = read_axis(r.table("y"), t.words());
   if (auto z = r.optional_table("z")) {
@@ -137,7 +138,7 @@ PlotSpec read_plot(Texts& t) {
   plot.series = read_all_series(t);
   for (TableReader& line : r.tables("lines")) {
     Texts words(line, t.words());
-    plot.lines.push_back({words.number("y"), words.number("x"), words.number("slope"), words.optional("title")});
+    plot.lines.push_back({words.number("y"), words.number("x"), words.number("slope"), words.shown("title")});
     line.finish();
   }
   if (auto inset = r.optional_table("inset")) plot.inset = read_inset(*inset, t.words());

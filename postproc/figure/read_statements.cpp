@@ -116,9 +116,9 @@ StatementSpec read_statement(Texts& t) {
   TableReader& r = t.reader();
   StatementSpec s;
   s.place = Place(r, "ours");
-  s.text = t.required("text");
-  s.paper = t.required("paper");
-  s.source = t.optional("source");
+  t.refuse_names("text", s.text = t.required("text"));
+  t.refuse_names("paper", s.paper = t.required("paper"));
+  s.source = t.shown("source");
   s.ours = t.required("ours");
   s.note = t.optional("note");
   if (auto unjudged = r.optional_table("unjudged")) {

@@ -576,6 +576,39 @@ series = [{ table = "strength", x = "density", y = "strength", group = "name", t
   CHECK_THAT(plot_script(figure.plots[0], data, folder, "svg", "p.svg", 0), Contains("title 'G^c on\\_contact'"));
 }
 
+TEST_CASE("a name in braces that nothing fills in is refused where a title, a label or a caption has it") {
+  const Toolkit toolkit;
+  const auto plot = [&](const std::string& keys, const std::string& series = "", const std::string& label = "y") {
+    return toolkit.figure(tablets + "[[plots]]\nname = \"p\"\nx = {}\ny = { label = \"" + label + "\" }\n" + keys +
+                          "series = [{ table = \"strength\", x = \"density\", y = \"strength\"" + series + " }]\n");
+  };
+  for (const char* key : {"title", "key_title", "caption"})
+    CHECK_THROWS_WITH(plot(fmt::format("{} = \"of {{sampel}}\"\n", key)),
+                      Contains("study.toml:23:") && Contains(fmt::format("key 'plots.0.{}'", key)) &&
+                          Contains("found '{sampel}', allowed: no names here"));
+  CHECK_THROWS_WITH(plot("", "", "D of {density:.2f}"), Contains("found '{density:.2f}', allowed: no names"));
+  CHECK_THROWS_WITH(plot("lines = [{ y = 1, title = \"{limit}\" }]\n"), Contains("found '{limit}'"));
+  CHECK_THROWS_WITH(plot("for_each = [{ law = \"a\" }]\ncaption = \"{law} {lwa}\"\n"),
+                    Contains("found '{lwa}', allowed: {law}"));
+  // A series' value is known where its rows are grouped.
+  CHECK_THROWS_WITH(plot("", ", title = \"D = {value}\""), Contains("found '{value}', allowed: no names here"));
+  CHECK_NOTHROW(plot("", ", group = \"density\", title = \"D = {value:.2f}\""));
+  CHECK_THROWS_WITH(plot("", ", group = \"density\", title = \"{vale}\""), Contains("'{vale}', allowed: {value}"));
+  // Braces of gnuplot are no names.
+  for (const char* label : {"v / mm s^{-1}", "D_r^{max}", "σ_{zz}", "{/Symbol s} / MPa", "a {{b}}", "x {0.5} {", "{}"})
+    CHECK(plot("", "", label).plots[0].y.label == label);
+}
+
+TEST_CASE("a name that no case has is refused in a picture's caption, and in a statement, before anything is made") {
+  const Toolkit toolkit;
+  const std::string picture = "[[pictures]]\nname = \"{sample}.png\"\nrun = \"pressed\"\ncommand = \"section {run}\"\n";
+  CHECK_NOTHROW(toolkit.figure(tablets + picture + "caption = \"{sample} at {density:.2f}, {MESH}\"\n"));
+  CHECK_THROWS_WITH(toolkit.figure(tablets + picture + "caption = \"{sampel}\"\n"),
+                    Contains("study.toml:23:") && Contains("found '{sampel}', did you mean 'sample'?"));
+  CHECK_THROWS_WITH(toolkit.figure(tablets + "[[statements]]\ntext = \"of {law}\"\npaper = \"\"\nours = \"\"\n"),
+                    Contains("key 'statements.0.text'") && Contains("found '{law}', allowed: no names here"));
+}
+
 TEST_CASE("a plot draws the points with their errors, a curve of the fit, and says where nothing could be measured") {
   const Toolkit toolkit;
   const Figure figure = toolkit.figure(tablets + R"([[fits]]

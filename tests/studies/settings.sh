@@ -47,7 +47,7 @@ make -n "${study[@]}" SEEDS='2 3' THREADS=2 BIN="$bin" >plan 2>&1 || { cat plan 
 note='note: SEEDS=2 3 has no effect: no series has spread = true'
 grep -q "$note" plan || { echo "settings.sh: make says nothing of SEEDS without effect" && code=1; }
 columns='["compaction_stress", "strength"]'
-sed "s/^name = \"strength\"$/&\nspread = $columns/; s/group = [^,]*,/spread = true,/" my.toml |
+sed "s/^name = \"strength\"$/&\nspread = $columns/; s/group = [^,]*, title = [^,]* }/spread = true }/" my.toml |
   awk '/^\[\[plots/ { plots = 1 } !(plots && /^spread/)' >spread.toml
 make -n "${study[@]}" STUDY=spread.toml SEEDS='2 3' BIN="$bin" >plan 2>&1 || { cat plan && code=1; }
 grep -q 'SEED=2 out/own-seed2/spread/strength.csv' plan || { echo "settings.sh: SEEDS makes no packings" && code=1; }
