@@ -26,8 +26,8 @@ void check_output_path(std::string_view option, const std::string& path, OutputK
 /// write it, does not count. Throws InputError.
 void refuse_other_endings(std::string_view option, const std::string& path, const std::vector<std::string>& endings);
 
-/// Refuses an output whose name ends as files of another format do (a table in "run.png"). `endings`: those of the
-/// formats that are written. A name without an ending, or with one that no known format has, is fine. Throws InputError.
+/// Refuses an output whose name ends as files of another format do (a table in "run.png"). `endings`: those of what is
+/// written. A name without an ending, or with one that no known format has, is fine. Throws InputError.
 void refuse_ending_of_other_format(std::string_view option, const std::string& path,
                                    const std::vector<std::string>& endings);
 

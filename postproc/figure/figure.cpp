@@ -33,6 +33,14 @@ void Place::fail(const std::string& message) const {
   reader_->fail(key_, message);
 }
 
+std::string Place::note(const std::string& message) const {
+  try {
+    fail(message);
+  } catch (const InputError& error) {
+    return error.what();
+  }
+}
+
 std::string filled_at(const Place& place, std::string_view pattern, const Words& words, Unknown unknown) {
   try {
     return filled(pattern, words, unknown);

@@ -21,6 +21,8 @@ public:
       : reader_(std::make_shared<TableReader>(reader)), key_(std::move(key)) {}
   /// Throws InputError "FILE:LINE:COLUMN: key …: MESSAGE".
   [[noreturn]] void fail(const std::string& message) const;
+  /// The same message, for a note.
+  std::string note(const std::string& message) const;
 
 private:
   std::shared_ptr<const TableReader> reader_;

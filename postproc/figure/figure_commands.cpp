@@ -13,6 +13,7 @@
 #include "common/output_file.hpp"
 #include "postproc/figure/depends.hpp"
 #include "postproc/figure/figure_plot.hpp"
+#include "postproc/figure/filter_notes.hpp"
 #include "postproc/figure/report.hpp"
 #include "postproc/figure/verdict_pages.hpp"
 #include "postproc/files/gnuplot.hpp"
@@ -224,11 +225,13 @@ struct FigureCommands::State {
   void fits() const {
     const Figure f = read(figure);
     refuse_overwriting_tables(f);
+    FigureData data(f, folder(f));
+    print_notes(notes_on_fits(data));
     const auto list = make_fits(f, folder(f));
     for (const auto& fit : list)
       if (fit.contains("refused"))
-        fmt::print(stderr, "postproc: note: fit '{}': {}\n", fit.at("name").get<std::string>(),
-                   fit.at("refused").get<std::string>());
+        print_notes(
+            {fmt::format("fit '{}': {}", fit.at("name").get<std::string>(), fit.at("refused").get<std::string>())});
     deliver(list.dump(2) + "\n");
   }
 
@@ -259,6 +262,7 @@ struct FigureCommands::State {
     const std::string format = output.ends_with(".svg") ? "svg" : "png";
     refuse_overwriting_data(f);
     FigureData data(f, folder(f));
+    print_notes(notes_on_plot(*found, data));
     std::optional<OtherResults> other = results_beside(f);
     const TemporaryFile picture("");
     run_gnuplot(
@@ -270,6 +274,7 @@ struct FigureCommands::State {
     const Figure f = read(figure);
     refuse_overwriting_data(f);
     FigureData data(f, folder(f));
+    print_notes(notes_on_statements(data, mesh));
     deliver(verdict_text(data, mesh));
   }
 

@@ -13,6 +13,7 @@
 #include "common/errors.hpp"
 #include "common/nearest_word.hpp"
 #include "common/one_line.hpp"
+#include "postproc/figure/filter_notes.hpp"
 #include "postproc/run_data/stages.hpp"
 
 namespace mpfem {
@@ -241,8 +242,10 @@ void add_list(TextTable& table, const Figure& figure, const TableSpec& spec, con
   }
 }
 
-void keep_rows(TextTable& table, const TableSpec& spec) {
+void keep_rows(TextTable& table, const Figure& figure, const TableSpec& spec) {
   if (spec.keep.empty()) return;
+  const std::vector<std::string> notes = notes_on_kept(figure, spec, table);
+  table.notes.insert(table.notes.end(), notes.begin(), notes.end());
   std::vector<std::vector<Value>> kept;
   for (const std::size_t row : table.rows_of(spec.keep, spec.place)) kept.push_back(table.rows[row]);
   table.rows = std::move(kept);
@@ -320,6 +323,7 @@ std::vector<Case> available_cases(const Figure& figure, const std::vector<std::s
 TextTable make_table(const Figure& figure, const TableSpec& spec, const ResultsFolder& results) {
   TextTable table;
   table.path = spec.name;
+  table.notes = notes_on_cases(figure, spec);
   if (!spec.row.empty()) table.add_column("name");
   for (const ColumnSpec& column : spec.columns) table.add_column(column.title);
   const auto cases = available_cases(figure, spec.series, spec.where, runs_of(spec), results, spec.place);
@@ -330,7 +334,7 @@ TextTable make_table(const Figure& figure, const TableSpec& spec, const ResultsF
       add_list(table, figure, spec, results, row);
     else if (spec.curves.empty())
       add_row(table, figure, spec, results, row, files);
-  keep_rows(table, spec);
+  keep_rows(table, figure, spec);
   const auto metrics = files.paths();
   table.sources.insert(table.sources.end(), metrics.begin(), metrics.end());
   return table;

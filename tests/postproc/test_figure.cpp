@@ -8,6 +8,7 @@
 #include "common/errors.hpp"
 #include "postproc/figure/depends.hpp"
 #include "postproc/figure/figure_plot.hpp"
+#include "postproc/figure/filter_notes.hpp"
 #include "postproc/files/gnuplot.hpp"
 #include "small_run.hpp"
 #include "tests/support/folder.hpp"
@@ -574,6 +575,79 @@ series = [{ table = "strength", x = "density", y = "strength", group = "name", t
   write_text(folder + "/strength.csv", "name,density [1],strength [MPa]\non_contact,1,3\n");
   FigureData data(figure, folder);
   CHECK_THAT(plot_script(figure.plots[0], data, folder, "svg", "p.svg", 0), Contains("title 'G^c on\\_contact'"));
+}
+
+TEST_CASE("a value of where that no row has is named with the values that there are") {
+  const Toolkit toolkit;
+  const auto notes = [&](const std::string& where, const std::string& rows, const std::string& cases = tablets) {
+    const Figure figure = toolkit.figure(cases + R"([[plots]]
+name = "p"
+x = {}
+y = {}
+series = [{ table = "strength", x = "density", y = "strength", where = { )" +
+                                         where + R"( } }]
+[[fits]]
+name = "line"
+table = "strength"
+x = "density"
+y = "strength"
+model = "linear"
+where = { )" + where + R"( }
+[[statements]]
+text = "s"
+paper = "p"
+ours = "{y}"
+quantities.y = { table = "strength", column = "strength", where = { )" +
+                                         where + R"( } }
+)");
+    write_text(toolkit.path("out/strength.csv"), "name,density [1],strength [MPa]\n" + rows);
+    FigureData data(figure, toolkit.path("out"));
+    const std::vector<std::string> of_plot = notes_on_plot(figure.plots[0], data), of_fits = notes_on_fits(data),
+                                   of_statements = notes_on_statements(data, "smoke");
+    CHECK(of_plot.size() == of_fits.size());
+    CHECK(of_plot.size() == of_statements.size());
+    return of_plot;
+  };
+  const std::string rows = "a-0.70,0.7,3\na-0.85,0.85,4\n";
+  const auto wrong = notes("density = 0.8", rows);
+  REQUIRE(wrong.size() == 1);
+  CHECK_THAT(wrong[0], Contains("study.toml:23:") && Contains("plot 'p', strength over density: where: no row of the "
+                                                              "table 'strength' has density = 0.8, found: 0.7, 0.85"));
+  CHECK_THAT(notes("name = \"a\"", rows).at(0), Contains("has name = a, found: a-0.70, a-0.85"));
+  CHECK(notes("density = [0.7, 0.9, 0.85]", rows).size() == 1);
+  CHECK(notes("density = 0.7", rows).empty());
+  CHECK(notes("density = { at_least = 0.9 }", rows).empty());
+  CHECK(notes("strength = 8", rows).empty());               // a metric's number
+  CHECK(notes("density = 0.85", "a-0.70,0.7,3\n").empty()); // another mesh has it, or it has not been made
+  CHECK(notes("density = 0.8", "").empty());
+  CHECK(notes("density = 0.8", "a,0.7,3\nb,,4\n").empty());
+  const std::string fine = replace(tablets, "density = [0.7, 0.85]",
+                                   "density = 0.7\n[[cases]]\nsample = \"a\"\n"
+                                   "meshes = [\"fine\"]\ndensity = 0.8");
+  CHECK(notes("density = 0.8", "a-0.70,0.7,3\n", fine).empty());
+  // A table that a script makes has values of the cases under names of its own.
+  const std::string made =
+      replace(tablets,
+              "row = \"{sample}-{density:.2f}\"\ncolumns = [\"density [1] = {density}\", "
+              "\"strength [MPa] = crushed/strength.value\"]",
+              "file = \"strength.csv\"\ncolumns = [\"name\", \"density [1]\", \"strength [MPa]\"]");
+  CHECK(notes("name = \"b\"", "a,0.7,3\n", made).empty());
+  CHECK(notes("name = \"c\"", "a,0.7,3\n", made).size() == 1);
+}
+
+TEST_CASE("a value of where or keep that no case or row has is named when the table is made") {
+  const Toolkit toolkit;
+  const auto table_notes = [&](const std::string& selection) {
+    const Figure figure = toolkit.figure(tablets +
+                                         "[[tables]]\nname = \"d\"\nrow = \"{sample}\"\ncolumns = "
+                                         "[\"density [1] = {density}\"]\n" +
+                                         selection + "\n");
+    return make_table(figure, figure.tables[1], toolkit.results()).notes;
+  };
+  CHECK_THAT(table_notes("where = { density = 0.8 }").at(0),
+             Contains("study.toml:") && Contains("table 'd': where: no case has density = 0.8, found: 0.7, 0.85"));
+  CHECK_THAT(table_notes("keep = { density = 0.8 }").at(0), Contains("table 'd': keep: no row of the table 'd' has"));
+  CHECK(table_notes("where = { density = 0.85 }\nkeep = { density = 0.85 }").empty());
 }
 
 TEST_CASE("a name in braces that nothing fills in is refused where a title, a label or a caption has it") {
