@@ -157,7 +157,7 @@ Measurement measure_damage_band(const schema::FileReader& file, int snapshot, co
   Measurement m;
   m.metric = "damage-band";
   m.value = band.concentration();
-  m.uncertainty_meaning = "none: `chance` says how often chance makes a band as dense";
+  m.uncertainty_meaning = "not known: `chance` says how often chance makes a band as dense";
   m.method = fmt::format("opened share of the bonds in the inclined slab where most have opened, over that of all "
                          "bonds; threshold {:g}, slabs a fifth of the box thick, 30 to 60 degrees off {}; {} trials",
                          rule.threshold, "xyz"[rule.axis], rule.trials);
