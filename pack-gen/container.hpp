@@ -52,8 +52,9 @@ struct PackingContainer {
   ContainerShape shape = ContainerShape::box;
   std::shared_ptr<const SurfaceContainer> surface{}; ///< of a surface
   // A surface is not rebuilt when walls move inwards or lengths are in another unit.
-  double unit = 1;  ///< mm of the surface in the current unit of length
-  double inset = 0; ///< mm, by which the walls have moved inwards; the origin has moved with the box
+  double unit = 1;         ///< mm of the surface in the current unit of length
+  double inset = 0;        ///< mm, by which the walls have moved inwards; the origin has moved with the box
+  bool open_above = false; ///< without the wall +z of a box or cylinder: nothing overlaps it
 
   double radius() const { return 0.5 * lengths[0]; } ///< mm, of the cylinder
   double from_axis(const Point& p) const { return std::hypot(p[0] - 0.5 * lengths[0], p[1] - 0.5 * lengths[1]); }
@@ -102,7 +103,7 @@ struct PackingContainer {
       inward[k] = 1;
       visit(r - p[k], inward);
       inward[k] = -1;
-      visit(p[k] + r - lengths[k], inward);
+      if (k < 2 || !open_above) visit(p[k] + r - lengths[k], inward);
     }
     if (shape == ContainerShape::cylinder) {
       const double distance = from_axis(p), scale = distance > 0 ? -1 / distance : 0;

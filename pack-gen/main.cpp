@@ -356,14 +356,14 @@ CLI::App* add_spheres(CLI::App& app, Arguments& arguments) {
 CLI::App* add_settle(CLI::App& app, Arguments& arguments) {
   CLI::App* command = add_command(app, arguments, "settle",
                                   "Let spheres sink under their weight, along -z and without friction, until they rest "
-                                  "on each other, the bottom and the walls.\n"
+                                  "on each other, the bottom and the walls. A box or cylinder is open above.\n"
                                   "Example: pack-gen settle spheres.h5 --fit-height -o settled.h5",
                                   "Spheres (HDF5)");
   add_output(*command, arguments);
   add_number(*command, "--gap", arguments.gap, Range::between(0, 1e9), "mm",
              "Smallest gap to keep between spheres and to the walls (default: the gap of the file)");
   command->add_flag("--fit-height", arguments.fit_height,
-                    "Lower the box or cylinder to the bed (default: it stays, with free space above)");
+                    "Lower or raise the box or cylinder to the bed (default: it stays, with free space above)");
   return command;
 }
 

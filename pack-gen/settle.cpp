@@ -19,6 +19,15 @@ double top_of(const SpherePacking& packing) {
   return top;
 }
 
+/// Throws InputError if the container is lower than the bed with a gap above it.
+void refuse_low_container(const SpherePacking& packing, double bed_height, double gap) {
+  const double needed = bed_height + gap;
+  if (packing.surface || packing.box[2] >= needed * (1 - 1e-9)) return;
+  throw InputError(fmt::format("found a container that is {:g} mm high, lower than the bed of {} spheres, allowed: at "
+                               "least {:.5g} mm for this bed, or --fit-height, which raises it to that height",
+                               packing.box[2], packing.radius.size(), needed));
+}
+
 } // namespace
 
 SettledPacking settle(const SpherePacking& packing, const SettleRequest& request) {
@@ -26,10 +35,11 @@ SettledPacking settle(const SpherePacking& packing, const SettleRequest& request
   if (packing.surface && request.fit_height)
     throw InputError("found a container that is a surface, whose height is that of its file, allowed: a box or a "
                      "cylinder for a height fitted to the bed");
-  const InflatedSpheres spheres = inflated_spheres(packing.radius, gap, packing.container());
+  InflatedSpheres spheres = inflated_spheres(packing.radius, gap, packing.container());
   std::vector<Point> start = packing.center;
   for (Point& p : start)
     for (double& x : p) x = (x - 0.5 * gap) / spheres.unit;
+  spheres.container.open_above = true; // a ceiling would hold down a bed that is higher than the container
   OverlapMinimiser bed(std::move(start), spheres.radius, spheres.container);
   constexpr double at_rest = 1e-4; // share of a weight; more lets spheres balance on one another
   constexpr int most_steps = 200000;
@@ -45,13 +55,16 @@ SettledPacking settle(const SpherePacking& packing, const SettleRequest& request
   for (std::size_t i = 0; i < packing.center.size(); ++i)
     for (std::size_t k = 0; k < 3; ++k) result.packing.center[i][k] = bed.position()[i][k] * spheres.unit + 0.5 * gap;
   result.bed_height = top_of(result.packing);
-  if (request.fit_height) result.packing.box[2] = result.bed_height + gap;
+  if (!packing.surface) result.packing.box[2] = result.bed_height + gap;
   if (!rests || !(smallest_gap(result.packing).gap >= gap * (1 - 1e-9)))
     throw InputError(
         fmt::format("{} spheres do not come to rest with gaps of {:g} mm in this container: {:.2g} of a "
                     "weight is unbalanced and the smallest gap is {:.4g} mm, allowed: smaller gaps or more "
                     "room",
                     packing.radius.size(), gap, result.unbalanced, smallest_gap(result.packing).gap));
+  if (request.fit_height) return result;
+  refuse_low_container(packing, result.bed_height, gap);
+  result.packing.box = packing.box;
   return result;
 }
 

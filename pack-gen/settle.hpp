@@ -15,7 +15,7 @@ namespace mpfem {
 /// How spheres are to settle.
 struct SettleRequest {
   double smallest_gap = 0; ///< mm, between spheres and to the walls, kept in the bed
-  bool fit_height = false; ///< lower the container to the bed, a gap above its highest sphere
+  bool fit_height = false; ///< lower or raise the container to the bed, a gap above its highest sphere
   std::function<void(const std::string& state)> progress{};
 };
 
@@ -26,8 +26,9 @@ struct SettledPacking {
   double unbalanced = 0; ///< largest force left on a sphere, over its weight
 };
 
-/// The spheres of a packing at rest under gravity along -z, order and radii kept. The same request gives the same bed.
-/// Throws InputError if they do not come to rest with these gaps.
+/// The spheres of a packing at rest under gravity along -z, order and radii kept. A box or cylinder is open above while
+/// they settle. The same request gives the same bed. Throws InputError if they do not come to rest with these gaps, or
+/// if the bed is higher than a container that is not fitted.
 SettledPacking settle(const SpherePacking& packing, const SettleRequest& request);
 
 } // namespace mpfem

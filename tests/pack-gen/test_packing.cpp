@@ -210,6 +210,21 @@ TEST_CASE("settled spheres rest on each other and the bottom, keep their gaps an
   }
 }
 
+TEST_CASE("a bed that is higher than its container is not held down, but raises the container or is refused") {
+  // Between walls that leave no room beside it, a sphere rests on another at the height of both.
+  const SpherePacking low{{0.22, 0.22, 0.4}, {{0.11, 0.11, 0.12}, {0.11, 0.11, 0.28}}, {0.1, 0.1}};
+  const SettledPacking raised = settle(low, {.smallest_gap = 0.005, .fit_height = true});
+  CHECK(raised.bed_height == Approx(0.41).margin(2e-4));                            // overlaps of 2e-4 radii and less
+  CHECK(raised.packing.box[2] == Approx(raised.bed_height + 0.005).epsilon(1e-12)); // rounding
+  CHECK_THROWS_WITH(settle(low, {.smallest_gap = 0.005}),
+                    Catch::Contains("a container that is 0.4 mm high") && Catch::Contains("at least 0.415"));
+  // Dense packings have the highest beds.
+  const SpherePacking dense = pack_spheres(request(150, 0.5, 1));
+  const SettledPacking bed = settle(dense, {.smallest_gap = 0.002, .fit_height = true});
+  CHECK(bed.unbalanced <= 1e-4);
+  CHECK(brute_force_gap(bed.packing) >= 0.002 * (1 - 1e-9));
+}
+
 TEST_CASE("one sphere falls to the bottom, a second one onto it") {
   const SpherePacking above{{0.22, 0.22, 2}, {{0.11, 0.11, 0.9}, {0.11, 0.11, 1.5}}, {0.1, 0.1}};
   const SettledPacking settled = settle(above, {.smallest_gap = 0.005});
