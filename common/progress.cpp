@@ -13,6 +13,11 @@ namespace mpfem {
 
 namespace {
 
+/// Without a terminal, lines follow each other after this many seconds, in a job that has taken `elapsed`.
+double seconds_between_lines(double elapsed) {
+  return std::max(5.0, elapsed / 100);
+}
+
 double seconds_between(std::chrono::steady_clock::time_point from, std::chrono::steady_clock::time_point to) {
   return std::chrono::duration<double>(to - from).count();
 }
@@ -34,9 +39,10 @@ std::string duration_text(double seconds) {
   return fmt::format("{}:{:02}:{:02}", whole / 3600, whole / 60 % 60, whole % 60);
 }
 
-std::string progress_line(std::string_view label, double fraction, std::string_view detail, double elapsed,
-                          std::optional<double> remaining) {
-  std::string line = fmt::format("{} {:5.1f} %", label, 100 * fraction);
+std::string progress_line(std::string_view label, std::optional<double> fraction, std::string_view detail,
+                          double elapsed, std::optional<double> remaining) {
+  std::string line(label);
+  if (fraction) line += fmt::format(" {:5.1f} %", 100 * *fraction);
   line += fmt::format("  elapsed {}", duration_text(elapsed));
   if (remaining) line += fmt::format("  remaining {}", duration_text(*remaining));
   if (!detail.empty()) line += fmt::format("  {}", detail); // last: a narrow terminal cuts the end off
@@ -63,7 +69,7 @@ void Progress::update(double fraction, std::string_view detail) {
   const double elapsed = seconds_between(start_, now);
   const double since = seconds_between(last_written_.value_or(start_), now);
   const bool due = terminal_ ? !last_written_ || since >= 0.2
-                             : since >= std::max(5.0, elapsed / 100) || fraction - last_fraction_ >= 0.1;
+                             : since >= seconds_between_lines(elapsed) || fraction - last_fraction_ >= 0.1;
   if (!due) return;
   last_written_ = now;
   last_fraction_ = fraction;
@@ -71,7 +77,22 @@ void Progress::update(double fraction, std::string_view detail) {
   std::optional<double> remaining;
   const double done = fraction - *first_fraction_;
   if (done > 0) remaining = seconds_between(first_update_, now) * (1 - fraction) / done;
-  const std::string line = one_line(progress_line(label_, fraction, detail, elapsed, remaining));
+  write(progress_line(label_, fraction, detail, elapsed, remaining));
+}
+
+void Progress::update(std::string_view detail) {
+  if (quiet_ || finished_) return;
+  const auto now = Clock::now();
+  const double elapsed = seconds_between(start_, now);
+  const double since = seconds_between(last_written_.value_or(start_), now);
+  const double between_lines = terminal_ ? (last_written_ ? 0.2 : 1.0) : seconds_between_lines(elapsed);
+  if (since < between_lines) return;
+  last_written_ = now;
+  write(progress_line(label_, std::nullopt, detail, elapsed, std::nullopt));
+}
+
+void Progress::write(std::string_view text) {
+  const std::string line = one_line(text);
   if (terminal_) {
     rewrite_line(line);
   } else {

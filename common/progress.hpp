@@ -12,9 +12,10 @@ namespace mpfem {
 /// "1:02:03", "2:03" or "4.5 s".
 std::string duration_text(double seconds);
 
-/// "LABEL  42.0 %  elapsed 1:02  remaining 1:25  DETAIL"; `remaining` in seconds, left out while unknown.
-std::string progress_line(std::string_view label, double fraction, std::string_view detail, double elapsed,
-                          std::optional<double> remaining);
+/// "LABEL  42.0 %  elapsed 1:02  remaining 1:25  DETAIL"; `remaining` in seconds. It and the fraction are left out
+/// where they are not known.
+std::string progress_line(std::string_view label, std::optional<double> fraction, std::string_view detail,
+                          double elapsed, std::optional<double> remaining);
 
 /// Reports a job's progress. Cheap enough to call every step: it reads the clock and writes only when a line is due (on
 /// a terminal five times a second; otherwise after 10 % of the job or 5 s, later after 1 % of the time spent).
@@ -30,11 +31,15 @@ public:
   /// `fraction` of the whole job done, clamped to 0 … 1. A job resumed in the middle may begin at any fraction: the
   /// remaining time is estimated from what was done since the first call.
   void update(double fraction, std::string_view detail);
+  /// The same for a job of which nobody knows how much is left: `detail` says by what its end is judged. Nothing is
+  /// written in its first second.
+  void update(std::string_view detail);
   /// Last line: "LABEL  done in 1:02  SUMMARY". Further calls write nothing.
   void finish(std::string_view summary);
 
 private:
   using Clock = std::chrono::steady_clock;
+  void write(std::string_view text);
   void rewrite_line(std::string_view text);
 
   std::string label_;

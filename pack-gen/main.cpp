@@ -109,7 +109,7 @@ void spheres(const Arguments& arguments) {
                          .radius = sizes.radius,
                          .smallest_gap = description.smallest_gap,
                          .seed = description.seed,
-                         .progress = [&](const std::string& state) { progress.update(0, state); }});
+                         .progress = [&](const std::string& state) { progress.update(state); }});
   }));
   PackingOrigin origin{static_cast<std::int64_t>(description.seed), description.text, {}, {}};
   tabulate_target(*description.distribution, sizes.scale, origin);
@@ -159,7 +159,7 @@ void settle_spheres(const Arguments& arguments) {
   const auto settled = naming_file(arguments.input, [&] {
     return settle(file.packing, {.smallest_gap = gap,
                                  .fit_height = arguments.fit_height,
-                                 .progress = [&](const std::string& state) { progress.update(0, state); }});
+                                 .progress = [&](const std::string& state) { progress.update(state); }});
   });
   write_packing_file(arguments.output, settled.packing, file.origin);
   SpherePacking bed = settled.packing;

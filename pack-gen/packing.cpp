@@ -259,7 +259,9 @@ SpherePacking pack_spheres(const PackingRequest& request) {
   // 3. Minimise the overlap.
   OverlapMinimiser minimiser(std::move(start), inflated, inner);
   bool done = minimiser.minimise(allowed_overlap, 20000, [&](double overlap) {
-    if (request.progress) request.progress(fmt::format("minimising the overlap, {:.2g} left", overlap));
+    if (request.progress)
+      request.progress(
+          fmt::format("minimising the overlap, {:.2g} mean radii (wanted: {:.2g})", overlap, allowed_overlap));
   });
   std::vector<Point> best = minimiser.position();
 
@@ -269,7 +271,8 @@ SpherePacking pack_spheres(const PackingRequest& request) {
     const auto moves = static_cast<double>(request.moves);
     const int sweeps = static_cast<int>(std::clamp(moves / static_cast<double>(n), 2000.0, 1e6));
     done = compaction.compact(sweeps, [&](double growth) {
-      if (request.progress) request.progress(fmt::format("compacting, radii at {:.2f} %", 100 * growth));
+      if (request.progress)
+        request.progress(fmt::format("compacting, radii at {:.4f} % (wanted: 100 %)", 100 * growth));
     });
     best = compaction.position();
   }

@@ -48,7 +48,10 @@ SettledPacking settle(const SpherePacking& packing, const SettleRequest& request
   for (double weight = 1e-3; weight > 1e-8 && !(rests && bed.largest_overlap() <= allowed_overlap); weight *= 0.1) {
     bed.set_weight(weight);
     rests = bed.sink(at_rest, most_steps, [&](double share) {
-      if (request.progress) request.progress(fmt::format("settling, {:.2g} of a weight unbalanced", share));
+      if (request.progress)
+        request.progress(fmt::format("settling, {:.2g} weights unbalanced (wanted: {:.2g}), overlap {:.2g} mean radii "
+                                     "(wanted: {:.2g})",
+                                     share, at_rest, bed.largest_overlap(), allowed_overlap));
     });
   }
   SettledPacking result{packing, 0, bed.unbalanced_share()};

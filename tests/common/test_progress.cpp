@@ -4,6 +4,10 @@
 #include <limits>
 #include <thread>
 
+#include <fcntl.h>
+#include <pty.h>
+#include <unistd.h>
+
 #include <catch2/catch.hpp>
 
 #include "common/progress.hpp"
@@ -35,10 +39,53 @@ TEST_CASE("a progress line holds label, per cent, elapsed time, the remaining ti
   CHECK(progress_line("run", 1, "", 3, 0) == "run 100.0 %  elapsed 3.0 s  remaining 0.0 s");
 }
 
+TEST_CASE("A job of unknown length shows elapsed time and detail, and no per cent") {
+  CHECK(progress_line("run", std::nullopt, "0.2 (wanted: 0.1)", 62, std::nullopt) ==
+        "run  elapsed 1:02  0.2 (wanted: 0.1)");
+}
+
+namespace {
+
+/// The two ends of a terminal that nobody sees.
+struct Terminal {
+  Terminal() {
+    REQUIRE(openpty(&screen, &line, nullptr, nullptr, nullptr) == 0);
+    stream = fdopen(line, "w");
+    REQUIRE(fcntl(screen, F_SETFL, O_NONBLOCK) == 0);
+  }
+  ~Terminal() {
+    std::fclose(stream);
+    close(screen);
+  }
+  /// What has been written since the last call.
+  std::string text() const {
+    char buffer[4096];
+    const ssize_t length = read(screen, buffer, sizeof buffer);
+    return length > 0 ? std::string(buffer, static_cast<std::size_t>(length)) : std::string();
+  }
+  int screen = -1, line = -1;
+  std::FILE* stream = nullptr;
+};
+
+} // namespace
+
+TEST_CASE("On a terminal a job of unknown length writes nothing in its first second, then a line") {
+  const Terminal terminal;
+  Progress progress("pack", false, terminal.stream);
+  progress.update("early");
+  CHECK(terminal.text().empty());
+  std::this_thread::sleep_for(std::chrono::milliseconds(1100));
+  progress.update("late");
+  CHECK_THAT(terminal.text(), Catch::StartsWith("\rpack  elapsed 1.") && Catch::Contains(" s  late"));
+  progress.finish("all");
+  CHECK_THAT(terminal.text(), Catch::Contains("pack  done in 1."));
+}
+
 TEST_CASE("A quiet job writes nothing") {
   const test::TemporaryStream stream;
   Progress progress("run", true, stream.get());
   progress.update(0.5, "half");
+  progress.update("unknown");
   progress.finish("all");
   CHECK(stream.text().empty());
 }

@@ -182,7 +182,11 @@ Support support_of(const SpherePacking& p, std::size_t i, double reach) {
 TEST_CASE("settled spheres rest on each other and the bottom, keep their gaps and lie lower than before") {
   for (const PackingRequest& wanted : {request(150, 0.3, 4), cylinder_request(150, 0.3, 1.5, 4)}) {
     const SpherePacking loose = pack_spheres(wanted);
-    const SettledPacking settled = settle(loose, {.smallest_gap = 0.002});
+    std::string state;
+    const SettledPacking settled =
+        settle(loose, {.smallest_gap = 0.002, .progress = [&](const std::string& now) { state = now; }});
+    CHECK_THAT(state, Catch::Contains("weights unbalanced (wanted: 0.0001), overlap") &&
+                          Catch::EndsWith("mean radii (wanted: 0.00018)"));
     CHECK(settled.packing.shape == wanted.shape);
     CHECK(settled.packing.box == loose.box);
     CHECK(settled.packing.radius == loose.radius);
