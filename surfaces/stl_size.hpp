@@ -20,6 +20,9 @@ struct StlSize {
 /// mm, of the edges of a box.
 std::array<double, 3> lengths_of(const Bounds& bounds);
 
+/// "1 x 1 x 1.2 mm", of edges in mm.
+std::string edges_text(const std::array<double, 3>& length);
+
 /// "FILE spans 1 x 1 x 1 mm with KEY = 0.001, WHAT 5 x 5 x 5 mm (STL files state no unit: KEY is the mm in one)".
 /// `what` has the edges `length` (mm) that the body should fit.
 std::string size_beside(const StlSize& body, const std::string& what, const std::array<double, 3>& length);

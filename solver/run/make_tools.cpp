@@ -85,6 +85,51 @@ std::array<double, 3> box_of(const Model& model) {
   return lengths_of({model.box_low, model.box_high});
 }
 
+/// The smallest gap (mm) between a tool and the corners of a box; negative if it is behind the surface.
+double gap_to_corners(const ToolSurface& surface, const std::array<double, 3>& low, const std::array<double, 3>& high) {
+  double smallest = std::numeric_limits<double>::infinity();
+  for (unsigned corner = 0; corner < 8; ++corner) {
+    const auto coordinate = [&](std::size_t i) { return ((corner >> i) & 1U) != 0 ? high[i] : low[i]; };
+    std::visit([&](const auto& s) { smallest = std::min(smallest, gap_at_any_distance(s, coordinate).distance); },
+               surface);
+  }
+  return smallest;
+}
+
+/// "cylinder with radius = 500 mm", "plane".
+std::string shape_text(const ToolShape& shape, const ToolSurface& surface) {
+  std::string text = shape_name(shape);
+  if (const auto* cylinder = std::get_if<CylinderSurface>(&surface))
+    text += fmt::format(" with radius = {:g} mm", cylinder->radius);
+  if (const auto* sphere = std::get_if<SphereSurface>(&surface))
+    text += fmt::format(" with radius = {:g} mm", sphere->radius);
+  return text;
+}
+
+/// A line if the scale of an STL tool is probably wrong: it encloses the packing and is far larger, or is a body that
+/// is far smaller. (A body may be far larger, such as a plate, and a grain in it is refused.) Empty for others.
+std::string implausible_body(const ToolShape& shape, const Tool& tool, const Model& model) {
+  const auto size = size_of(shape, tool.surface);
+  if (!size) return {};
+  const bool encloses = std::get<StlShape>(shape).inside;
+  const double ratio = mean_ratio(*size, box_of(model));
+  if ((encloses ? ratio : 1 / ratio) <= unlikely_ratio) return {};
+  return fmt::format("tool '{}' is far {} than the packing: {}", tool.name, encloses ? "larger" : "smaller", tool.size);
+}
+
+/// A line if the tool of a scenario is so far from the packing that it is probably given in another unit; else empty.
+std::string implausible_distance(const ToolShape& shape, const Tool& tool, const Model& model) {
+  // Lengths in micrometres or metres are wrong by 1,000: then the wall of a die is 500 diameters away.
+  constexpr double unlikely_distance = 100; // mean edges of the packing's box
+  const std::array<double, 3> box = box_of(model);
+  const double gap = gap_to_corners(tool.surface, model.box_low, model.box_high);
+  if (gap <= unlikely_distance * std::cbrt(box[0] * box[1] * box[2])) return {};
+  const std::string text =
+      fmt::format("tool '{}' ({}) is {:.4g} mm away from the packing", tool.name, shape_text(shape, tool.surface), gap);
+  if (!tool.size.empty()) return text + ": " + tool.size;
+  return text + fmt::format(", whose box is only {} (lengths are in mm)", edges_text(box));
+}
+
 /// Identifies the triangles of a surface.
 std::uint64_t hash_of(const TriangleMesh& mesh) {
   static_assert(sizeof(Vector3<double>) == 3 * sizeof(double)); // no padding
@@ -116,13 +161,10 @@ Tools make_tools(const Scenario& scenario, const Model& model) {
 std::vector<std::string> implausible_sizes(const Scenario& scenario, const Model& model, const Tools& tools) {
   std::vector<std::string> remarks;
   for (std::size_t tool = 0; tool < tools.size(); ++tool) {
-    const auto size = size_of(scenario.tools[tool].shape, tools[tool].surface);
-    if (!size) continue;
-    const bool encloses = std::get<StlShape>(scenario.tools[tool].shape).inside;
-    const double ratio = mean_ratio(*size, box_of(model));
-    if (encloses ? ratio > unlikely_ratio : 1 / ratio > unlikely_ratio)
-      remarks.push_back(fmt::format("tool '{}' is far {} than the packing: {}", tools[tool].name,
-                                    encloses ? "larger" : "smaller", tools[tool].size));
+    const ToolShape& shape = scenario.tools[tool].shape;
+    std::string remark = implausible_body(shape, tools[tool], model);
+    if (remark.empty()) remark = implausible_distance(shape, tools[tool], model);
+    if (!remark.empty()) remarks.push_back(remark);
   }
   return remarks;
 }

@@ -17,8 +17,9 @@ ToolSurface make_surface(const ToolShape& shape, const std::array<double, 3>& lo
 /// All tools of a scenario, as they stand at the start.
 Tools make_tools(const Scenario& scenario, const Model& model);
 
-/// A line for each STL tool whose scale is probably wrong: one that encloses the packing and is far larger than its
-/// box, or a body that is far smaller. (A body may be far larger, such as a plate, and a grain in it is refused.)
+/// A line for each tool that is probably given in another unit, as it stands at the start: one so far from the
+/// packing's box that grains will hardly reach it, such as a die that is 1,000 times too large; an STL tool that
+/// encloses the packing and is far larger, or is a body that is far smaller.
 std::vector<std::string> implausible_sizes(const Scenario& scenario, const Model& model, const Tools& tools);
 
 } // namespace mpfem

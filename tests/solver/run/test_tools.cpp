@@ -810,6 +810,51 @@ TEST_CASE("spheres, cones, endless cylinders and triangles are written with all 
   CHECK(*std::max_element(vertex.begin(), vertex.end()) == Approx(1).epsilon(1e-12)); // mm, of a file in metres
 }
 
+TEST_CASE("tools a thousand times too large or too far are warned of with their size and the packing's, others not") {
+  Scenario scenario = holding_scenario(1);
+  GrainMesh ball = ball_mesh(4, 0.1);
+  move(ball, {0.5, 0.5, 0.6});
+  const Model model = build_model(pack({ball}, {1, 1, 2}), scenario, "test");
+  const auto warnings = [&](const ToolShape& shape) {
+    scenario.tools = {{"tool", shape, 0}};
+    return implausible_sizes(scenario, model, make_tools(scenario, model));
+  };
+  const std::string box = "mm away from the packing, whose box is only 1 x 1 x 2 mm (lengths are in mm)";
+  for (const double unit : {1.0, 1000.0}) {
+    const CylinderShape die{.radius = 0.8 * unit};
+    const SphereShape hollow{.centre = {0.5, 0.5, 1}, .radius = 1.3 * unit, .inside = true};
+    const PlaneShape punch{.point = {0, 0, 2 * unit}, .normal = {0, 0, -1}};
+    CAPTURE(unit);
+    for (const ToolShape& shape : {ToolShape(die), ToolShape(hollow), ToolShape(punch)})
+      CHECK(warnings(shape).size() == (unit == 1 ? 0 : 1));
+    if (unit == 1) continue;
+    // From the wall to the box's edges along z, which are sqrt(0.5) mm from the axis.
+    CHECK(warnings(die).front() == "tool 'tool' (cylinder with radius = 800 mm) is 799.3 " + box);
+    CHECK(warnings(punch).front() == "tool 'tool' (plane) is 1998 " + box);
+  }
+  // Curved punches may be nearly flat, and a tool may come from afar.
+  CHECK(warnings(SphereShape{.centre = {0.5, 0.5, 1002}, .radius = 1000}).empty());
+  CHECK(warnings(PlaneShape{.point = {0, 0, 20}, .normal = {0, 0, -1}}).empty());
+}
+
+TEST_CASE("check and run warn of a die whose radius is not in mm") {
+  const Folder folder;
+  const std::string pressing = tablet_text.substr(0, tablet_text.find("[[stages]]"));
+  prepare(folder, 3, replaced(pressing, "radius = 0.29", "radius = 290") + R"([[stages]]
+type = "tools"
+away = ["plate"]
+duration = 1e-7
+)");
+  const std::string warning = "tool 'die' (cylinder with radius = 290 mm) is 289";
+  const Outcome check = mpfem_command(fmt::format("check {} --quiet", folder / "scenario.toml"));
+  INFO(check.messages);
+  CHECK(check.exit_code == 0);
+  CHECK_THAT(check.output, Catch::Contains(warning));
+  const Outcome run = mpfem_command(fmt::format("run {} -o {}", folder / "scenario.toml", folder / "run.h5"));
+  CHECK(run.exit_code == 0);
+  CHECK_THAT(run.messages, Catch::Contains("mpfem: warning: " + warning));
+}
+
 TEST_CASE("a branch continues with the tools in place, may add further ones, and refuses other tools") {
   const Folder folder;
   prepare(folder, 3, tablet_text);
