@@ -213,6 +213,8 @@ ifneq ($(if $(recorded_study),$(filter-out |$(subst $(space),|,$(study_path)),|$
     rename its file or folder, or remove those results)
 endif
 of_mesh := --results $(out) --mesh $(MESH) --programmes $(studies)/branches
+# Notes once: make starts again when it has written the rules, and calls itself for further packings.
+said_already := $(if $(MAKE_RESTARTS)$(SEED),--quiet)
 goals := $(or $(MAKECMDGOALS),help)
 ifneq ($(filter-out help clean clean-figures,$(goals)),)
 # postproc is not a prerequisite: make -B -n, with which times.sh lists runs, would execute its rule.
@@ -222,7 +224,7 @@ $(declared): FORCE
 	@$(if $(STUDY),printf '%s\n' '$(subst ','\'',$(study_path))' > $(study_record))
 	@$(BIN)/postproc depends $(declared_sources) $(of_mesh) --meshes $(subst $(space),$(comma),$(meshes)) \
 	  --packing $(mesh) --description $(description) \
-	  --set element.type=$(ELEMENT) --set contact.surface=$(SURFACE) -o $@
+	  --set element.type=$(ELEMENT) --set contact.surface=$(SURFACE) $(said_already) -o $@
 include $(declared)
 endif
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
+#include <optional>
 #include <sstream>
 
 #include <fmt/format.h>
@@ -12,6 +13,7 @@
 #include "common/hash.hpp"
 #include "common/nearest_word.hpp"
 #include "common/one_line.hpp"
+#include "common/table_reader.hpp"
 #include "postproc/figure/shell_words.hpp"
 
 namespace mpfem {
@@ -29,6 +31,11 @@ std::string set_options(const Settings& settings) {
   std::string text;
   for (const auto& [key, value] : settings) text += fmt::format(" --set '{}={}'", key, value);
   return text;
+}
+
+/// The text that a scenario gives to a key such as "contact.surface"; none where it leaves it out.
+std::optional<std::string> own_text(const TomlDocument& scenario, const std::string& key) {
+  return scenario.root().at_path(key).value<std::string>();
 }
 
 class Rules {
@@ -362,8 +369,11 @@ private:
     const std::string file = file_of_run(run), settings_file = file.substr(0, file.size() - 2) + "settings";
     const std::string packing = packing_of(run, graph_);
     Settings settings = {{"packing", packing}};
-    if (run.common_settings)
+    const TomlDocument scenario = TomlDocument::from_file(run.programme);
+    if (run.common_settings) {
       settings.insert(settings.end(), request_.common_settings.begin(), request_.common_settings.end());
+      note_replaced(run, scenario);
+    }
     settings.insert(settings.end(), run.settings.begin(), run.settings.end());
     std::string options;
     if (!run.parent.empty()) options = fmt::format(" --from {}", checkpoint_of(run));
@@ -374,8 +384,7 @@ private:
     }
     options += set_options(settings);
     // Hash of the values, not of the file, so that a changed comment does not make a run outdated.
-    std::string settings_text = fmt::format(
-        "{} {}{}", run.programme, hash_text(hash_string(TomlDocument::from_file(run.programme).text())), options);
+    std::string settings_text = fmt::format("{} {}{}", run.programme, hash_text(hash_string(scenario.text())), options);
     std::erase(settings_text, '\''); // as make writes it to the file
     const std::string parent = run.parent.empty() ? packing : request_.results.of(run.parent) + "/run.h5";
     // A branch reads the packing, too. A new one makes its parent again, so it need not be newer for the branch.
@@ -386,6 +395,20 @@ private:
     lists_["declared_runs"].insert(file);
     if (!std::filesystem::exists(file) || content_of(settings_file) != settings_text + "\n")
       outstanding_.insert(folder);
+  }
+
+  /// Says once which values of a study's own scenario a common setting replaces, unless the run sets them itself.
+  void note_replaced(const RunInstance& run, const TomlDocument& scenario) {
+    const std::filesystem::path folder = folder_of_file(run.programme);
+    if (!request_.note || folder == std::filesystem::path(request_.programmes).lexically_normal()) return;
+    for (const auto& [key, value] : request_.common_settings) {
+      const std::optional<std::string> own = own_text(scenario, key);
+      const auto sets = [&key = key](const auto& setting) { return setting.first == key; };
+      if (!own || *own == value || std::ranges::any_of(run.settings, sets)) continue;
+      if (noted_.insert(run.programme + " " + key).second)
+        request_.note(fmt::format("{}: {} = {} of make replaces \"{}\"; common_settings = false in [[runs]] keeps it",
+                                  one_line(run.programme), key, value, one_line(*own)));
+    }
   }
 
   std::string checkpoint_of(const RunInstance& run) const {
@@ -418,6 +441,7 @@ private:
   std::set<std::string> outstanding_; ///< folders of runs that are to be made
   std::map<std::string, std::string> metrics_;
   std::set<std::string> checked_commands_;
+  std::set<std::string> noted_; ///< scenarios with the keys of which a note was given
   std::map<std::string, std::set<std::string>> lists_;
   std::string text_;
 };

@@ -17,6 +17,9 @@ struct DependsRequest {
   std::vector<std::string> meshes = {};   ///< values of MESH; empty: any
   /// Throws InputError for words that postproc refuses, before their files exist. Empty: nothing is refused.
   std::function<void(const std::vector<std::string>&)> check_words = {};
+  std::string programmes = {}; ///< folder of the scenarios whose common settings are those of make
+  /// Called with a line for each value of another scenario that a common setting replaces. Empty: nobody wants them.
+  std::function<void(const std::string&)> note = {};
 };
 
 /// Rules for make (docs/figure-file.md, "What make does"), for all figures together, so that they share runs. Where the

@@ -36,6 +36,7 @@ struct FigureCommands::State {
   std::string title, run, beside, ending_of_output; ///< empty: any
   std::vector<std::string> files, settings, known_meshes;
   int packings = 0;
+  bool quiet = false;
   const CLI::App* program = nullptr;
   std::function<void(const std::vector<std::string>&)> check_words;
 
@@ -80,6 +81,7 @@ struct FigureCommands::State {
     separated_by_commas(command.add_option("--meshes", known_meshes,
                                            "All names of meshes; others in the files are refused (default: any)"));
     command.add_option("--description", description, "The file that the packing was made from, for metrics");
+    command.add_flag("--quiet", quiet, "No notes on settings that replace those of a scenario");
     add_assignments(command, settings, "Setting of every run, unless it has common_settings = false: KEY=VALUE");
   }
 
@@ -190,7 +192,8 @@ struct FigureCommands::State {
   void depends() const {
     std::vector<Figure> figures;
     for (const std::string& file : files) figures.push_back(read(file));
-    DependsRequest request{{results, mesh}, packing, description, {}, {}, known_meshes, check_words};
+    DependsRequest request{{results, mesh}, packing, description, {}, {}, known_meshes, check_words, programmes};
+    if (!quiet) request.note = [](const std::string& text) { fmt::print(stderr, "postproc: note: {}\n", text); };
     for (const CLI::App* command : program->get_subcommands({})) request.commands.push_back(command->get_name());
     for (const std::string& setting : settings) {
       const std::size_t equals = setting.find('=');

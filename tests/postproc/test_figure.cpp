@@ -298,6 +298,30 @@ TEST_CASE("make is told what a table, a metric and a run are made from, and rewr
   CHECK_THAT(make_rules({figure}, request), !Contains(fmt::format("{}.settings: FORCE", run)));
 }
 
+TEST_CASE("what replaces a value of a scenario of the study's own is noted, unless that value counts") {
+  const Toolkit toolkit;
+  const std::string stages = "[[stages]]\nname = \"pressing\"\n", smooth = "[contact]\nsurface = \"smooth\"\n";
+  write_text(toolkit.path("programmes/press.toml"), smooth + stages);
+  write_text(toolkit.path("own.toml"), smooth + stages);
+  write_text(toolkit.path("plain.toml"), stages);
+  const auto notes = [&](const std::string& programme, const std::string& further = "") {
+    std::string text = tablets;
+    text.replace(text.find("\"press\""), 7, fmt::format("\"{}\"\n{}", programme, further));
+    std::vector<std::string> found;
+    DependsRequest request{toolkit.results(), "packing.h5", {}, {{"contact.surface", "facets"}}};
+    request.programmes = toolkit.path("programmes");
+    request.note = [&](const std::string& note) { found.push_back(note); };
+    make_rules({toolkit.figure(text)}, request);
+    return found;
+  };
+  CHECK(notes("own.toml") ==
+        std::vector{toolkit.path("own.toml") + ": contact.surface = facets of make replaces \"smooth\"; "
+                                               "common_settings = false in [[runs]] keeps it"});
+  CHECK(notes("own.toml", "common_settings = false").empty());
+  CHECK(notes("plain.toml").empty());
+  CHECK(notes("press").empty()); // make chooses the surface of the studies' own scenarios
+}
+
 namespace {
 
 /// A table of curves of one run, that of the sample a; `keys` of the table follow.

@@ -53,6 +53,17 @@ make -n "${study[@]}" STUDY=spread.toml SEEDS='2 3' BIN="$bin" >plan 2>&1 || { c
 grep -q 'SEED=2 out/own-seed2/spread/strength.csv' plan || { echo "settings.sh: SEEDS makes no packings" && code=1; }
 ! grep -q "$note" plan || { echo "settings.sh: make says that SEEDS of spread.toml has no effect" && code=1; }
 
+# What SURFACE and ELEMENT replace in a scenario of the study's own is said, once.
+sed 's/^surface = .*/surface = "smooth"/' "$here/studies/branches/press-and-crush.toml" >press.toml
+sed 's/^programme = .*/programme = "press.toml"/' my.toml >own-scenario.toml
+replaced='press.toml: contact.surface = facets of make replaces "smooth"; common_settings = false in [[runs]] keeps it'
+notes_of() {
+  make -n -f "$here/studies/rules.mk" study STUDY="$1" BIN="$bin" 2>&1 >plan | grep -cF "note: $replaced" || true
+}
+[[ $(notes_of own-scenario.toml) == 1 ]] || { echo "settings.sh: make does not say once that $replaced" && code=1; }
+sed -i 's/^programme = .*/&\ncommon_settings = false/' own-scenario.toml
+[[ $(notes_of own-scenario.toml) == 0 ]] || { echo "settings.sh: make says $replaced, which it does not" && code=1; }
+
 # No name of a study is that of a variable of the rules: the plans of such studies differ only in their names.
 plan_of() {
   cp my.toml "$1.toml"
