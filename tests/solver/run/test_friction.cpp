@@ -746,6 +746,25 @@ TEST_CASE("a branch may begin, change or leave friction") {
   CHECK(branch("begun", "--from " + (folder / "smooth.D0.580.checkpoint.h5")));
 }
 
+TEST_CASE("bonds that a branch adds take the friction of closed points away at once") {
+  const Folder folder;
+  const std::string rubbing = replaced(scenario_text, "[output]\n", "[contact]\nfriction = 0.3\n[output]\n");
+  prepare(folder, 4, replaced(rubbing, "[output]\n", "[output]\ncheckpoint_relative_densities = [0.58]\n"));
+  REQUIRE(mpfem_command(fmt::format("run {} -o {} --quiet", folder / "scenario.toml", folder / "run.h5")).exit_code ==
+          0);
+  const auto first_energy = [&](const std::string& bonds) {
+    write_text(folder / "branch.toml", rubbing + bonds);
+    const Outcome outcome = mpfem_command(fmt::format("run {} -o {} --quiet --from {}", folder / "branch.toml",
+                                                      folder / "branch.h5", folder / "run.D0.580.checkpoint.h5"));
+    INFO(outcome.messages);
+    REQUIRE(outcome.exit_code == 0);
+    const schema::FileReader file(folder / "branch.h5", schema::FileKind::run);
+    return file.read(schema::run::history_friction_energy).front();
+  };
+  CHECK(first_energy("") > 0);
+  CHECK(first_energy("[bond]\ntensile_strength = 25\nshear_strength = 18\nfracture_energy = 0.05\n") == 0);
+}
+
 TEST_CASE("a branch that changes nothing begins with the unbranched run's friction bitwise, and loses as much") {
   // It is not that run bitwise afterwards: a branch estimates its step anew and begins with half a step.
   namespace run = schema::run;
