@@ -34,6 +34,26 @@ inline LooseTriangles prism(const std::vector<std::array<double, 2>>& polygon, d
   return triangles;
 }
 
+/// A tube from z = low to high between two polygons with as many corners, counter-clockwise, one around the other.
+inline LooseTriangles tube(const std::vector<std::array<double, 2>>& hole,
+                           const std::vector<std::array<double, 2>>& outside, double low, double high) {
+  LooseTriangles triangles;
+  const std::size_t n = hole.size();
+  const auto quad = [&](const Point& a, const Point& b, const Point& c, const Point& d) {
+    triangles.push_back({a, b, c});
+    triangles.push_back({a, c, d});
+  };
+  for (std::size_t i = 0; i < n; ++i) {
+    const auto inner = [&](std::size_t k, double z) { return Point{hole[k % n][0], hole[k % n][1], z}; };
+    const auto outer = [&](std::size_t k, double z) { return Point{outside[k % n][0], outside[k % n][1], z}; };
+    quad(outer(i, low), outer(i + 1, low), outer(i + 1, high), outer(i, high));
+    quad(inner(i + 1, low), inner(i, low), inner(i, high), inner(i + 1, high));
+    quad(outer(i, high), outer(i + 1, high), inner(i + 1, high), inner(i, high));
+    quad(inner(i, low), inner(i + 1, low), outer(i + 1, low), outer(i, low));
+  }
+  return triangles;
+}
+
 /// Polygons for prism(), counter-clockwise.
 inline const std::vector<std::array<double, 2>> unit_square{{0, 0}, {1, 0}, {1, 1}, {0, 1}};
 inline const std::vector<std::array<double, 2>> l_shape{{0, 0}, {2, 0}, {2, 1}, {1, 1}, {1, 2}, {0, 2}};

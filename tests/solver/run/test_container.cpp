@@ -198,6 +198,34 @@ duration = 1e-7
   CHECK(within(file.read(schema::run::history_box_lengths).back(), 0.42 + upper.back() - lower.back(), 1e-9));
 }
 
+TEST_CASE("a tablet leaves a square die through the end of a tube around its walls once these are away") {
+  constexpr double mouth = 0.43; // mm, end of the tube
+  const std::string ring = "[[tools]]\nname = \"ring\"\ntype = \"stl\"\nfile = \"die.stl\"\nscale = 1\n";
+  const LooseTriangles die = tube(square, {{-0.3, -0.3}, {0.72, -0.3}, {0.72, 0.72}, {-0.3, 0.72}}, -0.1, mouth);
+  const Press press(ring + four_planes, "relative_density = 0.65", die, R"([[stages]]
+name = "eject"
+type = "tools"
+away = ["upper", "west", "east", "south", "north"]
+drive.lower.speed = 20000
+travel = 0.45
+)");
+  INFO(press.outcome.messages);
+  REQUIRE(press.outcome.exit_code == 0);
+  const schema::FileReader file = press.file();
+  const auto stage = file.read(schema::run::history_stage);
+  const auto force = file.read(schema::run::history_tools_normal_force, "ring");
+  const auto first = static_cast<std::size_t>(std::ranges::find(stage, 1) - stage.begin());
+  CHECK(force[first] > 0.1 * force[first - 1]); // N: the tube holds what the planes held
+  CHECK(force.back() == 0);
+  const auto node = file.read(schema::run::snapshots_node, "0001");
+  double lowest = 1;
+  for (std::size_t i = 2; i < node.size(); i += 3) lowest = std::min(lowest, static_cast<double>(node[i]));
+  CHECK(lowest > mouth);
+  const auto work = file.read(schema::run::history_external_work),
+             residual = file.read(schema::run::history_energy_residual);
+  CHECK(std::abs(residual.back()) < 0.02 * work.back());
+}
+
 TEST_CASE("walls of a container that are no die are refused with what was expected") {
   const auto refused = [](const std::string& die, const LooseTriangles& triangles = {}) {
     const Press press(die, "relative_density = 0.6", triangles);
