@@ -151,7 +151,7 @@ public:
                "Smallest damage at which a bond counts as opened")
         ->capture_default_str();
     add_axis(options(), axis_, "Axis of compression; bands are inclined to it");
-    add_number(options(), "--trials", rule_.trials, Range::between(1, 1e6), "",
+    add_number(options(), "--trials", rule_.trials, Range::between(1, 1e5), "",
                "How often the opened shares are dealt out anew among the pairs of grains")
         ->capture_default_str();
   }

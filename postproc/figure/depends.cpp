@@ -400,7 +400,8 @@ private:
   /// Says once which values of a study's own scenario a common setting replaces, unless the run sets them itself.
   void note_replaced(const RunInstance& run, const TomlDocument& scenario) {
     const std::filesystem::path folder = folder_of_file(run.programme);
-    if (!request_.note || folder == std::filesystem::path(request_.programmes).lexically_normal()) return;
+    const std::filesystem::path usual = std::filesystem::path(request_.programmes) / ""; // with one slash at its end
+    if (!request_.note || folder / "" == usual.lexically_normal()) return;
     for (const auto& [key, value] : request_.common_settings) {
       const std::optional<std::string> own = own_text(scenario, key);
       const auto sets = [&key = key](const auto& setting) { return setting.first == key; };

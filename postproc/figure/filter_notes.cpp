@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "common/errors.hpp"
 #include "postproc/figure/run_graph.hpp"
 
 namespace mpfem {
@@ -68,8 +69,13 @@ std::vector<Value> values_of_pattern(const Figure& figure, const TableSpec& tabl
 /// Whether a column may have the value with some mesh, as far as the cases tell: one that a script or a metric's list
 /// fills, if any case has the value, whatever it is called there.
 bool is_of_some_case(const Figure& figure, const TableSpec& table, const std::string& column, const Value& value) {
-  if (const std::string pattern = pattern_of(table, column); !pattern.empty())
-    return contains(values_of_pattern(figure, table, pattern), value);
+  if (const std::string pattern = pattern_of(table, column); !pattern.empty()) {
+    try {
+      return contains(values_of_pattern(figure, table, pattern), value);
+    } catch (const InputError&) {
+      return true; // cases of other meshes lack what this table selects or shows: nobody can tell
+    }
+  }
   const std::vector<Case> cases = cases_of_all_meshes(figure, {}, {}, table.place);
   return std::any_of(cases.begin(), cases.end(), [&](const Case& row) {
     return std::any_of(row.values.begin(), row.values.end(), [&](const auto& word) { return word.second == value; });

@@ -33,12 +33,14 @@ struct DamageBand {
 /// and p the opened share of the whole sample. Empty where no bond has opened or all have.
 std::optional<DamageBand> densest_band(const std::vector<PairOpening>& pairs, int axis);
 
-/// The densest band, and how often chance makes one as dense: the share of `trials` in which the opened shares, dealt
-/// out anew among the pairs of grains, give at least the same excess; 1 without trials. Always the same for the same
-/// pairs.
+/// The densest band, and how often chance makes one as dense: (n + 1)/(trials + 1), n being the trials in which the
+/// opened shares, dealt out anew among the pairs of grains, give at least the same excess. Always the same for the same
+/// pairs. Openings in a corner or a half of the sample give a small chance, too. `other_excess` is the largest one of
+/// slabs that are not inclined (normals 0 to 20 and 70 to 90 degrees off the axis).
 struct BandByChance {
   DamageBand band;
   double chance = 1;
+  double other_excess = 0; ///< mm
 };
 std::optional<BandByChance> band_by_chance(const std::vector<PairOpening>& pairs, int axis, int trials);
 

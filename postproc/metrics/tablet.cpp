@@ -122,8 +122,8 @@ double relative(const Reading& reading) {
   return reading.uncertainty / reading.value;
 }
 
-/// Share of the way of both punches along the die that the lower one goes until the peak: 0 of single-ended pressing, a
-/// half where both press alike or the die floats.
+/// Share of the way of both punches along the die, towards each other, that the lower one goes until the peak: 0 of
+/// single-ended pressing, a half where both press alike or the die floats.
 double share_of_lower_punch(const Tablet& tablet) {
   const TabletTools& tools = tablet.rule.tools;
   const auto way = [&](const std::string& tool, const std::string& option) {
@@ -131,7 +131,8 @@ double share_of_lower_punch(const Tablet& tablet) {
     return place[tablet.peak.row] - place[tablet.press.first];
   };
   const double die = way(tools.die, "--die");
-  const double upper = std::abs(way(tools.upper, "--upper") - die), lower = std::abs(way(tools.lower, "--lower") - die);
+  const double upper = std::max(0.0, die - way(tools.upper, "--upper"));
+  const double lower = std::max(0.0, way(tools.lower, "--lower") - die);
   return upper + lower > 0 ? lower / (upper + lower) : 0;
 }
 

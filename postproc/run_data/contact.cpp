@@ -39,7 +39,7 @@ ContactTable contact_table(const schema::FileReader& file, int snapshot) {
   const auto grain_count = static_cast<double>(file.rows(run::mesh_grain_tet_offset)) - 1;
   table.coordination_number = 2 * static_cast<double>(area.size()) / grain_count;
 
-  const HistoryTable history(file);
+  const HistoryTable history(file, NotFinite::kept); // a snapshot may be sound though the run diverged later
   const double time = file.read_scalar(run::snapshots_time, name);
   std::size_t nearest = 0;
   for (std::size_t row = 0; row < history.rows(); ++row)

@@ -17,7 +17,7 @@ SnapshotWindow snapshot_window(const schema::FileReader& file, int number) {
   window.relative_density = file.read_scalar(run::snapshots_relative_density, name);
   window.mean_stress = file.read_scalar(run::snapshots_mean_stress, name);
   const double time = file.read_scalar(run::snapshots_time, name);
-  const HistoryTable history(file);
+  const HistoryTable history(file, NotFinite::kept); // a snapshot may be sound though the run diverged later
   const auto& times = history["time"];
   std::size_t nearest = 0;
   for (std::size_t row = 0; row < history.rows(); ++row)

@@ -40,9 +40,10 @@ both elements and both contact surfaces; the density at which the slope changes 
 not certain |
 | The elastic energy at the largest density hardly depends on the grains' Young's modulus, nor the energy locked in \
 once divided by it ([fig11], [locking]) | no | only plain tetrahedra come close, for which the grains' falling and \
-the element's rising energy nearly balance; a third to three quarters of what they keep belongs to the element |
+the element's rising energy nearly balance; two thirds to nine tenths of what they keep belongs to the element |
 | The compact's modulus is exponential in the porosity, and saturates with the fracture energy ([fig12], [fig16]) | \
-yes | samples compacted to 0.83 to 0.86 saturate at the paper's value; the paper does not state their density |
+yes, if samples were compacted to 0.83 to 0.86 | these saturate at the paper's value; the paper does not state their \
+density |
 | Unconfined strength grows exponentially with density and with fracture energy, and samples fail in bands ([fig13], \
 [fig14], [fig15], [fig16]) | in part | by Eq. 5 read literally strong bonds outlast the grains, without peak or band, \
 and weak ones fail in bands; by the law of Fig. 3 strong ones fail so too, and strength is exponential in the \

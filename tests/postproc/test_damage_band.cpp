@@ -1,5 +1,6 @@
 // Bands of opened bonds.
 
+#include <algorithm>
 #include <cmath>
 #include <random>
 
@@ -36,7 +37,8 @@ TEST_CASE("bonds that open in an inclined slab give a band there, which chance d
   });
   const auto found = band_by_chance(pairs, 2, 200);
   REQUIRE(found);
-  CHECK(found->chance == 0);
+  CHECK(found->chance == Approx(1.0 / 201));
+  CHECK(found->other_excess < found->band.excess);
   CHECK(found->band.normal.dot(normal) > std::cos(0.15)); // the step between normals is 7.5 degrees
   CHECK(std::abs(found->band.offset - 0.1) < 0.051);      // and 0.05 between slabs
   // A slab of opened share s in a sample of share p: s/p. All of it lies in the slab, which is thicker.
@@ -85,6 +87,11 @@ TEST_CASE("the measure counts bonds that pass the threshold in the test") {
   CHECK(m.details["pairs"] == 1);
   CHECK(m.value == Approx(1).epsilon(1e-6)); // a single pair: every slab that has bonds has them all
   CHECK(m.details["chance"] == 1);
+  RunContents damaged = before;
+  for (double& d : damaged.numbers["/snapshots/*/bond_damage"]) d = std::max(d, 0.5);
+  write_run(folder / "damaged.h5", damaged);
+  CHECK_THROWS_WITH(measure_damage_band(second, -1, schema::FileReader(folder / "damaged.h5"), -1, {.trials = 20}),
+                    Catch::Contains("now.h5: all bonds have a damage of 0.5 or more before the test"));
   CHECK_THROWS_WITH(measure_damage_band(second, -1, first, -1, {.threshold = 0.9, .trials = 20}),
                     Catch::Contains("now.h5: the test opens none or all of the 1 pairs of grains"));
 }
