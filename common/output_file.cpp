@@ -129,20 +129,15 @@ std::string ending_of(const std::string& path) {
   return name.extension().string();
 }
 
-std::string in_small_letters(std::string text) {
-  for (char& c : text)
-    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
-  return text;
-}
-
 } // namespace
 
 void refuse_ending_of_other_format(std::string_view option, const std::string& path,
                                    const std::vector<std::string>& endings) {
   constexpr std::array known = {".csv", ".json", ".html", ".md",  ".toml", ".png", ".svg",
                                 ".jpg", ".jpeg", ".pdf",  ".vtu", ".pvd",  ".h5",  ".stl"};
-  const std::string ending = in_small_letters(ending_of(path));
-  if (std::find(endings.begin(), endings.end(), ending) != endings.end()) return;
+  std::string ending = ending_of(path);
+  for (char& c : ending)
+    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
   if (std::find(known.begin(), known.end(), ending) != known.end()) refuse_other_endings(option, path, endings);
 }
 
