@@ -57,7 +57,8 @@ the paper excludes, B and C match the paper; D does not |
 surfaces; here it does so at low mean stress too, where the paper infers the opposite |
 | In load cycles samples with cohesion become looser and those without denser, which also dissipate more ([fig25], \
 [fig26]) | in part | without cohesion all agrees; with cohesion samples \
-become looser in one setting, by five in a million a cycle; the ratio of both dissipations is the paper's in some settings only |
+become looser in one setting, by five in a million a cycle; the ratio of both dissipations is the paper's in some \
+settings only |
 
 [fig09]: ../studies/fig09/README.md
 [fig10]: ../studies/fig10/README.md
