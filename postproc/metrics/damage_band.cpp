@@ -129,17 +129,13 @@ std::vector<PairOpening> openings(const BondsSince& since, const Snapshot& now, 
 
 } // namespace
 
-std::optional<DamageBand> densest_band(const std::vector<PairOpening>& pairs, int axis) {
-  const auto found = band_by_chance(pairs, axis, 0);
-  return found ? std::optional(found->band) : std::nullopt;
-}
-
 std::optional<BandByChance> band_by_chance(const std::vector<PairOpening>& pairs, int axis, int trials) {
   Openings all = openings_of(pairs);
   const std::vector<Slab> slabs = slabs_at(inclined, pairs, axis);
   if (!(all.whole_opened > 0) || !(all.whole_opened < all.whole_area) || slabs.empty()) return {};
-  const DamageBand band = densest_of(slabs, opened_areas(all), all.whole_area);
-  const double other = densest_of(slabs_at(not_inclined, pairs, axis), opened_areas(all), all.whole_area).excess;
+  const std::vector<double> opened = opened_areas(all);
+  const DamageBand band = densest_of(slabs, opened, all.whole_area);
+  const double other = densest_of(slabs_at(not_inclined, pairs, axis), opened, all.whole_area).excess;
   std::mt19937_64 random(1);
   int as_dense = 0;
   for (int trial = 0; trial < trials; ++trial) {

@@ -23,25 +23,24 @@ struct DamageBand {
   double offset = 0;               ///< of its middle plane from the box's centre, relative to the box
   double area_share = 0;           ///< share of the bonds that lies in it, by area
   double opened_share = 0;         ///< share of the opened bonds that lies in it, by area
-  double excess = 0;               ///< mm, see densest_band
+  double excess = 0;               ///< mm, see band_by_chance
   /// How much more often bonds open in it than in the whole sample.
   double concentration() const { return opened_share / area_share; }
 };
 
 /// Of slabs a fifth of the box thick whose normals are 30 to 60 degrees off `axis` (0, 1, 2 for x, y, z), the one with
 /// the largest excess of opened bonds, (a - p A)/sqrt(A p (1 - p)), with a and A the opened and the whole area in it
-/// and p the opened share of the whole sample. Empty where no bond has opened or all have.
-std::optional<DamageBand> densest_band(const std::vector<PairOpening>& pairs, int axis);
-
-/// The densest band, and how often chance makes one as dense: (n + 1)/(trials + 1), n being the trials in which the
-/// opened shares, dealt out anew among the pairs of grains, give at least the same excess. Always the same for the same
-/// pairs. Openings in a corner or a half of the sample give a small chance, too. `other_excess` is the largest one of
-/// slabs that are not inclined (normals 0 to 20 and 70 to 90 degrees off the axis).
+/// and p the opened share of the whole sample. `chance` is how often chance makes one as dense: (n + 1)/(trials + 1),
+/// n being the trials in which the opened shares, dealt out anew among the pairs of grains, give at least the same
+/// excess. Always the same for the same pairs. Openings in a corner or a half of the sample give a small chance, too.
+/// `other_excess` is the largest one of slabs that are not inclined (normals 0 to 20 and 70 to 90 degrees off the
+/// axis).
 struct BandByChance {
   DamageBand band;
   double chance = 1;
   double other_excess = 0; ///< mm
 };
+/// Empty where no bond has opened or all have.
 std::optional<BandByChance> band_by_chance(const std::vector<PairOpening>& pairs, int axis, int trials);
 
 /// How the band is looked for.

@@ -43,7 +43,7 @@ TEST_CASE("bonds that open in an inclined slab give a band there, which chance d
   CHECK(std::abs(found->band.offset - 0.1) < 0.051);      // and 0.05 between slabs
   // A slab of opened share s in a sample of share p: s/p. All of it lies in the slab, which is thicker.
   CHECK(found->band.concentration() > 2);
-  CHECK(densest_band(pairs, 2)->excess == found->band.excess);
+  CHECK(band_by_chance(pairs, 2, 0)->band.excess == found->band.excess);
 }
 
 TEST_CASE("bonds that open at random give no band beyond chance") {
@@ -60,8 +60,8 @@ TEST_CASE("bonds that open at random give no band beyond chance") {
 }
 
 TEST_CASE("without bonds that open, or with all of them open, there is no band") {
-  CHECK_FALSE(densest_band(lattice([](const Eigen::Vector3d&) { return 0.0; }), 2));
-  CHECK_FALSE(densest_band(lattice([](const Eigen::Vector3d&) { return 1.0; }), 2));
+  CHECK_FALSE(band_by_chance(lattice([](const Eigen::Vector3d&) { return 0.0; }), 2, 0));
+  CHECK_FALSE(band_by_chance(lattice([](const Eigen::Vector3d&) { return 1.0; }), 2, 0));
   CHECK_FALSE(band_by_chance({}, 2, 10));
 }
 
