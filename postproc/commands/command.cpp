@@ -89,10 +89,6 @@ Snapshot StateCommand::read_state(int snapshot) const {
   return packing_.empty() ? read_snapshot({run_, schema::FileKind::run}, snapshot) : read_packing_snapshot(packing_);
 }
 
-void print_notes(const std::vector<std::string>& notes) {
-  for (const std::string& note : notes) fmt::print(stderr, "postproc: note: {}\n", note);
-}
-
 void add_snapshot(CLI::App& command, int& snapshot) {
   add_number(command, "--snapshot", snapshot, whole_numbers, "", "Number of the snapshot; -1 is the last")
       ->capture_default_str();

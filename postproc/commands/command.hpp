@@ -108,9 +108,6 @@ private:
   std::string run_, packing_;
 };
 
-/// Prints to standard error, one line each.
-void print_notes(const std::vector<std::string>& notes);
-
 /// --snapshot; -1 is the last.
 void add_snapshot(CLI::App& command, int& snapshot);
 /// --axis, one of x, y, z.

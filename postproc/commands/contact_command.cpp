@@ -6,6 +6,7 @@
 #include "postproc/commands/command.hpp"
 #include "postproc/commands/commands.hpp"
 #include "postproc/drawing/contact_picture.hpp"
+#include "postproc/files/notes.hpp"
 #include "postproc/files/text_file.hpp"
 #include "postproc/metrics/contact_history.hpp"
 #include "postproc/run_data/contact.hpp"

@@ -8,6 +8,7 @@
 #include "postproc/commands/command.hpp"
 #include "postproc/commands/commands.hpp"
 #include "postproc/files/csv_file.hpp"
+#include "postproc/files/notes.hpp"
 #include "postproc/files/text_file.hpp"
 #include "postproc/fits/fit.hpp"
 #include "postproc/run_data/measurement.hpp"

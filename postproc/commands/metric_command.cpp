@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include "postproc/files/notes.hpp"
+
 namespace mpfem {
 
 void MetricCommand::execute() const {

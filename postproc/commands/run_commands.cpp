@@ -9,6 +9,7 @@
 #include "postproc/commands/command.hpp"
 #include "postproc/commands/commands.hpp"
 #include "postproc/drawing/vtk.hpp"
+#include "postproc/files/notes.hpp"
 #include "postproc/files/text_file.hpp"
 #include "postproc/metrics/summary.hpp"
 

@@ -17,18 +17,11 @@
 #include "postproc/figure/report.hpp"
 #include "postproc/figure/verdict_pages.hpp"
 #include "postproc/files/gnuplot.hpp"
+#include "postproc/files/notes.hpp"
 #include "postproc/files/text_file.hpp"
 #include "postproc/view/view_page.hpp"
 
 namespace mpfem {
-
-namespace {
-
-void print_notes(const std::vector<std::string>& notes) {
-  for (const std::string& note : notes) fmt::print(stderr, "postproc: note: {}\n", note);
-}
-
-} // namespace
 
 struct FigureCommands::State {
   std::string figure, name, output, results = "out/coarse", mesh = "coarse", programmes = "studies/branches", packing,
@@ -193,7 +186,7 @@ struct FigureCommands::State {
     std::vector<Figure> figures;
     for (const std::string& file : files) figures.push_back(read(file));
     DependsRequest request{{results, mesh}, packing, description, {}, {}, known_meshes, check_words, programmes};
-    if (!quiet) request.note = [](const std::string& text) { fmt::print(stderr, "postproc: note: {}\n", text); };
+    if (!quiet) request.note = [](const std::string& text) { print_notes({text}); };
     for (const CLI::App* command : program->get_subcommands({})) request.commands.push_back(command->get_name());
     for (const std::string& setting : settings) {
       const std::size_t equals = setting.find('=');
