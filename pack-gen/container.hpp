@@ -24,6 +24,11 @@ inline std::string wall_name(int wall) {
   return wall == round_wall ? "round wall" : std::string("wall ") + flat[wall];
 }
 
+/// "grain 3", or for -1 - wall "wall -x": what lies next to a grain.
+inline std::string neighbour_name(int grain_or_wall) {
+  return grain_or_wall < 0 ? wall_name(-1 - grain_or_wall) : "grain " + std::to_string(grain_or_wall);
+}
+
 /// The inside of a closed surface of triangles, whose lowest corner is at the origin.
 struct SurfaceContainer {
   TriangleMesh mesh;           ///< mm

@@ -16,9 +16,14 @@ std::string names_of(const std::vector<CsvColumn>& columns) {
 }
 
 void check_heading(const CsvReader& reader, const CsvRow& row, const std::vector<CsvColumn>& columns) {
-  for (std::size_t i = 0; i < columns.size(); ++i)
-    if (csv_heading(row.cells[i]).name != columns[i].name)
+  for (std::size_t i = 0; i < columns.size(); ++i) {
+    const CsvHeading heading = csv_heading(row.cells[i]);
+    if (heading.name != columns[i].name)
       reader.fail(row, fmt::format("found column '{}', allowed: {}", shortened(row.cells[i]), names_of(columns)));
+    if (!heading.unit.empty() && heading.unit != columns[i].unit)
+      reader.fail(row, fmt::format("column '{}': found the unit '{}', allowed: {}", columns[i].name,
+                                   shortened(heading.unit), columns[i].unit));
+  }
 }
 
 } // namespace

@@ -135,8 +135,7 @@ void write_meshed(const Arguments& arguments, const SpherePacking& packing, cons
   if (!(report.facet_gap.gap > 0))
     throw SimulationError(fmt::format("{}: no positive gap could be proven between the facets of grain {} and {}",
                                       arguments.input, report.facet_gap.first,
-                                      report.facet_gap.second < 0 ? wall_name(-1 - report.facet_gap.second)
-                                                                  : fmt::format("grain {}", report.facet_gap.second)));
+                                      neighbour_name(report.facet_gap.second)));
   write_packing_file(arguments.output, packing, origin,
                      MeshForFile{&mesh, arguments.size, report.facet_gap.gap, report.smallest_quality});
   progress.finish(fmt::format("{} tetrahedra, {}", report.tets, arguments.output));

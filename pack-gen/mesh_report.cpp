@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "common/errors.hpp"
+#include "pack-gen/container.hpp"
 #include "pack-gen/convex_distance.hpp"
 #include "pack-gen/neighbours.hpp"
 #include "pack-gen/parallel.hpp"
@@ -221,8 +222,7 @@ std::string report_text(const MeshReport& report) {
   line("tetrahedra with 4 surface nodes", fmt::format("{}", report.surface_only_tets));
   line("nodes outside the sphere by", fmt::format("{:.2f} % of the radius at most", 100 * report.largest_excess));
   line("facet gap, smallest",
-       fmt::format("{:.4g} mm   (grain {} and {})", gap.gap, gap.first,
-                   gap.second < 0 ? wall_name(-1 - gap.second) : fmt::format("grain {}", gap.second)));
+       fmt::format("{:.4g} mm   (grain {} and {})", gap.gap, gap.first, neighbour_name(gap.second)));
   line("critical step, smallest", fmt::format("{:.3e} s = {:.3f} h/c   (grain {})", report.smallest_step,
                                               report.smallest_step / unit, report.smallest_step_grain));
   line("critical step, median", fmt::format("{:.3e} s = {:.3f} h/c", report.median_step, report.median_step / unit));

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "common/errors.hpp"
+#include "pack-gen/container.hpp"
 #include "pack-gen/convex_distance.hpp"
 #include "pack-gen/neighbours.hpp"
 #include "pack-gen/parallel.hpp"
@@ -105,7 +106,7 @@ bool touches(const Clearance& clearance) {
       "size {:g} mm: the meshes of {} grains still touch after {} rounds of rotations, first grain {} and {}: the gap "
       "between the spheres is too small for such a coarse mesh, allowed: a smaller size or a larger smallest_gap",
       nominal_size, std::count_if(found.begin(), found.end(), touches), most_rounds, first,
-      worst.other < 0 ? "a wall" : fmt::format("grain {}", worst.other)));
+      neighbour_name(worst.other)));
 }
 
 /// Turns a grain to the best of some orientations; the first without touch ends the search. True if the orientation

@@ -285,13 +285,14 @@ TEST_CASE("pack-gen refuses what it cannot use with one line and exit code 2, an
     CHECK_THAT(outcome.messages, Catch::Contains(c.expected));
     CHECK_FALSE(std::filesystem::exists(folder / "s.h5"));
   }
-  for (const auto& [csv, expected] :
-       std::vector<std::pair<std::string, std::string>>{{"x,y,z,radius\n0,0,0,1\n0,0,1.5,1\n", "overlap"},
-                                                        {"x,y,z,radius\n0,0,0,-1\n", "radius"},
-                                                        {"x,y,z,radius\n0,0,zero,1\n", "s.csv:2"},
-                                                        {"x,y,z,radius\n0,0,0\n", "s.csv:2"},
-                                                        {"x,y,radius,z\n0,0,0,1\n", "s.csv:1"},
-                                                        {"", "no rows"}}) {
+  for (const auto& [csv, expected] : std::vector<std::pair<std::string, std::string>>{
+           {"x,y,z,radius\n0,0,0,1\n0,0,1.5,1\n", "overlap"},
+           {"x,y,z,radius\n0,0,0,-1\n", "radius"},
+           {"x,y,z,radius\n0,0,zero,1\n", "s.csv:2"},
+           {"x,y,z,radius\n0,0,0\n", "s.csv:2"},
+           {"x,y,radius,z\n0,0,0,1\n", "s.csv:1"},
+           {"x,y,z,radius [m]\n0,0,0,1\n", "found the unit 'm', allowed: mm"},
+           {"", "no rows"}}) {
     write_text(folder / "s.csv", csv);
     const Outcome outcome = pack_gen(fmt::format("import {} -o {}", folder / "s.csv", folder / "s.h5"));
     INFO(csv << ": " << outcome.messages);
