@@ -236,7 +236,7 @@ Point random_place(Random& random, const PackingContainer& container, double r) 
   const double factor = largest_radius_factor(packing, request.smallest_gap);
   throw InputError(
       fmt::format("{} spheres with a smallest gap of {:g} mm jam before the relative density {:.4f}; reached: "
-                  "{:.3f}; lower the density, the gap, or add spheres",
+                  "{:.4f}; lower the density, the gap, or add spheres",
                   request.radius.size(), request.smallest_gap, relative_density(packing),
                   relative_density(packing) * factor * factor * factor));
 }

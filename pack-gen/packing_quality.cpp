@@ -65,7 +65,7 @@ std::string target_csv(const PackingDescription& description) {
                                  description.places.prefix("size_distribution")));
   std::string text = "diameter_mm,cumulative_number\n";
   for (const double diameter : description.table_diameters)
-    text += fmt::format("{:.3f},{:.3f}\n", diameter, description.distribution->cumulative_number(diameter));
+    text += fmt::format("{:.9g},{:.9g}\n", diameter, description.distribution->cumulative_number(diameter));
   return text;
 }
 
