@@ -241,8 +241,8 @@ void TextFile::write(std::string_view text) {
 
 void TextFile::complete() {
   if (close(std::exchange(file_, -1)) != 0) fail();
+  complete_ = true; // from here on the partial file holds everything, and stays where it cannot become the target
   if (!partial_.empty()) replace_file(partial_, target_);
-  complete_ = true;
 }
 
 void TextFile::fail() const {

@@ -1,4 +1,5 @@
 #include <fstream>
+#include <functional>
 #include <sstream>
 #include <thread>
 
@@ -26,6 +27,15 @@ namespace {
 
 std::string refusal(const std::string& path, OutputKind kind) {
   return input_error([&] { check_output_path("--output", path, kind); });
+}
+
+std::string storage_error(const std::function<void()>& body) {
+  try {
+    body();
+  } catch (const StorageError& error) {
+    return error.what();
+  }
+  return "no error";
 }
 
 bool is_character_device(const std::string& path) {
@@ -269,4 +279,16 @@ TEST_CASE("A text file that is not completed leaves nothing and keeps the older 
   CHECK_FALSE(fs::exists(path + ".partial"));
   CHECK(read_text(path) == "older");
   CHECK_THROWS_AS(TextFile(folder / "none/out"), StorageError);
+}
+
+TEST_CASE("A complete text that cannot take its name stays in the partial file that the error names") {
+  const Folder folder;
+  const std::string path = folder / "out";
+  {
+    TextFile file(path);
+    file.write("whole");
+    fs::create_directory(path);
+    CHECK_THAT(storage_error([&] { file.complete(); }), Catch::Contains("out.partial"));
+  }
+  CHECK(read_text(path + ".partial") == "whole");
 }
