@@ -88,6 +88,14 @@ TEST_CASE("A large array of a snapshot is written in pieces and compressed") {
   CHECK((FileReader(folder.file("f.h5")).read(run::snapshots_velocity, "0000") == velocity));
 }
 
+TEST_CASE("Snapshots are listed by their number, beyond 9999 too") {
+  const test::TemporaryFolder folder;
+  FileWriter writer(folder.file("f.h5"), FileKind::run, "test");
+  for (const char* number : {"10000", "0000", "9999"}) writer.write_scalar(run::snapshots_time, 0.25, number);
+  writer.commit();
+  CHECK((FileReader(folder.file("f.h5")).snapshots() == std::vector<std::string>{"0000", "9999", "10000"}));
+}
+
 TEST_CASE("An array is read in pieces of whole rows, in order") {
   const std::size_t rows = GENERATE(0U, 1U, 1000U, 400'000U);
   const std::vector<double> nodes = some_numbers(3 * rows);
