@@ -2,6 +2,7 @@
 
 #include <filesystem>
 
+#include "common/errors.hpp"
 #include "solver/output/run_file.hpp"
 #include "solver/parallel/root.hpp"
 #include "solver/run/checkpoints.hpp"
@@ -95,7 +96,11 @@ void RunRecords::write_result(const std::string& status) const {
   std::vector<std::string> snapshots;
   for (const std::string& name : record.snapshot_files) snapshots.push_back(snapshot_path(options_.output, name));
   const RunHistory history{record.history, simulation_.tools(), record.tool_history};
-  write_run_file(options_.output, simulation_.model(), history, snapshots, provenance, simulation_.ranks());
+  try {
+    write_run_file(options_.output, simulation_.model(), history, snapshots, provenance, simulation_.ranks());
+  } catch (const InputError& error) { // of a snapshot file, which the run itself has written
+    throw StorageError(error.what());
+  }
 }
 
 RunRecord RunRecords::with_times() const {
