@@ -24,7 +24,7 @@ const Real* moving_nodes(const Model& model, int grain, double time_step) {
 
 /// mm, rows of a grain's nodes.
 const double* positions_of(const Model& model, int grain) {
-  return model.position.data() + 4 * model.node_offset[static_cast<std::size_t>(grain)];
+  return model.position.data() + 4 * static_cast<std::size_t>(model.node_offset[static_cast<std::size_t>(grain)]);
 }
 
 // flatten: everything below is inlined here. In calls, packs go through memory, which takes 1.2 times as long.
@@ -34,9 +34,9 @@ MPFEM_FLATTEN ElementSums element_pass(Model& model, int grain, double time_step
   using S = TetPack<Real>;
   constexpr int W = TetBlock<Real>::lanes;
   const auto g = static_cast<std::size_t>(grain);
-  const std::int32_t first_node = model.node_offset[g];
+  const auto first_node = static_cast<std::size_t>(model.node_offset[g]);
   double* force = model.force.data() + 4 * first_node;
-  std::fill(force, force + 4 * (model.node_offset[g + 1] - first_node), 0.0);
+  std::fill(force, force + 4 * (static_cast<std::size_t>(model.node_offset[g + 1]) - first_node), 0.0);
 
   const Material& material = model.material_of(grain);
   const TetConstants constants{material.moduli, model.viscosity, material.wave_speed, material.density, time_step};

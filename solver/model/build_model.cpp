@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 #include <span>
 #include <utility>
@@ -268,7 +269,13 @@ void join_grains(const std::vector<GrainParts>& parts, Model& model, const Commu
     facets[at(model.own()[i])] = static_cast<Index>(parts[i].facets.size());
   share(facets);
   model.facet_offset.assign(1, 0);
-  for (const Index count : facets) model.facet_offset.push_back(model.facet_offset.back() + count);
+  std::int64_t all = 0;
+  for (const Index count : facets) {
+    if ((all += count) > std::numeric_limits<Index>::max())
+      throw InputError(fmt::format("found more than {} facets of surfaces, allowed: fewer; use a coarser mesh",
+                                   std::numeric_limits<Index>::max()));
+    model.facet_offset.push_back(static_cast<Index>(all));
+  }
   model.facet = LazyArray<Index>(3 * at(model.facets()), model.pages());
   for (std::size_t i = 0; i < parts.size(); ++i) {
     Index* corner = model.facet.data() + 3 * at(model.facet_offset[at(model.own()[i])]);
