@@ -114,6 +114,12 @@ StageType read_probe(TableReader& table) {
     table.fail("direction", "allowed: two numbers, [dp, dq], not both 0");
   probe.direction = {direction[0], direction[1]};
   probe.ends = read_ends(table, "probe");
+  const auto [dp, dq] = probe.direction;
+  const auto refuse = [&](const char* key, const char* component) {
+    table.fail(key, fmt::format("cannot end a probe with {} = 0 in 'direction', allowed: other ends", component));
+  };
+  if (probe.ends.mean_stress && dp == 0) refuse("mean_stress", "dp");
+  if (probe.ends.deviatoric_stress && dq == 0) refuse("deviatoric_stress", "dq");
   return probe;
 }
 

@@ -120,9 +120,8 @@ void StressProbeControl::drive(const ObservedSample& seen) {
 LoadingEnd StressProbeControl::find_end(const ObservedSample& seen) const {
   const auto [dp, dq] = stage_.direction;
   if (ends_.axial_strain && std::abs(seen.strain[2]) >= std::abs(*ends_.axial_strain)) return LoadingEnd::axial_strain;
-  if (ends_.mean_stress && dp * (seen.mean_stress - *ends_.mean_stress) >= 0 && dp != 0) return LoadingEnd::mean_stress;
-  if (ends_.deviatoric_stress && dq != 0 &&
-      (dq < 0 ? -1.0 : 1.0) * (seen.deviatoric_stress - *ends_.deviatoric_stress) >= 0)
+  if (ends_.mean_stress && dp * (seen.mean_stress - *ends_.mean_stress) >= 0) return LoadingEnd::mean_stress;
+  if (ends_.deviatoric_stress && (dq < 0 ? -1.0 : 1.0) * (seen.deviatoric_stress - *ends_.deviatoric_stress) >= 0)
     return LoadingEnd::deviatoric_stress;
   return common_end(seen);
 }

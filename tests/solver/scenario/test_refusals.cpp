@@ -98,6 +98,8 @@ TEST_CASE("keys of loadings are checked like all others") {
       {"type = 'probe'\nwall_speed = 1\ndissipation_ratio = 1.1\ndirection = [1]", {"direction", "two numbers"}},
       {"type = 'probe'\nwall_speed = 1\ndissipation_ratio = 1.1\ndirection = [0, 0]", {"direction", "not both 0"}},
       {"type = 'probe'\nwall_speed = 1\ndissipation_ratio = 0.9\ndirection = [1, 0]", {"dissipation_ratio", "> 1"}},
+      {"type = 'probe'\nwall_speed = 1\nmean_stress = 9\ndirection = [0, 1]", {"mean_stress", "dp = 0"}},
+      {"type = 'probe'\nwall_speed = 1\ndeviatoric_stress = 9\ndirection = [-1, 0]", {"deviatoric_stress", "dq = 0"}},
       {"type = 'stress_cycles'\nwall_speed = 1\nlowest_mean_stress = 5\nhighest_mean_stress = 5\ncycles = 1",
        {"lowest_mean_stress", "5"}},
       {"type = 'stress_cycles'\nwall_speed = 1\nlowest_mean_stress = 1\nhighest_mean_stress = 5\ncycles = 0",
