@@ -123,7 +123,7 @@ std::vector<Place> places_to_compare(const Model& model, const Communicator& ran
   for (const Index g : model.own())
     for (Index n = model.node_offset[at(g)]; n < model.node_offset[at(g)] + model.surface_node_count[at(g)]; ++n) {
       const double* x = &model.position[4 * at(n)];
-      const Place place{{x[0], x[1], x[2]}, g};
+      const Place place{{x[0] + 0.0, x[1] + 0.0, x[2] + 0.0}, g}; // -0 becomes 0: the hash tells them apart
       if (ranks.alone())
         places.push_back(place);
       else
