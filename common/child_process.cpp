@@ -47,7 +47,7 @@ bool read_until_end(int pipe, double seconds, std::string& output) {
     constexpr long longest_wait = 60'000;
     if (poll(&ready, 1, static_cast<int>(std::min<long>(left, longest_wait))) <= 0) continue;
     const ssize_t count = read(pipe, buffer.data(), buffer.size());
-    if (count == 0) return true;
+    if (count == 0 || (count < 0 && errno != EINTR)) return true;
     if (count > 0) output.append(buffer.data(), static_cast<std::size_t>(count));
   }
 }
@@ -58,7 +58,10 @@ ChildEnd run_in_child(const std::function<void(const std::function<void(std::str
   std::array<int, 2> ends{};
   if (pipe(ends.data()) != 0) throw std::runtime_error("cannot open a pipe to a child process");
   const pid_t child = fork();
-  if (child < 0) throw std::runtime_error("cannot start a child process");
+  if (child < 0) {
+    close(ends[0]), close(ends[1]);
+    throw std::runtime_error("cannot start a child process");
+  }
   if (child == 0) {
     close(ends[0]);
     be_child(body, ends[1]);
