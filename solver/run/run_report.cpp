@@ -137,8 +137,8 @@ void RunReport::profile(std::span<const PartTime> parts, double wall_time, doubl
   if (quiet_) return;
   fmt::print(stderr, "{:<24} {:>12} {:>8} {:>15}\n", "part", "wall time, s", "share", "ns per tet-step");
   const auto line = [&](const std::string& name, double seconds) {
-    fmt::print(stderr, "{:<24} {:>12.2f} {:>7.1f}% {:>15.2f}\n", name, seconds, 100 * seconds / wall_time,
-               1e9 * seconds / tet_steps);
+    const std::string of_tet_step = tet_steps > 0 ? fmt::format("{:.2f}", 1e9 * seconds / tet_steps) : "–";
+    fmt::print(stderr, "{:<24} {:>12.2f} {:>7.1f}% {:>15}\n", name, seconds, 100 * seconds / wall_time, of_tet_step);
   };
   for (const PartTime& part : parts) line(part.name, part.seconds);
   line("total", wall_time);
