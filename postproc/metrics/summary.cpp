@@ -227,7 +227,7 @@ std::string to_csv(const Summary& summary) {
   std::string text = "name,value\n";
   const auto json = to_json(summary);
   for (const auto& [name, value] : json.items())
-    if (value.is_number()) text += fmt::format("{},{}\n", name, value.dump());
+    if (value.is_number() && std::isfinite(value.get<double>())) text += fmt::format("{},{}\n", name, value.dump());
   return text;
 }
 
