@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <fstream>
 #include <numeric>
+#include <stdexcept>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -88,7 +89,7 @@ Quantity taken(const QuantitySpec& q, const TextTable& table, const std::vector<
   }
   if (entries.size() > 1)
     q.place.fail(fmt::format("quantity '{}': {} rows of table '{}' match, allowed: one, or 'take' with first, last, "
-                             "smallest, largest, mean, sum, count, spread or list",
+                             "before_last, smallest, largest, mean, sum, count, spread or list",
                              q.name, entries.size(), q.table));
   return of(entries.front());
 }
@@ -287,7 +288,8 @@ std::optional<bool> holds(const ConditionSpec& c, const StatementSpec& statement
   if (c.predicate == "at_most") return *value <= operands[0];
   if (c.predicate == "above") return *value > operands[0];
   if (c.predicate == "below") return *value < operands[0];
-  return *value >= operands[0] && *value <= operands[1]; // between
+  if (c.predicate == "between") return *value >= operands[0] && *value <= operands[1];
+  throw std::logic_error("a predicate of statements without a rule: " + c.predicate);
 }
 
 Json judge(const StatementSpec& statement, FigureData& data) {
