@@ -35,21 +35,15 @@ struct Arguments {
   RunOptions run;
 };
 
-/// Whether a key names a file: the packing, or the surface of a tool.
-bool names_file(std::string_view key) {
-  return key == "packing" || (key.starts_with("tools.") && key.ends_with(".file"));
-}
-
-/// A file named on the command line is relative to the working folder, one in the scenario to the scenario's folder:
-/// the former is rewritten to be like the latter.
+/// A packing on the command line is relative to the working folder, one in the scenario to the scenario's folder: the
+/// former is rewritten to be like the latter.
 std::string relative_to_scenario(const std::string& assignment, const std::string& scenario) {
-  const std::size_t equals = assignment.find('=');
-  if (equals == std::string::npos || !names_file(std::string_view(assignment).substr(0, equals))) return assignment;
-  const std::string key = assignment.substr(0, equals + 1);
-  const std::filesystem::path path = assignment.substr(equals + 1);
+  constexpr std::string_view key = "packing=";
+  if (!assignment.starts_with(key)) return assignment;
+  const std::filesystem::path path = assignment.substr(key.size());
   if (path.empty() || path.is_absolute()) return assignment;
   const auto folder = std::filesystem::absolute(scenario).lexically_normal().parent_path();
-  return key + std::filesystem::absolute(path).lexically_normal().lexically_proximate(folder).string();
+  return std::string(key) + std::filesystem::absolute(path).lexically_normal().lexically_proximate(folder).string();
 }
 
 Scenario load_scenario(const Arguments& arguments) {

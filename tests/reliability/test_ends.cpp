@@ -213,15 +213,3 @@ TEST_CASE("a run whose standard streams are closed writes no message into its fi
   CHECK(results(folder / "closed.h5") == results(folder / "open.h5"));
   CHECK(schema::validate(folder / "closed.h5").empty());
 }
-
-TEST_CASE("a tool's file on the command line is relative to the working folder, one in the scenario to its folder") {
-  const Folder folder;
-  prepare(folder, 3, pressed + "[[tools]]\nname = \"body\"\ntype = \"stl\"\nfile = \"none.stl\"\nscale = 1\n");
-  CHECK_THAT(run_stages(folder, "run.h5").messages, Catch::Contains("none.stl: no such file"));
-  write_text(folder / "empty.stl", "solid\n");
-  const std::string path = fs::relative(folder / "empty.stl").string();
-  const Outcome outcome = run_stages(folder, "run.h5", "--set tools.0.file=" + path);
-  INFO(outcome.messages);
-  CHECK(outcome.exit_code == 2);
-  CHECK_THAT(outcome.messages, Catch::Contains("empty.stl:2: "));
-}
