@@ -219,7 +219,8 @@ goals := $(or $(MAKECMDGOALS),help)
 ifneq ($(filter-out help clean clean-figures,$(goals)),)
 # postproc is not a prerequisite: make -B -n, with which times.sh lists runs, would execute its rule.
 $(declared): FORCE
-	@[ -x $(BIN)/postproc ] || { echo '$(makefile): $(BIN)/postproc is not built; ./bootstrap build builds it' >&2; exit 1; }
+	@[ -x $(BIN)/postproc ] || \
+	  { echo '$(makefile): $(BIN)/postproc is not built; ./bootstrap build builds it' >&2; exit 1; }
 	@mkdir -p $(@D)
 	@$(if $(STUDY),printf '%s\n' '$(subst ','\'',$(study_path))' > $(study_record))
 	@$(BIN)/postproc depends $(declared_sources) $(of_mesh) --meshes $(subst $(space),$(comma),$(meshes)) \

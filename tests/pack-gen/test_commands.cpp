@@ -556,7 +556,7 @@ TEST_CASE("quality reports named numbers, a table of sizes, and their distance f
   CHECK(number("size_distance") > 0);
   CHECK(number("size_distance") < 0.2); // sizes were scaled to reach the density
   CHECK(number("tets_per_grain") == Approx(number("tets") / 11).epsilon(1e-12));
-  CHECK(read_text(folder / "target.csv") == "diameter_mm,cumulative_number\n0.100,0.000\n0.200,1.000\n");
+  CHECK(read_text(folder / "target.csv") == "diameter_mm,cumulative_number\n0.1,0\n0.2,1\n");
   const std::string sizes = read_text(folder / "sizes.csv");
   CHECK(std::count(sizes.begin(), sizes.end(), '\n') == 12);
   CHECK_THAT(sizes, Catch::EndsWith("0.954545455\n")); // 10.5/11
