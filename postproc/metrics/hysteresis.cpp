@@ -152,49 +152,62 @@ Hysteresis hysteresis(std::span<const double> mean_stress, std::span<const doubl
   return h;
 }
 
+namespace {
+
+/// A cycle in its table.
+struct CycleOfTable {
+  const CycleResult& result;
+  const CycleResult& before; ///< of the first cycle: itself, so no change
+  std::size_t place = 0;     ///< in the list of cycles
+  std::size_t number = 0;    ///< of whole cycles, from 1; 0: a first loading that is not whole
+  std::size_t first_row = 0; ///< of the stage, in the history
+};
+
+struct CycleColumn {
+  const char *name, *unit;
+  double (*value)(const CycleOfTable&);
+};
+
+double number(std::size_t value) {
+  return static_cast<double>(value);
+}
+
+constexpr CycleColumn cycle_columns[] = {
+    {"cycle", "1", [](const CycleOfTable& c) { return number(c.number); }},
+    {"first_row", "1", [](const CycleOfTable& c) { return number(c.first_row + c.result.rows.begin); }},
+    {"top_row", "1", [](const CycleOfTable& c) { return number(c.first_row + c.result.rows.top); }},
+    {"last_row", "1", [](const CycleOfTable& c) { return number(c.first_row + c.result.rows.end); }},
+    {"lowest_mean_stress", "MPa", [](const CycleOfTable& c) { return c.result.lowest_stress; }},
+    {"highest_mean_stress", "MPa", [](const CycleOfTable& c) { return c.result.highest_stress; }},
+    {"loop_area", "MPa", [](const CycleOfTable& c) { return c.result.area; }},
+    {"loop_area_uncertainty", "MPa", [](const CycleOfTable& c) { return c.result.area_uncertainty; }},
+    {"relative_density_at_low_stress", "1", [](const CycleOfTable& c) { return c.result.density_at_low; }},
+    {"relative_density_at_high_stress", "1", [](const CycleOfTable& c) { return c.result.density_at_high; }},
+    {"plastic_dissipation", "mJ", [](const CycleOfTable& c) { return c.result.plastic; }},
+    {"damage_dissipation", "mJ", [](const CycleOfTable& c) { return c.result.damage; }},
+    {"relative_density_at_low_stress_uncertainty", "1",
+     [](const CycleOfTable& c) { return c.result.density_at_low_uncertainty; }},
+    {"relative_density_at_high_stress_uncertainty", "1",
+     [](const CycleOfTable& c) { return c.result.density_at_high_uncertainty; }},
+    {"plastic_dissipation_uncertainty", "mJ", [](const CycleOfTable& c) { return c.result.plastic_uncertainty; }},
+    {"damage_dissipation_uncertainty", "mJ", [](const CycleOfTable& c) { return c.result.damage_uncertainty; }},
+    {"cycles_before", "1", [](const CycleOfTable& c) { return number(c.place); }},
+    {"change_of_density_at_low_stress", "1",
+     [](const CycleOfTable& c) { return c.result.density_at_low - c.before.density_at_low; }},
+    {"change_of_density_at_high_stress", "1",
+     [](const CycleOfTable& c) { return c.result.density_at_high - c.before.density_at_high; }},
+};
+
+} // namespace
+
 std::vector<Column> cycle_table(const Hysteresis& h, std::size_t first_row) {
-  std::vector<Column> columns = {{"cycle", "1", {}},
-                                 {"first_row", "1", {}},
-                                 {"top_row", "1", {}},
-                                 {"last_row", "1", {}},
-                                 {"lowest_mean_stress", "MPa", {}},
-                                 {"highest_mean_stress", "MPa", {}},
-                                 {"loop_area", "MPa", {}},
-                                 {"loop_area_uncertainty", "MPa", {}},
-                                 {"relative_density_at_low_stress", "1", {}},
-                                 {"relative_density_at_high_stress", "1", {}},
-                                 {"plastic_dissipation", "mJ", {}},
-                                 {"damage_dissipation", "mJ", {}},
-                                 {"relative_density_at_low_stress_uncertainty", "1", {}},
-                                 {"relative_density_at_high_stress_uncertainty", "1", {}},
-                                 {"plastic_dissipation_uncertainty", "mJ", {}},
-                                 {"damage_dissipation_uncertainty", "mJ", {}},
-                                 {"cycles_before", "1", {}},
-                                 {"change_of_density_at_low_stress", "1", {}},
-                                 {"change_of_density_at_high_stress", "1", {}}};
-  for (std::size_t i = 0; i < h.cycles.size(); ++i) {
-    const CycleResult& c = h.cycles[i];
-    const CycleResult& before = h.cycles[i > 0 ? i - 1 : 0]; // for the first row: itself, so no change
-    const double row[] = {static_cast<double>(h.cycles.front().rows.whole ? i + 1 : i),
-                          static_cast<double>(first_row + c.rows.begin),
-                          static_cast<double>(first_row + c.rows.top),
-                          static_cast<double>(first_row + c.rows.end),
-                          c.lowest_stress,
-                          c.highest_stress,
-                          c.area,
-                          c.area_uncertainty,
-                          c.density_at_low,
-                          c.density_at_high,
-                          c.plastic,
-                          c.damage,
-                          c.density_at_low_uncertainty,
-                          c.density_at_high_uncertainty,
-                          c.plastic_uncertainty,
-                          c.damage_uncertainty,
-                          static_cast<double>(i),
-                          c.density_at_low - before.density_at_low,
-                          c.density_at_high - before.density_at_high};
-    for (std::size_t k = 0; k < columns.size(); ++k) columns[k].values.push_back(row[k]);
+  const std::size_t number_of_first = h.cycles.front().rows.whole ? 1 : 0;
+  std::vector<Column> columns;
+  for (const CycleColumn& column : cycle_columns) {
+    columns.push_back({column.name, column.unit, {}});
+    for (std::size_t i = 0; i < h.cycles.size(); ++i)
+      columns.back().values.push_back(
+          column.value({h.cycles[i], h.cycles[i > 0 ? i - 1 : 0], i, number_of_first + i, first_row}));
   }
   return columns;
 }
