@@ -23,35 +23,27 @@ struct Halves {
   double change() const { return std::abs(second - first); }
 };
 
-/// Rows [begin, end] of a curve.
-struct Rows {
-  std::size_t begin, end;
-  std::size_t count() const { return end - begin + 1; }
-  std::span<const double> of(const std::vector<double>& column) const {
-    return std::span<const double>(column).subspan(begin, count());
-  }
-};
-
-bool strain_rises(const StageCurve& c, Rows rows) {
-  const std::size_t middle = (rows.begin + rows.end) / 2;
-  return c.axial_strain[middle] > c.axial_strain[rows.begin] && c.axial_strain[rows.end] > c.axial_strain[middle];
+bool strain_rises(const StageCurve& c, RowRange rows) {
+  const std::size_t middle = (rows.first + rows.last) / 2;
+  return c.axial_strain[middle] > c.axial_strain[rows.first] && c.axial_strain[rows.last] > c.axial_strain[middle];
 }
 
-Halves halves_of(const StageCurve& c, Rows rows) {
-  const std::size_t middle = (rows.begin + rows.end) / 2;
-  const auto line = [&](Rows part) { return least_squares_line(part.of(c.axial_strain), part.of(c.axial_stress)); };
-  const Line first = line({rows.begin, middle}), second = line({middle, rows.end});
+Halves halves_of(const StageCurve& c, RowRange rows) {
+  const std::size_t middle = (rows.first + rows.last) / 2;
+  const auto line = [&](RowRange part) { return least_squares_line(part.of(c.axial_strain), part.of(c.axial_stress)); };
+  const Line first = line({rows.first, middle}), second = line({middle, rows.last});
   const auto deviation = [&](const Line& half, std::size_t count) {
     return count > 2 ? half.slope_half_width / student_t_95(count - 2) : 0.0;
   };
   return {first.slope, second.slope, line(rows).slope,
-          std::hypot(deviation(first, middle - rows.begin + 1), deviation(second, rows.end - middle + 1))};
+          std::hypot(deviation(first, middle - rows.first + 1), deviation(second, rows.last - middle + 1))};
 }
 
 struct Choice {
-  Rows rows;
+  RowRange rows;
   std::string limit; ///< what ends the window
   std::string note;  ///< what a reader must know about it; may be empty
+  bool meets_rule = true;
 };
 
 Choice window_by_hand(const StageCurve& c, std::array<double, 2> range) {
@@ -70,9 +62,9 @@ Choice window_by_hand(const StageCurve& c, std::array<double, 2> range) {
 
 /// The rise of the smoothed stress from its lowest value to its peak, in which a window is sought.
 struct Rise {
-  Rows rows;
+  RowRange rows;
   std::vector<double> smooth; ///< MPa, of all rows
-  double over(Rows part) const { return smooth[part.end] - smooth[part.begin]; }
+  double over(RowRange part) const { return smooth[part.last] - smooth[part.first]; }
 };
 
 /// Throws InputError where the stage is not an axial loading.
@@ -93,18 +85,18 @@ Rise find_rise(const StageCurve& c) {
 }
 
 /// The rows that a window may span by the rule's share of the rise.
-Rows allowed_rows(const Rise& rise, const ModulusRule& rule) {
-  const double highest = rise.smooth[rise.rows.begin] + rule.stress_fraction * rise.over(rise.rows);
-  std::size_t end = rise.rows.begin;
-  while (end < rise.rows.end && rise.smooth[end + 1] <= highest) ++end;
-  return {rise.rows.begin, std::max(end, rise.rows.begin + shortest_window - 1)};
+RowRange allowed_rows(const Rise& rise, const ModulusRule& rule) {
+  const double highest = rise.smooth[rise.rows.first] + rule.stress_fraction * rise.over(rise.rows);
+  std::size_t end = rise.rows.first;
+  while (end < rise.rows.last && rise.smooth[end + 1] <= highest) ++end;
+  return {rise.rows.first, std::max(end, rise.rows.first + shortest_window - 1)};
 }
 
 /// The longest window, from the first of the allowed rows, in which damage and change of slope meet the rule.
-std::optional<Choice> longest_window_in(const StageCurve& c, const ModulusRule& rule, Rows allowed) {
+std::optional<Choice> longest_window_in(const StageCurve& c, const ModulusRule& rule, RowRange allowed) {
   std::string ended_by = fmt::format("{:g} % of the rise in stress", 100 * rule.stress_fraction);
-  const std::size_t first = allowed.begin;
-  for (std::size_t last = allowed.end; last + 1 >= first + shortest_window; --last) {
+  const std::size_t first = allowed.first;
+  for (std::size_t last = allowed.last; last + 1 >= first + shortest_window; --last) {
     const double damage = c.damage_dissipation[last] - c.damage_dissipation[first];
     if (damage > rule.damage_share * (c.axial_work[last] - c.axial_work[first])) {
       ended_by = fmt::format("damage above {:g} % of the axial work", 100 * rule.damage_share);
@@ -121,16 +113,17 @@ std::optional<Choice> longest_window_in(const StageCurve& c, const ModulusRule& 
 /// Window without the toe, where the slope still grows over the first fifth of the rise: there not all of the sample
 /// responds elastically yet. The window begins at the first row from which it spans a fifth of the rise. Empty without
 /// a toe.
-std::optional<Choice> window_after_toe(const StageCurve& c, const ModulusRule& rule, const Rise& rise, Rows allowed) {
+std::optional<Choice> window_after_toe(const StageCurve& c, const ModulusRule& rule, const Rise& rise,
+                                       RowRange allowed) {
   const double fifth = 0.2 * rise.over(rise.rows);
-  Rows toe{allowed.begin, allowed.begin + shortest_window - 1};
-  while (toe.end < allowed.end && rise.smooth[toe.end] < rise.smooth[toe.begin] + fifth) ++toe.end;
+  RowRange toe{allowed.first, allowed.first + shortest_window - 1};
+  while (toe.last < allowed.last && rise.smooth[toe.last] < rise.smooth[toe.first] + fifth) ++toe.last;
   if (!strain_rises(c, toe)) return {};
   const Halves slopes = halves_of(c, toe);
   if (!(slopes.second - slopes.first > rule.slope_change * slopes.whole + 2 * slopes.deviation)) return {};
-  for (std::size_t first = allowed.begin + 1; first + shortest_window <= allowed.end + 1; ++first)
-    if (auto choice = longest_window_in(c, rule, {first, allowed.end}); choice && rise.over(choice->rows) >= fifth) {
-      choice->note = fmt::format("the slope grows at first: {} rows of this toe are left out", first - allowed.begin);
+  for (std::size_t first = allowed.first + 1; first + shortest_window <= allowed.last + 1; ++first)
+    if (auto choice = longest_window_in(c, rule, {first, allowed.last}); choice && rise.over(choice->rows) >= fifth) {
+      choice->note = fmt::format("the slope grows at first: {} rows of this toe are left out", first - allowed.first);
       return choice;
     }
   return {};
@@ -138,22 +131,23 @@ std::optional<Choice> window_after_toe(const StageCurve& c, const ModulusRule& r
 
 /// For the case that no window meets the rule.
 Choice shortest_window_at(const StageCurve& c, const ModulusRule& rule, std::size_t begin) {
-  const Rows shortest{begin, begin + shortest_window - 1};
+  const RowRange shortest{begin, begin + shortest_window - 1};
   if (!strain_rises(c, shortest))
     throw InputError(fmt::format("{}: stage {}: the axial strain does not rise over the {} rows after its lowest axial "
                                  "stress, allowed: an axial compression",
                                  c.path, c.stage, shortest_window));
   return {shortest, "nothing: no window meets the rule",
           fmt::format("no window meets the rule for slope ({:g} %) and damage ({:g} %): the first {} rows",
-                      100 * rule.slope_change, 100 * rule.damage_share, shortest_window)};
+                      100 * rule.slope_change, 100 * rule.damage_share, shortest_window),
+          false};
 }
 
 Choice window_by_rule(const StageCurve& c, const ModulusRule& rule) {
   const Rise rise = find_rise(c);
-  const Rows allowed = allowed_rows(rise, rule);
+  const RowRange allowed = allowed_rows(rise, rule);
   if (const auto choice = window_after_toe(c, rule, rise, allowed)) return *choice;
   if (const auto choice = longest_window_in(c, rule, allowed)) return *choice;
-  return shortest_window_at(c, rule, allowed.begin);
+  return shortest_window_at(c, rule, allowed.first);
 }
 
 /// Leaves out rows at regular intervals, so that at most `longest_window` are left.
@@ -168,7 +162,7 @@ std::vector<double> thinned(std::span<const double> values) {
 
 Measurement modulus(const StageCurve& c, const ModulusRule& rule) {
   const Choice choice = rule.strain_range ? window_by_hand(c, *rule.strain_range) : window_by_rule(c, rule);
-  const Rows rows = choice.rows;
+  const RowRange rows = choice.rows;
   const Line line = theil_sen_line(thinned(rows.of(c.axial_strain)), thinned(rows.of(c.axial_stress)));
   if (!(line.slope > 0))
     throw InputError(fmt::format("{}: stage {}: the axial stress does not rise with the axial strain (slope {:.3g} MPa "
@@ -183,10 +177,10 @@ Measurement modulus(const StageCurve& c, const ModulusRule& rule) {
   m.uncertainty_meaning = "half of the slope's 95 % interval and the difference of the halves' slopes, in quadrature";
   m.window.stage = c.stage;
   m.window.stage_type = c.type;
-  m.window.first_row = c.first_row + rows.begin;
-  m.window.last_row = c.first_row + rows.end;
-  m.window.strain = {c.axial_strain[rows.begin], c.axial_strain[rows.end]};
-  m.window.stress = range_of(c.axial_stress, rows.begin, rows.end);
+  m.window.first_row = c.first_row + rows.first;
+  m.window.last_row = c.first_row + rows.last;
+  m.window.strain = {c.axial_strain[rows.first], c.axial_strain[rows.last]};
+  m.window.stress = range_of(c.axial_stress, rows.first, rows.last);
   m.method =
       fmt::format("Theil-Sen slope of axial stress over {} rows; the window ends with {}", rows.count(), choice.limit);
   m.details = {{"half_of_95_percent_interval_MPa", line.slope_half_width},
@@ -195,10 +189,10 @@ Measurement modulus(const StageCurve& c, const ModulusRule& rule) {
                {"scatter_of_stress_MPa", line.scatter},
                {"damage_over_axial_work", nullptr},
                {"unconfined", c.unconfined},
-               {"window_meets_rule", !choice.note.starts_with("no window")},
+               {"window_meets_rule", choice.meets_rule},
                {"relative_density_at_start", c.relative_density.front()}};
-  if (const double work = c.axial_work[rows.end] - c.axial_work[rows.begin]; work > 0)
-    m.details["damage_over_axial_work"] = (c.damage_dissipation[rows.end] - c.damage_dissipation[rows.begin]) / work;
+  if (const double work = c.axial_work[rows.last] - c.axial_work[rows.first]; work > 0)
+    m.details["damage_over_axial_work"] = (c.damage_dissipation[rows.last] - c.damage_dissipation[rows.first]) / work;
   m.brief = fmt::format("axial strain {:.4g} … {:.4g}, window ends with {}", m.window.strain[0], m.window.strain[1],
                         choice.limit);
   if (!choice.note.empty()) m.notes.push_back(choice.note);
