@@ -8,6 +8,7 @@
 #include "common/errors.hpp"
 #include "common/one_line.hpp"
 #include "postproc/files/text_file.hpp"
+#include "postproc/run_data/snapshot.hpp"
 
 namespace mpfem {
 
@@ -46,13 +47,9 @@ struct GrainNodes {
 
 /// Throws InputError where the offsets do not fit the nodes.
 GrainNodes read_nodes(const schema::FileReader& file, const std::string& snapshot) {
-  GrainNodes nodes{file.read(run::mesh_grain_node_offset), file.read(run::snapshots_node, snapshot)};
-  const auto& offset = nodes.offset;
-  const auto count = static_cast<std::int32_t>(nodes.node.size() / 3);
-  if (offset.empty() || offset.front() != 0 || offset.back() != count || !std::is_sorted(offset.begin(), offset.end()))
-    throw InputError(fmt::format("{}: dataset /mesh/grain_node_offset does not rise from 0 to the number of nodes, {}",
-                                 one_line(file.path()), count));
-  return nodes;
+  std::vector<float> node = file.read(run::snapshots_node, snapshot);
+  std::vector<std::int32_t> offset = grain_node_offsets(file, node.size() / 3);
+  return {std::move(offset), std::move(node)};
 }
 
 /// Mean position of a grain's nodes, mm.

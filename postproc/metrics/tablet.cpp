@@ -272,18 +272,6 @@ std::string pressed_snapshot(const Tablet& tablet) {
   return last;
 }
 
-std::vector<std::int32_t> grain_of_nodes(const schema::FileReader& file, std::size_t nodes) {
-  const auto offset = file.read(schema::run::mesh_grain_node_offset);
-  std::vector<std::int32_t> grain(nodes);
-  if (offset.empty() || offset.front() != 0 || static_cast<std::size_t>(offset.back()) != nodes ||
-      !std::is_sorted(offset.begin(), offset.end()))
-    throw InputError(fmt::format("{}: dataset /mesh/grain_node_offset does not rise from 0 to the number of nodes, {}",
-                                 one_line(file.path()), nodes));
-  for (std::size_t g = 0; g + 1 < offset.size(); ++g)
-    std::fill(grain.begin() + offset[g], grain.begin() + offset[g + 1], static_cast<std::int32_t>(g));
-  return grain;
-}
-
 /// Volume (mm^3) of all grains before they were pressed.
 double grain_volume(const Tablet& tablet) {
   const std::size_t row = tablet.peak.row;
@@ -313,7 +301,7 @@ std::optional<TabletShape> shape_out_of_die(Tablet& tablet) {
   const auto index = std::find(names.begin(), names.end(), pressed_name) - names.begin();
   const Snapshot pressed = read_snapshot(tablet.file, static_cast<int>(index)),
                  later = read_snapshot(tablet.file, number);
-  const std::vector<std::int32_t> grain = grain_of_nodes(tablet.file, pressed.nodes());
+  const std::vector<std::int32_t> grain = grain_of_each(grain_node_offsets(tablet.file, pressed.nodes()));
   const auto grains = static_cast<double>(tablet.file.rows(schema::run::mesh_grain_node_offset) - 1);
   const double mean_diameter = std::cbrt(6 * grain_volume(tablet) / (std::numbers::pi * grains));
   const TabletShapeRule rule{tablet.rule.face_distance.value_or(mean_diameter / 20), mean_diameter / 2};

@@ -14,16 +14,19 @@ namespace mpfem {
 
 namespace {
 
+/// Refuses offsets of grains that do not rise from 0 to `count`, the number of `items`.
+void check_offsets(const std::vector<std::int32_t>& offset, std::size_t count, const char* dataset, const char* items,
+                   const std::string& path) {
+  if (offset.empty() || offset.front() != 0 || static_cast<std::size_t>(offset.back()) != count ||
+      !std::is_sorted(offset.begin(), offset.end()))
+    throw InputError(
+        fmt::format("{}: dataset /mesh/{} does not rise from 0 to the number of {}, {}", path, dataset, items, count));
+}
+
 std::vector<std::int32_t> grain_of_tets(const std::vector<std::int32_t>& offset, std::size_t tets,
                                         const std::string& path) {
-  if (offset.empty() || offset.front() != 0 || static_cast<std::size_t>(offset.back()) != tets ||
-      !std::is_sorted(offset.begin(), offset.end()))
-    throw InputError(fmt::format(
-        "{}: dataset /mesh/grain_tet_offset does not rise from 0 to the number of tetrahedra, {}", path, tets));
-  std::vector<std::int32_t> grain(tets);
-  for (std::size_t g = 0; g + 1 < offset.size(); ++g)
-    std::fill(grain.begin() + offset[g], grain.begin() + offset[g + 1], static_cast<std::int32_t>(g));
-  return grain;
+  check_offsets(offset, tets, "grain_tet_offset", "tetrahedra", path);
+  return grain_of_each(offset);
 }
 
 void check_tets(const Snapshot& s, const std::string& path) {
@@ -78,6 +81,19 @@ std::string snapshot_name(const schema::FileReader& file, int number) {
     throw InputError(fmt::format("{}: no snapshot {}, allowed: 0 … {}, or -1 for the last", one_line(file.path()),
                                  number, count - 1));
   return names[static_cast<std::size_t>(index)];
+}
+
+std::vector<std::int32_t> grain_node_offsets(const schema::FileReader& file, std::size_t nodes) {
+  std::vector<std::int32_t> offset = file.read(schema::run::mesh_grain_node_offset);
+  check_offsets(offset, nodes, "grain_node_offset", "nodes", one_line(file.path()));
+  return offset;
+}
+
+std::vector<std::int32_t> grain_of_each(const std::vector<std::int32_t>& offset) {
+  std::vector<std::int32_t> grain(static_cast<std::size_t>(offset.back()));
+  for (std::size_t g = 0; g + 1 < offset.size(); ++g)
+    std::fill(grain.begin() + offset[g], grain.begin() + offset[g + 1], static_cast<std::int32_t>(g));
+  return grain;
 }
 
 Snapshot read_snapshot(const schema::FileReader& file, int number) {

@@ -46,4 +46,9 @@ Snapshot read_packing_snapshot(const std::string& path);
 /// The name of snapshot `number` of a run file. Throws InputError where there is none.
 std::string snapshot_name(const schema::FileReader& file, int number);
 
+/// [grains + 1]: the first node of each grain, then `nodes`. Throws InputError if the file's do not rise so.
+std::vector<std::int32_t> grain_node_offsets(const schema::FileReader& file, std::size_t nodes);
+/// The grain of each node or tetrahedron, from offsets of grains that rise from 0 to the number of these.
+std::vector<std::int32_t> grain_of_each(const std::vector<std::int32_t>& offset);
+
 } // namespace mpfem
