@@ -46,7 +46,7 @@ Columns read_columns(TableReader& table, const std::string& description_file, bo
     if (table.has(key)) table.fail(key, "cannot be used with key 'file', allowed: one of the two");
   const std::string path = named_file(table, "file", description_file, files);
   std::vector<CsvColumn> names = {{"size", positive_length}};
-  if (with_cumulative) names.push_back({"cumulative", Range::between(0, 1)});
+  if (with_cumulative) names.push_back({"cumulative", Range::between(0, 1), "1"});
   const auto rows = made_from(table, "file", [&] { return read_csv(CsvReader::from_file(path), names); });
   Columns columns;
   for (const auto& row : rows) {

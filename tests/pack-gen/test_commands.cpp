@@ -561,7 +561,7 @@ TEST_CASE("quality reports named numbers, a table of sizes, and their distance f
   CHECK(std::count(sizes.begin(), sizes.end(), '\n') == 12);
   CHECK_THAT(sizes, Catch::EndsWith("0.954545455\n")); // 10.5/11
   // Sizes that are radii, from a file.
-  write_text(folder / "radii.csv", "0.05,0\n0.1,1\n");
+  write_text(folder / "radii.csv", "size [mm],cumulative [1]\n0.05,0\n0.1,1\n");
   write_text(folder / "pack.toml", replaced(replaced(description, "\"diameter\"", "\"radius\""),
                                             "values = [0.1, 0.2]\ncumulative = [0, 1]", "file = \"radii.csv\""));
   REQUIRE(pack_gen(fmt::format("{} --quiet --description {} --target {}", quality, folder / "pack.toml",
