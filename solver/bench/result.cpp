@@ -121,6 +121,7 @@ void add_rest_fields(Fields& fields, const BenchResult& r) {
 
 void add_fields_of_ranks(Fields& fields, const BenchResult& r) {
   fields.push_back(number("sent_bytes_per_step", r.sent));
+  fields.push_back(number("message_wait_ns_per_tet_step", r.waited));
   fields.push_back(number("memory_bytes_of_first_rank", r.memory_of_root));
 }
 

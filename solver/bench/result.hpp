@@ -70,6 +70,7 @@ struct BenchResult {
   double memory = 0;         ///< bytes, the peaks of all ranks added up
   double memory_of_root = 0; ///< bytes, the peak of the first rank
   double sent = 0;           ///< bytes per step, of the rank that sends most
+  double waited = 0;         ///< ns per tet-step, mean of the ranks: for messages between neighbours
 
   bool alone() const { return scene.ranks == 1; }
   /// ns per tet, of some seconds.

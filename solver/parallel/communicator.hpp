@@ -74,6 +74,9 @@ public:
     Transfer(Transfer&&) noexcept;
     Transfer& operator=(Transfer&&) noexcept;
     ~Transfer();
+    /// Moves the messages on, without waiting. To be called now and then from the first thread while it computes: MPI
+    /// may move large messages only within its own functions.
+    void progress();
     /// Waits until all messages have been sent and received.
     void finish();
 

@@ -14,6 +14,7 @@ Communicator::Transfer::Transfer() = default;
 Communicator::Transfer::Transfer(Transfer&&) noexcept = default;
 Communicator::Transfer& Communicator::Transfer::operator=(Transfer&&) noexcept = default;
 Communicator::Transfer::~Transfer() = default;
+void Communicator::Transfer::progress() {}
 void Communicator::Transfer::finish() {}
 
 Communicator::Communicator() = default;

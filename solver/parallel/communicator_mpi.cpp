@@ -80,6 +80,11 @@ Communicator::Transfer::Transfer(Transfer&&) noexcept = default;
 Communicator::Transfer& Communicator::Transfer::operator=(Transfer&&) noexcept = default;
 Communicator::Transfer::~Transfer() = default;
 
+void Communicator::Transfer::progress() {
+  if (!state_) return;
+  int complete = 0;
+  MPI_Testall(static_cast<int>(state_->request.size()), state_->request.data(), &complete, MPI_STATUSES_IGNORE);
+}
 void Communicator::Transfer::finish() {
   if (!state_) return;
   MPI_Waitall(static_cast<int>(state_->request.size()), state_->request.data(), MPI_STATUSES_IGNORE);

@@ -5,6 +5,7 @@
 #include "common/index.hpp"
 #include "solver/kernels/contact_candidates.hpp"
 #include "solver/kernels/surface.hpp"
+#include "solver/run/profile.hpp"
 
 namespace mpfem {
 
@@ -224,6 +225,12 @@ Communicator::Transfer Ghosts::start(bool (Partner::*concerns)() const) {
   return ranks_->start(out, in);
 }
 
+void Ghosts::await_messages() {
+  const auto start = Profile::Clock::now();
+  transfer_.finish();
+  waited_ += Profile::since(start);
+}
+
 void Ghosts::start_motion(const Model& model, const Contact& contact) {
   if (partners_.empty()) return;
   for (Partner& p : partners_) {
@@ -239,7 +246,7 @@ void Ghosts::start_motion(const Model& model, const Contact& contact) {
 
 void Ghosts::finish_motion(Model& model, Contact& contact) {
   if (partners_.empty()) return;
-  transfer_.finish();
+  await_messages();
   for (const Partner& p : partners_) {
     MessageReader reader(p.in);
     for (const Index g : p.ghosts) {
@@ -267,7 +274,7 @@ void Ghosts::start_forces(const Contact& contact) {
 
 void Ghosts::finish_forces(Contact& contact) {
   if (partners_.empty()) return;
-  transfer_.finish();
+  await_messages();
   for (const Partner& p : partners_) {
     MessageReader reader(p.in);
     for (const Index pair : p.pairs) {

@@ -42,10 +42,14 @@ public:
   /// Starts to send records of forces on ghosts, and to receive those on own grains.
   void start_forces(const Contact& contact);
   void finish_forces(Contact& contact);
+  /// Moves messages on that have been started. To be called from the first thread while it computes.
+  void progress() { transfer_.progress(); }
 
   const std::vector<std::int32_t>& grains() const { return ghosts_; }
   /// Bytes that this rank has sent in steps so far.
   std::int64_t bytes_sent() const { return bytes_sent_; }
+  /// s that this rank has waited in steps for messages which had not arrived when they were needed.
+  double waited() const { return waited_; }
 
 private:
   /// What is sent to and received from one rank.
@@ -65,6 +69,7 @@ private:
   void learn(std::vector<std::int32_t> grains, Model& model);
   void find_border(const Model& model);
   Communicator::Transfer start(bool (Partner::*concerns)() const);
+  void await_messages();
 
   const Communicator* ranks_;
   bool velocities_;
@@ -74,6 +79,7 @@ private:
   std::vector<Partner> partners_;    ///< by rank
   Communicator::Transfer transfer_;
   std::int64_t bytes_sent_ = 0;
+  double waited_ = 0; ///< s
 };
 
 } // namespace mpfem

@@ -179,6 +179,7 @@ void Simulation::add_up_forces(const std::exception_ptr& failure) {
 void Simulation::add_contact(std::span<const std::int32_t> grains) {
   team_->for_each_range(static_cast<int>(grains.size()), [&](int begin, int end, int thread) {
     const auto together = grains.subspan(at(begin), at(end - begin));
+    if (thread == 0) ghosts_.progress();
     std::array<ContactSums, ThreadTeam::most_together> sums;
     Stopwatch watch(profile_, thread);
     contact_forces(model_, contact_, together, std::span(sums).first(together.size()));
@@ -331,6 +332,7 @@ void Simulation::move_and_strain(const Advance& update) {
 
 void Simulation::move_and_strain(std::span<const std::int32_t> grains, const Advance& update) {
   team_->for_each(static_cast<int>(grains.size()), [&](int item, int thread) {
+    if (thread == 0) ghosts_.progress();
     const std::int32_t grain = grains[at(item)];
     MotionSums& sums = motion_sums_[at(grain)];
     Stopwatch watch(profile_, thread);
