@@ -24,27 +24,33 @@ double imbalance_of(std::span<const double> busy) {
   return sum > 0 ? *std::ranges::max_element(busy) * static_cast<double>(busy.size()) / sum : 1;
 }
 
-/// s that the tets of a grain have cost its owner.
-double cost_of(const Model& model, const Balance& balance, std::int32_t grain) {
-  return tets_of(model, grain) * balance.busy_of_tet[at(model.ownership.owner[at(grain)])];
+/// `amount` of some of a quantity of which there is `all`, in s that all have taken.
+double share(double amount, double all, double seconds) {
+  return all > 0 ? amount / all * seconds : 0;
 }
 
 } // namespace
 
-Balance measure_balance(const Communicator& ranks, const Model& model, double busy) {
-  std::vector<double> busy_of_rank, tets(at(ranks.size()), 0.0);
-  for (const Bytes& message : ranks.all_of(bytes_of(std::span<const double>(&busy, 1))))
+Balance measure_balance(const Communicator& ranks, const Model& model, std::span<const std::int32_t> points,
+                        const BusyTime& busy) {
+  std::vector<double> busy_of_rank;
+  const double own_busy = busy.total();
+  for (const Bytes& message : ranks.all_of(bytes_of(std::span<const double>(&own_busy, 1))))
     busy_of_rank.push_back(MessageReader(message).take<double>());
-  for (std::int32_t g = 0; g < model.grains; ++g) tets[at(model.ownership.owner[at(g)])] += tets_of(model, g);
-  Balance balance{.imbalance = imbalance_of(busy_of_rank), .busy_of_tet = {}};
-  for (std::size_t rank = 0; rank < tets.size(); ++rank)
-    balance.busy_of_tet.push_back(tets[rank] > 0 ? busy_of_rank[rank] / tets[rank] : 0.0);
+
+  double all_tets = 0, all_points = 0;
+  for (const std::int32_t g : model.own()) all_tets += tets_of(model, g), all_points += points[at(g)];
+  // Without points, what contact has cost (looking at grains that do not touch) goes to all grains.
+  const double by_tets = all_points > 0 ? busy.tets : own_busy;
+  Balance balance{.imbalance = imbalance_of(busy_of_rank), .cost = std::vector<double>(at(model.grains))};
+  for (const std::int32_t g : model.own())
+    balance.cost[at(g)] = share(tets_of(model, g), all_tets, by_tets) + share(points[at(g)], all_points, busy.contact);
+  share_of_grains(ranks, model.ownership, std::span(balance.cost));
   return balance;
 }
 
 std::vector<std::int32_t> redistribute(const Communicator& ranks, const Model& model, const Balance& balance) {
   std::vector<std::array<double, 3>> centre(at(model.grains));
-  std::vector<double> weight(at(model.grains));
   for (const std::int32_t grain : model.own()) {
     const auto first = at(model.node_offset[at(grain)]), end = first + at(model.surface_node_count[at(grain)]);
     for (std::size_t n = first; n < end; ++n)
@@ -52,13 +58,12 @@ std::vector<std::int32_t> redistribute(const Communicator& ranks, const Model& m
         centre[at(grain)][axis] += model.position[4 * n + axis] / static_cast<double>(end - first);
   }
   share_of_grains(ranks, model.ownership, std::span<std::array<double, 3>>(centre));
-  for (std::int32_t g = 0; g < model.grains; ++g) weight[at(g)] = cost_of(model, balance, g);
-  return divide_among_ranks(centre, weight, ranks.size());
+  return divide_among_ranks(centre, balance.cost, ranks.size());
 }
 
-double expected_imbalance(const Model& model, const Balance& balance, std::span<const std::int32_t> owner) {
-  std::vector<double> busy(balance.busy_of_tet.size(), 0.0);
-  for (std::int32_t g = 0; g < model.grains; ++g) busy[at(owner[at(g)])] += cost_of(model, balance, g);
+double expected_imbalance(const Balance& balance, std::span<const std::int32_t> owner, int ranks) {
+  std::vector<double> busy(at(ranks), 0.0);
+  for (std::size_t g = 0; g < owner.size(); ++g) busy[at(owner[g])] += balance.cost[g];
   return imbalance_of(busy);
 }
 

@@ -10,22 +10,32 @@
 
 namespace mpfem {
 
-/// How the work was divided for some time.
-struct Balance {
-  double imbalance = 1;            ///< busy time of the busiest rank over the mean of all
-  std::vector<double> busy_of_tet; ///< [ranks], s per tet
+/// s that a rank has worked for some time, without waiting for others.
+struct BusyTime {
+  double tets = 0;    ///< on work in proportion to tetrahedra: elements, surfaces, integration
+  double contact = 0; ///< on work in proportion to contact points
+
+  double total() const { return tets + contact; }
 };
 
-/// Collective. `busy`: s that this rank has worked, without waiting for others.
-Balance measure_balance(const Communicator& ranks, const Model& model, double busy);
+/// How the work was divided for some time.
+struct Balance {
+  double imbalance = 1;     ///< busy time of the busiest rank over the mean of all
+  std::vector<double> cost; ///< [grains], s that each grain has cost its owner
+};
 
-/// Collective. The owner of each grain ([grains]) by recursive bisection of their current positions. The
-/// weight of a grain is what its tets have cost its current owner.
+/// Collective. `busy` is that of this rank. `points` ([grains]): contact points in touch whose nodes are on this grain,
+/// set for the rank's own grains. A rank's grains share its two times by their tetrahedra and by their points.
+Balance measure_balance(const Communicator& ranks, const Model& model, std::span<const std::int32_t> points,
+                        const BusyTime& busy);
+
+/// Collective. The owner of each grain ([grains]) by recursive bisection of their current positions, weighted by what
+/// they have cost their current owners.
 std::vector<std::int32_t> redistribute(const Communicator& ranks, const Model& model, const Balance& balance);
 
-/// Busy time of the busiest rank over the mean if the grains belonged to `owner` ([grains]), and their tets cost what
+/// Busy time of the busiest of `ranks` ranks over the mean if the grains belonged to `owner` ([grains]) and cost what
 /// they have cost so far.
-double expected_imbalance(const Model& model, const Balance& balance, std::span<const std::int32_t> owner);
+double expected_imbalance(const Balance& balance, std::span<const std::int32_t> owner, int ranks);
 
 /// Whether redistributing pays: the busiest rank then has less work by more than `balance` is known to, and that saves
 /// more than twice what it costs (`reload`, s). `expected`: the imbalance afterwards. `remaining`: s that the rest of

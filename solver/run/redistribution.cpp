@@ -2,8 +2,8 @@
 
 #include <fmt/format.h>
 
+#include "common/index.hpp"
 #include "solver/parallel/root.hpp"
-#include "solver/run/balance.hpp"
 
 namespace mpfem {
 
@@ -12,12 +12,19 @@ namespace {
 /// Times of fewer steps are mostly those of other programs.
 constexpr std::int64_t steps_worth_measuring = 200;
 
-/// s that this rank has worked so far, without waiting for others.
-double busy_time(const Profile& profile) {
-  double busy = 0;
-  for (const Part part : {Part::elements, Part::contact, Part::integration, Part::surface})
-    busy += profile.seconds(part);
+/// What this rank has worked so far.
+BusyTime busy_time(const Profile& profile) {
+  BusyTime busy{.contact = profile.seconds(Part::contact)};
+  for (const Part part : {Part::elements, Part::integration, Part::surface}) busy.tets += profile.seconds(part);
   return busy;
+}
+
+/// Contact points in touch whose nodes are on each grain ([grains]).
+std::vector<std::int32_t> points_of_grains(const Contact& contact, std::size_t grains) {
+  std::vector<std::int32_t> points(grains, 0);
+  for (std::size_t pair = 0; pair < contact.active.size(); ++pair)
+    points[at(contact.candidates.pair_first[pair])] += contact.active[pair];
+  return points;
 }
 
 } // namespace
@@ -38,11 +45,14 @@ Owners Redistribution::new_owners(double remaining) {
 
 Owners Redistribution::owners_by_work(double remaining) {
   const Communicator& ranks = simulation_.ranks();
-  const double busy = busy_time(simulation_.profile());
-  const Balance balance = measure_balance(ranks, simulation_.model(), busy - busy_before_);
+  const Model& model = simulation_.model();
+  const BusyTime busy = busy_time(simulation_.profile());
+  const BusyTime since{busy.tets - busy_before_.tets, busy.contact - busy_before_.contact};
   busy_before_ = busy;
-  Owners owners = redistribute(ranks, simulation_.model(), balance);
-  const double expected = expected_imbalance(simulation_.model(), balance, *owners);
+  const Balance balance =
+      measure_balance(ranks, model, points_of_grains(simulation_.contact(), at(model.grains)), since);
+  Owners owners = redistribute(ranks, model, balance);
+  const double expected = expected_imbalance(balance, *owners, ranks.size());
   if (!root_finds(ranks, [&] { return pays(balance, expected, remaining, reload_); })) return std::nullopt;
   report_.note(fmt::format("the busiest rank has {:.0f} % more work than the mean: redistributing grains",
                            100 * (balance.imbalance - 1)));

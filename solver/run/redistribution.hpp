@@ -7,6 +7,7 @@
 #include <optional>
 #include <vector>
 
+#include "solver/run/balance.hpp"
 #include "solver/run/run_options.hpp"
 #include "solver/run/run_report.hpp"
 #include "solver/run/simulation.hpp"
@@ -35,7 +36,7 @@ private:
   Redistribute redistribute_;
   double reload_;                   ///< s
   std::int64_t measured_from_step_; ///< the step of the last measurement
-  double busy_before_ = 0;          ///< s, at that measurement
+  BusyTime busy_before_;            ///< at that measurement
 };
 
 } // namespace mpfem

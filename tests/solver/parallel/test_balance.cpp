@@ -32,17 +32,23 @@ duration = 1
   return build_model(packing, scenario, "test", test_ranks());
 }
 
+/// Measures ranks that work for a time (s) on tetrahedra, and on contact where a grain has `points` contact points.
+Balance measured(const Model& model, double on_tets, double on_contact = 0, std::vector<std::int32_t> points = {}) {
+  points.resize(at(model.grains), 0);
+  return measure_balance(test_ranks(), model, points, {on_tets, on_contact});
+}
+
 } // namespace
 
 TEST_CASE("The imbalance of ranks is the largest share of the work over the mean", "[.several-ranks]") {
   const Model model = model_of_eight_grains();
   const int ranks = test_ranks().size();
   REQUIRE(ranks > 1);
-  const Balance even = measure_balance(test_ranks(), model, 2.0);
+  const Balance even = measured(model, 2.0);
   CHECK(within(even.imbalance, 1, rounding));
   CHECK_FALSE(pays(even, 1, 1e9, 0));
   // The first rank works three times as long: 3 over (3 + (n - 1)) / n.
-  const Balance uneven = measure_balance(test_ranks(), model, test_ranks().is_root() ? 3.0 : 1.0);
+  const Balance uneven = measured(model, test_ranks().is_root() ? 3.0 : 1.0);
   CHECK(within(uneven.imbalance, 3.0 * ranks / (2 + ranks), rounding));
   CHECK(pays(uneven, 1, 100, 1));
   CHECK_FALSE(pays(uneven, 1, 1, 1));
@@ -53,31 +59,51 @@ TEST_CASE("Grains that cannot be divided more evenly stay where they are", "[.se
   const Model model = model_of_eight_grains();
   // Equal grains with equal costs: three ranks have 3, 3 and 2 of eight, which no division betters.
   const double own = static_cast<double>(model.own().size());
-  const Balance balance = measure_balance(test_ranks(), model, own);
+  const Balance balance = measured(model, own);
   const auto owner = redistribute(test_ranks(), model, balance);
-  CHECK(within(expected_imbalance(model, balance, model.ownership.owner), balance.imbalance, rounding));
-  CHECK(expected_imbalance(model, balance, owner) >= balance.imbalance * (1 - rounding));
-  CHECK_FALSE(pays(balance, expected_imbalance(model, balance, owner), 1e9, 0));
+  const int ranks = test_ranks().size();
+  CHECK(within(expected_imbalance(balance, model.ownership.owner, ranks), balance.imbalance, rounding));
+  CHECK(expected_imbalance(balance, owner, ranks) >= balance.imbalance * (1 - rounding));
+  CHECK_FALSE(pays(balance, expected_imbalance(balance, owner, ranks), 1e9, 0));
 }
 
 TEST_CASE("A rank that is three times as slow hands over work", "[.several-ranks]") {
   const Model model = model_of_eight_grains();
   const int ranks = test_ranks().size();
   REQUIRE(ranks > 1);
-  const Balance balance = measure_balance(test_ranks(), model, test_ranks().is_root() ? 3.0 : 1.0);
+  const Balance balance = measured(model, test_ranks().is_root() ? 3.0 : 1.0);
   const auto owner = redistribute(test_ranks(), model, balance);
   REQUIRE(owner.size() == 8);
   // s of the busiest rank, where each grain costs what it has cost its first owner.
   const auto busiest = [&](const std::vector<std::int32_t>& owners) {
     std::vector<double> busy(at(ranks), 0.0);
-    for (std::size_t g = 0; g < owners.size(); ++g)
-      busy[at(owners[g])] += balance.busy_of_tet[at(model.ownership.owner[g])];
+    for (std::size_t g = 0; g < owners.size(); ++g) busy[at(owners[g])] += balance.cost[g];
     CHECK(std::ranges::all_of(busy, [](double seconds) { return seconds > 0; })); // none is without grains
     return *std::ranges::max_element(busy);
   };
   CHECK(busiest(owner) <= busiest(model.ownership.owner));
-  CHECK(within(expected_imbalance(model, balance, owner) / balance.imbalance,
+  CHECK(within(expected_imbalance(balance, owner, ranks) / balance.imbalance,
                busiest(owner) / busiest(model.ownership.owner), rounding));
   // Two ranks: grains of weight 3, 3, 3, 3, 1, 1, 1, 1 are cut to at most 9 of 16.
   if (ranks == 2) CHECK(busiest(owner) <= 0.75 * busiest(model.ownership.owner) * (1 + rounding));
+}
+
+TEST_CASE("Time spent on contact belongs to the grains that have contact points", "[.several-ranks]") {
+  const Model model = model_of_eight_grains();
+  // Each rank works 2 s on its equal grains, and 6 s on contact: the first of its grains has three points, the last one.
+  std::vector<std::int32_t> points(8, 0);
+  const std::int32_t first = model.own().front(), last = model.own().back();
+  REQUIRE(first != last);
+  points[at(first)] = 3, points[at(last)] = 1;
+  const Balance balance = measured(model, 2.0, 6.0, points);
+  const double own = static_cast<double>(model.own().size());
+  for (const std::int32_t g : model.own()) CHECK(within(balance.cost[at(g)], 2 / own + 1.5 * points[at(g)], rounding));
+  CHECK(std::ranges::all_of(balance.cost, [](double seconds) { return seconds > 0; })); // of other ranks' grains, too
+}
+
+TEST_CASE("Time spent on looking for contact belongs to all grains while none touch", "[.several-ranks]") {
+  const Model model = model_of_eight_grains();
+  const Balance balance = measured(model, 2.0, 1.0);
+  const double own = static_cast<double>(model.own().size());
+  for (const std::int32_t g : model.own()) CHECK(within(balance.cost[at(g)], 3 / own, rounding));
 }
