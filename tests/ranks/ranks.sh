@@ -113,6 +113,8 @@ stopped() {
     kill -0 "$launcher" 2>/dev/null || { cat log >&2; fail "no checkpoint before the end of $name"; }
     sleep 0.02
   done
+  "$bin/postproc" watch "$name.h5" --once >frame || fail "a run of two ranks cannot be watched"
+  grep -q "^$name.checkpoint.h5: mpfem is running" frame || { cat frame >&2; fail "watch does not see two ranks"; }
   if [[ $2 == launcher ]]; then
     process=$(pgrep -f "^$mpiexec -n 2 $bin/mpfem run loadings.toml -o $name.h5 ")
   else
@@ -133,6 +135,7 @@ stopped KILL 1 137 'process rank 1 .* exited on signal 9'
 # All save their state together if one is asked to stop, or the launcher, which passes SIGUSR1 on.
 stopped TERM 0 5 '^mpfem: error: '
 stopped TERM 1 5 '^mpfem: error: '
+stopped USR1 1 5 '^mpfem: error: '
 stopped USR1 launcher 5 '^mpfem: error: ' 1
 echo "what ends one rank ends all, and the run goes on"
 
@@ -192,7 +195,7 @@ diff <(grep -E "$packing" bench-1) <(grep -E "$packing" bench-2) || fail "bench 
 keys() { awk -F'"' 'NF > 1 { print $2 }' "$1" | sort; }
 [[ $(comm -23 <(keys bench-1) <(keys bench-2) | grep -vcE '^(contact_G|search_|steps_per_search)') == 0 ]] ||
   fail "bench leaves out costs of two ranks"
-costs='element_pass_ns|contact_ns|output_ns|history_row|checkpoint_|memory|triad|fma'
+costs='element_pass_ns|contact_ns|message_wait|output_ns|history_row|checkpoint_|memory|triad|fma'
 awk -F'[:,]' -v costs="$costs" '$1 ~ costs && !($2 > 0) { print; bad = 1 } END { exit bad }' bench-2 >&2 ||
   fail "bench measures nothing"
 echo "bench measures ranks too"
