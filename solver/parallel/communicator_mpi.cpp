@@ -21,6 +21,24 @@ namespace {
 /// For ranks that have failed: their messages must not mix with those that the others still exchange.
 MPI_Comm failing = MPI_COMM_NULL;
 
+/// Whether MPI gives this core to other programs each time it looks for messages and finds none. Open MPI does where
+/// ranks share cores, and where the user wants it (`mpi_yield_when_idle`).
+bool gives_core_away = false;
+
+/// Reads this setting by MPI's tool interface, which other implementations have without it.
+bool yields_when_idle() {
+  int provided = 0, index = 0, count = 0, value = 0;
+  if (MPI_T_init_thread(MPI_THREAD_SINGLE, &provided) != MPI_SUCCESS) return false;
+  MPI_T_cvar_handle setting = MPI_T_CVAR_HANDLE_NULL;
+  if (MPI_T_cvar_get_index("mpi_yield_when_idle", &index) == MPI_SUCCESS &&
+      MPI_T_cvar_handle_alloc(index, nullptr, &setting, &count) == MPI_SUCCESS) {
+    MPI_T_cvar_read(setting, &value); // one byte or four
+    MPI_T_cvar_handle_free(&setting);
+  }
+  MPI_T_finalize();
+  return value != 0;
+}
+
 /// MPI counts in int: larger messages go in pieces.
 constexpr std::size_t largest_piece = std::size_t{1} << 30;
 
@@ -81,7 +99,7 @@ Communicator::Transfer& Communicator::Transfer::operator=(Transfer&&) noexcept =
 Communicator::Transfer::~Transfer() = default;
 
 void Communicator::Transfer::progress() {
-  if (!state_) return;
+  if (!state_ || gives_core_away) return; // a core given away costs more than waiting messages
   int complete = 0;
   MPI_Testall(static_cast<int>(state_->request.size()), state_->request.data(), &complete, MPI_STATUSES_IGNORE);
 }
@@ -109,6 +127,7 @@ Communicator Communicator::of_launcher(int& argc, char**& argv) {
   MPI_Comm_rank(MPI_COMM_WORLD, &communicator.rank_);
   MPI_Comm_size(MPI_COMM_WORLD, &communicator.size_);
   MPI_Comm_dup(MPI_COMM_WORLD, &failing);
+  gives_core_away = yields_when_idle();
   return communicator;
 }
 bool Communicator::has_mpi() {
