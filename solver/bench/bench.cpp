@@ -81,8 +81,8 @@ void set_initial_hardening(Model& model) {
 template <class F>
 void for_own_nodes(Model& model, F&& f) {
   for (const std::int32_t grain : model.own())
-    for (std::size_t n = 4 * at(model.node_offset[at(grain)]); n < 4 * at(model.node_offset[at(grain) + 1]); n += 4)
-      f(&model.position[n], &model.velocity[n]);
+    for (std::size_t row = model.first_row(grain); row < model.end_row(grain); row += 4)
+      f(&model.position[row], &model.velocity[row]);
 }
 
 /// Walls and grains move inwards by one affine motion from the start.

@@ -71,9 +71,8 @@ struct SurfacePush {
 /// Calls visit(node, gap) for every surface node of a grain that is behind the surface.
 template <RigidSurface Surface, class Visitor>
 void for_each_node_behind(const Model& model, const Surface& surface, int grain, Visitor&& visit) {
-  const auto g = static_cast<std::size_t>(grain);
-  const auto first = static_cast<std::size_t>(model.node_offset[g]);
-  const auto count = static_cast<std::size_t>(model.surface_node_count[g]);
+  const std::size_t first = model.first_node(grain);
+  const auto count = static_cast<std::size_t>(model.surface_node_count[static_cast<std::size_t>(grain)]);
   for (std::size_t node = first; node < first + count; ++node)
     if (const auto gap = surface.gap(NodePoint{model, node}); gap.distance < 0) visit(node, gap);
 }

@@ -171,7 +171,7 @@ void add_adhesion_stiffness_rate(const Model& model, const Adhesion& adhesion, c
 inline void raise_to_rate_of_new_bonds(const Model& model, const Adhesion& adhesion, int grain,
                                        std::span<double> rate) {
   const auto g = static_cast<std::size_t>(grain);
-  const auto first = static_cast<std::size_t>(model.node_offset[g]);
+  const std::size_t first = model.first_node(grain);
   const auto raise = [&](std::size_t node, double stiffness) {
     rate[node] = std::max(rate[node], stiffness * model.inverse_mass[node]);
   };

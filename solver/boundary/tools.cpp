@@ -185,17 +185,14 @@ double Tools::push_on_node(const Model& model, std::size_t node, int grain) cons
 
 double Tools::remove_forces_on_grain(Model& model, std::size_t index, const Bounds& bounds, double last_step,
                                      int grain) {
-  const auto g = static_cast<std::size_t>(grain);
-  const auto first = 4 * static_cast<std::ptrdiff_t>(model.node_offset[g]),
-             end = 4 * static_cast<std::ptrdiff_t>(model.node_offset[g + 1]);
+  const std::size_t first = model.first_row(grain), end = model.end_row(grain);
   const std::vector<double> all(model.force.begin() + first, model.force.begin() + end);
   std::fill(model.force.begin() + first, model.force.begin() + end, 0.0);
   add_tool(model, index, bounds, last_step, grain);
   double power = 0;
-  for (std::ptrdiff_t i = first; i < end; ++i) {
-    const auto row = static_cast<std::size_t>(i);
-    power += model.velocity[row] * model.force[row];
-    model.force[row] = all[static_cast<std::size_t>(i - first)] - model.force[row];
+  for (std::size_t i = first; i < end; ++i) {
+    power += model.velocity[i] * model.force[i];
+    model.force[i] = all[i - first] - model.force[i];
   }
   return 0.5 * last_step * power;
 }

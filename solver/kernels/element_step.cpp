@@ -28,7 +28,7 @@ MPFEM_FLATTEN StableStep stable_step_in(Model& model, int grain, std::span<const
   using S = TetPack<Real>;
   const auto g = static_cast<std::size_t>(grain);
   const std::int32_t first_node = model.node_offset[g];
-  const double* position = model.position.data() + 4 * static_cast<std::size_t>(first_node);
+  const double* position = model.position.data() + model.first_row(grain);
   const Material& material = model.material_of(grain);
   const double damping_of_volume = material.moduli.dilatational() / material.moduli.bulk;
   S smallest_step(std::numeric_limits<double>::infinity()), smallest_no_contact = smallest_step;

@@ -12,7 +12,7 @@ template <class Real>
 double elastic_energy_in(const Model& model, int grain) {
   using S = TetPack<Real>;
   const auto g = static_cast<std::size_t>(grain);
-  const double* position = model.position.data() + 4 * static_cast<std::size_t>(model.node_offset[g]);
+  const double* position = model.position.data() + model.first_row(grain);
   const ElasticModuli moduli = model.material_of(grain).moduli;
   // The part of the volumetric energy that belongs to single tets; the rest belongs to nodes or patches.
   const double own = model.element == ElementType::tet4 ? 1.0 : model.own_pressure;
@@ -26,8 +26,8 @@ double elastic_energy_in(const Model& model, int grain) {
   }
   double total = energy.value();
   if (model.element == ElementType::tet4_anp) {
-    const auto first = static_cast<std::size_t>(model.node_offset[g]);
-    std::vector<double> volume(static_cast<std::size_t>(model.node_offset[g + 1]) - first);
+    const std::size_t first = model.first_node(grain);
+    std::vector<double> volume(model.end_node(grain) - first);
     nodal_volumes<Real>(model, grain, position, volume.data());
     for (std::size_t n = 0; n < volume.size(); ++n)
       total += (1 - own) * nodal_volumetric_energy(moduli, volume[n], model.inverse_nodal_volume[first + n]);
@@ -44,7 +44,7 @@ template <class Real>
 double current_volume_in(const Model& model, int grain) {
   using S = TetPack<Real>;
   const auto g = static_cast<std::size_t>(grain);
-  const double* position = model.position.data() + 4 * static_cast<std::size_t>(model.node_offset[g]);
+  const double* position = model.position.data() + model.first_row(grain);
   LongSum<S> volume;
   for (std::int32_t b = model.block_offset[g]; b < model.block_offset[g + 1]; ++b) {
     const TetBlock<Real>& block = model.block<Real>(b);
@@ -56,7 +56,7 @@ double current_volume_in(const Model& model, int grain) {
 template <class Real>
 BadTet find_bad_tet_in(const Model& model, int grain) {
   const auto g = static_cast<std::size_t>(grain);
-  const double* position = model.position.data() + 4 * static_cast<std::size_t>(model.node_offset[g]);
+  const double* position = model.position.data() + model.first_row(grain);
   for (std::int32_t b = model.block_offset[g]; b < model.block_offset[g + 1]; ++b) {
     const auto ratio = current_volume_ratio(model.block<Real>(b), position);
     for (int lane = 0; lane < model.tets_in_block<Real>(grain, b); ++lane) {
@@ -74,8 +74,8 @@ TetFields tet_fields_in(const Model& model, int grain) {
   const std::int32_t first = model.tet_offset[g];
   const auto tets = static_cast<std::size_t>(model.tet_offset[g + 1] - first);
   TetFields fields{std::vector<float>(tets), std::vector<float>(tets), std::vector<float>(tets)};
-  const double* position = model.position.data() + 4 * static_cast<std::size_t>(model.node_offset[g]);
-  std::vector<double> nodal(static_cast<std::size_t>(model.node_offset[g + 1] - model.node_offset[g]));
+  const double* position = model.position.data() + model.first_row(grain);
+  std::vector<double> nodal(model.end_node(grain) - model.first_node(grain));
   with_pressure<Real>(model, grain, position, nodal.data(), [&](auto pressure) {
     for (std::int32_t b = model.block_offset[g]; b < model.block_offset[g + 1]; ++b) {
       const TetBlock<Real>& block = model.block<Real>(b);

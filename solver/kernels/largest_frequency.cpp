@@ -35,10 +35,9 @@ MPFEM_FLATTEN void add_product(const Model& model, int grain, const LinearRespon
   constexpr int W = TetBlock<Real>::lanes;
   using S = Pack<W, Real>;
   const auto g = static_cast<std::size_t>(grain);
-  const auto first = static_cast<std::size_t>(model.node_offset[g]);
   thread_local RowPairs<Real> both;
-  const Real* pairs =
-      both.place(model.position.data() + 4 * first, x, 1.0, static_cast<std::size_t>(model.node_offset[g + 1]) - first);
+  const Real* pairs = both.place(model.position.data() + model.first_row(grain), x, 1.0,
+                                 model.end_node(grain) - model.first_node(grain));
   for (std::int32_t b = model.block_offset[g]; b < model.block_offset[g + 1]; ++b) {
     const TetBlock<Real>& block = model.block<Real>(b);
     Vector3<S> edge[3], displacement[3], force[3];
@@ -92,10 +91,9 @@ LargestEigenvalue largest_eigenvalue(const std::vector<double>& diagonal, const 
 class LanczosIteration {
 public:
   LanczosIteration(const Model& model, int grain, const LinearResponse& response, std::span<const double> contact)
-      : model_(model), grain_(grain), response_(response), contact_(contact),
-        first_(static_cast<std::size_t>(model.node_offset[static_cast<std::size_t>(grain)])),
-        nodes_(static_cast<std::size_t>(model.node_offset[static_cast<std::size_t>(grain) + 1]) - first_),
-        previous_(4 * nodes_), now_(start_vector(nodes_)), next_(4 * nodes_), x_(4 * nodes_), root_(nodes_) {
+      : model_(model), grain_(grain), response_(response), contact_(contact), first_(model.first_node(grain)),
+        nodes_(model.end_node(grain) - first_), previous_(4 * nodes_), now_(start_vector(nodes_)), next_(4 * nodes_),
+        x_(4 * nodes_), root_(nodes_) {
     for (std::size_t n = 0; n < nodes_; ++n) root_[n] = std::sqrt(model.inverse_mass[first_ + n]);
   }
 

@@ -8,9 +8,7 @@
 namespace mpfem {
 
 AdvanceSums advance(Model& model, int grain, const Advance& p) {
-  const auto g = static_cast<std::size_t>(grain);
-  const auto first = static_cast<std::size_t>(model.node_offset[g]);
-  const auto end = static_cast<std::size_t>(model.node_offset[g + 1]);
+  const std::size_t first = model.first_node(grain), end = model.end_node(grain);
   double* x = model.position.data();
   double* v = model.velocity.data();
   const double* f = model.force.data();
@@ -58,9 +56,7 @@ namespace {
 /// Calls visit(component, weight) for each component (4 * node + axis) of the weights (N) of a grain's nodes.
 template <class Visit>
 void for_each_weight(const Model& model, const std::array<double, 3>& gravity, int grain, Visit&& visit) {
-  const auto g = static_cast<std::size_t>(grain);
-  for (auto n = static_cast<std::size_t>(model.node_offset[g]); n < static_cast<std::size_t>(model.node_offset[g + 1]);
-       ++n) {
+  for (std::size_t n = model.first_node(grain); n < model.end_node(grain); ++n) {
     const double inverse_own_mass = model.inverse_mass[n] * (model.mass_factor.empty() ? 1.0 : model.mass_factor[n]);
     for (std::size_t axis = 0; axis < 3; ++axis) visit(4 * n + axis, gravity[axis] / inverse_own_mass);
   }
@@ -82,10 +78,8 @@ double add_weight(Model& model, const std::array<double, 3>& gravity, int grain)
 }
 
 ForceMoments force_moments(const Model& model, const std::array<double, 3>& centre, int grain) {
-  const auto g = static_cast<std::size_t>(grain);
   ForceMoments sums;
-  for (auto n = static_cast<std::size_t>(model.node_offset[g]); n < static_cast<std::size_t>(model.node_offset[g + 1]);
-       ++n)
+  for (std::size_t n = model.first_node(grain); n < model.end_node(grain); ++n)
     for (std::size_t axis = 0; axis < 3; ++axis) {
       const double force = model.force[4 * n + axis];
       sums.force[axis] += force;
@@ -95,10 +89,8 @@ ForceMoments force_moments(const Model& model, const std::array<double, 3>& cent
 }
 
 MassMoments mass_moments(const Model& model, const std::array<double, 3>& centre, int grain) {
-  const auto g = static_cast<std::size_t>(grain);
   MassMoments sums;
-  for (auto n = static_cast<std::size_t>(model.node_offset[g]); n < static_cast<std::size_t>(model.node_offset[g + 1]);
-       ++n) {
+  for (std::size_t n = model.first_node(grain); n < model.end_node(grain); ++n) {
     const double mass = 1.0 / model.inverse_mass[n];
     sums.mass += mass;
     for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -111,10 +103,8 @@ MassMoments mass_moments(const Model& model, const std::array<double, 3>& centre
 }
 
 double kinetic_energy(const Model& model, int grain, double step_mean) {
-  const auto g = static_cast<std::size_t>(grain);
   double energy = 0;
-  for (auto n = static_cast<std::size_t>(model.node_offset[g]); n < static_cast<std::size_t>(model.node_offset[g + 1]);
-       ++n) {
+  for (std::size_t n = model.first_node(grain); n < model.end_node(grain); ++n) {
     double square = 0, work = 0;
     for (std::size_t i = 4 * n; i < 4 * n + 3; ++i) {
       square += model.velocity[i] * model.velocity[i];

@@ -10,9 +10,8 @@ namespace mpfem {
 
 Bounds update_surface(Model& model, int grain) {
   set_normals(model, grain);
-  const auto g = static_cast<std::size_t>(grain);
-  const auto first = static_cast<std::size_t>(model.node_offset[g]),
-             end = first + static_cast<std::size_t>(model.surface_node_count[g]);
+  const std::size_t first = model.first_node(grain),
+                    end = first + static_cast<std::size_t>(model.surface_node_count[static_cast<std::size_t>(grain)]);
   const double infinity = std::numeric_limits<double>::infinity();
   Bounds bounds{{infinity, infinity, infinity}, {-infinity, -infinity, -infinity}};
   for (std::size_t n = first; n < end; ++n)

@@ -29,7 +29,7 @@ template <class Real, class Number>
 MPFEM_FLATTEN void nodal_volumes(const Model& model, int grain, const Number* position, double* volume) {
   using S = TetPack<Real>;
   const auto g = static_cast<std::size_t>(grain);
-  std::fill(volume, volume + (model.node_offset[g + 1] - model.node_offset[g]), 0.0);
+  std::fill(volume, volume + (model.end_node(grain) - model.first_node(grain)), 0.0);
   for (std::int32_t b = model.block_offset[g]; b < model.block_offset[g + 1]; ++b) {
     prefetch_block_after<Real>(model, b);
     const TetBlock<Real>& block = model.block<Real>(b);
@@ -61,8 +61,7 @@ template <class Real, class Number>
 AveragedPressure average_pressure(const Model& model, int grain, const Number* position, double* mean) {
   nodal_volumes<Real>(model, grain, position, mean);
   const ElasticModuli moduli = model.material_of(grain).moduli;
-  const auto first = static_cast<std::size_t>(model.node_offset[static_cast<std::size_t>(grain)]);
-  const auto count = static_cast<std::size_t>(model.node_offset[static_cast<std::size_t>(grain) + 1]) - first;
+  const std::size_t first = model.first_node(grain), count = model.end_node(grain) - first;
   for (std::size_t n = 0; n < count; ++n)
     mean[n] = nodal_mean_stress(moduli, mean[n], model.inverse_nodal_volume[first + n]);
   return {mean, model.own_pressure, moduli};

@@ -22,7 +22,7 @@ BondResolution bond_resolution(const Model& model, const BondParameters& bond, c
   double stiffness = std::numeric_limits<double>::infinity(), finest = model.refinement.empty() ? 1.0 : 0.0;
   for (const std::int32_t grain : model.own()) {
     const auto g = static_cast<std::size_t>(grain);
-    const auto first = static_cast<std::size_t>(model.node_offset[g]);
+    const std::size_t first = model.first_node(grain);
     for (std::size_t n = first; n < first + static_cast<std::size_t>(model.surface_node_count[g]); ++n) {
       stiffness =
           std::min(stiffness, law_at_point(law, model.penalty_stiffness[g] * model.local_stiffness(n)).stiffness);

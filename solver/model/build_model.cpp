@@ -70,8 +70,8 @@ void find_refinement(Model& model, const Communicator& ranks) {
   model.refinement = LazyArray<double>(size.size(), model.pages());
   for (const Index grain : model.own()) {
     const std::size_t g = at(grain);
-    const auto first = at(model.node_offset[g]), end = at(model.node_offset[g + 1]),
-               surface_end = first + at(model.surface_node_count[g]);
+    const std::size_t first = model.first_node(grain), end = model.end_node(grain),
+                      surface_end = first + at(model.surface_node_count[g]);
     for (std::size_t n = first; n < end; ++n)
       model.refinement[n] = n < surface_end ? model.element_size[g] / size[n] : 1;
   }

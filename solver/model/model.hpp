@@ -84,6 +84,12 @@ struct Model {
   std::int32_t nodes() const { return node_offset.back(); }
   std::int32_t tets() const { return tet_offset.back(); }
   std::int32_t facets() const { return facet_offset.back(); }
+  /// Nodes of a grain: the number of its first, and of the one behind its last.
+  std::size_t first_node(int grain) const { return static_cast<std::size_t>(node_offset[std::size_t(grain)]); }
+  std::size_t end_node(int grain) const { return static_cast<std::size_t>(node_offset[std::size_t(grain) + 1]); }
+  /// Rows of a grain in arrays of four numbers a node: where its first one begins, and where its last one ends.
+  std::size_t first_row(int grain) const { return 4 * first_node(grain); }
+  std::size_t end_row(int grain) const { return 4 * end_node(grain); }
   const Material& material_of(int grain) const { return material[std::size_t(grain_material[std::size_t(grain)])]; }
   /// Block `index` of a model whose tets are in numbers of type Real.
   template <class Real>

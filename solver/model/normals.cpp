@@ -12,8 +12,8 @@ MPFEM_FLATTEN void set_normals(Model& model, int grain) {
   const auto g = static_cast<std::size_t>(grain);
   // Rows and numbers of nodes are counted from the grain's first.
   const std::int32_t first_node = model.node_offset[g], nodes_on_surface = model.surface_node_count[g];
-  const double* position = model.position.data() + 4 * static_cast<std::size_t>(first_node);
-  double* normal = model.normal.data() + 4 * static_cast<std::size_t>(first_node);
+  const double* position = model.position.data() + model.first_row(grain);
+  double* normal = model.normal.data() + model.first_row(grain);
   std::fill_n(normal, 4 * nodes_on_surface, 0.0);
 
   const std::int32_t facet_end = model.facet_offset[g + 1];

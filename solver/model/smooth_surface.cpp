@@ -114,8 +114,7 @@ double max_contact_offset(const Model& model) {
   double largest = 0;
   if (model.inner_node.empty()) return largest;
   for (const std::int32_t g : model.own())
-    for (auto n = static_cast<std::size_t>(model.node_offset[static_cast<std::size_t>(g)]);
-         n < static_cast<std::size_t>(model.node_offset[static_cast<std::size_t>(g) + 1]); ++n)
+    for (std::size_t n = model.first_node(g); n < model.end_node(g); ++n)
       if (model.inward[n] > 0) largest = std::max(largest, norm(model.point(n) - model.contact_point(n)));
   return largest;
 }

@@ -38,7 +38,7 @@ void write_node_rows(GatheredFile& file, const std::string& name, const Dataset&
   file.write_grains(
       dataset, rows_of_grains(model.node_offset),
       [&](Index grain, std::span<float> values) {
-        for (std::size_t n = at(model.node_offset[at(grain)]); n < at(model.node_offset[at(grain) + 1]); ++n)
+        for (std::size_t n = model.first_node(grain); n < model.end_node(grain); ++n)
           for (std::size_t axis = 0; axis < 3; ++axis)
             values[3 * place_in_grain(model, grain, n) + axis] = static_cast<float>(rows[4 * n + axis]);
       },
@@ -87,7 +87,7 @@ void write_contact_pressure(GatheredFile& file, const std::string& name, const S
       [&](Index grain, std::span<float> pressure) {
         std::ranges::fill(pressure, 0.0F);
         const std::vector<double> contact = contact_push(model, state.contact, grain);
-        const std::size_t first = at(model.node_offset[at(grain)]);
+        const std::size_t first = model.first_node(grain);
         for (std::size_t node = first; node < first + at(model.surface_node_count[at(grain)]); ++node) {
           const double area = model.normal[4 * node + 3];
           const double push = contact[node - first] + state.box.wall_force_on_node(model, node, grain) +

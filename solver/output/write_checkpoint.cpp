@@ -72,8 +72,8 @@ void write_nodes(GatheredFile& file, const Model& model, const GrainSteps& steps
   const Counts nodes = rows_of_grains(model.node_offset);
   const auto copy = [&](const auto& array, std::size_t columns) {
     return [&array, columns, &model](Index grain, auto values) {
-      std::copy_n(array.begin() + static_cast<std::ptrdiff_t>(columns * at(model.node_offset[at(grain)])),
-                  values.size(), values.begin());
+      std::copy_n(array.begin() + static_cast<std::ptrdiff_t>(columns * model.first_node(grain)), values.size(),
+                  values.begin());
     };
   };
   for_each_node_array(

@@ -72,8 +72,7 @@ Simulation::Simulation(Model model, const Scenario& scenario, ThreadTeam& team, 
   ghosts_.start_forces(contact_);
   ghosts_.finish_forces(contact_);
   for (const std::int32_t grain : model_.own())
-    std::fill(model_.force.data() + 4 * at(model_.node_offset[at(grain)]),
-              model_.force.data() + 4 * at(model_.node_offset[at(grain) + 1]), 0.0);
+    std::fill(model_.force.data() + model_.first_row(grain), model_.force.data() + model_.end_row(grain), 0.0);
   renew_step_estimate(box_, true);
   if (branch) return;
   begin_stage(0);

@@ -98,7 +98,7 @@ double StepEstimate::bound_since_spectrum(const Model& model, std::int32_t grain
   ++grain_steps_.estimates[g];
   grain_steps_.growth[g] *= growth;
   double contact = 0;
-  for (std::size_t n = at(model.node_offset[g]); n < at(model.node_offset[g + 1]); ++n)
+  for (std::size_t n = model.first_node(grain); n < model.end_node(grain); ++n)
     contact = std::max(contact, stiffness_rate_[n] - grain_steps_.contact[n]);
   return 4.0 / (grain_steps_.whole[g] * grain_steps_.whole[g]) * grain_steps_.growth[g] + contact;
 }
