@@ -152,7 +152,8 @@ inline bool any_bond_to_update(const Adhesion& adhesion, const std::vector<Surfa
 }
 
 /// Adds to `rate` (1/s^2) [nodes] what a grain's bonds to a surface add to the frequency squared, beyond the penalty of
-/// nodes behind it. Push and drift of a point are perpendicular, so that the larger of both stiffnesses counts.
+/// nodes behind it. Push and tangential displacement of a point are perpendicular, so that the larger of
+/// both stiffnesses counts.
 template <RigidSurface Surface>
 void add_adhesion_stiffness_rate(const Model& model, const Adhesion& adhesion, const Surface& surface, int grain,
                                  const std::vector<SurfaceBond>& bonds, std::span<double> rate) {

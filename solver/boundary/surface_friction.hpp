@@ -62,12 +62,12 @@ public:
     const double penalty = push / depth, stiffness = std::max(of_point.penalty, 0.0) * penalty;
     const double before = known ? std::max(of_point.penalty_before, 0.0) * penalty : stiffness;
     const FrictionSpring<double> spring{of_point.share * friction_, penalty, before, stiffness};
-    const Vector3<double> drift = closest - anchor.place;
-    const auto [kept, left] = drift_shares(spring, norm(drift), depth);
-    const Vector3<double> slip = (1.0 - left) * drift, force = (left * stiffness) * drift;
-    const Vector3<double> from_anchor = left * drift - depth * normal;
+    const Vector3<double> displacement = closest - anchor.place; // tangential
+    const auto [kept, left] = displacement_shares(spring, norm(displacement), depth);
+    const Vector3<double> slip = (1.0 - left) * displacement, force = (left * stiffness) * displacement;
+    const Vector3<double> from_anchor = left * displacement - depth * normal;
     energy += stick_energy(stiffness, dot(from_anchor, from_anchor), depth);
-    dissipation += friction_loss(spring, kept, drift, anchor.force, force, slip + entry.before);
+    dissipation += friction_loss(spring, kept, displacement, anchor.force, force, slip + entry.before);
     if (left < 1) anchor.place = on_surface(anchor.place + slip);
     anchor.force = force;
     model_.push_contact_point(node, 0, -force.x);

@@ -7,7 +7,7 @@
 //   open:     (1 - D) b |d|^2 / 2
 //   closed:   k g^2 / 2 + (1 - D) b (|d|^2 - g^2) / 2   =   (1 - D) b |d|^2 / 2 + (k - (1 - D) b) g^2 / 2
 // that is, the undamaged penalty against closing and a bond whose effective separation delta^2 = |d|^2 - g^2 is the
-// drift along the surface. The bond leaves k - (1 - D) b of the penalty to the point; this is negative if the bond is
+// tangential displacement. The bond leaves k - (1 - D) b of the penalty to the point; this is negative if the bond is
 // stiffer than the penalty. (|d| >= g, since c is the closest point of all.) Both terms are central forces between
 // material points: linear and angular momentum are conserved exactly, a rigid rotation of both grains changes nothing,
 // and no tangent plane has to be followed as the node slides over facets and edges. The force is continuous when the

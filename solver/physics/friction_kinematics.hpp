@@ -84,8 +84,8 @@ inline FrictionStep advance_friction(PointFriction& point, const FrictionSpring<
   const bool fresh = !point.exists();
   const Vector3<double> before = fresh ? entry_point(at) : facet_point(anchor, point.weight1, point.weight2);
   const Vector3<double> trial = at.node - before;
-  const double drift = std::sqrt(std::max(dot(trial, trial) - at.depth * at.depth, 0.0));
-  const auto [kept, left] = drift_shares(spring, drift, at.depth);
+  const double displacement = std::sqrt(std::max(dot(trial, trial) - at.depth * at.depth, 0.0));
+  const auto [kept, left] = displacement_shares(spring, displacement, at.depth);
   FrictionStep step;
   step.on_closest = fresh || left < 1;
   if (step.on_closest)

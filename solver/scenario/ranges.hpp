@@ -22,7 +22,8 @@ inline constexpr Range rate_or_zero = Range::between(0, 1e15);          // 1/s
 inline constexpr Range stiffness_factors = Range::between(1e-6, 1e4);   // of E/h
 inline constexpr Range positive_stiffness = Range::between(1e-9, 1e18); // MPa/mm
 inline constexpr Range positive_energy = Range::between(1e-18, 1e12);   // N/mm
-inline constexpr Range friction_or_zero = Range::between(0, 2); // mu; above 2, the drift exceeds twice the depth
+/// mu; above 2, the tangential displacement exceeds twice the depth.
+inline constexpr Range friction_or_zero = Range::between(0, 2);
 inline constexpr Range strain_or_zero = Range::between(0, 1e3);
 /// Largest grain number that a scenario may name.
 inline constexpr double most_grains = 1e9;

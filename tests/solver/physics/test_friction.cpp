@@ -19,7 +19,8 @@ using namespace mpfem::test;
 namespace {
 
 constexpr double mu = 0.3;
-/// Drifts of some 1e-4 mm are differences of places that are up to 10 mm from a corner of their facet.
+/// Tangential displacements of some 1e-4 mm are differences of places that are up to 10 mm from a corner of their
+/// facet.
 constexpr double of_places = 1e-11;
 
 /// A point with friction, `depth` (mm) inside a facet that is some millimetres wide.
@@ -35,7 +36,7 @@ ContactPoint pressed_point(double depth) {
 /// Largest frequency squared of a point with the masses by which its springs' bounds are 1 in all, by the stiffness
 /// that differences of its forces give. `bound` (N/mm): of the node and the three corners. History is frozen.
 double squared_frequency_over_bound(const ContactPoint& point, const std::array<double, 4>& bound) {
-  constexpr double step = 1e-8; // mm; a drift is some 1e-4 mm
+  constexpr double step = 1e-8; // mm; tangential displacements are some 1e-4 mm
   Eigen::Matrix<double, 12, 12> stiffness;
   const auto forces_moved_by = [&](int column, double by) {
     ContactPoint moved = point;
@@ -123,9 +124,9 @@ TEST_CASE(
 
 TEST_CASE("along a random path under varying normal force the work is what is stored and dissipated, and friction "
           "never releases energy") {
-  // The anchor slips along the drift that is left, of length L = mu g. Both forces of the trapezoidal rule do work on
-  // it: k (L + e.n) times the slip, with the drift e before and its direction n now. This is negative only if e.n < -L,
-  // and then the node has moved by more than 2 L in one step.
+  // The anchor slips along the tangential displacement that is left, of length L = mu g. Both forces of the trapezoidal
+  // rule do work on it: k (L + e.n) times the slip, with the displacement e before and its direction n now. This is
+  // negative only if e.n < -L, and then the node has moved by more than 2 L in one step.
   ContactPoint point = pressed_point(1e-3);
   std::mt19937 random(1);
   std::normal_distribution<double> step(0, 2e-5);
@@ -195,11 +196,11 @@ TEST_CASE("a point that closes obliquely is anchored where it came in, and store
     PointFriction point;
     const FrictionStep step = advance_friction(point, friction_spring(point, friction, k, k),
                                                {node, 0, corner, closest, depth, moved}, corner);
-    const double along = 0.05, inside = along * depth / closing, drift = std::min(inside, friction * depth);
-    CHECK(within(std::hypot(step.reach.x, step.reach.y), drift, 1e-12));
-    CHECK(within(step.stored, 0.5 * k * drift * drift, 1e-12));
+    const double along = 0.05, inside = along * depth / closing, displacement = std::min(inside, friction * depth);
+    CHECK(within(std::hypot(step.reach.x, step.reach.y), displacement, 1e-12));
+    CHECK(within(step.stored, 0.5 * k * displacement * displacement, 1e-12));
     // Central differences do the work of half the force over the whole step, from rest: also outside.
-    CHECK(within(step.stored + step.dissipated, 0.5 * k * drift * along, 1e-12));
+    CHECK(within(step.stored + step.dissipated, 0.5 * k * displacement * along, 1e-12));
     CHECK(step.dissipated > 0);
   }
 }
@@ -257,21 +258,21 @@ TEST_CASE("every lane of a pack has the slip and the energies of the scalar") {
   using S = NativePack;
   std::mt19937 random(2);
   std::uniform_real_distribution<double> uniform(0, 1);
-  S drift, longest, before, now, depth;
-  for (S* field : {&drift, &longest, &before, &now, &depth})
+  S displacement, largest, before, now, depth;
+  for (S* field : {&displacement, &largest, &before, &now, &depth})
     for (int lane = 0; lane < S::lanes; ++lane) field->v[lane] = lane % 3 == 0 ? 0.0 : uniform(random);
-  const S left = share_left_by_slip(drift, longest), kept = share_left_by_new_area(before, now);
-  const S stored = stick_energy(before, drift, depth);
-  const S lost = slip_dissipation(Vector3<S>{drift, longest, depth}, Vector3<S>{now, before, drift},
-                                  Vector3<S>{depth, drift, now});
+  const S left = share_left_by_slip(displacement, largest), kept = share_left_by_new_area(before, now);
+  const S stored = stick_energy(before, displacement, depth);
+  const S lost = slip_dissipation(Vector3<S>{displacement, largest, depth}, Vector3<S>{now, before, displacement},
+                                  Vector3<S>{depth, displacement, now});
   for (int i = 0; i < S::lanes; ++i) {
-    CHECK(left[i] == share_left_by_slip(drift[i], longest[i]));
+    CHECK(left[i] == share_left_by_slip(displacement[i], largest[i]));
     CHECK(kept[i] == share_left_by_new_area(before[i], now[i]));
-    CHECK(within(stored[i], stick_energy(before[i], drift[i], depth[i]), rounding));
+    CHECK(within(stored[i], stick_energy(before[i], displacement[i], depth[i]), rounding));
     CHECK(within(lost[i],
-                 slip_dissipation(Vector3<double>{drift[i], longest[i], depth[i]},
-                                  Vector3<double>{now[i], before[i], drift[i]},
-                                  Vector3<double>{depth[i], drift[i], now[i]}),
+                 slip_dissipation(Vector3<double>{displacement[i], largest[i], depth[i]},
+                                  Vector3<double>{now[i], before[i], displacement[i]},
+                                  Vector3<double>{depth[i], displacement[i], now[i]}),
                  rounding));
   }
 }
@@ -314,7 +315,8 @@ TEST_CASE("no state of a rubbing point is stiffer than the bounds of its springs
       largest = std::max(largest, squared_frequency_over_bound(point, bound));
     }
   CHECK(half_damaged > 100);
-  // The force turns with the facet, which is a thousand times wider than the drift: that much is not in the bound.
+  // The force turns with the facet, which is a thousand times as wide as the displacement: that much is not in the
+  // bound.
   CHECK(largest < 1 + 1e-3);
   CHECK(largest > 0.9);
 }

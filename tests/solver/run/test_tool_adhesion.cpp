@@ -283,7 +283,7 @@ Eigen::Vector3d force_on_node(Tools& tools, Model& model) {
 
 /// Largest stiffness (N/mm) of the tools at the node, by differences of their forces. History is frozen.
 double largest_stiffness(const Tools& tools, Model& model) {
-  constexpr double step = 1e-8; // mm; a drift is some 1e-4 mm
+  constexpr double step = 1e-8; // mm; tangential displacements are some 1e-4 mm
   Eigen::Matrix3d stiffness;
   for (Eigen::Index axis = 0; axis < 3; ++axis) {
     double& x = model.position[4 * tried_node + static_cast<std::size_t>(axis)];
