@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "common/errors.hpp"
+#include "solver/run/energy_terms.hpp"
 
 namespace mpfem {
 
@@ -28,13 +29,11 @@ EnergyCheck::EnergyCheck(const Model& model, const std::vector<HistoryRow>& hist
 }
 
 double EnergyCheck::take(const HistoryRow& row) {
-  double sum = 0; // finite only if all terms are
-  for (const double term :
-       {row.external_work, row.kinetic_energy, row.elastic_energy, row.plastic_dissipation, row.damage_dissipation,
-        row.bond_energy, row.contact_energy, row.viscous_dissipation, row.hypoelastic_dissipation,
-        row.damping_dissipation, row.friction_energy, row.friction_dissipation}) {
-    largest_ = std::max(largest_, std::abs(term));
-    sum += term;
+  double sum = row.external_work; // finite only if all terms are
+  largest_ = std::max(largest_, std::abs(row.external_work));
+  for (const auto term : energy_terms) {
+    largest_ = std::max(largest_, std::abs(row.*term));
+    sum += row.*term;
   }
   if (!std::isfinite(sum + row.energy_residual)) return std::numeric_limits<double>::quiet_NaN();
   return largest_ > negligible_ ? std::abs(row.energy_residual) / largest_ : 0.0;

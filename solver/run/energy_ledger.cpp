@@ -35,10 +35,4 @@ void EnergyLedger::add_step(const ElementSums& elements, const AdvanceSums& adva
   damping_dissipation += advance.damping_work;
 }
 
-double EnergyLedger::residual(const StoredEnergies& stored) const {
-  return external_work + initial - stored.kinetic - stored.elastic - plastic_dissipation - stored.contact -
-         viscous_dissipation - hypoelastic_dissipation - damping_dissipation - stored.bonds -
-         stored.damage_dissipation - stored.friction - friction_dissipation;
-}
-
 } // namespace mpfem

@@ -1,5 +1,5 @@
 #pragma once
-// The energies that are accumulated over time, and the balance of all energies.
+// The energies that are accumulated over time. All energies, and their balance: solver/run/energy_terms.hpp.
 
 #include <array>
 
@@ -12,16 +12,6 @@
 #include "solver/kernels/node_motion.hpp"
 
 namespace mpfem {
-
-/// Energies of one time level, mJ.
-struct StoredEnergies {
-  double kinetic = 0;
-  double elastic = 0;
-  double contact = 0;            ///< in the penalty of contacts, walls and tools
-  double bonds = 0;              ///< between grains and to tools
-  double friction = 0;           ///< in stick springs of grains, walls and tools
-  double damage_dissipation = 0; ///< a function of the bonds' states, not accumulated over time
-};
 
 /// Energies that are added up step by step since the start of the run.
 struct EnergyLedger {
@@ -58,8 +48,6 @@ struct EnergyLedger {
   void add_friction(const ContactSums& contact, const WallFrictionSums& walls);
   /// Adds what was dissipated in a step.
   void add_step(const ElementSums& elements, const AdvanceSums& advance);
-  /// mJ that are not accounted for.
-  double residual(const StoredEnergies& stored) const;
 };
 
 } // namespace mpfem

@@ -6,6 +6,7 @@
 
 #include "common/index.hpp"
 #include "solver/parallel/totals.hpp"
+#include "solver/run/energy_terms.hpp"
 
 namespace mpfem {
 
@@ -170,12 +171,7 @@ HistoryRow observe_row(const Simulation& simulation, const ForceSums& sums, Thre
   row.bond_energy += of_tools.adhesion_energy;
   row.damage_dissipation += simulation.tools().adhesion_dissipation();
   take_over_sums(row, simulation.energies());
-  row.energy_residual = simulation.energies().residual({.kinetic = row.kinetic_energy,
-                                                        .elastic = row.elastic_energy,
-                                                        .contact = row.contact_energy,
-                                                        .bonds = row.bond_energy,
-                                                        .friction = row.friction_energy,
-                                                        .damage_dissipation = row.damage_dissipation});
+  row.energy_residual = energy_residual(row, simulation.energies().initial);
   row.coordination_number = 2.0 * static_cast<double>(grains.touched) / static_cast<double>(model.grains);
   double wall_force = 0;
   for (const double force : simulation.box().force()) wall_force += force;

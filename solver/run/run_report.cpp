@@ -9,6 +9,7 @@
 #include "common/run_quality.hpp"
 #include "common/stage_energy.hpp"
 #include "solver/run/energy_check.hpp"
+#include "solver/run/energy_terms.hpp"
 
 namespace mpfem {
 
@@ -20,9 +21,7 @@ constexpr int lines_below_head = 20;
 /// Internal energy (mJ) of the stage that each row belongs to.
 std::vector<double> internal_energy(const std::vector<HistoryRow>& history) {
   std::vector<StageEnergyRow> rows;
-  for (const HistoryRow& row : history)
-    rows.push_back({row.stage, row.elastic_energy + row.bond_energy + row.contact_energy + row.friction_energy,
-                    row.plastic_dissipation + row.damage_dissipation + row.friction_dissipation});
+  for (const HistoryRow& row : history) rows.push_back({row.stage, stored_energy(row), dissipated_energy(row)});
   return stage_internal_energy(rows);
 }
 
