@@ -21,9 +21,9 @@
 #include "solver/model/bond_resolution.hpp"
 #include "solver/model/smooth_surface.hpp"
 #include "solver/model/tets.hpp"
-#include "solver/run/programme.hpp"
 #include "solver/run/resume.hpp"
 #include "solver/run/simulation.hpp"
+#include "solver/run/stage_forecast.hpp"
 
 namespace mpfem {
 
@@ -276,8 +276,8 @@ void prepare(const BenchOptions& options, Scenario& scenario, Simulation& simula
   }
   if (options.from) begin_branch(*options.from, simulation, simulation.ranks());
   const StageRun::State& stage = simulation.stage_run().state();
-  check_programme(scenario, simulation.state().stage, stage.start, simulation.model(),
-                  simulation.step_estimate().stable_step());
+  check_stages(scenario, simulation.state().stage, stage.start, simulation.model(),
+               simulation.step_estimate().stable_step());
   const int steps = options.scenario ? 20 : warm_up_steps;
   for (int i = 0; i < steps && !simulation.stage_complete(); ++i) {
     simulation.evaluate_forces();

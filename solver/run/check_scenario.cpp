@@ -14,9 +14,9 @@
 #include "solver/run/needs.hpp"
 #include "solver/run/plan_text.hpp"
 #include "solver/run/plausibility.hpp"
-#include "solver/run/programme.hpp"
 #include "solver/run/resume.hpp"
 #include "solver/run/simulation.hpp"
+#include "solver/run/stage_forecast.hpp"
 #include "surfaces/stl.hpp"
 
 namespace mpfem {
@@ -188,7 +188,7 @@ void check_scenario(const Scenario& scenario, const CheckOptions& options, const
   std::ranges::copy(implausible_sizes(scenario, simulation.model(), simulation.tools()), std::back_inserter(warnings));
   std::ranges::copy(check_bonds(simulation.model(), scenario, ranks), std::back_inserter(warnings));
   const StepEstimate::State& step = simulation.step_estimate().state();
-  check_programme(scenario, 0, simulation.stage_run().state().start, simulation.model(), step.stable_step);
+  check_stages(scenario, 0, simulation.stage_run().state().start, simulation.model(), step.stable_step);
   if (!options.quiet) print_model(scenario, simulation, needs, ranks.size());
   for (const std::string& warning : warnings) fmt::print("warning        {}\n", warning);
   if (options.quiet) return;

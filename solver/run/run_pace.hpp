@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "solver/run/profile.hpp"
-#include "solver/run/programme.hpp"
 #include "solver/run/simulation.hpp"
+#include "solver/run/stage_forecast.hpp"
 
 namespace mpfem {
 

@@ -18,10 +18,10 @@
 #include "solver/run/needs.hpp"
 #include "solver/run/plan_text.hpp"
 #include "solver/run/plausibility.hpp"
-#include "solver/run/programme.hpp"
 #include "solver/run/run_records.hpp"
 #include "solver/run/run_report.hpp"
 #include "solver/run/simulation.hpp"
+#include "solver/run/stage_forecast.hpp"
 #include "solver/run/time_loop.hpp"
 
 namespace mpfem {
@@ -100,8 +100,8 @@ Outcome run_once(const Scenario& scenario, const RunOptions& options, const Comm
   if (beginning == Beginning::must_start_again) return {RunEnd::must_start_again};
   stop_before_first_step(ranks, checkpoint_path(options.output));
   if (beginning == Beginning::complete) return {RunEnd::complete};
-  check_programme(scenario, simulation.state().stage, simulation.stage_run().state().start, simulation.model(),
-                  simulation.step_estimate().stable_step());
+  check_stages(scenario, simulation.state().stage, simulation.stage_run().state().start, simulation.model(),
+               simulation.step_estimate().stable_step());
   if (!owners) {
     root_does(ranks, [&] { check_disk_space(scenario, options, whole.needs.disk, report); });
     report_beginning(report, warnings, simulation);

@@ -17,7 +17,7 @@
 #include "solver/run/initial_state.hpp"
 #include "solver/run/make_tools.hpp"
 #include "solver/run/observer.hpp"
-#include "solver/run/programme.hpp"
+#include "solver/run/stage_forecast.hpp"
 
 namespace mpfem {
 

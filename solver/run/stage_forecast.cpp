@@ -1,4 +1,4 @@
-#include "solver/run/programme.hpp"
+#include "solver/run/stage_forecast.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -132,8 +132,8 @@ std::vector<StageForecast> forecast(const Scenario& scenario, std::int64_t first
   return forecasts;
 }
 
-void check_programme(const Scenario& scenario, std::int64_t first_stage, const Cell& cell, const Model& model,
-                     double stable_step) {
+void check_stages(const Scenario& scenario, std::int64_t first_stage, const Cell& cell, const Model& model,
+                  double stable_step) {
   check_stable_step(stable_step);
   check_steps(scenario, first_stage, forecast(scenario, first_stage, cell, model), stable_step);
   check_history(scenario, first_stage);

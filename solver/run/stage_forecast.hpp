@@ -1,5 +1,6 @@
 #pragma once
-// What is known of a scenario's stages before they run.
+// What is expected of a scenario's stages before they run, and checks of it: how long they take, whether they can reach
+// their targets.
 
 #include <cstdint>
 #include <string>
@@ -30,7 +31,7 @@ std::vector<StageForecast> forecast(const Scenario& scenario, std::int64_t first
 /// Checks the stages from `first_stage` on before anything moves: every target can be reached from where the stage
 /// before ends (as far as that is known beforehand), and no wall moves further in one stable step (s) than a small part
 /// of an element. Throws InputError.
-void check_programme(const Scenario& scenario, std::int64_t first_stage, const Cell& cell, const Model& model,
-                     double stable_step);
+void check_stages(const Scenario& scenario, std::int64_t first_stage, const Cell& cell, const Model& model,
+                  double stable_step);
 
 } // namespace mpfem
