@@ -17,25 +17,12 @@
 #include "solver/run/initial_state.hpp"
 #include "solver/run/make_tools.hpp"
 #include "solver/run/observer.hpp"
-#include "solver/run/stage_forecast.hpp"
 
 namespace mpfem {
 
 namespace {
 
-constexpr Axes all_axes{true, true, true};
 constexpr double deepest_penetration = 0.5; // of a wall or tool, over the element size
-
-/// Axes whose walls are away in a stage.
-Axes withdrawn_in(const Scenario& scenario, std::int64_t stage) {
-  return scenario.walls ? withdrawn_axes(scenario.stages[static_cast<std::size_t>(stage)].type) : all_axes;
-}
-
-/// mm/s^2, reduced as masses are scaled: weights stay as they are.
-std::array<double, 3> of_scaled_mass(std::array<double, 3> gravity, const Scenario& scenario) {
-  for (double& component : gravity) component /= scenario.numerics.mass_scaling;
-  return gravity;
-}
 
 } // namespace
 
@@ -87,6 +74,13 @@ void Simulation::order_grains() {
   };
   for (const std::int32_t grain : model_.spatial_order) put(grain, in_space_);
   for (const std::int32_t grain : model_.own()) put(grain, by_number_);
+}
+
+void Simulation::update_surfaces() {
+  team_->for_each(static_cast<int>(model_.own().size()), [&](int item, int) {
+    const std::int32_t grain = model_.own()[at(item)];
+    bounds_[at(grain)] = update_surface(model_, grain);
+  });
 }
 
 // ---------------------------------------------------------------------------------------------- the step
@@ -189,7 +183,7 @@ void Simulation::add_contact(std::span<const std::int32_t> grains) {
 
 /// Reactions of contact, boundaries and weight.
 void Simulation::add_reactions_and_walls() {
-  const std::array<double, 3> gravity = of_scaled_mass(scenario_->gravity, *scenario_);
+  const std::array<double, 3> gravity = of_scaled_mass(scenario_->gravity);
   for (const auto* grains : {&in_space_.border, &in_space_.inside})
     team_->for_each_range(static_cast<int>(grains->size()), [&](int begin, int end, int thread) {
       const auto together = std::span(*grains).subspan(at(begin), at(end - begin));
@@ -251,6 +245,12 @@ std::array<double, 2> Simulation::add_grips() {
   const auto total = total_of<GripSums>(*ranks_, model_.own(), sums);
   energies_.add_grips(total);
   return total.force;
+}
+
+/// mm/s^2, reduced as masses are scaled: weights stay as they are.
+std::array<double, 3> Simulation::of_scaled_mass(std::array<double, 3> gravity) const {
+  for (double& component : gravity) component /= scenario_->numerics.mass_scaling;
+  return gravity;
 }
 
 void Simulation::add_work_of_gravity() {
@@ -386,92 +386,6 @@ void Simulation::fail_at_first_grain(const std::function<std::string(std::int32_
   agree(*ranks_, fail, [&] { return static_cast<double>(failed); });
 }
 
-// ---------------------------------------------------------------------------------------------- stages
-
-void Simulation::begin_stage(std::int64_t stage) {
-  change_walls(withdrawn_in(*scenario_, stage));
-  state_.stage = stage;
-  change_tools();
-  if (const std::string reason =
-          unreachable_stress(scenario_->stages[static_cast<std::size_t>(stage)], box_.mean_stress());
-      !reason.empty())
-    throw InputError(reason);
-  stage_run_.emplace(scenario_->stages[static_cast<std::size_t>(stage)],
-                     StageStart{box_.cell(), box_.mean_stress(), sample_of(model_)}, energies_.plastic_dissipation);
-  plan_.reset();
-  damping_rate_ = damping_rate();
-  grip_faces();
-}
-
-/// Withdrawn walls take the energy stored in their penalty and friction with them. Returning walls begin where they
-/// touch nothing, so the ledger follows them from the first touch on.
-void Simulation::change_walls(const Axes& withdrawn) {
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    if (withdrawn[axis] && box_.has_walls(axis))
-      for (std::size_t side = 2 * axis; side < 2 * axis + 2; ++side)
-        energies_.leave_with(force_total_.box.wall[side].energy + force_total_.wall_friction.energy[side]);
-    if (!withdrawn[axis] && !box_.has_walls(axis)) return_walls(axis);
-  }
-  box_.withdraw(withdrawn);
-  wall_friction_.forget(withdrawn);
-}
-
-namespace {
-
-/// Unit vector along which a stage drives a tool; 0 where it does not.
-std::array<double, 3> way_of(const ToolDrive& drive) {
-  const double speed = std::hypot(drive.velocity[0], drive.velocity[1], drive.velocity[2]);
-  if (drive.holds_push() || speed == 0) return drive.direction;
-  return {drive.velocity[0] / speed, drive.velocity[1] / speed, drive.velocity[2] / speed};
-}
-
-} // namespace
-
-/// In stages of other types all tools are in place.
-void Simulation::change_tools() {
-  const auto* loading = std::get_if<ToolLoading>(&scenario_->stages[static_cast<std::size_t>(state_.stage)].type);
-  std::span<const std::size_t> away;
-  std::vector<std::array<double, 3>> ways(tools_.size()); // along which tools are driven
-  if (loading != nullptr) {
-    away = loading->away;
-    for (const ToolDrive& drive : loading->drives) ways[drive.tool] = way_of(drive);
-  }
-  const bool punch_was_away = container_ && container_->punch_is_away(tools_);
-  energies_.leave_with(tools_.set_away(away, ways, model_, bounds_, state_.last_step, *ranks_));
-  // In other stages the cell may have moved without the tools, as with grips.
-  if (container_ && (loading != nullptr || punch_was_away)) box_.set_cell(container_->cell(tools_, box_.cell()));
-}
-
-void Simulation::return_walls(std::size_t axis) {
-  constexpr double largest_growth = 2;
-  const double before = box_.cell().length(axis);
-  share_of_grains(*ranks_, model_.ownership, std::span(bounds_));
-  box_.move_clear(axis, bounds_);
-  if (const double length = box_.cell().length(axis); length > largest_growth * before)
-    throw SimulationError(fmt::format("stage '{}': the walls along {} cannot return: the grains extend over {:.4g} mm, "
-                                      "the walls were {:.4g} mm apart, allowed: up to twice that",
-                                      scenario_->stages[static_cast<std::size_t>(state_.stage)].name, "xyz"[axis],
-                                      length, before));
-}
-
-void Simulation::grip_faces() {
-  grips_ = {};
-  const GripMotion* grip = stage_run_->control().grips();
-  if (!grip) return;
-  grips_ = grip_nodes(model_, box_.cell(), grip->axis, grip->depth, grip->lateral_fixed);
-  std::array<double, 2> holds{};
-  for (const GrippedNode& node : grips_.node) holds[static_cast<std::size_t>(node.side)] = 1;
-  for (double& side : holds) side = ranks_->largest(side);
-  if (holds[0] == 0 || holds[1] == 0)
-    throw InputError(fmt::format("stage '{}': key 'grip_depth': found {:g} mm, but no node lies so close to the {} "
-                                 "face of the box, allowed: a larger value",
-                                 stage().name, grip->depth, holds[0] > 0 ? "high" : "low"));
-}
-
-StageResult Simulation::stage_result() const {
-  return stage_run_->result(observation());
-}
-
 // ---------------------------------------------------------------------------------------------- observation
 
 HistoryRow Simulation::observe() const {
@@ -487,83 +401,6 @@ void Simulation::reset_energy_balance(HistoryRow& first_row) {
   energies_.initial -= first_row.energy_residual;
   first_row.energy_residual = 0;
   energy_balance_open_ = false;
-}
-
-// ---------------------------------------------------------------------------------------------- checkpoints
-
-void Simulation::write(FieldWriter& to) const {
-  RunState::for_each_field(state_, to);
-  Box::for_each_field(box_, to);
-  tools_.write(to);
-  EnergyLedger::for_each_field(energies_, to);
-  StepEstimate::State::for_each_field(step_estimate_.state(), to);
-  stage_run_->write(to);
-}
-
-void Simulation::read(FieldReader& from, std::optional<std::size_t> tools_of_branch) {
-  RunState::for_each_field(state_, from);
-  Box::for_each_field(box_, from);
-  tools_.read(from, tools_of_branch.value_or(tools_.size()));
-  EnergyLedger::for_each_field(energies_, from);
-  StepEstimate::State step = step_estimate_.state();
-  StepEstimate::State::for_each_field(step, from);
-  step_estimate_.restore(step);
-  stage_run_.reset();
-  if (tools_of_branch) { // a branch begins its own stage: begin_branch()
-    state_.stage = 0;
-    return;
-  }
-  StageRun::State stage_state;
-  StageRun::State::for_each_field(stage_state, from);
-  stage_run_.emplace(scenario_->stages[static_cast<std::size_t>(state_.stage)], sample_of(model_), stage_state);
-  stage_run_->read(from);
-}
-
-/// The grips of the stage without their nodes; nullptr if it has no grips.
-Grips* Simulation::prepare_grips() {
-  grips_ = {};
-  const GripMotion* grip = stage_run_ ? stage_run_->control().grips() : nullptr;
-  if (!grip) return nullptr;
-  grips_.axis = grip->axis;
-  grips_.lateral_fixed = grip->lateral_fixed;
-  return &grips_;
-}
-
-void Simulation::set_grain_steps(GrainSteps grain_steps) {
-  step_estimate_.restore(std::move(grain_steps));
-  travel_since_search_ = largest_travel_since_search(contact_); // a checkpoint has that of all grains
-  update_surfaces();
-  ghosts_.share_pairs(model_, contact_);
-  order_grains();
-}
-
-void Simulation::update_surfaces() {
-  team_->for_each(static_cast<int>(model_.own().size()), [&](int item, int) {
-    const std::int32_t grain = model_.own()[at(item)];
-    bounds_[at(grain)] = update_surface(model_, grain);
-  });
-}
-
-/// Before the gravity of this scenario acts, the one before has done its work up to here.
-void Simulation::take_over_from_gravity(const std::array<double, 3>& before) {
-  const auto potential = [this](const std::array<double, 3>& acceleration) {
-    const std::array<double, 3> gravity = of_scaled_mass(acceleration, *scenario_);
-    return sum_over_grains(*ranks_, model_.own(),
-                           [&](std::int32_t grain) { return weight_potential(model_, gravity, grain); });
-  };
-  energies_.add_gravity(potential(before) - state_.weight_potential);
-  state_.weight_potential = potential(scenario_->gravity);
-}
-
-void Simulation::begin_branch(const std::array<double, 3>& gravity_before) {
-  if (gravity_before != scenario_->gravity) take_over_from_gravity(gravity_before);
-  Box coming = box_;
-  coming.withdraw(withdrawn_in(*scenario_, 0));
-  find_candidates();
-  renew_step_estimate(coming, true);
-  step_estimate_.renew_after_next_step(); // nothing touches yet
-  begin_stage(0);
-  energy_balance_open_ = true;
 }
 
 } // namespace mpfem

@@ -5,6 +5,9 @@
 //   evaluate_forces()   contact and walls at x_n added to the internal forces
 //   advance()           v_{n+1/2}, x_{n+1}, stresses and internal forces at x_{n+1}
 // and everything is observed between the two, where all terms of the energy balance belong to time n.
+//
+// simulation.cpp has the step, simulation_stages.cpp the beginning of stages, simulation_state.cpp checkpoints and
+// branches.
 
 #include <array>
 #include <cstdint>
@@ -187,8 +190,11 @@ private:
   void move_and_strain(std::span<const std::int32_t> grains, const Advance& update);
   StepEstimate::StrainOfStep add_up_step();
   void update_surfaces();
+  /// Axes whose walls are away in a stage.
+  Axes withdrawn_in(std::int64_t stage) const;
   void change_walls(const Axes& withdrawn);
   void change_tools();
+  std::array<double, 3> of_scaled_mass(std::array<double, 3> gravity) const;
   void add_work_of_gravity();
   void measure_tools();
   void return_walls(std::size_t axis);

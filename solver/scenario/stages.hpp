@@ -176,6 +176,7 @@ std::optional<double> servo_speed(const StageType& type);
 const LoadingEnds* loading_ends(const StageType& type);
 /// Axes of the box, as flags.
 using Axes = std::array<bool, 3>;
+inline constexpr Axes all_axes{true, true, true};
 /// Axes whose walls are away while a stage lasts.
 Axes withdrawn_axes(const StageType& type);
 /// Whether a stage needs walls.
