@@ -1,5 +1,5 @@
 #pragma once
-// How a stage ended, as run files and checkpoints keep it.
+// How a stage ended. Run files keep all but `hold_stress` and `missed`, checkpoints all but `missed`.
 
 #include <string>
 
@@ -13,7 +13,10 @@ struct StageResult {
   double hold_error = 0;            ///< MPa, largest deviation of a held stress, averaged over a transit of the box
   double hold_stress = 0;           ///< MPa, the largest stress to be held
   double hold_root_mean_square = 0; ///< MPa, root mean square of the deviation at every step
-  std::string missed{};             ///< the forces of tools that were never reached, and what the tools bear instead
+  /// "'upper' 12 N instead of 40 N": pushes of tools (N or MPa) that were to be held and never reached, after what the
+  /// tools bore when the stage ended. Only for the message at that end; empty if all were reached, and in a stage that
+  /// was read from a checkpoint.
+  std::string missed{};
 };
 
 } // namespace mpfem

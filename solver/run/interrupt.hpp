@@ -1,5 +1,5 @@
 #pragma once
-// SIGINT, SIGTERM and SIGUSR1 as requests to stop. The run answers them when its state can be saved.
+// SIGINT, SIGTERM, SIGHUP and SIGUSR1 as requests to stop. The run answers them when its state can be saved.
 
 #include <string>
 
@@ -7,8 +7,8 @@
 
 namespace mpfem {
 
-/// From now on the first SIGINT, SIGTERM or SIGUSR1 is a request only. Another one some seconds later acts as usual.
-/// May be called again.
+/// From now on the first SIGINT, SIGTERM, SIGHUP or SIGUSR1 is a request only. Another one some seconds later acts as
+/// usual. SIGHUP stays ignored where it is, as under nohup. May be called again.
 void catch_interrupts();
 
 /// Whether a stop has been requested.

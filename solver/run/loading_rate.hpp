@@ -1,9 +1,10 @@
 #pragma once
 // A stage that chooses its own speed: as fast as its tolerances of quasi-static loading allow.
 //
-// Two signs of inertia are watched while the packing bears load. One is kinetic energy over internal energy. The other
-// is the stress that inertia bears: along each axis, with f the total force on a node and x its distance from the box's
-// centre,
+// Two signs of inertia are watched while the packing bears load. One is kinetic energy over internal energy, which here
+// is the elastic energy of the grains and what plastic flow has dissipated since the stage began; reports also count
+// bonds, their damage, friction and the penalty of contact (common/stage_energy.hpp). The other is the stress that
+// inertia bears: along each axis, with f the total force on a node and x its distance from the box's centre,
 //   sum f / A                the difference of opposite walls' stresses,
 //   sum f x / V              the walls' mean stress less that inside the grains,
 // both of which vanish in equilibrium. (The second also shows symmetric vibration, which the first does not.)
@@ -47,7 +48,9 @@ struct LoadingRateState {
 
 /// What is observed every `steps_between_observations` steps.
 struct LoadingRateObservation {
-  double elapsed = 0;                  ///< s since the observation before
+  /// s since the observation before, taken as `steps_between_observations` times the last step: exact only where all of
+  /// these steps were as long as the last, and belonged to the stage.
+  double elapsed = 0;
   double kinetic_energy = 0;           ///< mJ
   double elastic_energy = 0;           ///< mJ, of the grains
   double plastic_dissipation = 0;      ///< mJ, since the run began
