@@ -1,4 +1,5 @@
 #pragma once
+// How many cores this process may use.
 
 namespace mpfem {
 

@@ -1,4 +1,5 @@
 #pragma once
+// How much memory this process may still take.
 
 #include <filesystem>
 

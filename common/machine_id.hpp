@@ -1,4 +1,5 @@
 #pragma once
+// The machine on which this process runs: whether two processes share one.
 
 #include <string>
 

@@ -1,4 +1,5 @@
 #pragma once
+// A description of the machine, for the provenance of results.
 
 #include <string>
 

@@ -1,4 +1,5 @@
 #pragma once
+// The version of the toolkit, and the commit from which it was built.
 
 #include <string>
 #include <string_view>

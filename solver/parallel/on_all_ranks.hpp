@@ -1,4 +1,5 @@
 #pragma once
+// The whole program on all ranks: one exit code, and errors printed once.
 
 #include <functional>
 

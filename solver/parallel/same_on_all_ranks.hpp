@@ -1,4 +1,5 @@
 #pragma once
+// What has to be the same on all ranks before a run begins: scenario, command and build.
 
 #include <string>
 

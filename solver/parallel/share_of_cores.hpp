@@ -1,4 +1,5 @@
 #pragma once
+// How many cores each rank takes on a machine that several ranks share.
 
 #include <span>
 #include <string>

@@ -1,4 +1,5 @@
 #pragma once
+// The text by which ranks see whether they are of one build.
 
 #include <string>
 
