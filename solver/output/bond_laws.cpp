@@ -22,7 +22,7 @@ double number_of(SofteningLaw law) {
 }
 
 SofteningLaw softening_of(double number) {
-  for (const SofteningLaw law : {SofteningLaw::exponential, SofteningLaw::energy})
+  for (const SofteningLaw law : softening_laws)
     if (number_of(law) == number) return law;
   throw InputError(fmt::format("bond/laws: found the softening law {:g}, allowed: 0 (exponential) or 1 (energy); the "
                                "file was written by another version of mpfem",

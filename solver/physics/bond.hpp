@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <span>
 
 namespace mpfem {
@@ -18,6 +19,11 @@ enum class SofteningLaw {
   exponential, ///< T = T_0 exp(-T_0 (delta - delta_0)/b): the peak is the strength, as the paper's Fig. 3 draws it
   energy, ///< 1 - D = exp(-K (delta^2 - delta_0^2)/(2 b)): Eq. 5, literally; the traction rises beyond the strength
 };
+/// All of them. Code that chooses between laws is a switch without default, so that the compiler asks for the case of a
+/// new law. Not so in this file, which kernels inline: there a switch changes which products the compiler fuses with
+/// sums, and so the last digits of results.
+inline constexpr SofteningLaw softening_laws[] = {SofteningLaw::exponential, SofteningLaw::energy};
+static_assert(std::size(softening_laws) == 2, "softening_exponent and remaining_stiffness choose between two");
 
 /// Constants of a bond.
 struct BondLaw {

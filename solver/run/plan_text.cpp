@@ -33,8 +33,7 @@ std::string earlier_bonds_text(const Contact& contact) {
   if (contact.bond_laws.size() < 2) return {};
   const auto law_text = [](const BondLaw& law) {
     return fmt::format("tensile and shear strength {:g} and {:g} MPa, fracture energy {:g} N/mm, {} softening",
-                       law.tensile_strength, law.shear_strength, law.fracture_energy,
-                       law.softening == SofteningLaw::energy ? "energy" : "exponential");
+                       law.tensile_strength, law.shear_strength, law.fracture_energy, name_of(law.softening));
   };
   std::vector<std::int64_t> formed(contact.bond_laws.size(), 0);
   for (const PointBond& bond : contact.bond)

@@ -2,10 +2,22 @@
 // Cohesive bonds of a scenario: [bond], and the adhesion of tools.
 
 #include <optional>
+#include <stdexcept>
 
 #include "solver/physics/bond.hpp"
 
 namespace mpfem {
+
+/// The name of a softening law in scenarios and messages.
+inline const char* name_of(SofteningLaw law) {
+  switch (law) {
+  case SofteningLaw::exponential:
+    return "exponential";
+  case SofteningLaw::energy:
+    return "energy";
+  }
+  throw std::logic_error("unknown softening law");
+}
 
 /// Cohesive bonds that form where grains touch each other or a tool (paper Eqs. 2-7, Table 1).
 struct BondParameters {
