@@ -18,7 +18,7 @@ double penalty_of_pair(const Model& model, const ContactCandidates& candidates, 
 }
 
 /// Law of the bond at a point.
-BondLaw law_at_point(const Model& model, const Contact& contact, double penalty_of_pair, std::int32_t point) {
+BondLaw law_of_bond(const Model& model, const Contact& contact, double penalty_of_pair, std::int32_t point) {
   const std::size_t node = at(contact.candidates.point_node[at(point)]);
   return bond_law(contact, contact.bond[at(point)], penalty_of_pair * model.local_stiffness(node));
 }
@@ -48,7 +48,7 @@ BondSums bond_sums(const Model& model, const Contact& contact, std::int32_t pair
     const PointBond& bond = contact.bond[at(p)];
     if (!bond.exists() && bond.dissipated_before == 0) continue;
     const double area = model.reference_area[at(candidates.point_node[at(p)])];
-    const BondLaw law = law_at_point(model, contact, penalty, p);
+    const BondLaw law = law_of_bond(model, contact, penalty, p);
     const double share = share_of_point(model, contact, p);
     sums.formed_area += area;
     sums.damaged_area += bond.exists() ? (1.0 - bond.remaining) * area : area;
@@ -68,8 +68,7 @@ double bond_dissipation(const Model& model, const Contact& contact, std::int32_t
   const double share = share_of_point(model, contact, point);
   if (!bond.exists()) return share * bond.dissipated_before;
   const double penalty = penalty_of_pair(model, contact.candidates, pair);
-  return share *
-         (bond.dissipated_before + damage_dissipation(law_at_point(model, contact, penalty, point), bond.state));
+  return share * (bond.dissipated_before + damage_dissipation(law_of_bond(model, contact, penalty, point), bond.state));
 }
 
 namespace {

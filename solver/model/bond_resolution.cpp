@@ -55,7 +55,7 @@ double smallest_penalty(const Model& model, const Communicator& ranks) {
 }
 
 /// Bonds of one kind in a scenario.
-struct BondsOfScenario {
+struct BondsOfOneKind {
   const BondParameters& bond;
   const KeyPlaces& places;
   BondPartner partner;
@@ -68,8 +68,8 @@ struct BondsOfScenario {
   }
 };
 
-void check(const Model& model, const ContactParameters& contact, const BondsOfScenario& bonds,
-           const Communicator& ranks, std::vector<std::string>& warnings) {
+void check(const Model& model, const ContactParameters& contact, const BondsOfOneKind& bonds, const Communicator& ranks,
+           std::vector<std::string>& warnings) {
   if (const auto stiffness = bonds.bond.stiffness; stiffness && bonds.has_friction)
     if (const double allowed = smallest_penalty(model, ranks); *stiffness > allowed)
       bonds.refuse(

@@ -16,10 +16,10 @@ double allowed_frequency_squared(const Model& model, const Material& material, d
 }
 
 /// Bonds that may be stiffer than the penalty of contact.
-struct BondsOfScenario {
+struct BondLaws {
   std::vector<BondLaw> of_grains, of_tools;
 
-  explicit BondsOfScenario(const Scenario& scenario) {
+  explicit BondLaws(const Scenario& scenario) {
     if (scenario.bond) of_grains.push_back(law_of_bonds(*scenario.bond, scenario.contact));
     for (const ToolParameters& tool : scenario.tools)
       if (tool.adhesion) of_tools.push_back(law_of_bonds(*tool.adhesion, scenario.contact));
@@ -35,7 +35,7 @@ struct BondsOfScenario {
 };
 
 /// 1/s^2, what contact usually adds to the frequency squared of a node; nothing inside the grain.
-double usual_contact_rate(const Model& model, const BondsOfScenario& bonds, std::size_t grain, std::int32_t node) {
+double usual_contact_rate(const Model& model, const BondLaws& bonds, std::size_t grain, std::int32_t node) {
   if (node >= model.node_offset[grain] + model.surface_node_count[grain]) return 0;
   const auto n = static_cast<std::size_t>(node);
   const double penalty = model.penalty_stiffness[grain] * model.local_stiffness(n);
@@ -43,7 +43,7 @@ double usual_contact_rate(const Model& model, const BondsOfScenario& bonds, std:
 }
 
 /// Sets mass_factor of a grain's nodes to the largest factor that one of their tets requires, at least `least`.
-void set_mass_factors(Model& model, const BondsOfScenario& bonds, int grain, double step, double least) {
+void set_mass_factors(Model& model, const BondLaws& bonds, int grain, double step, double least) {
   const auto g = static_cast<std::size_t>(grain);
   const std::int32_t first = model.node_offset[g];
   std::fill(model.mass_factor.data() + first, model.mass_factor.data() + model.node_offset[g + 1], least);
@@ -94,7 +94,7 @@ void set_added_mass(Model& model, const std::vector<double>& own_mass) {
 
 void scale_masses(Model& model, const Scenario& scenario, const Communicator& ranks) {
   const double step = scenario.numerics.mass_scaling_step / scenario.numerics.time_step_factor;
-  const BondsOfScenario bonds(scenario);
+  const BondLaws bonds(scenario);
   const std::vector<double> own_mass = model.mass;
   model.mass_factor = LazyArray<double>(static_cast<std::size_t>(model.nodes()), model.pages());
   for (const std::int32_t grain : model.own()) {
