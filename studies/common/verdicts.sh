@@ -15,6 +15,10 @@ as_list() { awk '{ sub(/,$/, ""); printf "%s%s", NR == 1 ? "[\n" : ",\n", $0 } E
 statements() { grep '"statement":' $results/"$1"/verdict.json; }
 statements own/finest-mesh | grep 'von Mises' | as_list >"$finest/fig08/verdict.json"
 statements own/finest-mesh | grep -v 'von Mises' | as_list >"$finest/fig09/verdict.json"
+# The densities between which samples saturate at the paper's modulus, in the words of that study's statement.
+saturated=$(statements coarse/saturated-modulus |
+  sed -n 's/.*samples compacted to \([0-9.]*\) and to \([0-9.]*\), .*/\1 to \2/p')
+[ -n "$saturated" ] || { echo "verdicts.sh: saturated-modulus/verdict.json states no densities" >&2 && exit 1; }
 # So has the mesh that it uses from fig10 on: energies belong to fig11, strengths to fig22.
 statements medium-tet4/paper-mesh | grep ' energy' | grep -v trength | as_list >"$paper_mesh/fig11/verdict.json"
 statements medium-tet4/paper-mesh | grep trength | as_list >"$paper_mesh/fig22/verdict.json"
@@ -40,9 +44,9 @@ both elements and both contact surfaces; the density at which the slope changes 
 not certain |
 | The elastic energy at the largest density hardly depends on the grains' Young's modulus, nor the energy locked in \
 once divided by it ([fig11], [locking]) | no | only plain tetrahedra come close, for which the grains' falling and \
-the element's rising energy nearly balance; two thirds to nine tenths of what they keep belongs to the element |
+the element's rising energy nearly balance; most of what they keep belongs to the element |
 | The compact's modulus is exponential in the porosity, and saturates with the fracture energy ([fig12], [fig16]) | \
-yes, if samples were compacted to 0.83 to 0.86 | these saturate at the paper's value; the paper does not state their \
+yes, if samples were compacted to $saturated | these saturate at the paper's value; the paper does not state their \
 density |
 | Unconfined strength grows exponentially with density and with fracture energy, and samples fail in bands ([fig13], \
 [fig14], [fig15], [fig16]) | in part | by Eq. 5 read literally strong bonds outlast the grains, without peak or band, \
@@ -51,13 +55,13 @@ porosity; with fracture energy it saturates by either law |
 | Strong bonds make triaxial samples harden and contract, weak ones soften and expand ([fig18], [fig20], [fig21]) | \
 yes | by Eq. 5 read literally; by the law of Fig. 3 samples with strong bonds soften and expand too |
 | Triaxial strength follows Eq. 13 ([fig22]) | in part | the form fits, and strong bonds agree; grains without bonds \
-carry half, and C and D differ; with friction of 0.3 between grains, which \
+carry less, and C and D differ; with friction of 0.3 between grains, which \
 the paper excludes, B and C match the paper; D does not |
 | Cohesion enlarges the yield surface at high mean stress ([fig24]) | yes | with both elements and both contact \
 surfaces; here it does so at low mean stress too, where the paper infers the opposite |
 | In load cycles samples with cohesion become looser and those without denser, which also dissipate more ([fig25], \
 [fig26]) | in part | without cohesion all agrees; with cohesion samples \
-become looser in one setting, by five in a million a cycle; the ratio of both dissipations is the paper's in some \
+become looser in one setting, and very little ([cycle-density]); the ratio of both dissipations is the paper's in some \
 settings only |
 
 [fig09]: ../studies/fig09/README.md
@@ -75,6 +79,7 @@ settings only |
 [fig24]: ../studies/fig24/README.md
 [fig25]: ../studies/fig25/README.md
 [fig26]: ../studies/fig26/README.md
+[cycle-density]: ../studies/cycle-density/README.md
 [finest mesh]: ../studies/finest-mesh/README.md
 [locking]: ../studies/locking/README.md
 
