@@ -1,5 +1,4 @@
 #include <fstream>
-#include <functional>
 #include <sstream>
 #include <thread>
 
@@ -20,6 +19,7 @@
 using namespace mpfem;
 using mpfem::test::Folder;
 using mpfem::test::input_error;
+using mpfem::test::one_line_error;
 using mpfem::test::read_text;
 namespace fs = std::filesystem;
 
@@ -27,15 +27,6 @@ namespace {
 
 std::string refusal(const std::string& path, OutputKind kind) {
   return input_error([&] { check_output_path("--output", path, kind); });
-}
-
-std::string storage_error(const std::function<void()>& body) {
-  try {
-    body();
-  } catch (const StorageError& error) {
-    return error.what();
-  }
-  return "no error";
 }
 
 bool is_character_device(const std::string& path) {
@@ -288,7 +279,7 @@ TEST_CASE("A complete text that cannot take its name stays in the partial file t
     TextFile file(path);
     file.write("whole");
     fs::create_directory(path);
-    CHECK_THAT(storage_error([&] { file.complete(); }), Catch::Contains("out.partial"));
+    CHECK_THAT(one_line_error<StorageError>([&] { file.complete(); }), Catch::Contains("out.partial"));
   }
   CHECK(read_text(path + ".partial") == "whole");
 }
