@@ -189,12 +189,18 @@ void remove_stale_partial(const std::string& partial) {
 }
 
 void try_output(const std::string& path) {
+  const auto found = found_at(path);
+  if (found && (is_stream(found->st_mode) || is_standard_output(*found))) return;
   const std::string partial = partial_of(path);
-  remove_stale_partial(partial);
-  const int file = open(partial.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+  if (std::error_code ignored; std::filesystem::is_directory(partial, ignored))
+    throw StorageError(fmt::format("{}: cannot be replaced: {}", one_line(partial), std::strerror(EISDIR)));
+  // Not the partial file itself: it may hold a complete text that could not take its name (see replace_file).
+  const std::string trial = output_target(path) + ".attempt"; // as long as ".partial"
+  const int file = open(trial.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+  if (file < 0 && errno == EEXIST) return; // another program tries the same
   if (file < 0) throw StorageError(fmt::format("{}: cannot be written: {}", one_line(path), std::strerror(errno)));
   close(file);
-  remove_stale_partial(partial);
+  unlink(trial.c_str());
 }
 
 void replace_file(const std::string& partial, const std::string& path) {

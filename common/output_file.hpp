@@ -31,7 +31,8 @@ void refuse_other_endings(std::string_view option, const std::string& path, cons
 void refuse_ending_of_other_format(std::string_view option, const std::string& path,
                                    const std::vector<std::string>& endings);
 
-/// Writes an empty partial file of an output and removes it. To be called before hours of work. Throws StorageError.
+/// Writes an empty file next to an output and removes it. To be called before hours of work. Throws StorageError. A
+/// device, a FIFO and the file that standard output goes to are not tried.
 void try_output(const std::string& path);
 
 /// Whether two paths lead to the same file, which need not exist yet. A device, a FIFO and an empty path are none.

@@ -53,6 +53,7 @@ void Command::check_outputs() const {
       refuse_other_endings(output.option, *output.path, format.endings);
     else
       refuse_ending_of_other_format(output.option, *output.path, format.endings);
+    try_output(*output.path);
   }
 }
 
@@ -82,10 +83,14 @@ StateCommand::StateCommand(CLI::App& app, const std::string& name, const std::st
   add_input("--packing", packing_, "Meshed packing, instead of a run (HDF5)");
 }
 
-Snapshot StateCommand::read_state(int snapshot) const {
+void StateCommand::require_run_or_packing() const {
   if (packing_.empty() == run_.empty())
     throw InputError(
         fmt::format("found {} of RUN.h5 and --packing, allowed: exactly one", run_.empty() ? "neither" : "both"));
+}
+
+Snapshot StateCommand::read_state(int snapshot) const {
+  require_run_or_packing();
   return packing_.empty() ? read_snapshot({run_, schema::FileKind::run}, snapshot) : read_packing_snapshot(packing_);
 }
 

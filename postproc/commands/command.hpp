@@ -102,6 +102,8 @@ protected:
   const std::string& path_of_run() const { return run_; }
   const std::string& path_of_packing() const { return packing_; }
   /// Throws InputError where both of them are given, or neither.
+  void require_run_or_packing() const;
+  /// The same check, then the state.
   Snapshot read_state(int snapshot) const;
 
 private:

@@ -26,7 +26,7 @@ namespace mpfem {
 struct FigureCommands::State {
   std::string figure, name, output, results = "out/coarse", mesh = "coarse", programmes = "studies/branches", packing,
                                     description;
-  std::string title, run, beside, ending_of_output; ///< empty: any
+  std::string title, run, beside;
   std::vector<std::string> files, settings, known_meshes;
   int packings = 0;
   bool quiet = false;
@@ -36,22 +36,22 @@ struct FigureCommands::State {
   struct FigureCommand {
     CLI::App* options;
     std::function<void()> execute;
-    std::string ending; ///< of what it writes; empty: any
+    std::vector<std::string> endings; ///< of what it writes; empty: any. If several, the ending chooses the format
   };
   std::vector<FigureCommand> commands;
 
   CLI::App& add(CLI::App& app, const char* command_name, const std::string& help, std::function<void()> action,
-                const std::string& ending = "") {
+                const std::vector<std::string>& endings = {}) {
     CLI::App* command = app.add_subcommand(command_name, help);
     command->add_option("-o,--output", output, "File to write (default: standard output)");
     command->add_option("--results", results, "Folder of the mesh's results")->capture_default_str();
-    commands.push_back({command, std::move(action), ending});
+    commands.push_back({command, std::move(action), endings});
     return *command;
   }
 
   CLI::App& add_on_figure(CLI::App& app, const char* command_name, const std::string& help,
-                          std::function<void()> action, const std::string& ending = "") {
-    CLI::App& command = add(app, command_name, help, std::move(action), ending);
+                          std::function<void()> action, const std::vector<std::string>& endings = {}) {
+    CLI::App& command = add(app, command_name, help, std::move(action), endings);
     command.add_option("figure", figure, "The figure's file (TOML)")->required()->check(existing_file());
     add_common(command);
     return command;
@@ -79,14 +79,14 @@ struct FigureCommands::State {
   }
 
   void add_table(CLI::App& app) {
-    CLI::App& command = add_on_figure(
-        app, "table",
-        "Make a table of a figure from its runs.\nColumns of curves in addition to those of the "
-        "history:\n" +
-            curve_help() +
-            "Example: postproc table studies/fig12/figure.toml modulus --results out/smoke --mesh smoke "
-            "-o modulus.csv",
-        [this] { table(); }, ".csv");
+    CLI::App& command =
+        add_on_figure(app, "table",
+                      "Make a table of a figure from its runs.\nColumns of curves in addition to those of the "
+                      "history:\n" +
+                          curve_help() +
+                          "Example: postproc table studies/fig12/figure.toml modulus --results out/smoke --mesh smoke "
+                          "-o modulus.csv",
+                      [this] { table(); }, {".csv"});
     command.add_option("name", name, "Name of the table")->required();
     command
         .add_option(
@@ -101,7 +101,7 @@ struct FigureCommands::State {
                       "Draw a plot of a figure from its tables and fits; the ending of -o chooses PNG or SVG.\n"
                       "Example: postproc plot studies/fig12/figure.toml modulus --results out/smoke -o "
                       "modulus.png",
-                      [this] { plot(); });
+                      [this] { plot(); }, {".png", ".svg"});
     command.add_option("name", name, "Name of the plot")->required();
     add_number(command, "--packings", packings, Range::between(0, 1e6), "",
                "Draw the spread over this number of packings");
@@ -113,22 +113,21 @@ struct FigureCommands::State {
   }
 
   void add_verdicts(CLI::App& app) {
-    add(
-        app, "verdicts",
+    add(app, "verdicts",
         "Write verdicts as Markdown: one mesh figure by figure, or several meshes side by side.\n"
         "Example: postproc verdicts coarse=studies/results/coarse smoke=studies/results/smoke -o verdicts.md",
-        [this] { verdicts(); }, ".md")
+        [this] { verdicts(); }, {".md"})
         .add_option("folders", files, "MESH=FOLDER: name of a mesh and the folder with a verdict.json for each figure")
         ->required();
   }
 
   void add_report(CLI::App& app) {
-    CLI::App& command = add(
-        app, "report",
-        "Write pictures, verdicts and runs of figures as one HTML page; links are relative to its folder.\n"
-        "Example: postproc report studies/fig12/figure.toml --results out/smoke --mesh smoke --title Moduli "
-        "-o out/smoke/report/index.html",
-        [this] { report(); }, ".html");
+    CLI::App& command =
+        add(app, "report",
+            "Write pictures, verdicts and runs of figures as one HTML page; links are relative to its folder.\n"
+            "Example: postproc report studies/fig12/figure.toml --results out/smoke --mesh smoke --title Moduli "
+            "-o out/smoke/report/index.html",
+            [this] { report(); }, {".html"});
     command.add_option("figures", files, "Figures' files (TOML)")->required()->check(existing_file());
     add_common(command);
     command.add_option("--title", title, "Title of the page")->required();
@@ -137,14 +136,11 @@ struct FigureCommands::State {
     command.add_option("--view", run, "Run shown in three dimensions on the page (HDF5)")->check(existing_file());
   }
 
-  /// Refuses an output that ends as another format does than that of the command.
   void deliver(const std::string& text) const {
-    if (output.empty()) {
+    if (output.empty())
       fmt::print("{}", text);
-      return;
-    }
-    if (!ending_of_output.empty()) refuse_ending_of_other_format("--output", output, {ending_of_output});
-    write_file(output, text);
+    else
+      write_file(output, text);
   }
 
   /// Refuses an output that would overwrite one of these.
@@ -152,12 +148,16 @@ struct FigureCommands::State {
     for (const std::string& input : inputs) refuse_overwriting("--output", output, input);
   }
 
-  /// Refuses outputs that cannot be written, or that would overwrite what an option names.
-  void check_output() const {
+  /// Refuses outputs that cannot be written, that would overwrite what an option names, or that have not one of these
+  /// endings (see FigureCommand).
+  void check_output(const std::vector<std::string>& endings) const {
     if (output.empty()) return;
     refuse_overwriting_any({figure, packing, description, run, beside});
     refuse_overwriting_any(files);
     check_output_path("--output", output, OutputKind::text);
+    if (endings.size() == 1) refuse_ending_of_other_format("--output", output, endings);
+    if (endings.size() > 1) refuse_other_endings("--output", output, endings);
+    try_output(output);
   }
 
   /// Refuses an output that would overwrite the figure's file or what it names: included files and scenarios.
@@ -254,7 +254,6 @@ struct FigureCommands::State {
     if (found == f.plots.end())
       throw InputError(
           fmt::format("{}: found no plot '{}', allowed: the name of one of [[plots]]", f.path, one_line(name)));
-    refuse_other_endings("--output", output, {".png", ".svg"});
     const std::string format = output.ends_with(".svg") ? "svg" : "png";
     refuse_overwriting_data(f);
     FigureData data(f, folder(f));
@@ -316,11 +315,10 @@ FigureCommands::FigureCommands(CLI::App& app, std::function<void(const std::vect
   s.add_on_figure(app, "powder", "Print the packing of a study as input for pack-gen; nothing if the study has none.",
                   [&s] { s.powder(); });
   s.add_table(app);
-  s.add_on_figure(
-      app, "fits", "Make all fits of a figure from its tables, as JSON.", [&s] { s.fits(); }, ".json");
+  s.add_on_figure(app, "fits", "Make all fits of a figure from its tables, as JSON.", [&s] { s.fits(); }, {".json"});
   s.add_plot(app);
-  s.add_on_figure(
-      app, "verdict", "Compare the statements of a figure with the results, as JSON.", [&s] { s.verdict(); }, ".json");
+  s.add_on_figure(app, "verdict", "Compare the statements of a figure with the results, as JSON.",
+                  [&s] { s.verdict(); }, {".json"});
   s.add_verdicts(app);
   s.add_report(app);
 }
@@ -330,8 +328,7 @@ FigureCommands::~FigureCommands() = default;
 void FigureCommands::run() const {
   for (const auto& command : state_->commands) {
     if (!command.options->parsed()) continue;
-    state_->ending_of_output = command.ending;
-    state_->check_output();
+    state_->check_output(command.endings);
     command.execute();
   }
 }

@@ -23,6 +23,7 @@ std::string picture_path(const std::string& output, const std::string& input) {
   if (std::filesystem::exists(path, ignored))
     throw InputError(fmt::format("{}: already exists, allowed: -o with the picture to write", one_line(path)));
   check_output_path("--output", path, OutputKind::binary);
+  try_output(path);
   return path;
 }
 
@@ -136,8 +137,9 @@ private:
     if (!frames_.empty()) refuse_given({"--snapshot"}, "together with --frames, which draws all", "one of them");
     if (of_packing()) refuse_given({"--snapshot"}, "together with --packing", "with a run");
     if (!frames_.empty()) return draw_frames(request(), size);
-    const Snapshot state = read_state(snapshot_);
+    require_run_or_packing();
     const std::string path = picture_path(output(), of_packing() ? path_of_packing() : path_of_run());
+    const Snapshot state = read_state(snapshot_);
     const PictureScene scene = scene_of(state, request());
     draw_scene(path, scene, bounds_of(scene), size);
     if (!quiet()) fmt::print("{}\n", path);
@@ -147,7 +149,12 @@ private:
   void draw_frames(SceneRequest request, const PictureSize& size) const {
     if (of_packing() || !output().empty())
       throw InputError(fmt::format("--frames: found {}, allowed: with a run only", of_packing() ? "--packing" : "-o"));
+    require_run_or_packing();
     const int count = static_cast<int>(schema::FileReader(path_of_run(), schema::FileKind::run).snapshots().size());
+    if (count == 0) throw InputError(fmt::format("{}: the run has no snapshots", one_line(path_of_run())));
+    make_folder(frames_);
+    for (int number = 0; number < count; ++number) refuse_overwriting("--frames", frame_path(number), path_of_run());
+    try_output(frame_path(0));
     std::optional<ShownBox> shown;
     std::pair<double, double> range{0, 0};
     for (int number = 0; number < count; ++number) {
@@ -157,16 +164,15 @@ private:
       if (scene.bar)
         range = {std::min(range.first, scene.bar->range.first), std::max(range.second, scene.bar->range.second)};
     }
-    if (!shown) throw InputError(fmt::format("{}: the run has no snapshots", one_line(path_of_run())));
     if (!request.range && range.second > range.first) request.range = range;
-    make_folder(frames_);
     for (int number = 0; number < count; ++number) {
-      const std::string path = fmt::format("{}/{:04}.png", frames_, number);
-      refuse_overwriting("--frames", path, path_of_run());
+      const std::string path = frame_path(number);
       draw_scene(path, scene_of(read_state(number), request), *shown, size);
       if (!quiet()) fmt::print("{}\n", path);
     }
   }
+
+  std::string frame_path(int number) const { return fmt::format("{}/{:04}.png", frames_, number); }
 
   static void make_folder(const std::string& path) {
     std::error_code error;

@@ -744,6 +744,39 @@ TEST_CASE("nothing of a figure is written under the ending of another format, or
   CHECK_THAT(spread.messages, Contains("--spread: found the table 't', whose 'spread' names no columns"));
 }
 
+TEST_CASE("an output with a wrong ending, or that cannot be written, is refused before anything of a figure is read") {
+  const Studies studies;
+  const std::string figure = studies.path("broken.toml") + " ";
+  write_text(studies.path("broken.toml"), "title =");
+  write_text(studies.path("none/verdict.json"), "no JSON");
+  for (const auto& [command, good] : {std::pair<std::string, std::string>{"table " + figure + "t", "t.csv"},
+                                      {"fits " + figure, "f.json"},
+                                      {"verdict " + figure, "v.json"},
+                                      {"verdicts mesh=" + studies.path("none"), "v.md"},
+                                      {"report --title x " + figure, "r.html"},
+                                      {"plot " + figure + "p", "p.svg"}}) {
+    const auto refused = test::postproc(command + " -o " + studies.path("x.pdf"));
+    INFO(command << ": " << refused.messages);
+    CHECK(refused.exit_code == 2);
+    CHECK_THAT(refused.messages, Contains("x.pdf: found the ending '.pdf', allowed: "));
+    std::filesystem::create_directory(studies.path(good + ".partial"));
+    const auto failed = test::postproc(command + " -o " + studies.path(good));
+    INFO(failed.messages);
+    CHECK(failed.exit_code == 4);
+    CHECK_THAT(failed.messages, Contains(good + ".partial: cannot be replaced: Is a directory"));
+  }
+}
+
+TEST_CASE("a result that cannot be written is refused before the run is read") {
+  const test::Folder folder;
+  write_text(folder / "run.h5", "no HDF5");
+  std::filesystem::create_directory(folder / "s.json.partial");
+  const auto failed = test::postproc("summary " + (folder / "run.h5") + " -o " + (folder / "s.json"));
+  CHECK(failed.exit_code == 4);
+  CHECK(failed.one_error_line("postproc"));
+  CHECK_THAT(failed.messages, Contains("s.json.partial: cannot be replaced"));
+}
+
 TEST_CASE("a plot ends in .png or .svg, and goes where a link leads") {
   const Studies studies;
   write_complete_study(studies);
@@ -797,7 +830,9 @@ TEST_CASE("no file from which something of a figure is made is replaced by it") 
     INFO(command << ": " << outcome.messages);
     CHECK(outcome.exit_code == 2);
     CHECK(outcome.one_error_line("postproc"));
-    CHECK_THAT(outcome.messages, Contains("would overwrite the input") || Contains("would replace a TOML file"));
+    // Most names are refused for their ending already, before anything is read.
+    CHECK_THAT(outcome.messages, Contains("would overwrite the input") || Contains("would replace a TOML file") ||
+                                     Contains("found the ending"));
     CHECK(test::read_text(studies.path(name)) == before);
     // Under another name it is written.
     CHECK(test::postproc(fmt::format("{} -o {}", command, studies.path("new"))).exit_code == 0);

@@ -104,6 +104,18 @@ TEST_CASE("frames are one picture for each snapshot") {
   CHECK(read_png(folder / "film/0000.png").width == 200);
 }
 
+TEST_CASE("where a picture goes is checked before the run is read") {
+  const Folder folder;
+  write_text(folder / "run.h5", "no HDF5");
+  write_text(folder / "run.png", "a picture");
+  const Outcome named = picture(folder / "run.h5");
+  CHECK(named.exit_code == 2);
+  CHECK(named.messages.find("run.png: already exists") != std::string::npos);
+  const Outcome both = picture("--size 200x200");
+  CHECK(both.exit_code == 2);
+  CHECK(both.messages.find("found neither of RUN.h5 and --packing") != std::string::npos);
+}
+
 TEST_CASE("what cannot be drawn is refused in one line") {
   const Folder folder;
   write_run(folder / "run.h5", small_run());
