@@ -1,6 +1,11 @@
 // One number that the paper does not have: loops and offsets of stress and strain, coordination, stress and damage of a
 // snapshot.
 
+#include <chrono>
+
+#include <fmt/format.h>
+
+#include "common/progress.hpp"
 #include "postproc/commands/commands.hpp"
 #include "postproc/commands/metric_command.hpp"
 #include "postproc/metrics/coordination.hpp"
@@ -161,7 +166,16 @@ private:
                       int snapshot_before) const override {
     BandRule rule = rule_;
     rule.axis = axis_number(axis_);
-    return measure_damage_band(run, snapshot, before, snapshot_before, rule);
+    Progress progress("postproc", quiet());
+    const auto begin = std::chrono::steady_clock::now();
+    bool shown = false; // nothing is written of a quick measurement
+    const auto done = [&](double fraction) {
+      shown = shown || std::chrono::steady_clock::now() - begin > std::chrono::seconds(1);
+      if (shown) progress.update(fraction, "trials of what chance gives");
+    };
+    Measurement result = measure_damage_band(run, snapshot, before, snapshot_before, rule, done);
+    if (shown) progress.finish(fmt::format("{} trials", rule.trials));
+    return result;
   }
 
   BandRule rule_;

@@ -129,7 +129,8 @@ std::vector<PairOpening> openings(const BondsSince& since, const Snapshot& now, 
 
 } // namespace
 
-std::optional<BandByChance> band_by_chance(const std::vector<PairOpening>& pairs, int axis, int trials) {
+std::optional<BandByChance> band_by_chance(const std::vector<PairOpening>& pairs, int axis, int trials,
+                                           const TrialsDone& done) {
   Openings all = openings_of(pairs);
   const std::vector<Slab> slabs = slabs_at(inclined, pairs, axis);
   if (!(all.whole_opened > 0) || !(all.whole_opened < all.whole_area) || slabs.empty()) return {};
@@ -141,15 +142,16 @@ std::optional<BandByChance> band_by_chance(const std::vector<PairOpening>& pairs
   for (int trial = 0; trial < trials; ++trial) {
     shuffle(all.share, random);
     if (densest_of(slabs, opened_areas(all), all.whole_area).excess >= band.excess * (1 - rounding)) ++as_dense;
+    if (done) done((trial + 1.0) / trials);
   }
   return BandByChance{band, static_cast<double>(as_dense + 1) / (trials + 1), other};
 }
 
 Measurement measure_damage_band(const schema::FileReader& file, int snapshot, const schema::FileReader& before,
-                                int snapshot_before, const BandRule& rule) {
+                                int snapshot_before, const BandRule& rule, const TrialsDone& done) {
   const BondsSince since = bonds_of_test(file, snapshot, before, snapshot_before);
   const std::vector<PairOpening> pairs = openings(since, read_snapshot(file, snapshot), rule.threshold);
-  const auto found = band_by_chance(pairs, rule.axis, rule.trials);
+  const auto found = band_by_chance(pairs, rule.axis, rule.trials, done);
   if (pairs.empty())
     throw InputError(fmt::format("{}: all bonds have a damage of {:g} or more before the test, allowed: a larger "
                                  "--threshold",

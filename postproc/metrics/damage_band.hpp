@@ -1,6 +1,7 @@
 #pragma once
 // Whether the bonds that a test opens lie in a band, like the shear bands of a failing sample.
 
+#include <functional>
 #include <optional>
 #include <vector>
 
@@ -40,8 +41,11 @@ struct BandByChance {
   double chance = 1;
   double other_excess = 0; ///< mm
 };
+/// Told after each trial which fraction of them is done.
+using TrialsDone = std::function<void(double)>;
 /// Empty where no bond has opened or all have.
-std::optional<BandByChance> band_by_chance(const std::vector<PairOpening>& pairs, int axis, int trials);
+std::optional<BandByChance> band_by_chance(const std::vector<PairOpening>& pairs, int axis, int trials,
+                                           const TrialsDone& done = {});
 
 /// How the band is looked for.
 struct BandRule {
@@ -54,6 +58,6 @@ struct BandRule {
 /// snapshot `snapshot_before` of `before` and is not at snapshot `snapshot` of `file`. The details hold the band and
 /// how often chance makes one as dense. Throws InputError where no bond has opened, or all have.
 Measurement measure_damage_band(const schema::FileReader& file, int snapshot, const schema::FileReader& before,
-                                int snapshot_before, const BandRule& rule);
+                                int snapshot_before, const BandRule& rule, const TrialsDone& done = {});
 
 } // namespace mpfem

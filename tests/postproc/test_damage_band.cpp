@@ -8,6 +8,7 @@
 
 #include "bonded_run.hpp"
 #include "postproc/metrics/damage_band.hpp"
+#include "run_postproc.hpp"
 #include "tests/support/folder.hpp"
 
 using namespace mpfem;
@@ -65,6 +66,13 @@ TEST_CASE("without bonds that open, or with all of them open, there is no band")
   CHECK_FALSE(band_by_chance({}, 2, 10));
 }
 
+TEST_CASE("who waits for the trials is told after each how many are done") {
+  const auto pairs = lattice([](const Eigen::Vector3d& place) { return place[0] > 0 ? 0.5 : 0.1; });
+  std::vector<double> told;
+  REQUIRE(band_by_chance(pairs, 2, 4, [&](double fraction) { told.push_back(fraction); }));
+  CHECK(told == std::vector<double>{0.25, 0.5, 0.75, 1});
+}
+
 TEST_CASE("the measure counts bonds that pass the threshold in the test") {
   const Folder folder;
   RunContents before = bonded_run(), now = bonded_run();
@@ -87,6 +95,11 @@ TEST_CASE("the measure counts bonds that pass the threshold in the test") {
   CHECK(m.details["pairs"] == 1);
   CHECK(m.value == Approx(1).epsilon(1e-6)); // a single pair: every slab that has bonds has them all
   CHECK(m.details["chance"] == 1);
+  const Outcome quick =
+      postproc(fmt::format("damage-band {} --before {} --trials 20", folder / "now.h5", folder / "before.h5"));
+  CHECK(quick.exit_code == 0);
+  CHECK_THAT(quick.output, Catch::Contains("damage-band"));
+  CHECK_THAT(quick.messages, !Catch::Contains("elapsed") && !Catch::Contains("done in"));
   RunContents damaged = before;
   for (double& d : damaged.numbers["/snapshots/*/bond_damage"]) d = std::max(d, 0.5);
   write_run(folder / "damaged.h5", damaged);
