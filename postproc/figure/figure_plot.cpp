@@ -177,33 +177,41 @@ private:
                                                            {table.column(s.y, s.place), s.y_scale}};
     if (!s.error.empty()) columns.emplace_back(table.column(s.error, s.place), s.y_scale);
     if (!s.colour_by.empty()) columns.emplace_back(table.column(s.colour_by, s.place), 1);
-    std::string block;
+    std::string block, with_error; // the latter: without the points whose error is not known
     DrawnLine line{{}, s.style != "points"};
     for (const std::size_t row : table.rows_of(where, s.place)) {
-      for (std::size_t i = 0; i < columns.size(); ++i) {
-        const auto value = table.number(row, columns[i].first, s.place);
-        // gnuplot leaves out a point without an error, but not one whose error is 0.
-        const bool error_not_known = i == 2 && !s.error.empty() && !value;
-        if (error_not_known)
-          block += "0 ";
-        else
-          block += value ? fmt::format("{:.9g} ", *value * columns[i].second) : "NaN ";
+      std::string cells;
+      for (const auto& [column, scale] : columns) {
+        const auto value = table.number(row, column, s.place);
+        cells += value ? fmt::format("{:.9g} ", *value * scale) : "NaN ";
       }
-      block += '\n';
+      block += cells + '\n';
       const auto x = table.number(row, columns[0].first, s.place), y = table.number(row, columns[1].first, s.place);
       if (x && y) line.points.push_back({*x * s.x_scale, *y * s.y_scale});
+      if (s.error.empty() || !y || table.number(row, columns[2].first, s.place)) with_error += cells + '\n';
     }
     if (line.points.empty()) return; // none of it could be measured
     SeriesSpec drawn = s;
     drawn.colour = colour;
     if (!s.colour_by.empty())
       draw(block, "using 1:2:3 with lines linewidth 1.5 palette", title, line);
-    else if (!s.error.empty())
+    else if (!s.error.empty() && with_error == block)
       draw(block,
            fmt::format("using 1:2:3 with {}{}", s.style == "points" ? "yerrorbars" : "yerrorlines", line_style(drawn)),
            title, line);
+    else if (!s.error.empty())
+      draw_some_errors(block, with_error, drawn, title, line);
     else
       draw(block, fmt::format("using 1:2 with {}{}", s.style, line_style(drawn)), title, line);
+  }
+
+  /// gnuplot leaves out a point whose error is missing. So all points are drawn without a bar, and over them those of
+  /// `with_error` with one.
+  void draw_some_errors(const std::string& block, const std::string& with_error, const SeriesSpec& s,
+                        const std::string& title, const DrawnLine& line) {
+    const std::string look = line_style(s);
+    draw(block, fmt::format("using 1:2 with {}{}", s.style == "points" ? "points" : "linespoints", look), title, line);
+    if (!with_error.empty()) draw(with_error, "using 1:2:3 with yerrorbars" + look, "");
   }
 
   void add_spread(const SeriesSpec& s) {

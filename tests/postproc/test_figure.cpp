@@ -737,10 +737,6 @@ series = [
   CHECK_THAT(script, Contains("using 1:2:3 with yerrorbars linetype 1") && Contains("title 'computed'"));
   CHECK_THAT(script, Contains("with yerrorlines linetype") && Contains("title 'joined'"));
   CHECK_THAT(script, Contains("\n2 5\nEOD") && Contains("dashtype (12, 10)"));
-  // gnuplot leaves out a point whose error is missing, but not one without length.
-  PlotSpec reversed = figure.plots[0];
-  std::swap(reversed.series[0].y, reversed.series[0].error);
-  CHECK_THAT(plot_script(reversed, data, folder, "svg", "p.svg", 0), Contains("1 10 30 \n2 20 0 \n"));
   // Of other results, the points.
   write_text(toolkit.path("other") + "/strength.csv", "name,density [1],strength [MPa]\na,1,4\n");
   OtherResults other{"finer", FigureData(figure, toolkit.path("other"))};
@@ -762,6 +758,35 @@ series = [
   const std::string nothing_drawn = plot_script(figure.plots[0], empty, folder, "svg", folder + "/p.svg", 0);
   CHECK_THAT(nothing_drawn, Contains("none of these values could be measured") && Contains("plot NaN notitle"));
   CHECK_NOTHROW(run_gnuplot(nothing_drawn));
+}
+
+TEST_CASE("a point whose error is not known is drawn without a bar, the others with theirs") {
+  const Toolkit toolkit;
+  const Figure figure = toolkit.figure(tablets + R"([[plots]]
+name = "p"
+x = { label = "D" }
+y = { label = "s" }
+series = [
+  { table = "strength", x = "density", y = "density", error = "strength", title = "loose" },
+  { table = "strength", x = "density", y = "density", error = "strength", style = "linespoints", title = "joined" },
+]
+)");
+  const std::string folder = toolkit.path("out");
+  const auto script_of = [&](const std::string& rows) {
+    write_text(folder + "/strength.csv", "name,density [1],strength [MPa]\n" + rows);
+    FigureData data(figure, folder);
+    return plot_script(figure.plots[0], data, folder, "svg", folder + "/p.svg", 0);
+  };
+  const std::string some = script_of("a,1,3\nb,2,\nc,,\n");
+  CHECK_THAT(some, Contains("$data1 << EOD\n1 1 3 \n2 2 NaN \nNaN NaN NaN \nEOD") &&
+                       Contains("$data1 using 1:2 with points linetype 1 pointsize") && Contains("title 'loose'"));
+  CHECK_THAT(some, Contains("$data2 << EOD\n1 1 3 \nNaN NaN NaN \nEOD") &&
+                       Contains("$data2 using 1:2:3 with yerrorbars linetype 1 pointsize"));
+  CHECK_THAT(some, Contains("$data3 using 1:2 with linespoints linetype") && Contains("title 'joined'"));
+  CHECK_NOTHROW(run_gnuplot(some));
+  CHECK_THAT(script_of("a,1,\nb,2,\n"), !Contains("yerror"));
+  CHECK_THAT(script_of("a,1,3\nb,2,0\nc,,\n"),
+             !Contains("using 1:2 with") && Contains("with yerrorlines") && Contains("2 2 0 \n"));
 }
 
 TEST_CASE("a cell that is no number is refused where a fit, a plot or a statement needs one") {
