@@ -22,6 +22,15 @@ std::int32_t grain_of_node(const std::vector<std::int32_t>& offset, std::int32_t
   return static_cast<std::int32_t>(std::upper_bound(offset.begin(), offset.end(), node) - offset.begin()) - 1;
 }
 
+/// Refuses numbers of nodes or grains, in /snapshots/*/`dataset`, that are not 0 … count - 1.
+void check_numbers(const std::vector<std::int32_t>& numbers, std::size_t count, const char* dataset, const char* what,
+                   const std::string& path) {
+  for (const std::int32_t number : numbers)
+    if (number < 0 || static_cast<std::size_t>(number) >= count)
+      throw InputError(fmt::format("{}: {} names {} {}, allowed: 0 … {}", path, dataset, what, number,
+                                   static_cast<std::int64_t>(count) - 1));
+}
+
 /// G^c of each bond (N/mm): by its law where the file has bond laws, otherwise from the scenario.
 std::vector<std::optional<double>> fracture_energies(const schema::FileReader& file, const std::string& name,
                                                      std::size_t bonds) {
@@ -46,7 +55,10 @@ std::vector<BondRow> read_bond_table(const schema::FileReader& file, int snapsho
   const auto node = file.read(run::snapshots_bond_node, name), grain = file.read(run::snapshots_bond_grain, name);
   const auto damage = file.read(run::snapshots_bond_damage, name);
   const auto area = file.read(run::snapshots_bond_area, name);
-  const auto offset = file.read(run::mesh_grain_node_offset);
+  const std::size_t nodes = file.rows(run::snapshots_node, name);
+  const auto offset = grain_node_offsets(file, nodes);
+  check_numbers(node, nodes, "bond_node", "node", path);
+  check_numbers(grain, offset.size() - 1, "bond_grain", "grain", path);
   const bool told = file.has(run::snapshots_bond_dissipation, name);
   const auto dissipation = told ? file.read(run::snapshots_bond_dissipation, name) : std::vector<double>();
   const auto fracture_energy = fracture_energies(file, name, node.size());

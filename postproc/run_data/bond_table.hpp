@@ -25,7 +25,7 @@ struct BondRow {
 };
 
 /// Reads the bonds of snapshot `number` (as in snapshot_name), those without area left out. Throws InputError where
-/// there is no such snapshot or it has no bonds.
+/// there is no such snapshot, it has no bonds, or they are of nodes or grains that the run does not have.
 std::vector<BondRow> read_bond_table(const schema::FileReader& file, int number);
 
 /// Number of grain pairs that these bonds belong to.

@@ -211,3 +211,21 @@ TEST_CASE("damage refuses runs and snapshots without bonds with one line and exi
     CHECK_FALSE(std::filesystem::exists(folder / "x.json"));
   }
 }
+
+TEST_CASE("bonds of nodes or grains that a run does not have are refused with one line and exit code 2") {
+  const Folder folder;
+  const auto refused = [&](const char* dataset, double changed, const std::string& expected) {
+    RunContents contents = bonded_run();
+    contents.numbers[dataset].back() = changed;
+    write_run(folder / "run.h5", contents);
+    const Outcome outcome = postproc("damage " + (folder / "run.h5"));
+    INFO(outcome.messages);
+    CHECK(outcome.exit_code == 2);
+    CHECK(outcome.one_error_line("postproc"));
+    CHECK_THAT(outcome.messages, Catch::Contains(expected));
+  };
+  const auto nodes = static_cast<double>(bonded_run().extents.at("nodes"));
+  refused("/mesh/grain_node_offset", nodes - 1, "grain_node_offset does not rise from 0 to the number of nodes");
+  refused("/snapshots/*/bond_node", nodes, fmt::format("bond_node names node {}, allowed: 0 … {}", nodes, nodes - 1));
+  refused("/snapshots/*/bond_grain", -1, "bond_grain names grain -1, allowed: 0 … 2");
+}

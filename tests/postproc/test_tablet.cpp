@@ -636,6 +636,9 @@ TEST_CASE("postproc diametral takes the peak before the fall with a crack throug
   }
   run.snapshots = {"0000", "0001", "0002"};
   run.extents["*bonds"] = 3;
+  run.extents["grains"] = 3; // the third without a node
+  for (const char* offset : {"/mesh/grain_tet_offset", "/mesh/grain_node_offset"})
+    run.numbers[offset].push_back(run.numbers[offset].back());
   run.numbers["/snapshots/0001/time"] = {35e-6};
   run.numbers["/snapshots/0002/time"] = {60e-6};
   run.numbers["/snapshots/*/bond_node"] = {13, 13, 0}; // two in the middle of the cube, and one at a corner
