@@ -13,6 +13,7 @@
 #include "common/hash.hpp"
 #include "common/nearest_word.hpp"
 #include "common/one_line.hpp"
+#include "common/run_stem.hpp"
 #include "common/table_reader.hpp"
 #include "postproc/figure/shell_words.hpp"
 
@@ -413,7 +414,7 @@ private:
   }
 
   std::string checkpoint_of(const RunInstance& run) const {
-    return fmt::format("{}/work/run.{}.checkpoint.h5", request_.results.of(run.parent), run.checkpoint);
+    return name_of_kept_checkpoint(request_.results.of(run.parent) + "/work/run.h5", run.checkpoint);
   }
 
   /// For every branch that is to be made, a parent run whose checkpoint is missing is made again, and so are the

@@ -155,11 +155,8 @@ std::optional<double> seconds_per_stage(const RunProgress& now, const std::strin
 
 /// Empty where no file of the run holds a state yet. Throws InputError where one cannot be read.
 std::optional<RunProgress> newest_state(const std::string& run_file) {
-  // File names as in solver/run/checkpoints.cpp and solver/output/run_lock.cpp.
-  const std::string rolling = run_stem(run_file) + ".checkpoint.h5",
-                    previous = run_stem(run_file) + ".checkpoint.previous.h5";
-  const auto finished = time_written(run_file), lock = time_written(run_stem(run_file) + ".lock");
-  // Between two renames only the previous checkpoint exists.
+  const std::string rolling = name_of_checkpoint(run_file), previous = name_of_previous_checkpoint(run_file);
+  const auto finished = time_written(run_file), lock = time_written(name_of_lock(run_file));
   const std::string checkpoint = time_written(rolling) ? rolling : previous;
   const auto saved = time_written(checkpoint);
   RunProgress progress;
@@ -173,7 +170,7 @@ std::optional<RunProgress> newest_state(const std::string& run_file) {
   } else if (!lock) {
     return {};
   }
-  progress.at_work = at_work(run_stem(run_file) + ".lock");
+  progress.at_work = at_work(name_of_lock(run_file));
   return progress;
 }
 
