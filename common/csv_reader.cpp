@@ -9,6 +9,7 @@
 #include "common/number_text.hpp"
 #include "common/one_line.hpp"
 #include "common/text_input.hpp"
+#include "common/trimmed.hpp"
 
 namespace mpfem {
 
@@ -16,12 +17,6 @@ namespace {
 
 constexpr std::size_t most_bytes = std::size_t{256} << 20U;
 constexpr std::size_t most_columns = 10'000;
-
-std::string_view trimmed(std::string_view text, std::string_view blanks) {
-  const auto first = text.find_first_not_of(blanks);
-  return first == std::string_view::npos ? std::string_view()
-                                         : text.substr(first, text.find_last_not_of(blanks) - first + 1);
-}
 
 /// Where a character stands in a line outside quotes that open from `begin` on; the line's end if it does not.
 std::size_t find_outside_quotes(std::string_view line, char wanted, std::size_t begin) {

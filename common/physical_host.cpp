@@ -9,17 +9,13 @@
 #include <sys/utsname.h>
 
 #include "common/one_line.hpp"
+#include "common/trimmed.hpp"
 
 namespace mpfem {
 
 namespace {
 
-std::string_view trimmed(std::string_view text) {
-  constexpr std::string_view around = " \t\"'";
-  const auto first = text.find_first_not_of(around);
-  if (first == std::string_view::npos) return {};
-  return text.substr(first, text.find_last_not_of(around) - first + 1);
-}
+constexpr std::string_view around = " \t\"'"; // keys and values
 
 /// The value of the first line "KEY<separator>VALUE" of a file.
 std::optional<std::string> value_in_file(const char* path, std::string_view key, char separator) {
@@ -27,8 +23,8 @@ std::optional<std::string> value_in_file(const char* path, std::string_view key,
   for (std::string line; std::getline(file, line);) {
     const std::string_view view = line;
     const auto at = view.find(separator);
-    if (at != std::string_view::npos && trimmed(view.substr(0, at)) == key)
-      return std::string(trimmed(view.substr(at + 1)));
+    if (at != std::string_view::npos && trimmed(view.substr(0, at), around) == key)
+      return std::string(trimmed(view.substr(at + 1), around));
   }
   return std::nullopt;
 }
