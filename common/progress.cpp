@@ -4,10 +4,10 @@
 #include <cmath>
 
 #include <fmt/format.h>
-#include <sys/ioctl.h>
 #include <unistd.h>
 
 #include "common/one_line.hpp"
+#include "common/terminal_width.hpp"
 
 namespace mpfem {
 
@@ -20,12 +20,6 @@ double seconds_between_lines(double elapsed) {
 
 double seconds_between(std::chrono::steady_clock::time_point from, std::chrono::steady_clock::time_point to) {
   return std::chrono::duration<double>(to - from).count();
-}
-
-std::size_t terminal_width(std::FILE* stream) {
-  winsize size{};
-  const bool known = ioctl(fileno(stream), TIOCGWINSZ, &size) == 0 && size.ws_col > 0;
-  return known ? size.ws_col : 80;
 }
 
 } // namespace
@@ -114,7 +108,8 @@ void Progress::finish(std::string_view summary) {
 
 void Progress::rewrite_line(std::string_view text) {
   // A line longer than the terminal would wrap, and only its last part would be overwritten.
-  fmt::print(stream_, "\r{}\x1b[K", first_characters(text, terminal_width(stream_) - 1));
+  const auto width = static_cast<std::size_t>(terminal_width(fileno(stream_)));
+  fmt::print(stream_, "\r{}\x1b[K", first_characters(text, width - 1));
   std::fflush(stream_);
   line_open_ = true;
 }

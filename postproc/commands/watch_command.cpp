@@ -4,12 +4,12 @@
 #include <cstdio>
 #include <thread>
 
-#include <sys/ioctl.h>
 #include <unistd.h>
 
 #include <fmt/format.h>
 
 #include "common/errors.hpp"
+#include "common/terminal_width.hpp"
 #include "postproc/commands/command.hpp"
 #include "postproc/commands/commands.hpp"
 #include "postproc/watch/watch_frame.hpp"
@@ -21,11 +21,6 @@ namespace {
 /// Time of the system's clock since its epoch (s), as in file times.
 double now() {
   return std::chrono::duration<double>(std::chrono::system_clock::now().time_since_epoch()).count();
-}
-
-int terminal_width() {
-  winsize size{};
-  return ioctl(STDOUT_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 0 ? size.ws_col : 80;
 }
 
 class WatchCommand : public Command {
@@ -46,7 +41,7 @@ private:
   void execute() const override {
     if (once_) refuse_given({"--interval"}, "together with --once", "one of them");
     RunProgress progress = read_progress(run_);
-    show(watch_frame(progress, now(), terminal_width()));
+    show(watch_frame(progress, now(), terminal_width(STDOUT_FILENO)));
     while (!once_ && !progress.ended()) {
       std::this_thread::sleep_for(std::chrono::duration<double>(interval_));
       std::string note;
@@ -55,7 +50,7 @@ private:
       } catch (const InputError& error) { // keeps the last frame; the next checkpoint may be readable
         note = fmt::format("\n{}\n", error.what());
       }
-      show(watch_frame(progress, now(), terminal_width()) + note);
+      show(watch_frame(progress, now(), terminal_width(STDOUT_FILENO)) + note);
     }
   }
 
