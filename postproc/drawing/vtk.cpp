@@ -55,7 +55,7 @@ private:
 };
 
 std::string with_unit(const Field& field) {
-  return field.unit == "1" ? field.name : fmt::format("{} [{}]", field.name, field.unit);
+  return name_with_unit(field.name, field.unit);
 }
 
 } // namespace

@@ -25,4 +25,8 @@ std::string csv_text(const std::vector<Column>& columns) {
   return csv_text(pointers);
 }
 
+std::string name_with_unit(const std::string& name, const std::string& unit) {
+  return unit == "1" ? name : fmt::format("{} [{}]", name, unit);
+}
+
 } // namespace mpfem

@@ -14,4 +14,7 @@ std::string csv_text(const std::vector<const Column*>& columns);
 /// The same for columns that are given by value.
 std::string csv_text(const std::vector<Column>& columns);
 
+/// "NAME [UNIT]", or "NAME" for the unit 1.
+std::string name_with_unit(const std::string& name, const std::string& unit);
+
 } // namespace mpfem

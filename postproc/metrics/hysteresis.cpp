@@ -7,6 +7,7 @@
 
 #include "common/errors.hpp"
 #include "common/one_line.hpp"
+#include "postproc/files/text_file.hpp"
 #include "postproc/fits/statistics.hpp"
 #include "postproc/run_data/uncertainty.hpp"
 #include "postproc/run_data/windows.hpp"
@@ -239,9 +240,7 @@ nlohmann::ordered_json details_of(const Hysteresis& h, const std::vector<Column>
       {"drift_uncertainty", uncertainty(high_is_larger ? h.drift_at_high : h.drift_at_low)},
       {"low_stress_MPa", h.low_stress},
       {"high_stress_MPa", h.high_stress}};
-  for (const Column& column : cycles)
-    json["per_cycle"][column.unit == "1" ? column.name : fmt::format("{} [{}]", column.name, column.unit)] =
-        column.values;
+  for (const Column& column : cycles) json["per_cycle"][name_with_unit(column.name, column.unit)] = column.values;
   return json;
 }
 
