@@ -71,6 +71,42 @@ std::optional<Crossing> reach_offset(const LoadingPath& path, const ElasticLine&
   return {};
 }
 
+/// Half of a 95 % interval of a column where the offset is reached.
+double uncertainty_at(const Crossing& at, const LoadingPath& path, const ElasticLine& line, double offset,
+                      const std::vector<double>& values) {
+  const RowRange rows = rows_about(at.row, {0, values.size() - 1});
+  // With the smallest possible slope the loading may end before it yields, with the largest it may begin after.
+  double by_slope = 0;
+  for (const double sign : {-1.0, 1.0}) {
+    const double slope = line.slope + sign * line.uncertainty;
+    const auto other = slope > 0 ? reach_offset(path, line, slope, offset) : std::nullopt;
+    const double end = sign < 0 ? values.back() : values[line.first_row];
+    by_slope = std::max(by_slope, std::abs((other ? other->of(values) : end) - at.of(values)));
+  }
+  return std::hypot(at.half_spacing(values), by_slope, row_uncertainty(rows.of(path.strain), rows.of(values)));
+}
+
+nlohmann::ordered_json details_of(const StageCurve& c, const LoadingPath& path, const ElasticLine& line,
+                                  const OffsetYieldRule& rule, const Crossing& at) {
+  nlohmann::ordered_json details = {
+      {"deviatoric_stress_MPa", at.of(c.deviatoric_stress)},
+      {"mean_stress_MPa", at.of(c.mean_stress)},
+      {"mean_stress_uncertainty_MPa", uncertainty_at(at, path, line, rule.offset, c.mean_stress)},
+      {"axial_stress_MPa", at.of(c.axial_stress)},
+      {"strain_along_path_at_yield", at.of(path.strain)},
+      {"stress_along_path_at_yield_MPa", at.of(path.stress)},
+      {"plastic_strain_offset", rule.offset},
+      {"elastic_slope_MPa", line.slope},
+      {"elastic_slope_uncertainty_MPa", line.uncertainty},
+      {"axial_strain_at_yield", at.of(c.axial_strain)},
+      {"volumetric_strain_at_yield", at.of(c.volumetric_strain)},
+      {"dissipation_over_that_at_start", nullptr}};
+  const double start = c.plastic_dissipation.front() + c.damage_dissipation.front();
+  if (start > 0)
+    details["dissipation_over_that_at_start"] = (at.of(c.plastic_dissipation) + at.of(c.damage_dissipation)) / start;
+  return details;
+}
+
 } // namespace
 
 LoadingPath loading_path(const StageCurve& c) {
@@ -90,23 +126,11 @@ Measurement offset_yield(const StageCurve& c, const OffsetYieldRule& rule) {
                                  "--offset",
                                  c.path, c.stage, rule.offset));
   const std::vector<double>& column = c.unconfined ? c.axial_stress : c.deviatoric_stress;
-  const auto uncertainty = [&](const std::vector<double>& values) {
-    const RowRange rows = rows_about(at->row, {0, c.rows() - 1});
-    // With the smallest possible slope the loading may end before it yields, with the largest it may begin after.
-    double by_slope = 0;
-    for (const double sign : {-1.0, 1.0}) {
-      const double slope = line.slope + sign * line.uncertainty;
-      const auto other = slope > 0 ? reach_offset(path, line, slope, rule.offset) : std::nullopt;
-      const double end = sign < 0 ? values.back() : values[line.first_row];
-      by_slope = std::max(by_slope, std::abs((other ? other->of(values) : end) - at->of(values)));
-    }
-    return std::hypot(at->half_spacing(values), by_slope, row_uncertainty(rows.of(path.strain), rows.of(values)));
-  };
   Measurement m;
   m.metric = "offset-yield";
   m.value = at->of(column);
   m.unit = "MPa";
-  m.uncertainty = uncertainty(column);
+  m.uncertainty = uncertainty_at(*at, path, line, rule.offset, column);
   m.uncertainty_meaning = "half of the change between two rows, the change with the elastic slope's uncertainty, and "
                           "95 % of the rows' scatter, added in quadrature";
   m.window = axial_window(c, {at->row, at->row + 1}, c.unconfined ? "axial_stress" : "deviatoric_stress", column);
@@ -114,22 +138,7 @@ Measurement offset_yield(const StageCurve& c, const OffsetYieldRule& rule) {
                          "MPa{}",
                          path.stress_name, path.strain_name, rule.offset, line.slope,
                          rule.slope ? ", given" : " read by the rule of `modulus`");
-  m.details = {{"deviatoric_stress_MPa", at->of(c.deviatoric_stress)},
-               {"mean_stress_MPa", at->of(c.mean_stress)},
-               {"mean_stress_uncertainty_MPa", uncertainty(c.mean_stress)},
-               {"axial_stress_MPa", at->of(c.axial_stress)},
-               {"strain_along_path_at_yield", at->of(path.strain)},
-               {"stress_along_path_at_yield_MPa", at->of(path.stress)},
-               {"plastic_strain_offset", rule.offset},
-               {"elastic_slope_MPa", line.slope},
-               {"elastic_slope_uncertainty_MPa", line.uncertainty},
-               {"axial_strain_at_yield", at->of(c.axial_strain)},
-               {"volumetric_strain_at_yield", at->of(c.volumetric_strain)},
-               {"dissipation_over_that_at_start", nullptr}};
-  const auto dissipated = [&](double plastic, double damage) { return plastic + damage; };
-  if (const double start = dissipated(c.plastic_dissipation.front(), c.damage_dissipation.front()); start > 0)
-    m.details["dissipation_over_that_at_start"] =
-        dissipated(at->of(c.plastic_dissipation), at->of(c.damage_dissipation)) / start;
+  m.details = details_of(c, path, line, rule, *at);
   m.brief = fmt::format("p = {:.5g} MPa, elastic slope {:.5g} MPa", at->of(c.mean_stress), line.slope);
   return m;
 }
