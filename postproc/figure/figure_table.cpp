@@ -1,6 +1,7 @@
 #include "postproc/figure/figure_table.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
@@ -346,52 +347,78 @@ std::string curve_help() {
   return text;
 }
 
+namespace {
+
+/// Mean and deviation of one row over several tables, column by column.
+class RowMoments {
+public:
+  void add(const std::vector<double>& values) {
+    mean_.resize(values.size());
+    squares_.resize(values.size());
+    ++count_;
+    for (std::size_t c = 0; c < values.size(); ++c) { // Welford's method: no difference of large sums
+      const double change = values[c] - mean_[c];
+      mean_[c] += change / static_cast<double>(count_);
+      squares_[c] += change * (values[c] - mean_[c]);
+    }
+  }
+  std::size_t count() const { return count_; }
+  /// Empty cells where there are too few rows.
+  std::array<Value, 2> mean_and_deviation(std::size_t column) const {
+    const auto cell = [](double value) { return Value::of_text(fmt::format("{:.10g}", value)); };
+    return {count_ > 0 ? cell(mean_[column]) : Value{},
+            count_ > 1 ? cell(std::sqrt(squares_[column] / static_cast<double>(count_ - 1))) : Value{}};
+  }
+
+private:
+  std::size_t count_ = 0;
+  std::vector<double> mean_, squares_;
+};
+
+/// The columns of mean and deviation of "TITLE [UNIT]".
+void add_spread_columns(TextTable& result, const std::string& name, const std::string& title) {
+  const std::size_t bracket = title.find(" [");
+  result.add_column(title);
+  result.add_column(name + "_deviation" + (bracket == std::string::npos ? "" : title.substr(bracket)));
+}
+
+/// The numbers of a row in these columns; empty if one of them is missing.
+std::optional<std::vector<double>> numbers_of(const std::vector<Value>& row, const std::vector<std::size_t>& columns) {
+  std::vector<double> numbers;
+  for (const std::size_t column : columns) {
+    if (!row[column].number) return {};
+    numbers.push_back(*row[column].number);
+  }
+  return numbers;
+}
+
+} // namespace
+
 TextTable spread_of(const TableSpec& spec, const std::vector<std::string>& files) {
-  struct Moments {
-    std::size_t count = 0;
-    std::vector<double> mean, squares;
-  };
   TextTable result;
   result.path = spec.name;
   result.add_column("name");
   result.add_column("packings");
   std::vector<std::string> order;
-  std::map<std::string, Moments> moments;
+  std::map<std::string, RowMoments> moments;
   for (const std::string& path : files) {
     const TextTable table = read_text_table(path);
     const bool own = path == files.front();
     std::vector<std::size_t> columns;
     for (const std::string& name : spec.spread) {
       columns.push_back(table.column(name));
-      if (!own) continue;
-      const std::string& title = table.titles[columns.back()];
-      const std::size_t bracket = title.find(" [");
-      result.add_column(title);
-      result.add_column(name + "_deviation" + (bracket == std::string::npos ? "" : title.substr(bracket)));
+      if (own) add_spread_columns(result, name, table.titles[columns.back()]);
     }
     for (const auto& row : table.rows) {
       if (own) order.push_back(row.front().text);
-      Moments& m = moments[row.front().text];
-      m.mean.resize(columns.size());
-      m.squares.resize(columns.size());
-      if (std::any_of(columns.begin(), columns.end(), [&](std::size_t c) { return !row[c].number; })) continue;
-      ++m.count;
-      for (std::size_t c = 0; c < columns.size(); ++c) { // Welford's method: no difference of large sums
-        const double value = *row[columns[c]].number, change = value - m.mean[c];
-        m.mean[c] += change / static_cast<double>(m.count);
-        m.squares[c] += change * (value - m.mean[c]);
-      }
+      if (const auto numbers = numbers_of(row, columns)) moments[row.front().text].add(*numbers);
     }
   }
   for (const std::string& name : order) {
-    const Moments& m = moments[name];
-    std::vector<Value> row = {{name, {}}, Value::of(static_cast<double>(m.count))};
-    for (std::size_t c = 0; c < spec.spread.size(); ++c) {
-      row.push_back(m.count > 0 ? Value::of_text(fmt::format("{:.10g}", m.mean[c])) : Value{});
-      row.push_back(m.count > 1 ? Value::of_text(fmt::format(
-                                      "{:.10g}", std::sqrt(m.squares[c] / static_cast<double>(m.count - 1))))
-                                : Value{});
-    }
+    const RowMoments& m = moments[name];
+    std::vector<Value> row = {{name, {}}, Value::of(static_cast<double>(m.count()))};
+    for (std::size_t c = 0; c < spec.spread.size(); ++c)
+      for (Value& cell : m.mean_and_deviation(c)) row.push_back(std::move(cell));
     result.rows.push_back(std::move(row));
   }
   return result;
