@@ -192,12 +192,14 @@ void try_output(const std::string& path) {
   const auto found = found_at(path);
   if (found && (is_stream(found->st_mode) || is_standard_output(*found))) return;
   const std::string partial = partial_of(path);
-  if (std::error_code ignored; std::filesystem::is_directory(partial, ignored))
+  std::error_code ignored;
+  if (std::filesystem::is_directory(std::filesystem::symlink_status(partial, ignored)))
     throw StorageError(fmt::format("{}: cannot be replaced: {}", one_line(partial), std::strerror(EISDIR)));
   // Not the partial file itself: it may hold a complete text that could not take its name (see replace_file).
-  const std::string trial = output_target(path) + ".attempt"; // as long as ".partial"
+  const std::string target = output_target(path), trial = target + ".attempt"; // as long as ".partial"
   const int file = open(trial.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
-  if (file < 0 && errno == EEXIST) return; // another program tries the same
+  // Another program tries the same, or one was killed while it did.
+  if (file < 0 && errno == EEXIST && access(folder_of(target).c_str(), W_OK | X_OK) == 0) return;
   if (file < 0) throw StorageError(fmt::format("{}: cannot be written: {}", one_line(path), std::strerror(errno)));
   close(file);
   unlink(trial.c_str());

@@ -10,8 +10,6 @@ inline std::string run_stem(const std::string& run_file) {
   return run_file.ends_with(".h5") ? run_file.substr(0, run_file.size() - 3) : run_file;
 }
 
-// The names below are those that solver/run/checkpoints.cpp and solver/output/run_lock.cpp give.
-
 /// RUN.checkpoint.h5, the newest checkpoint of a run.
 inline std::string name_of_checkpoint(const std::string& run_file) {
   return run_stem(run_file) + ".checkpoint.h5";

@@ -29,7 +29,7 @@ bool stands(int file, const std::string& path) {
 } // namespace
 
 std::string lock_path(const std::string& run_file) {
-  return run_stem(run_file) + ".lock";
+  return name_of_lock(run_file);
 }
 
 RunLock::RunLock(const std::string& run_file) : path_(lock_path(output_target(run_file))) {

@@ -62,19 +62,19 @@ void verify_written(const std::string& path, const std::string& rolling) {
 } // namespace
 
 std::string checkpoint_path(const std::string& run_file) {
-  return run_stem(run_file) + ".checkpoint.h5";
+  return name_of_checkpoint(run_file);
 }
 
 std::string previous_checkpoint_path(const std::string& run_file) {
-  return run_stem(run_file) + ".checkpoint.previous.h5";
+  return name_of_previous_checkpoint(run_file);
 }
 
 std::string stage_checkpoint_path(const std::string& run_file, const std::string& stage) {
-  return fmt::format("{}.{}.checkpoint.h5", run_stem(run_file), stage);
+  return name_of_kept_checkpoint(run_file, stage);
 }
 
 std::string density_checkpoint_path(const std::string& run_file, double relative_density) {
-  return fmt::format("{}.D{:.3f}.checkpoint.h5", run_stem(run_file), relative_density);
+  return name_of_kept_checkpoint(run_file, fmt::format("D{:.3f}", relative_density));
 }
 
 std::vector<std::string> kept_checkpoints(const Scenario& scenario, const std::string& run_file) {
