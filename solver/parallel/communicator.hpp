@@ -75,7 +75,8 @@ public:
     Transfer& operator=(Transfer&&) noexcept;
     ~Transfer();
     /// Moves the messages on, without waiting. To be called now and then from the first thread while it computes: MPI
-    /// may move large messages only within its own functions.
+    /// may move large messages only within its own functions. Does nothing where MPI gives the core to other programs
+    /// each time it finds no message, as with more ranks than cores.
     void progress();
     /// Waits until all messages have been sent and received.
     void finish();

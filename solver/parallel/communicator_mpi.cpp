@@ -21,14 +21,14 @@ namespace {
 /// For ranks that have failed: their messages must not mix with those that the others still exchange.
 MPI_Comm failing = MPI_COMM_NULL;
 
-/// Whether MPI gives this core to other programs each time it looks for messages and finds none. Open MPI does where
+/// Whether MPI gives this core to other programs each time it looks for messages and finds none. Open MPI does so where
 /// ranks share cores, and where the user wants it (`mpi_yield_when_idle`).
 bool gives_core_away = false;
 
-/// Reads this setting by MPI's tool interface, which other implementations have without it.
+/// Reads this setting through MPI's tool interface. Other implementations have no such setting: false.
 bool yields_when_idle() {
   int provided = 0, index = 0, count = 0, value = 0;
-  if (MPI_T_init_thread(MPI_THREAD_SINGLE, &provided) != MPI_SUCCESS) return false;
+  if (MPI_T_init_thread(MPI_THREAD_FUNNELED, &provided) != MPI_SUCCESS) return false;
   MPI_T_cvar_handle setting = MPI_T_CVAR_HANDLE_NULL;
   if (MPI_T_cvar_get_index("mpi_yield_when_idle", &index) == MPI_SUCCESS &&
       MPI_T_cvar_handle_alloc(index, nullptr, &setting, &count) == MPI_SUCCESS) {
@@ -103,6 +103,7 @@ void Communicator::Transfer::progress() {
   int complete = 0;
   MPI_Testall(static_cast<int>(state_->request.size()), state_->request.data(), &complete, MPI_STATUSES_IGNORE);
 }
+
 void Communicator::Transfer::finish() {
   if (!state_) return;
   MPI_Waitall(static_cast<int>(state_->request.size()), state_->request.data(), MPI_STATUSES_IGNORE);

@@ -60,3 +60,16 @@ duration = 1
   for (const std::int32_t grain : contact.candidates.pair_first) CHECK(knows(grain));
   for (const std::int32_t grain : contact.candidates.pair_second) CHECK(knows(grain));
 }
+
+TEST_CASE("Messages arrive whole when they are moved on while a rank computes", "[.several-ranks]") {
+  const Communicator& ranks = test_ranks();
+  const int next = (ranks.rank() + 1) % ranks.size(), before = (ranks.rank() + ranks.size() - 1) % ranks.size();
+  constexpr std::size_t size = std::size_t{1} << 20; // more than MPI sends without an answer
+  const Bytes sent(size, static_cast<std::byte>(ranks.rank() + 1));
+  Bytes received(size);
+  Communicator::Transfer transfer = ranks.start({{next, sent}}, {{before, received}});
+  for (int look = 0; look < 1000; ++look) transfer.progress();
+  transfer.finish();
+  transfer.progress(); // nothing is under way
+  CHECK(std::ranges::all_of(received, [&](std::byte b) { return b == static_cast<std::byte>(before + 1); }));
+}
