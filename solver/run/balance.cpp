@@ -24,27 +24,30 @@ double imbalance_of(std::span<const double> busy) {
   return sum > 0 ? *std::ranges::max_element(busy) * static_cast<double>(busy.size()) / sum : 1;
 }
 
-/// `amount` of some of a quantity of which there is `all`, in s that all have taken.
+/// s that `amount` has cost if `all` of it has cost `seconds`.
 double share(double amount, double all, double seconds) {
   return all > 0 ? amount / all * seconds : 0;
 }
 
 } // namespace
 
-Balance measure_balance(const Communicator& ranks, const Model& model, std::span<const std::int32_t> points,
+Balance measure_balance(const Communicator& ranks, const Model& model, std::span<const double> contact_work,
                         const BusyTime& busy) {
   std::vector<double> busy_of_rank;
   const double own_busy = busy.total();
   for (const Bytes& message : ranks.all_of(bytes_of(std::span<const double>(&own_busy, 1))))
     busy_of_rank.push_back(MessageReader(message).take<double>());
 
-  double all_tets = 0, all_points = 0;
-  for (const std::int32_t g : model.own()) all_tets += tets_of(model, g), all_points += points[at(g)];
-  // Without points, what contact has cost (looking at grains that do not touch) goes to all grains.
-  const double by_tets = all_points > 0 ? busy.tets : own_busy;
+  double all_tets = 0, all_work = 0;
+  for (const std::int32_t g : model.own()) {
+    all_tets += tets_of(model, g);
+    all_work += contact_work[at(g)];
+  }
+  const double by_tets = all_work > 0 ? busy.tets : own_busy; // grains without any near them
   Balance balance{.imbalance = imbalance_of(busy_of_rank), .cost = std::vector<double>(at(model.grains))};
   for (const std::int32_t g : model.own())
-    balance.cost[at(g)] = share(tets_of(model, g), all_tets, by_tets) + share(points[at(g)], all_points, busy.contact);
+    balance.cost[at(g)] =
+        share(tets_of(model, g), all_tets, by_tets) + share(contact_work[at(g)], all_work, busy.contact);
   share_of_grains(ranks, model.ownership, std::span(balance.cost));
   return balance;
 }

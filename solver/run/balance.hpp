@@ -13,7 +13,7 @@ namespace mpfem {
 /// s that a rank has worked for some time, without waiting for others.
 struct BusyTime {
   double tets = 0;    ///< on work in proportion to tetrahedra: elements, surfaces, integration
-  double contact = 0; ///< on work in proportion to contact points
+  double contact = 0; ///< on contact points
 
   double total() const { return tets + contact; }
 };
@@ -24,9 +24,9 @@ struct Balance {
   std::vector<double> cost; ///< [grains], s that each grain has cost its owner
 };
 
-/// Collective. `busy` is that of this rank. `points` ([grains]): contact points in touch whose nodes are on this grain,
-/// set for the rank's own grains. A rank's grains share its two times by their tetrahedra and by their points.
-Balance measure_balance(const Communicator& ranks, const Model& model, std::span<const std::int32_t> points,
+/// Collective. `busy` is that of this rank. `contact_work` ([grains], in any unit): work on contact of each grain, set
+/// for the rank's own grains. A rank's grains share its two times by their tetrahedra and by this work.
+Balance measure_balance(const Communicator& ranks, const Model& model, std::span<const double> contact_work,
                         const BusyTime& busy);
 
 /// Collective. The owner of each grain ([grains]) by recursive bisection of their current positions, weighted by what

@@ -1,6 +1,5 @@
 // The state of a simulation in checkpoints, and branches that begin from it.
 
-#include "common/index.hpp"
 #include "solver/parallel/totals.hpp"
 #include "solver/run/simulation.hpp"
 

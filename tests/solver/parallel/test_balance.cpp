@@ -32,10 +32,10 @@ duration = 1
   return build_model(packing, scenario, "test", test_ranks());
 }
 
-/// Measures ranks that work for a time (s) on tetrahedra, and on contact where a grain has `points` contact points.
-Balance measured(const Model& model, double on_tets, double on_contact = 0, std::vector<std::int32_t> points = {}) {
-  points.resize(at(model.grains), 0);
-  return measure_balance(test_ranks(), model, points, {on_tets, on_contact});
+/// Measures ranks that work for a time (s) on tetrahedra and on contact, with each grain's work on contact.
+Balance measured(const Model& model, double on_tets, double on_contact = 0, std::vector<double> contact_work = {}) {
+  contact_work.resize(at(model.grains), 0);
+  return measure_balance(test_ranks(), model, contact_work, {on_tets, on_contact});
 }
 
 } // namespace
@@ -88,20 +88,21 @@ TEST_CASE("A rank that is three times as slow hands over work", "[.several-ranks
   if (ranks == 2) CHECK(busiest(owner) <= 0.75 * busiest(model.ownership.owner) * (1 + rounding));
 }
 
-TEST_CASE("Time spent on contact belongs to the grains that have contact points", "[.several-ranks]") {
+TEST_CASE("Time spent on contact belongs to the grains that have work on contact", "[.several-ranks]") {
   const Model model = model_of_eight_grains();
-  // Each rank works 2 s on its equal grains, and 6 s on contact: the first of its grains has three points, the last one.
-  std::vector<std::int32_t> points(8, 0);
+  // Each rank works 2 s on its equal grains, and 6 s on contact: three quarters of it on its first grain, the rest on
+  // its last one.
+  std::vector<double> work(8, 0);
   const std::int32_t first = model.own().front(), last = model.own().back();
   REQUIRE(first != last);
-  points[at(first)] = 3, points[at(last)] = 1;
-  const Balance balance = measured(model, 2.0, 6.0, points);
+  work[at(first)] = 3, work[at(last)] = 1;
+  const Balance balance = measured(model, 2.0, 6.0, work);
   const double own = static_cast<double>(model.own().size());
-  for (const std::int32_t g : model.own()) CHECK(within(balance.cost[at(g)], 2 / own + 1.5 * points[at(g)], rounding));
+  for (const std::int32_t g : model.own()) CHECK(within(balance.cost[at(g)], 2 / own + 1.5 * work[at(g)], rounding));
   CHECK(std::ranges::all_of(balance.cost, [](double seconds) { return seconds > 0; })); // of other ranks' grains, too
 }
 
-TEST_CASE("Time spent on looking for contact belongs to all grains while none touch", "[.several-ranks]") {
+TEST_CASE("Time spent on contact belongs to all grains while none are near others", "[.several-ranks]") {
   const Model model = model_of_eight_grains();
   const Balance balance = measured(model, 2.0, 1.0);
   const double own = static_cast<double>(model.own().size());
