@@ -54,10 +54,6 @@ private:
   std::string bytes_;
 };
 
-std::string with_unit(const Field& field) {
-  return name_with_unit(field.name, field.unit);
-}
-
 } // namespace
 
 std::string vtu_text(const Snapshot& s) {
@@ -92,10 +88,12 @@ std::string vtu_text(const Snapshot& s) {
   xml += appended.array("types", "UInt8", 1, std::span<const std::uint8_t>(types));
   xml += "      </Cells>\n      <PointData>\n";
   if (!s.velocity.empty()) xml += appended.array("velocity [mm/s]", "Float32", 3, Floats(s.velocity));
-  for (const Field& field : s.node_fields) xml += appended.array(with_unit(field), "Float32", 1, Floats(field.values));
+  for (const Field& field : s.node_fields)
+    xml += appended.array(name_with_unit(field.name, field.unit), "Float32", 1, Floats(field.values));
   xml += "      </PointData>\n      <CellData>\n";
   for (const Field& field : s.tet_fields)
-    if (field.name != "grain") xml += appended.array(with_unit(field), "Float32", 1, Floats(field.values));
+    if (field.name != "grain")
+      xml += appended.array(name_with_unit(field.name, field.unit), "Float32", 1, Floats(field.values));
   xml += appended.array("grain", "Int32", 1, std::span<const std::int32_t>(s.tet_grain));
   xml += "      </CellData>\n    </Piece>\n  </UnstructuredGrid>\n  <AppendedData encoding=\"raw\">\n_";
   constexpr std::string_view end = "\n  </AppendedData>\n</VTKFile>\n";
@@ -215,7 +213,7 @@ std::string grains_vtp_text(const Snapshot& s) {
   for (const double v : volume) volumes.push_back(static_cast<float>(v));
   for (std::size_t f = 0; f < sum.size(); ++f) {
     if (s.tet_fields[f].name == "grain") continue;
-    std::vector<float>& mean = file.array(with_unit(s.tet_fields[f]));
+    std::vector<float>& mean = file.array(name_with_unit(s.tet_fields[f].name, s.tet_fields[f].unit));
     for (std::size_t g = 0; g < grains; ++g)
       mean.push_back(static_cast<float>(volume[g] > 0 ? sum[f][g] / volume[g] : 0));
   }

@@ -148,10 +148,10 @@ struct FigureCommands::State {
     for (const std::string& input : inputs) refuse_overwriting("--output", output, input);
   }
 
-  /// Refuses outputs that cannot be written, that would overwrite what an option names, or that have not one of these
-  /// endings (see FigureCommand).
+  /// Refuses outputs that cannot be written, that would overwrite what an option names, or that end as another format
+  /// does. Where several endings are given, all others are refused (see FigureCommand).
   void check_output(const std::vector<std::string>& endings) const {
-    if (output.empty()) return;
+    if (output.empty() && endings.size() < 2) return; // standard output
     refuse_overwriting_any({figure, packing, description, run, beside});
     refuse_overwriting_any(files);
     check_output_path("--output", output, OutputKind::text);

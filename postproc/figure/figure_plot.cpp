@@ -177,7 +177,8 @@ private:
                                                            {table.column(s.y, s.place), s.y_scale}};
     if (!s.error.empty()) columns.emplace_back(table.column(s.error, s.place), s.y_scale);
     if (!s.colour_by.empty()) columns.emplace_back(table.column(s.colour_by, s.place), 1);
-    std::string block, with_error; // the latter: without the points whose error is not known
+    std::string block, with_error; // the latter: points whose error is known
+    std::size_t errors = 0;
     DrawnLine line{{}, s.style != "points"};
     for (const std::size_t row : table.rows_of(where, s.place)) {
       std::string cells;
@@ -188,14 +189,17 @@ private:
       block += cells + '\n';
       const auto x = table.number(row, columns[0].first, s.place), y = table.number(row, columns[1].first, s.place);
       if (x && y) line.points.push_back({*x * s.x_scale, *y * s.y_scale});
-      if (s.error.empty() || !y || table.number(row, columns[2].first, s.place)) with_error += cells + '\n';
+      if (x && y && !s.error.empty() && table.number(row, columns[2].first, s.place)) {
+        with_error += cells + '\n';
+        ++errors;
+      }
     }
     if (line.points.empty()) return; // none of it could be measured
     SeriesSpec drawn = s;
     drawn.colour = colour;
     if (!s.colour_by.empty())
       draw(block, "using 1:2:3 with lines linewidth 1.5 palette", title, line);
-    else if (!s.error.empty() && with_error == block)
+    else if (!s.error.empty() && errors == line.points.size())
       draw(block,
            fmt::format("using 1:2:3 with {}{}", s.style == "points" ? "yerrorbars" : "yerrorlines", line_style(drawn)),
            title, line);

@@ -152,8 +152,8 @@ private:
     require_run_or_packing();
     const int count = static_cast<int>(schema::FileReader(path_of_run(), schema::FileKind::run).snapshots().size());
     if (count == 0) throw InputError(fmt::format("{}: the run has no snapshots", one_line(path_of_run())));
-    make_folder(frames_);
     for (int number = 0; number < count; ++number) refuse_overwriting("--frames", frame_path(number), path_of_run());
+    make_folder(frames_);
     try_output(frame_path(0));
     std::optional<ShownBox> shown;
     std::pair<double, double> range{0, 0};

@@ -15,13 +15,13 @@ as_list() { awk '{ sub(/,$/, ""); printf "%s%s", NR == 1 ? "[\n" : ",\n", $0 } E
 statements() { grep '"statement":' $results/"$1"/verdict.json; }
 statements own/finest-mesh | grep 'von Mises' | as_list >"$finest/fig08/verdict.json"
 statements own/finest-mesh | grep -v 'von Mises' | as_list >"$finest/fig09/verdict.json"
+# So has the mesh that it uses from fig10 on: energies belong to fig11, strengths to fig22.
+statements medium-tet4/paper-mesh | grep ' energy' | grep -v trength | as_list >"$paper_mesh/fig11/verdict.json"
+statements medium-tet4/paper-mesh | grep trength | as_list >"$paper_mesh/fig22/verdict.json"
 # The densities between which samples saturate at the paper's modulus, in the words of that study's statement.
 saturated=$(statements coarse/saturated-modulus |
   sed -n 's/.*samples compacted to \([0-9.]*\) and to \([0-9.]*\), .*/\1 to \2/p')
 [ -n "$saturated" ] || { echo "verdicts.sh: saturated-modulus/verdict.json states no densities" >&2 && exit 1; }
-# So has the mesh that it uses from fig10 on: energies belong to fig11, strengths to fig22.
-statements medium-tet4/paper-mesh | grep ' energy' | grep -v trength | as_list >"$paper_mesh/fig11/verdict.json"
-statements medium-tet4/paper-mesh | grep trength | as_list >"$paper_mesh/fig22/verdict.json"
 
 {
   cat <<END

@@ -780,11 +780,12 @@ series = [
   const std::string some = script_of("a,1,3\nb,2,\nc,,\n");
   CHECK_THAT(some, Contains("$data1 << EOD\n1 1 3 \n2 2 NaN \nNaN NaN NaN \nEOD") &&
                        Contains("$data1 using 1:2 with points linetype 1 pointsize") && Contains("title 'loose'"));
-  CHECK_THAT(some, Contains("$data2 << EOD\n1 1 3 \nNaN NaN NaN \nEOD") &&
+  CHECK_THAT(some, Contains("$data2 << EOD\n1 1 3 \nEOD") &&
                        Contains("$data2 using 1:2:3 with yerrorbars linetype 1 pointsize"));
   CHECK_THAT(some, Contains("$data3 using 1:2 with linespoints linetype") && Contains("title 'joined'"));
   CHECK_NOTHROW(run_gnuplot(some));
   CHECK_THAT(script_of("a,1,\nb,2,\n"), !Contains("yerror"));
+  CHECK_THAT(script_of("a,1,\nc,,\n"), !Contains("yerror"));
   CHECK_THAT(script_of("a,1,3\nb,2,0\nc,,\n"),
              !Contains("using 1:2 with") && Contains("with yerrorlines") && Contains("2 2 0 \n"));
 }

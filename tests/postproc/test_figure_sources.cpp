@@ -833,10 +833,27 @@ TEST_CASE("no file from which something of a figure is made is replaced by it") 
     // Most names are refused for their ending already, before anything is read.
     CHECK_THAT(outcome.messages, Contains("would overwrite the input") || Contains("would replace a TOML file") ||
                                      Contains("found the ending"));
+    // A link without an ending leads to the same file.
+    const std::string link = studies.path("link");
+    std::filesystem::create_symlink(studies.path(name), link);
+    const auto by_link = test::postproc(fmt::format("{} -o {}", command, link));
+    INFO(by_link.messages);
+    CHECK(by_link.exit_code == 2);
+    CHECK_THAT(by_link.messages, Contains("would overwrite the input") || Contains("would replace a TOML file"));
+    std::filesystem::remove(link);
     CHECK(test::read_text(studies.path(name)) == before);
     // Under another name it is written.
     CHECK(test::postproc(fmt::format("{} -o {}", command, studies.path("new"))).exit_code == 0);
   }
+}
+
+TEST_CASE("a plot with an empty name of its file is refused") {
+  const Studies studies;
+  write_complete_study(studies);
+  const auto outcome =
+      test::postproc(fmt::format("plot {} p --results {} -o ''", studies.path("study.toml"), studies.path("out")));
+  CHECK(outcome.exit_code == 2);
+  CHECK_THAT(outcome.messages, Contains("--output: found"));
 }
 
 TEST_CASE("a report opens with how many statements of each study agree, and says why one differs") {
