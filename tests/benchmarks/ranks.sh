@@ -37,10 +37,11 @@ quartile() {
 }
 printf '### Two ranks of one thread against two threads: %s pairs in turn, %s grains, %s tets\n\n' "$pairs" \
   "$(value "$work/ranks.1.json" grains)" "$(value "$work/ranks.1.json" tets)"
-printf '| two threads, ns per tet-step | two ranks | speed of ranks over threads, median | quartiles |\n'
-printf '|---|---|---|---|\n'
-printf '| %.3g | %.3g | %.2f | %.2f, %.2f |\n' "$(median whole_step_ns_per_tet_step "$work"/threads.*.json)" \
-  "$(median whole_step_ns_per_tet_step "$work"/ranks.*.json)" "$(quartile 2)" "$(quartile 1)" "$(quartile 3)"
+printf '| two threads, ns per tet-step | two ranks | wait for messages | speed of ranks over threads, median | '
+printf 'quartiles |\n|---|---|---|---|---|\n'
+printf '| %.3g | %.3g | %.2g | %.2f | %.2f, %.2f |\n' "$(median whole_step_ns_per_tet_step "$work"/threads.*.json)" \
+  "$(median whole_step_ns_per_tet_step "$work"/ranks.*.json)" \
+  "$(median message_wait_ns_per_tet_step "$work"/ranks.*.json)" "$(quartile 2)" "$(quartile 1)" "$(quartile 3)"
 
 printf '\n### Messages and memory\n\n'
 printf '| ranks | grains | tets | kB per step of the rank that sends most | memory of the first rank, MB | of all |\n'

@@ -50,6 +50,11 @@ for scenario in loadings grips friction tools die shapes; do
   echo "$scenario: runs of one, two and four ranks are alike"
 done
 
+# Ranks that keep their cores move messages on while they compute.
+OMPI_MCA_mpi_yield_when_idle=0 run 2 2 friction polling
+alike friction-alone polling
+rm -f polling.*
+
 # More ranks than grains have nothing to do.
 run 13 1 friction crowd
 alike friction-alone crowd
