@@ -28,11 +28,7 @@ bool stands(int file, const std::string& path) {
 
 } // namespace
 
-std::string lock_path(const std::string& run_file) {
-  return name_of_lock(run_file);
-}
-
-RunLock::RunLock(const std::string& run_file) : path_(lock_path(output_target(run_file))) {
+RunLock::RunLock(const std::string& run_file) : path_(name_of_lock(output_target(run_file))) {
   for (;;) {
     file_ = open(path_.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
     if (file_ < 0) throw StorageError(fmt::format("{}: cannot be written", one_line(path_)));

@@ -20,7 +20,4 @@ private:
   int file_ = -1;
 };
 
-/// Name of the lock of a run file that is no symbolic link.
-std::string lock_path(const std::string& run_file);
-
 } // namespace mpfem

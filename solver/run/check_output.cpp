@@ -56,10 +56,10 @@ void refuse_checkpoints_of_other_runs(const Scenario& scenario, const std::strin
                                  "--output",
                                  one_line(output), one_line(checkpoint), one_line(run)));
   };
-  const std::string rolling = checkpoint_path(output), stem = run_stem(output);
+  const std::string rolling = name_of_checkpoint(output), stem = run_stem(output);
   for (const std::string& ending : kept_by_run_in(rolling, ""))
     if (const auto other = without(rolling, ending))
-      if (const std::string run = *other + ".h5"; fs::exists(run) || fs::exists(checkpoint_path(run)))
+      if (const std::string run = *other + ".h5"; fs::exists(run) || fs::exists(name_of_checkpoint(run)))
         refuse(rolling, run);
   for (const std::string& kept : kept_checkpoints(scenario, output))
     if (const std::string run = *without(kept, ".checkpoint.h5") + ".h5"; fs::exists(kept) && fs::exists(run))

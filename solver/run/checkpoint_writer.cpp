@@ -1,5 +1,6 @@
 #include "solver/run/checkpoint_writer.hpp"
 
+#include "common/run_stem.hpp"
 #include "solver/run/checkpoints.hpp"
 #include "solver/run/interrupt.hpp"
 
@@ -21,7 +22,7 @@ CheckpointReason CheckpointWriter::reason() const {
 }
 
 void CheckpointWriter::save_stage_checkpoint() const {
-  records_.save_checkpoint(stage_checkpoint_path(options_.output, simulation_.stage().name));
+  records_.save_checkpoint(name_of_kept_checkpoint(options_.output, simulation_.stage().name));
 }
 
 CheckpointReason CheckpointWriter::write_due() {

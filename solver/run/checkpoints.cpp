@@ -27,7 +27,7 @@ constexpr double nearly = 1 - 1e-9;
 std::vector<std::string> of_stages(const Scenario& scenario, const std::string& run_file, std::size_t count) {
   std::vector<std::string> paths;
   for (std::size_t i = 0; i < std::min(count, scenario.stages.size()); ++i)
-    paths.push_back(stage_checkpoint_path(run_file, scenario.stages[i].name));
+    paths.push_back(name_of_kept_checkpoint(run_file, scenario.stages[i].name));
   return paths;
 }
 
@@ -61,18 +61,6 @@ void verify_written(const std::string& path, const std::string& rolling) {
 
 } // namespace
 
-std::string checkpoint_path(const std::string& run_file) {
-  return name_of_checkpoint(run_file);
-}
-
-std::string previous_checkpoint_path(const std::string& run_file) {
-  return name_of_previous_checkpoint(run_file);
-}
-
-std::string stage_checkpoint_path(const std::string& run_file, const std::string& stage) {
-  return name_of_kept_checkpoint(run_file, stage);
-}
-
 std::string density_checkpoint_path(const std::string& run_file, double relative_density) {
   return name_of_kept_checkpoint(run_file, fmt::format("D{:.3f}", relative_density));
 }
@@ -86,7 +74,7 @@ std::vector<std::string> kept_checkpoints(const Scenario& scenario, const std::s
 
 std::vector<std::string> all_checkpoints(const Scenario& scenario, const std::string& run_file) {
   std::vector<std::string> paths = kept_checkpoints(scenario, run_file);
-  paths.insert(paths.end(), {checkpoint_path(run_file), previous_checkpoint_path(run_file)});
+  paths.insert(paths.end(), {name_of_checkpoint(run_file), name_of_previous_checkpoint(run_file)});
   return paths;
 }
 
@@ -126,7 +114,7 @@ bool is_checkpoint_of(const std::string& path, const RunIdentity& run) {
 
 void replace_rolling_checkpoint(const Communicator& ranks, const std::string& run_file,
                                 const std::function<void(const std::string&)>& write) {
-  const std::string rolling = checkpoint_path(run_file), previous = previous_checkpoint_path(run_file),
+  const std::string rolling = name_of_checkpoint(run_file), previous = name_of_previous_checkpoint(run_file),
                     next = next_checkpoint_path(run_file);
   root_does(ranks, [&] {
     std::error_code ignored;
@@ -169,11 +157,11 @@ std::vector<std::string> missing_checkpoints(const std::vector<std::string>& pro
 
 std::vector<std::string> resumable_checkpoints(const Scenario& scenario, const RunIdentity& run) {
   std::vector<std::string> paths;
-  if (const std::string rolling = checkpoint_path(run.run_file); fs::exists(rolling)) paths.push_back(rolling);
+  if (const std::string rolling = name_of_checkpoint(run.run_file); fs::exists(rolling)) paths.push_back(rolling);
   // If no beginning is named, the rolling checkpoints show where the run began.
   RunIdentity unnamed = run;
   if (unnamed.from == "packing") unnamed.from.clear();
-  if (const std::string previous = previous_checkpoint_path(run.run_file); is_checkpoint_of(previous, unnamed))
+  if (const std::string previous = name_of_previous_checkpoint(run.run_file); is_checkpoint_of(previous, unnamed))
     paths.push_back(previous);
 
   std::vector<std::pair<std::int64_t, std::string>> kept; // by step
@@ -187,7 +175,7 @@ std::vector<std::string> resumable_checkpoints(const Scenario& scenario, const R
 
 void remove_partial_files(const Scenario& scenario, const std::string& run_file) {
   std::vector<std::string> written = kept_checkpoints(scenario, run_file);
-  written.insert(written.end(), {run_file, checkpoint_path(run_file), next_checkpoint_path(run_file)});
+  written.insert(written.end(), {run_file, name_of_checkpoint(run_file), next_checkpoint_path(run_file)});
   std::error_code ignored;
   for (const std::string& path : written) fs::remove(path + ".partial", ignored);
   fs::remove(next_checkpoint_path(run_file), ignored); // not known to be good
@@ -197,8 +185,8 @@ void remove_partial_files(const Scenario& scenario, const std::string& run_file)
 void remove_unfinished(const std::string& run_file) {
   // In this order: the previous checkpoint, the rolling one, and then the snapshots that it names.
   std::error_code ignored;
-  fs::remove(previous_checkpoint_path(run_file), ignored);
-  fs::remove(checkpoint_path(run_file), ignored);
+  fs::remove(name_of_previous_checkpoint(run_file), ignored);
+  fs::remove(name_of_checkpoint(run_file), ignored);
   remove_snapshots(run_file, [](const std::string&) { return true; });
   fs::remove(parts_folder(run_file), ignored); // unless something else is in it
 }

@@ -15,12 +15,6 @@
 
 namespace mpfem {
 
-/// Path of a run's rolling checkpoint: RUN.checkpoint.h5.
-std::string checkpoint_path(const std::string& run_file);
-/// Path of the rolling checkpoint before it: RUN.checkpoint.previous.h5.
-std::string previous_checkpoint_path(const std::string& run_file);
-/// Path of the checkpoint at the end of a stage: RUN.STAGE.checkpoint.h5.
-std::string stage_checkpoint_path(const std::string& run_file, const std::string& stage);
 /// Path of the checkpoint at a relative density: RUN.D0.850.checkpoint.h5.
 std::string density_checkpoint_path(const std::string& run_file, double relative_density);
 /// Paths of all checkpoints that stay when the run is complete.

@@ -7,6 +7,7 @@
 #include "common/errors.hpp"
 #include "common/hash.hpp"
 #include "common/one_line.hpp"
+#include "common/run_stem.hpp"
 #include "solver/output/other_scenario.hpp"
 #include "solver/output/run_file.hpp"
 #include "solver/parallel/root.hpp"
@@ -19,7 +20,7 @@ namespace {
 namespace fs = std::filesystem;
 
 bool rolling_checkpoint_exists(const std::string& run_file) {
-  return fs::exists(checkpoint_path(run_file)) || fs::exists(previous_checkpoint_path(run_file));
+  return fs::exists(name_of_checkpoint(run_file)) || fs::exists(name_of_previous_checkpoint(run_file));
 }
 
 /// Files of snapshots (`names`) that have been taken and are no longer there.
@@ -118,8 +119,8 @@ bool Continuation::restore_best(std::vector<std::string>& lost, std::string& dam
       continue;
     }
     if (!restore(path, lost)) continue;
-    if (path == previous_checkpoint_path(options_.output)) // whatever is in the rolling one's place is worse
-      root_does(ranks_, [&] { fs::rename(path, checkpoint_path(options_.output)); });
+    if (path == name_of_previous_checkpoint(options_.output)) // whatever is in the rolling one's place is worse
+      root_does(ranks_, [&] { fs::rename(path, name_of_checkpoint(options_.output)); });
     if (!lost.empty())
       report_.warning(fmt::format("{} is missing; the run continues from {} to write it", lost.front(), path));
     if (!options_.redistributed) report_.note(fmt::format("resumed {} at step {}", path, simulation_.state().step));
@@ -145,7 +146,7 @@ bool Continuation::restore(const std::string& path, std::vector<std::string>& lo
       root_lists(ranks_, [this] { return missing_snapshots(options_.output, record_.snapshot_files); });
   if (snapshots.empty()) return true;
   // The checkpoints that a complete run keeps count on snapshots that it has removed; the rolling one does not.
-  const bool rolling = path == checkpoint_path(options_.output);
+  const bool rolling = path == name_of_checkpoint(options_.output);
   if (!rolling || !lost.empty()) return false;
   throw InputError(
       fmt::format("{}: the snapshot {}, taken before this checkpoint, is missing; run without --resume to start again",
@@ -169,7 +170,7 @@ RunIdentity Continuation::identity_from(const std::string& from) const {
 }
 
 void Continuation::discard_unfinished_run() const {
-  const std::string rolling = checkpoint_path(options_.output);
+  const std::string rolling = name_of_checkpoint(options_.output);
   if (fs::exists(rolling))
     report_.note(fmt::format("discarding {} of an unfinished run, because this run starts again (--resume would have "
                              "continued it)",

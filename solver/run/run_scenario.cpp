@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "common/errors.hpp"
+#include "common/run_stem.hpp"
 #include "solver/model/bond_resolution.hpp"
 #include "solver/output/earlier_run.hpp"
 #include "solver/output/run_lock.hpp"
@@ -30,7 +31,7 @@ namespace {
 
 /// Reads the packing and makes the model. Both may take a while, so a request to stop is checked in between.
 Model load_model(const Scenario& scenario, const RunOptions& options, const Communicator& ranks, const Owners& owners) {
-  const std::string checkpoint = checkpoint_path(options.output);
+  const std::string checkpoint = name_of_checkpoint(options.output);
   stop_before_first_step(ranks, checkpoint);
   const MeshedPacking packing = read_packing(scenario.packing_file, ranks, owners);
   stop_before_first_step(ranks, checkpoint);
@@ -98,7 +99,7 @@ Outcome run_once(const Scenario& scenario, const RunOptions& options, const Comm
   std::ranges::copy(check_bonds(simulation.model(), scenario, ranks), std::back_inserter(warnings));
   const Beginning beginning = continuation.begin();
   if (beginning == Beginning::must_start_again) return {RunEnd::must_start_again};
-  stop_before_first_step(ranks, checkpoint_path(options.output));
+  stop_before_first_step(ranks, name_of_checkpoint(options.output));
   if (beginning == Beginning::complete) return {RunEnd::complete};
   check_stages(scenario, simulation.state().stage, simulation.stage_run().state().start, simulation.model(),
                simulation.step_estimate().stable_step());
