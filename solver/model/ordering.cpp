@@ -41,7 +41,7 @@ std::vector<Index> spatial_order(const Model& model, const Communicator& ranks) 
   const double size = *std::max_element(model.box_high.begin(), model.box_high.end());
   std::vector<std::uint64_t> key(at(model.grains));
   for (const Index g : model.own()) {
-    const auto first = at(model.node_offset[at(g)]), count = at(model.surface_node_count[at(g)]);
+    const std::size_t first = model.first_node(g), count = at(model.surface_node_count[at(g)]);
     Vector3<double> centre{0, 0, 0};
     for (std::size_t n = first; n < first + count; ++n)
       centre = centre + (1.0 / static_cast<double>(count)) * model.point(n);

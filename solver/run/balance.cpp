@@ -55,7 +55,7 @@ Balance measure_balance(const Communicator& ranks, const Model& model, std::span
 std::vector<std::int32_t> redistribute(const Communicator& ranks, const Model& model, const Balance& balance) {
   std::vector<std::array<double, 3>> centre(at(model.grains));
   for (const std::int32_t grain : model.own()) {
-    const auto first = at(model.node_offset[at(grain)]), end = first + at(model.surface_node_count[at(grain)]);
+    const std::size_t first = model.first_node(grain), end = first + at(model.surface_node_count[at(grain)]);
     for (std::size_t n = first; n < end; ++n)
       for (std::size_t axis = 0; axis < 3; ++axis)
         centre[at(grain)][axis] += model.position[4 * n + axis] / static_cast<double>(end - first);

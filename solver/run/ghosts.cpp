@@ -16,8 +16,7 @@ using Index = std::int32_t;
 /// Surface nodes of a grain in an array of `width` numbers a node.
 template <class Array>
 auto surface_part(Array& values, const Model& model, Index grain, std::size_t width = 1) {
-  return std::span(values.data() + width * at(model.node_offset[at(grain)]),
-                   width * at(model.surface_node_count[at(grain)]));
+  return std::span(values.data() + width * model.first_node(grain), width * at(model.surface_node_count[at(grain)]));
 }
 
 /// Calls visit(values) for the arrays of a grain's surface that never change.
