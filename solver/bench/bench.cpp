@@ -324,10 +324,10 @@ void run_bench(const BenchOptions& options, const Communicator& ranks) {
   const std::int64_t sent_before = simulation.ghosts().bytes_sent(), step_before = simulation.state().step;
   const double waited_before = simulation.ghosts().waited();
   result.step = measure_steps(simulation, options.steps);
-  result.sent = ranks.largest(static_cast<double>(simulation.ghosts().bytes_sent() - sent_before)) /
-                static_cast<double>(simulation.state().step - step_before);
-  result.waited = total(1e9 * (simulation.ghosts().waited() - waited_before), ranks) /
-                  (ranks.size() * static_cast<double>(simulation.state().step - step_before) * model.tets());
+  const auto steps = static_cast<double>(simulation.state().step - step_before);
+  result.sent = ranks.largest(static_cast<double>(simulation.ghosts().bytes_sent() - sent_before)) / steps;
+  result.waited =
+      total(1e9 * (simulation.ghosts().waited() - waited_before), ranks) / (ranks.size() * steps * model.tets());
   simulation.evaluate_forces();
   result.scene = describe(simulation, scenario, options);
   result.output = measure_output(simulation, scenario);
