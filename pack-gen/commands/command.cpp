@@ -10,38 +10,26 @@ namespace mpfem {
 namespace {
 
 /// Refuses to replace a run, a checkpoint or what is no HDF5 file. A damaged packing may be replaced.
-void refuse_other_file(const std::string& output) {
-  if (!schema::is_other_file(output, schema::FileKind::packing)) return;
-  throw InputError(fmt::format("--output {}: would replace {}, allowed: another name", one_line(output),
-                               is_hdf5(output) ? "a run or a checkpoint" : "a file that is no packing"));
+void refuse_other_file(const std::string& option, const std::string& path) {
+  if (!schema::is_other_file(path, schema::FileKind::packing)) return;
+  throw InputError(fmt::format("{} {}: would replace {}, allowed: another name", option, one_line(path),
+                               is_hdf5(path) ? "a run or a checkpoint" : "a file that is no packing"));
 }
 
 } // namespace
 
-void Command::run_if_given() const {
-  if (!options_->parsed()) return;
-  check_outputs();
-  execute();
-}
-
-CLI::Option* Command::add_input(const std::string& name, std::string& path, const std::string& help) {
-  inputs_.push_back(&path);
-  return options_->add_option(name, path, help)->check(existing_file());
-}
-
 void Command::add_required_output(OutputKind kind) {
-  outputs_.push_back({"--output", &output_, kind, true});
-  options_->add_option("-o,--output", output_, "File to write")->required();
+  add_output("-o,--output", output_, "File to write", kind,
+             kind == OutputKind::binary ? OutputCheck(refuse_other_file) : OutputCheck())
+      ->required();
 }
 
 void Command::add_optional_output(const std::string& help) {
-  outputs_.push_back({"--output", &output_, OutputKind::text, false});
-  options_->add_option("-o,--output", output_, help);
+  add_output("-o,--output", output_, help, OutputKind::text);
 }
 
 CLI::Option* Command::add_text_output(const std::string& name, std::string& path, const std::string& help) {
-  outputs_.push_back({name, &path, OutputKind::text, false});
-  return options_->add_option(name, path, help);
+  return add_output(name, path, help, OutputKind::text);
 }
 
 void Command::add_container(ContainerOptions& container, const std::string& otherwise) {
@@ -68,29 +56,6 @@ void Command::add_material(StepMaterial& material) {
   add_number(options(), "--poissons-ratio", material.poissons_ratio, Range::between(-0.99, 0.499), "", help)
       ->capture_default_str();
   add_number(options(), "--density", material.density, positive_density, "tonne/mm^3", help)->capture_default_str();
-}
-
-std::vector<NamedOutput> Command::named_outputs() const {
-  std::vector<NamedOutput> outputs;
-  for (const OutputFile& output : outputs_) outputs.push_back({output.option, *output.path});
-  return outputs;
-}
-
-void Command::refuse_overwriting_any(const std::vector<std::string>& inputs) const {
-  for (const NamedOutput& output : named_outputs())
-    for (const std::string& input : inputs) refuse_overwriting(output.option, output.path, input);
-}
-
-/// Checked before hours of work, not after them.
-void Command::check_outputs() const {
-  for (const std::string* input : inputs_) refuse_overwriting_any({*input});
-  for (const OutputFile& output : outputs_)
-    if (output.required || !output.path->empty()) check_output_path(output.option, *output.path, output.kind);
-  refuse_shared_names(named_outputs());
-  for (const OutputFile& output : outputs_) {
-    if (output.kind == OutputKind::binary) refuse_other_file(*output.path);
-    if (!output.path->empty()) try_output(*output.path);
-  }
 }
 
 FileCommand::FileCommand(CLI::App& app, const std::string& name, const std::string& help, const std::string& input_help)

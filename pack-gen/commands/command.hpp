@@ -10,7 +10,7 @@
 #include "common/command_line.hpp"
 #include "common/errors.hpp"
 #include "common/one_line.hpp"
-#include "common/output_file.hpp"
+#include "common/subcommand.hpp"
 
 namespace mpfem {
 
@@ -23,28 +23,16 @@ struct ContainerOptions {
   std::optional<double> diameter, height, scale; ///< mm; scale: length of one unit of the STL file
 };
 
-/// One class for each subcommand. Its constructor adds the options; execute() does the work once they are parsed.
-class Command {
-public:
-  virtual ~Command() = default;
-  Command(const Command&) = delete;
-  Command& operator=(const Command&) = delete;
-
-  /// Does nothing if the command line has another subcommand. Otherwise refuses outputs that would overwrite an input
-  /// or cannot be written, then executes. Throws InputError, StorageError, SimulationError.
-  void run_if_given() const;
-
+/// A subcommand of pack-gen. One class for each.
+class Command : public Subcommand {
 protected:
-  Command(CLI::App& app, const std::string& name, const std::string& help) : options_(app.add_subcommand(name, help)) {}
+  Command(CLI::App& app, const std::string& name, const std::string& help) : Subcommand(app, name, help) {}
 
-  CLI::App& options() { return *options_; }
   const std::string& output() const { return output_; }
   bool quiet() const { return quiet_; }
 
-  void add_quiet(const std::string& help) { options_->add_flag("--quiet", quiet_, help); }
-  /// An option with an input file, which must exist; no output of this subcommand may overwrite it.
-  CLI::Option* add_input(const std::string& name, std::string& path, const std::string& help);
-  /// -o, which must be given.
+  void add_quiet(const std::string& help) { options().add_flag("--quiet", quiet_, help); }
+  /// -o, which must be given. A binary one replaces a packing, and nothing else.
   void add_required_output(OutputKind kind);
   /// -o of a text, which may be missing.
   void add_optional_output(const std::string& help);
@@ -57,26 +45,9 @@ protected:
   /// Options of the grains' material.
   void add_material(StepMaterial& material);
 
-  /// Refuses each output that would replace one of these inputs. Throws InputError.
-  void refuse_overwriting_any(const std::vector<std::string>& inputs) const;
-
-  virtual void execute() const = 0;
-
 private:
-  struct OutputFile {
-    std::string option; ///< its long name, for messages
-    const std::string* path;
-    OutputKind kind;
-    bool required;
-  };
-  void check_outputs() const;
-  std::vector<NamedOutput> named_outputs() const;
-
-  CLI::App* options_;
   std::string output_;
   bool quiet_ = false;
-  std::vector<const std::string*> inputs_;
-  std::vector<OutputFile> outputs_;
 };
 
 /// A subcommand that reads a file, described by `input_help`.

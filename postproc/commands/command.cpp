@@ -9,52 +9,13 @@
 
 namespace mpfem {
 
-Command::Command(CLI::App& app, const std::string& name, const std::string& help)
-    : options_(app.add_subcommand(name, help)) {}
-
-void Command::run_if_given() const {
-  if (!options_->parsed()) return;
-  std::vector<NamedOutput> outputs;
-  for (const OutputFile& output : outputs_) outputs.push_back({output.option, *output.path});
-  for (const NamedOutput& output : outputs)
-    for (const std::string* input : inputs_) refuse_overwriting(output.option, output.path, *input);
-  refuse_shared_names(outputs);
-  check_outputs();
-  execute();
-}
-
-CLI::Option* Command::add_input(const std::string& name, std::string& path, const std::string& help) {
-  return add_later_input(name, path, help)->check(existing_file());
-}
-
-CLI::Option* Command::add_later_input(const std::string& name, std::string& path, const std::string& help) {
-  inputs_.push_back(&path);
-  return options_->add_option(name, path, help);
-}
-
-void Command::refuse_given(const std::vector<std::string>& options, const std::string& found,
-                           const std::string& allowed) const {
-  for (const std::string& option : options)
-    if (given(option)) throw InputError(fmt::format("{}: found {}, allowed: {}", option, found, allowed));
-}
-
 CLI::Option* Command::add_output(const std::string& name, std::string& path, const std::string& help,
-                                 OutputFormat format) {
-  outputs_.push_back({name.substr(name.find("--")), &path, std::move(format)});
-  return options_->add_option(name, path, help);
-}
-
-void Command::check_outputs() const {
-  for (const OutputFile& output : outputs_) {
-    if (output.path->empty()) continue;
-    const OutputFormat& format = output.format;
-    check_output_path(output.option, *output.path, format.kind);
-    if (format.kind == OutputKind::binary)
-      refuse_other_endings(output.option, *output.path, format.endings);
-    else
-      refuse_ending_of_other_format(output.option, *output.path, format.endings);
-    try_output(*output.path);
-  }
+                                 const OutputFormat& format) {
+  const auto refuse = format.kind == OutputKind::binary ? refuse_other_endings : refuse_ending_of_other_format;
+  return Subcommand::add_output(name, path, help, format.kind,
+                                [refuse, endings = format.endings](const std::string& option, const std::string& file) {
+                                  refuse(option, file, endings);
+                                });
 }
 
 ResultCommand::ResultCommand(CLI::App& app, const std::string& name, const std::string& help,

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "common/command_line.hpp"
-#include "common/output_file.hpp"
+#include "common/subcommand.hpp"
 #include "postproc/run_data/snapshot.hpp"
 #include "results-schema/file.hpp"
 
@@ -22,45 +22,14 @@ inline const OutputFormat json_file{OutputKind::text, {".json"}}, csv_file{Outpu
     html_file{OutputKind::text, {".html"}}, vtu_file{OutputKind::text, {".vtu"}},
     png_file{OutputKind::binary, {".png"}};
 
-/// One class for each subcommand. Its constructor adds the options; execute() does the work once they are parsed.
-class Command {
-public:
-  Command(CLI::App& app, const std::string& name, const std::string& help);
-  virtual ~Command() = default;
-  Command(const Command&) = delete;
-  Command& operator=(const Command&) = delete;
-
-  /// Does nothing if the command line has another subcommand. Otherwise refuses outputs that would overwrite an input
-  /// or cannot be written, then executes. Throws InputError, StorageError, SimulationError.
-  void run_if_given() const;
-
+/// A subcommand of postproc. One class for each.
+class Command : public Subcommand {
 protected:
-  CLI::App& options() { return *options_; }
-  bool given(const std::string& option) const { return options_->count(option) > 0; }
-  /// Refuses those of these options that are given: they have no effect. The message is "OPTION: found FOUND, allowed:
-  /// ALLOWED". Throws InputError.
-  void refuse_given(const std::vector<std::string>& options, const std::string& found,
-                    const std::string& allowed) const;
+  Command(CLI::App& app, const std::string& name, const std::string& help) : Subcommand(app, name, help) {}
 
-  /// An option with an input file, which must exist; no output of this subcommand may overwrite it.
-  CLI::Option* add_input(const std::string& name, std::string& path, const std::string& help);
-  /// The same for a file that may be written later.
-  CLI::Option* add_later_input(const std::string& name, std::string& path, const std::string& help);
   /// An option that names a file to write. A binary one must have an ending of its format, a text none of another.
-  CLI::Option* add_output(const std::string& name, std::string& path, const std::string& help, OutputFormat format);
-
-  virtual void check_outputs() const;
-  virtual void execute() const = 0;
-
-private:
-  struct OutputFile {
-    std::string option; ///< its long name, for messages
-    const std::string* path;
-    OutputFormat format;
-  };
-  CLI::App* options_;
-  std::vector<const std::string*> inputs_;
-  std::vector<OutputFile> outputs_;
+  CLI::Option* add_output(const std::string& name, std::string& path, const std::string& help,
+                          const OutputFormat& format);
 };
 
 /// A subcommand whose result is written to -o.
