@@ -2,13 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <limits>
-#include <queue>
 
 #include "common/index.hpp"
 #include "solver/kernels/largest_frequency.hpp"
-#include "solver/parallel/grain_values.hpp"
 
 namespace mpfem {
 
@@ -133,31 +130,28 @@ std::vector<std::int32_t> StepEstimate::due_grains(const Model& model, bool all)
   return due;
 }
 
-/// Collective. The grain with the shortest step: it must set the step by its computed frequency, not by a bound on it.
+/// Collective. The grain of all ranks with the shortest step, and of several the lowest.
+std::int32_t StepEstimate::grain_with_shortest_step(const Ownership& ownership) const {
+  constexpr double none = std::numeric_limits<double>::infinity();
+  double step = none, grain = ownership.own.empty() ? none : ownership.own.front();
+  for (const std::int32_t own : ownership.own)
+    if (grain_steps_.step[at(own)] < step) step = grain_steps_.step[at(own)], grain = own;
+  const double shortest = -ranks_->largest(-step);
+  return static_cast<std::int32_t>(-ranks_->largest(step == shortest ? -grain : -none));
+}
+
+/// Collective. The shortest step of all grains: the grain that sets it must do so by its computed frequency, not by a
+/// bound on it.
 StepEstimate::GrainStep StepEstimate::shortest_step(const Surroundings& now) {
   const Ownership& ownership = now.model.ownership;
-  std::vector<GrainStep> steps(grain_steps_.step.size());
-  for (const std::int32_t grain : ownership.own) steps[at(grain)] = last_estimate(grain);
-  share_of_grains(*ranks_, ownership, std::span(steps));
-
-  using Candidate = std::pair<double, std::int32_t>; // step and grain
-  std::vector<Candidate> candidates;
-  for (std::size_t grain = 0; grain < steps.size(); ++grain)
-    candidates.emplace_back(steps[grain].step, static_cast<std::int32_t>(grain));
-  std::priority_queue<Candidate, std::vector<Candidate>, std::greater<>> shortest({}, std::move(candidates));
+  std::int32_t renewed = -1;
   while (true) {
-    const std::int32_t grain = shortest.top().second;
-    GrainStep& step = steps[at(grain)];
-    if (step.computed > 0) return step;
-    shortest.pop();
-    if (ownership.owns(grain)) {
-      estimate(now, grain, true);
-      step = last_estimate(grain);
-    } else {
-      step = {};
-    }
-    step = {ranks_->largest(step.step), ranks_->largest(step.contact_share), 1};
-    shortest.emplace(step.step, grain);
+    const std::int32_t grain = grain_with_shortest_step(ownership);
+    GrainStep step = ownership.owns(grain) ? last_estimate(grain) : GrainStep{};
+    step = {ranks_->largest(step.step), ranks_->largest(step.contact_share), ranks_->largest(step.computed)};
+    if (step.computed > 0 || grain == renewed) return step;
+    if (ownership.owns(grain)) estimate(now, grain, true);
+    renewed = grain;
   }
 }
 

@@ -92,6 +92,7 @@ private:
   double bound_since_spectrum(const Model& model, std::int32_t grain, double growth);
   void estimate(const Surroundings& now, std::int32_t grain, bool anew);
   GrainStep last_estimate(std::int32_t grain) const;
+  std::int32_t grain_with_shortest_step(const Ownership& ownership) const;
   GrainStep shortest_step(const Surroundings& now);
 
   const Communicator* ranks_;
