@@ -60,13 +60,15 @@ double safe(double margin) {
   return margin * (1 + 1e-9);
 }
 
-/// A grid of cells over all grains. A grain is listed in every cell that its box meets.
+/// A grid of cells over some grains. A grain is listed in every cell that its box meets.
 class GrainGrid {
 public:
-  explicit GrainGrid(std::span<const Bounds> bounds) : bounds_(bounds) {
+  /// `bounds` [grains of the packing]; `grains`: those in the grid, at least one.
+  GrainGrid(std::span<const Bounds> bounds, std::span<const std::int32_t> grains) : bounds_(bounds) {
     Box all;
     std::vector<double> extents;
-    for (const Bounds& box : bounds) {
+    for (const std::int32_t grain : grains) {
+      const Bounds& box = bounds[at(grain)];
       all.add(box.low.data()), all.add(box.high.data());
       const double extent = std::max({box.high[0] - box.low[0], box.high[1] - box.low[1], box.high[2] - box.low[2]});
       extents.push_back(std::isfinite(extent) ? extent : 0.0);
@@ -75,13 +77,13 @@ public:
     std::nth_element(extents.begin(), middle, extents.end());
     low_ = all.low;
     // Cells as large as a typical grain; larger if grains have flown far apart, so that there are only some per grain.
-    const double most = std::max(2.0, 2 * std::cbrt(static_cast<double>(bounds.size())));
+    const double most = std::max(2.0, 2 * std::cbrt(static_cast<double>(grains.size())));
     for (std::size_t k = 0; k < 3; ++k) {
       const double length = all.high[k] - all.low[k], wanted = length / *middle;
       cells_[k] = wanted > 1 ? static_cast<int>(std::min(wanted, most)) : 1;
       inverse_size_[k] = length > 0 ? cells_[k] / length : 0.0;
     }
-    fill();
+    fill(grains);
   }
   /// Calls visit(grain) for every grain of the cells that a box meets; a grain may be visited more than once.
   template <class Visit>
@@ -108,17 +110,17 @@ private:
                 static_cast<std::size_t>(cells_[0]) *
                     (static_cast<std::size_t>(y) + static_cast<std::size_t>(cells_[1]) * static_cast<std::size_t>(z)));
   }
-  void fill() {
+  void fill(std::span<const std::int32_t> grains) {
     offset_.assign(static_cast<std::size_t>(cells_[0]) * static_cast<std::size_t>(cells_[1]) *
                            static_cast<std::size_t>(cells_[2]) +
                        1,
                    0);
-    for (const Bounds& box : bounds_) for_each_cell(box, [&](std::size_t cell) { ++offset_[cell + 1]; });
+    for (const std::int32_t g : grains) for_each_cell(bounds_[at(g)], [&](std::size_t cell) { ++offset_[cell + 1]; });
     for (std::size_t cell = 1; cell < offset_.size(); ++cell) offset_[cell] += offset_[cell - 1];
     grain_.resize(offset_.back());
     std::vector<std::size_t> next(offset_.begin(), offset_.end() - 1);
-    for (std::size_t g = 0; g < bounds_.size(); ++g)
-      for_each_cell(bounds_[g], [&](std::size_t cell) { grain_[next[cell]++] = static_cast<std::int32_t>(g); });
+    for (const std::int32_t g : grains)
+      for_each_cell(bounds_[at(g)], [&](std::size_t cell) { grain_[next[cell]++] = g; });
   }
 
   std::span<const Bounds> bounds_;
@@ -258,6 +260,18 @@ std::vector<NodeFacet> near_points(const SurfaceView& surface, std::int32_t firs
   return found;
 }
 
+/// Grains whose boxes meet that of `grains` together, grown by the margin. A rank thus sorts those near its own only.
+std::vector<std::int32_t> grains_around(std::span<const Bounds> bounds, double margin,
+                                        std::span<const std::int32_t> grains) {
+  Box together;
+  for (const std::int32_t g : grains) together.add(bounds[at(g)].low.data()), together.add(bounds[at(g)].high.data());
+  together = together.grown(safe(margin));
+  std::vector<std::int32_t> around;
+  for (std::size_t g = 0; g < bounds.size(); ++g)
+    if (together.meets(bounds[g])) around.push_back(static_cast<std::int32_t>(g));
+  return around;
+}
+
 /// A pair of grains: the number of the first in a list, and of the second in the list of those near the first.
 struct NearPair {
   std::int32_t first, other;
@@ -340,10 +354,11 @@ void index_pairs(ContactCandidates& candidates, int grains) {
 
 NearGrains find_near_grains(std::span<const Bounds> bounds, double margin, std::vector<std::int32_t> grains,
                             ThreadTeam& team) {
-  const GrainGrid grid(bounds);
   NearGrains near;
   near.grain = std::move(grains);
   near.other.resize(near.grain.size());
+  if (near.grain.empty()) return near;
+  const GrainGrid grid(bounds, grains_around(bounds, margin, near.grain));
   team.for_each(static_cast<int>(near.grain.size()), [&](int i, int) {
     const std::int32_t g = near.grain[at(i)];
     std::vector<std::int32_t>& others = near.other[at(i)];

@@ -1,5 +1,6 @@
 // The contact search against brute force.
 
+#include <numeric>
 #include <random>
 #include <set>
 #include <tuple>
@@ -91,6 +92,28 @@ TEST_CASE("the contact search gives the same lists in the same order on any numb
   CHECK(a.point_facet_offset == b.point_facet_offset);
   CHECK(a.point_facet == b.point_facet);
   CHECK(std::is_sorted(a.pair_first.begin(), a.pair_first.end()));
+}
+
+TEST_CASE("the grains near some of the grains are those that are found for all") {
+  std::mt19937 random(3);
+  std::uniform_real_distribution<double> uniform(0, 1);
+  std::vector<Bounds> bounds(400);
+  for (Bounds& box : bounds)
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      box.low[axis] = uniform(random);
+      box.high[axis] = box.low[axis] + 0.02 + 0.1 * uniform(random);
+    }
+  std::vector<std::int32_t> all(bounds.size()), some;
+  std::iota(all.begin(), all.end(), 0);
+  for (const std::int32_t g : all)
+    if (bounds[static_cast<std::size_t>(g)].low[0] < 0.3) some.push_back(g);
+  ThreadTeam team(2);
+  const NearGrains of_all = find_near_grains(bounds, 0.01, all, team),
+                   of_some = find_near_grains(bounds, 0.01, some, team);
+  REQUIRE(of_some.grain == some);
+  for (std::size_t i = 0; i < some.size(); ++i)
+    CHECK(of_some.other[i] == of_all.other[static_cast<std::size_t>(some[i])]);
+  CHECK(find_near_grains(bounds, 0.01, {}, team).grain.empty());
 }
 
 TEST_CASE("pairs are indexed by both of their grains") {
