@@ -121,6 +121,19 @@ StepCost measure_steps(Simulation& simulation, int steps) {
   return segments[1];
 }
 
+/// What this rank has spent and sent since the beginning.
+struct RankTotals {
+  explicit RankTotals(const Simulation& simulation)
+      : steps(simulation.state().step), sent(simulation.ghosts().bytes_sent()), messages(simulation.ghosts().waited()),
+        sums(simulation.ranks().seconds_in_sums()) {
+    for (const Part part : {Part::elements, Part::contact, Part::integration, Part::surface})
+      busy += simulation.profile().seconds(part);
+  }
+  std::int64_t steps, sent;
+  double messages, sums; ///< s waited for messages and in sums
+  double busy = 0;       ///< s of work
+};
+
 template <class Body>
 double median_time(int repetitions, const Body& body) {
   std::vector<double> seconds;
@@ -137,6 +150,25 @@ double total(double own, const Communicator& ranks) {
   std::array<std::int64_t, 1> sum{std::llround(own)};
   ranks.combine(sum, {});
   return static_cast<double>(sum[0]);
+}
+
+/// Collective. The mean of the ranks' numbers, to 1e-9.
+double mean(double own, const Communicator& ranks) {
+  return 1e-9 * total(1e9 * own, ranks) / ranks.size();
+}
+
+/// Collective. What the ranks have cost each other since `before`.
+RankCost cost_of_ranks(const Simulation& simulation, const RankTotals& before) {
+  const Communicator& ranks = simulation.ranks();
+  const RankTotals now(simulation);
+  const auto steps = static_cast<double>(now.steps - before.steps);
+  const double per_tet_step = 1e9 / (steps * simulation.model().tets());
+  const double sums = per_tet_step * (now.sums - before.sums), busy = now.busy - before.busy;
+  return {.sent = ranks.largest(static_cast<double>(now.sent - before.sent)) / steps,
+          .waited_for_messages = mean(per_tet_step * (now.messages - before.messages), ranks),
+          .waited_in_sums = mean(sums, ranks),
+          .waited_in_sums_least = -ranks.largest(-sums),
+          .imbalance = ranks.largest(busy) / mean(busy, ranks)};
 }
 
 /// Gives all own nodes the velocities of a shear at the rate of the warm-up (isochoric stretching along x).
@@ -321,13 +353,9 @@ void run_bench(const BenchOptions& options, const Communicator& ranks) {
 
   BenchResult result;
   say("measuring steps");
-  const std::int64_t sent_before = simulation.ghosts().bytes_sent(), step_before = simulation.state().step;
-  const double waited_before = simulation.ghosts().waited();
+  const RankTotals before(simulation);
   result.step = measure_steps(simulation, options.steps);
-  const auto steps = static_cast<double>(simulation.state().step - step_before);
-  result.sent = ranks.largest(static_cast<double>(simulation.ghosts().bytes_sent() - sent_before)) / steps;
-  result.waited =
-      total(1e9 * (simulation.ghosts().waited() - waited_before), ranks) / (ranks.size() * steps * model.tets());
+  if (!ranks.alone()) result.ranks = cost_of_ranks(simulation, before);
   simulation.evaluate_forces();
   result.scene = describe(simulation, scenario, options);
   result.output = measure_output(simulation, scenario);

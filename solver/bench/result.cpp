@@ -120,8 +120,11 @@ void add_rest_fields(Fields& fields, const BenchResult& r) {
 }
 
 void add_fields_of_ranks(Fields& fields, const BenchResult& r) {
-  fields.push_back(number("sent_bytes_per_step", r.sent));
-  fields.push_back(number("message_wait_ns_per_tet_step", r.waited));
+  fields.push_back(number("sent_bytes_per_step", r.ranks.sent));
+  fields.push_back(number("message_wait_ns_per_tet_step", r.ranks.waited_for_messages));
+  fields.push_back(number("sum_wait_ns_per_tet_step", r.ranks.waited_in_sums));
+  fields.push_back(number("least_sum_wait_ns_per_tet_step", r.ranks.waited_in_sums_least));
+  fields.push_back(number("imbalance", r.ranks.imbalance));
   fields.push_back(number("memory_bytes_of_first_rank", r.memory_of_root));
 }
 
@@ -129,7 +132,7 @@ std::string ranks_text(const BenchResult& r) {
   return fmt::format(
       "ranks          {} of them, {:.2f} GB at most in the first; {:.1f} kB of messages per step from the "
       "one that sends most\n",
-      r.scene.ranks, 1e-9 * r.memory_of_root, 1e-3 * r.sent);
+      r.scene.ranks, 1e-9 * r.memory_of_root, 1e-3 * r.ranks.sent);
 }
 
 std::string scene_text(const BenchResult& r) {

@@ -57,6 +57,15 @@ struct MachineLimits {
   double fma = 0;   ///< GFlop/s
 };
 
+/// What several ranks cost each other in a step.
+struct RankCost {
+  double sent = 0;                 ///< bytes per step, of the rank that sends most
+  double waited_for_messages = 0;  ///< ns per tet-step, mean of the ranks: between neighbours
+  double waited_in_sums = 0;       ///< the same, in the sums over all ranks
+  double waited_in_sums_least = 0; ///< the same, of the rank that waits least: what the sums themselves cost
+  double imbalance = 1;            ///< time of the busiest rank over the mean, in parts of a step without waiting
+};
+
 /// Everything that is printed.
 struct BenchResult {
   BenchScene scene;
@@ -69,8 +78,7 @@ struct BenchResult {
   Work contact, search_work; ///< for all points; a search. Of one rank only
   double memory = 0;         ///< bytes, the peaks of all ranks added up
   double memory_of_root = 0; ///< bytes, the peak of the first rank
-  double sent = 0;           ///< bytes per step, of the rank that sends most
-  double waited = 0;         ///< ns per tet-step, mean of the ranks: for messages between neighbours
+  RankCost ranks;
 
   bool alone() const { return scene.ranks == 1; }
   /// ns per tet, of some seconds.

@@ -51,6 +51,8 @@ public:
   /// Collective. Replaces each of `sums` by the sum of all ranks' numbers, and each of `largest` by the largest of
   /// them; none of these may be NaN.
   void combine(std::span<std::int64_t> sums, std::span<double> largest) const;
+  /// s that this rank has spent in largest() and combine(), most of it waiting for the slowest rank.
+  double seconds_in_sums() const { return seconds_in_sums_; }
   /// Collective. Copies what the first rank has to all others.
   void broadcast_from_root(Bytes& bytes) const;
 
@@ -97,6 +99,7 @@ public:
 private:
   int rank_ = 0, size_ = 1;
   bool ends_mpi_ = false;
+  mutable double seconds_in_sums_ = 0;
 };
 
 /// The bytes of numbers and of plain structs of them.

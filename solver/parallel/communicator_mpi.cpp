@@ -112,7 +112,8 @@ void Communicator::Transfer::finish() {
 
 Communicator::Communicator() = default;
 Communicator::Communicator(Communicator&& other) noexcept
-    : rank_(other.rank_), size_(other.size_), ends_mpi_(std::exchange(other.ends_mpi_, false)) {}
+    : rank_(other.rank_), size_(other.size_), ends_mpi_(std::exchange(other.ends_mpi_, false)),
+      seconds_in_sums_(other.seconds_in_sums_) {}
 Communicator::~Communicator() {
   if (ends_mpi_) MPI_Finalize();
 }
@@ -182,8 +183,10 @@ std::vector<Bytes> Communicator::exchange(const std::vector<Bytes>& to) const {
 
 double Communicator::largest(double own) const {
   if (alone()) return own;
+  const double start = MPI_Wtime();
   double largest = own;
   MPI_Allreduce(&own, &largest, 1, MPI_DOUBLE, MPI_MAX, MPI_COMM_WORLD);
+  seconds_in_sums_ += MPI_Wtime() - start;
   return largest;
 }
 
@@ -198,7 +201,9 @@ void Communicator::combine(std::span<std::int64_t> sums, std::span<double> large
   MPI_Type_commit(&message);
   MPI_Op combination = MPI_OP_NULL;
   MPI_Op_create(combine_numbers, 1, &combination);
+  const double start = MPI_Wtime();
   MPI_Allreduce(own.data(), all.data(), 1, message, combination, MPI_COMM_WORLD);
+  seconds_in_sums_ += MPI_Wtime() - start;
   MPI_Op_free(&combination);
   MPI_Type_free(&message);
   const auto end_of_sums = all.begin() + 1 + static_cast<std::ptrdiff_t>(sums.size());

@@ -200,7 +200,7 @@ diff <(grep -E "$packing" bench-1) <(grep -E "$packing" bench-2) || fail "bench 
 keys() { awk -F'"' 'NF > 1 { print $2 }' "$1" | sort; }
 [[ $(comm -23 <(keys bench-1) <(keys bench-2) | grep -vcE '^(contact_G|search_|steps_per_search)') == 0 ]] ||
   fail "bench leaves out costs of two ranks"
-costs='element_pass_ns|contact_ns|message_wait|output_ns|history_row|checkpoint_|memory|triad|fma'
+costs='element_pass_ns|contact_ns|message_wait|sum_wait|imbalance|output_ns|history_row|checkpoint_|memory|triad|fma'
 awk -F'[:,]' -v costs="$costs" '$1 ~ costs && !($2 > 0) { print; bad = 1 } END { exit bad }' bench-2 >&2 ||
   fail "bench measures nothing"
 echo "bench measures ranks too"
