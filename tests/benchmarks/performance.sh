@@ -5,7 +5,7 @@
 # MPFEM is the executable to measure (build/bin/mpfem), PORTABLE_MPFEM one of `cmake --preset portable`, which is
 # measured with each instruction set that this machine knows, SCALAR_MPFEM one of `cmake -DMPFEM_SCALAR=ON`. Every case
 # is measured three times, in turn with the others of its table, and the medians are printed: a shared machine is noisy.
-# --large adds packings of 1.6 and 12 million tets (2 GB of memory, a quarter of an hour). Features in a real packing:
+# --large adds packings of 1.6 to 12 million tets (2 GB of memory, a quarter of an hour). Features in a real packing:
 # features.sh.
 set -euo pipefail
 
@@ -78,8 +78,9 @@ EOF
   done
 } | table 'Precision'
 
-for grains in 20 80 329 1000 2000; do echo "$grains grains|$mpfem|--grains $grains --tets $((600 * grains))"; done |
-  table 'Number of grains, 600 tets each'
+for grains in 20 80 329 2000 ${large:+8398}; do
+  echo "$grains grains|$mpfem|--grains $grains --tets $((600 * grains))"
+done | table 'Number of grains, 600 tets each'
 
 {
   for tets in 200000 330000; do echo "about 329 grains|$mpfem|--tets $tets"; done
