@@ -62,8 +62,8 @@ struct RankCost {
   double sent = 0;                 ///< bytes per step, of the rank that sends most
   double waited_for_messages = 0;  ///< ns per tet-step, mean of the ranks: between neighbours
   double waited_in_sums = 0;       ///< the same, in the sums over all ranks
-  double waited_in_sums_least = 0; ///< the same, of the rank that waits least: what the sums themselves cost
-  double imbalance = 1;            ///< time of the busiest rank over the mean, in parts of a step without waiting
+  double waited_in_sums_least = 0; ///< the same, of the rank that waits least: the sums themselves cost at most this
+  double imbalance = 1; ///< busy time of the busiest rank over the mean: elements, contact, integration, normals
 };
 
 /// Everything that is printed.

@@ -357,8 +357,9 @@ NearGrains find_near_grains(std::span<const Bounds> bounds, double margin, std::
   NearGrains near;
   near.grain = std::move(grains);
   near.other.resize(near.grain.size());
-  if (near.grain.empty()) return near;
-  const GrainGrid grid(bounds, grains_around(bounds, margin, near.grain));
+  const std::vector<std::int32_t> around = grains_around(bounds, margin, near.grain);
+  if (around.empty()) return near;
+  const GrainGrid grid(bounds, around);
   team.for_each(static_cast<int>(near.grain.size()), [&](int i, int) {
     const std::int32_t g = near.grain[at(i)];
     std::vector<std::int32_t>& others = near.other[at(i)];

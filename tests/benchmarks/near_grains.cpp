@@ -1,4 +1,4 @@
-// What a contact search costs a rank for each grain of all ranks, near its own or not: near-grains GRAINS prints ns per
+// What finding the grains near its own costs a rank for each grain of all ranks: near-grains GRAINS prints ns per
 // grain, the median of 31 searches for the grains near one, on one thread. Grains are boxes of 0.1 mm on a lattice.
 
 #include <algorithm>
