@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
-# slurm.sh BIN: two ranks under Slurm are stopped in each way that docs/cluster.md lists, continued with --resume, and
-# give bitwise the run of one process. Needs a working Slurm (docs/cluster.md sets one up on a single machine) and a
-# build with MPI. Not run by ctest. Some three minutes on two idle cores.
+# slurm.sh BIN: two ranks under Slurm are stopped in the ways that docs/cluster.md lists (but for Ctrl-C and errors),
+# continued with --resume, and give bitwise the run of one process. Needs a working Slurm (docs/cluster.md sets one up
+# on a single machine) and a build with MPI. Not run by ctest. Some three minutes on two idle cores.
 set -euo pipefail
 bin=$(realpath "${1:?usage: slurm.sh BIN}")
 source=$(cd "$(dirname "${BASH_SOURCE[0]}")/../.." && pwd)
@@ -16,7 +16,7 @@ mpfem=("$bin/mpfem" run "$source/studies/branches/compaction.toml" --set "packin
   --set stages.0.relative_density=0.7 --set 'output.checkpoint_relative_densities=[]' --set output.checkpoint_interval=1
   --quiet)
 ranks() { srun --mpi=pmix -n2 --job-name=mpfem-slurm-test "${mpfem[@]}" -o "$1" "${@:2}"; }
-job() { squeue -h --name=mpfem-slurm-test -o %A; }
+job() { squeue -h -t RUNNING --name=mpfem-slurm-test -o %A; }
 
 "${mpfem[@]}" -o one.h5 >one.txt 2>&1 || fail "a run on one process failed: $(tail -n 1 one.txt)"
 ranks two.h5 >two.txt 2>&1 || fail "a run on two ranks failed: $(tail -n 1 two.txt)"
