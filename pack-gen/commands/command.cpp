@@ -28,10 +28,6 @@ void Command::add_optional_output(const std::string& help) {
   add_output("-o,--output", output_, help, OutputKind::text);
 }
 
-CLI::Option* Command::add_text_output(const std::string& name, std::string& path, const std::string& help) {
-  return add_output(name, path, help, OutputKind::text);
-}
-
 void Command::add_container(ContainerOptions& container, const std::string& otherwise) {
   options()
       .add_option("--container", container.container,

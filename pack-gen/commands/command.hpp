@@ -36,8 +36,6 @@ protected:
   void add_required_output(OutputKind kind);
   /// -o of a text, which may be missing.
   void add_optional_output(const std::string& help);
-  /// An option that names another text to write.
-  CLI::Option* add_text_output(const std::string& name, std::string& path, const std::string& help);
   /// --container and the options of each; `otherwise`: the default without them.
   void add_container(ContainerOptions& container, const std::string& otherwise);
   /// --threads; `threads` becomes the number of all cores available.

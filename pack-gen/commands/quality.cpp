@@ -22,8 +22,9 @@ public:
     add_optional_output("JSON file to write: the report's numbers by name");
     add_input("--description", description_,
               "Description of the packing (TOML); the report then compares the sizes of the grains with it");
-    add_text_output("--sizes", sizes_, "CSV file to write: diameters with their cumulative fraction");
-    add_text_output("--target", target_, "CSV file to write: the size table of --description")->needs("--description");
+    add_output("--sizes", sizes_, "CSV file to write: diameters with their cumulative fraction", OutputKind::text);
+    add_output("--target", target_, "CSV file to write: the size table of --description", OutputKind::text)
+        ->needs("--description");
     add_threads(threads_);
     add_material(material_);
   }
