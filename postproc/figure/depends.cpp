@@ -128,10 +128,20 @@ private:
     for (const std::string& mesh : current_->beside.meshes) check_mesh(mesh, current_->beside.place);
   }
 
+  /// True if a script makes the file `name` of the results with any mesh: a figure may have no cases with this one.
+  bool is_made_with_another_mesh(const std::string& name) const {
+    for (const std::string& mesh : request_.meshes)
+      for (const ScriptSpec& script : current_->scripts)
+        for (const Case& row : cases_of(*current_, script.series, script.where, mesh, script.place))
+          if (name_of_script_file(script, row.values) == name) return true;
+    return false;
+  }
+
   /// Refuses a file that neither lies next to the figure's file nor is made by a script.
   void check_file(const TableSpec& table) const {
     const std::string path = path_of_table(table, folder_);
     if (table.beside || std::ranges::find(files_, path) != files_.end() || std::filesystem::exists(path)) return;
+    if (is_made_with_another_mesh(table.file)) return;
     table.place.fail(fmt::format("found '{}', allowed: a file next to {}, or one that [[scripts]] make",
                                  one_line(table.file), current_->path));
   }
