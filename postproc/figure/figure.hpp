@@ -93,6 +93,7 @@ struct TableSpec {
   std::string list;                ///< "RUN/METRIC": all rows of the CSV file that the metric writes next to its JSON
   std::vector<Filter> keep;        ///< by columns; other rows are left out
   std::vector<int> stages;         ///< of the curves; empty: all rows
+  std::size_t points = 0;          ///< most rows of each curve, evenly spaced; 0: all
   int digits = 6;                  ///< significant digits of the curves' numbers
   bool distinct = false;           ///< equal rows, or curves of the same runs, appear once
   std::string file;                ///< a CSV file with these columns, instead of all the above

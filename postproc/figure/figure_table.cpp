@@ -186,6 +186,14 @@ Value curve_cell(double number, const TableSpec& spec, const ColumnSpec& column)
   return spec.digits == 17 ? Value::of(number) : Value::of_text(fmt::format("{:.{}g}", number, spec.digits));
 }
 
+/// `points` of the rows, evenly spaced from the first to the last; all rows if there are no more, or for 0.
+std::vector<std::size_t> evenly_spaced(const std::vector<std::size_t>& rows, std::size_t points) {
+  if (points == 0 || rows.size() <= points) return rows;
+  std::vector<std::size_t> spaced;
+  for (std::size_t i = 0; i < points; ++i) spaced.push_back(rows[i * (rows.size() - 1) / (points - 1)]);
+  return spaced;
+}
+
 void add_curve(TextTable& table, const TableSpec& spec, const Words& values, const std::vector<double>& divisors,
                const std::string& path) {
   table.sources.push_back(path);
@@ -199,8 +207,10 @@ void add_curve(TextTable& table, const TableSpec& spec, const Words& values, con
   for (const ColumnSpec& column : spec.columns)
     sources.push_back(column.history.empty() ? nullptr : curve_column(history, column.history, spec.place));
   const auto& number = history["stage"];
-  for (std::size_t row = 0; row < history.rows(); ++row) {
-    if (!wanted.empty() && !wanted.contains(static_cast<int>(number[row]))) continue;
+  std::vector<std::size_t> rows;
+  for (std::size_t row = 0; row < history.rows(); ++row)
+    if (wanted.empty() || wanted.contains(static_cast<int>(number[row]))) rows.push_back(row);
+  for (const std::size_t row : evenly_spaced(rows, spec.points)) {
     std::size_t begin = 0;
     for (const StageRows& s : stages)
       if (s.number == number[row]) begin = s.first;

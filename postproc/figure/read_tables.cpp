@@ -100,6 +100,13 @@ std::vector<int> read_stages(TableReader& reader) {
   return {stages.begin(), stages.end()};
 }
 
+/// The largest number of rows of each curve; 0: all.
+std::size_t read_points(TableReader& reader) {
+  if (!reader.has("points")) return 0;
+  if (!reader.has("curves")) reader.fail("points", "found without 'curves', allowed: with it");
+  return static_cast<std::size_t>(reader.integer("points", Range::between(2, 1e6)));
+}
+
 } // namespace
 
 TableSpec read_table(Texts& t, const ColumnLists& lists) {
@@ -113,6 +120,7 @@ TableSpec read_table(Texts& t, const ColumnLists& lists) {
   spec.list = t.optional("list");
   spec.keep = t.filters("keep");
   spec.stages = read_stages(t.reader());
+  spec.points = read_points(t.reader());
   spec.digits = static_cast<int>(t.reader().integer_or("digits", 6, Range::between(1, 17)));
   spec.distinct = t.reader().boolean_or("distinct", false);
   spec.spread = t.list("spread");

@@ -392,6 +392,27 @@ TEST_CASE("a curve has the rows of the stages that its table lists") {
   CHECK_THROWS_WITH(stages_of_rows("stage = 0\nstages = [1]"), Contains("together with 'stage'"));
 }
 
+TEST_CASE("a curve has at most the points that its table allows, evenly spaced from the first to the last row") {
+  const Toolkit toolkit;
+  const std::string column = "columns = [\"p [MPa] = mean_stress\"]\n";
+  write_run_of_a(toolkit, small_run());
+  const auto stresses = [&](const std::string& points) {
+    const Figure figure = toolkit.figure(curves_of_a + column + points);
+    std::vector<double> numbers;
+    for (const auto& row : make_table(figure, figure.tables[0], toolkit.results()).rows)
+      numbers.push_back(*row[0].number);
+    return numbers;
+  };
+  const std::vector<double> all = stresses("");
+  REQUIRE(all.size() == 3);
+  CHECK(stresses("points = 2") == std::vector<double>{all[0], all[2]});
+  CHECK(stresses("points = 3") == all);
+  CHECK(stresses("points = 1000") == all);
+  CHECK_THROWS_WITH(stresses("points = 1"), Contains("points") && Contains("found 1"));
+  CHECK_THROWS_WITH(toolkit.figure("title = \"x\"\n[[tables]]\nname = \"t\"\npoints = 5\ncolumns = [\"a [1] = {b}\"]\n"),
+                    Contains("points") && Contains("found without 'curves'"));
+}
+
 TEST_CASE("a table has the numbers of its runs, and an empty cell for what could not be measured") {
   const Toolkit toolkit;
   const Figure figure = toolkit.figure(tablets);
