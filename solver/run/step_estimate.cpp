@@ -1,6 +1,7 @@
 #include "solver/run/step_estimate.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -148,7 +149,9 @@ StepEstimate::GrainStep StepEstimate::shortest_step(const Surroundings& now) {
   while (true) {
     const std::int32_t grain = grain_with_shortest_step(ownership);
     GrainStep step = ownership.owns(grain) ? last_estimate(grain) : GrainStep{};
-    step = {ranks_->largest(step.step), ranks_->largest(step.contact_share), ranks_->largest(step.computed)};
+    std::array<double, 3> numbers{step.step, step.contact_share, step.computed}; // 0 on all ranks but one
+    ranks_->combine({}, numbers);
+    step = {numbers[0], numbers[1], numbers[2]};
     if (step.computed > 0 || grain == renewed) return step;
     if (ownership.owns(grain)) estimate(now, grain, true);
     renewed = grain;
