@@ -18,6 +18,12 @@ namespace mpfem {
 
 namespace {
 
+/// Whether the open file holds anything: locks are empty.
+bool holds_something(int file) {
+  struct stat open {};
+  return fstat(file, &open) == 0 && open.st_size > 0;
+}
+
 /// Whether the open file still exists under its name: if not, its previous holder has removed it.
 bool stands(int file, const std::string& path) {
   struct stat open {
@@ -37,6 +43,12 @@ RunLock::RunLock(const std::string& run_file) : path_(name_of_lock(output_target
       close(file_);
       throw InputError(fmt::format("--output {}: another mpfem is writing this run and holds the lock {}: wait for it, "
                                    "or end it (kill, scancel)",
+                                   one_line(run_file), one_line(path_)));
+    }
+    if (holds_something(file_)) {
+      close(file_);
+      throw InputError(fmt::format("--output {}: its lock would replace {}, which is not empty, allowed: another "
+                                   "--output",
                                    one_line(run_file), one_line(path_)));
     }
     if (stands(file_, path_)) return;

@@ -7,7 +7,7 @@ namespace mpfem {
 
 /// Holds RUN.lock while it lives; for a symbolic link, that of the file to which it leads. The system releases it with
 /// the process, however that ends: a lock file that is left behind blocks nobody. Throws InputError if another process
-/// holds it. On file systems without locks nothing is locked.
+/// holds it, or if the file is not empty and so no lock. On file systems without locks nothing is locked.
 class RunLock {
 public:
   explicit RunLock(const std::string& run_file);

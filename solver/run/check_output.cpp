@@ -1,7 +1,11 @@
 #include "solver/run/check_output.hpp"
 
+#include <algorithm>
+#include <array>
 #include <filesystem>
+#include <fstream>
 #include <optional>
+#include <span>
 #include <string_view>
 #include <variant>
 #include <vector>
@@ -77,11 +81,41 @@ void refuse_no_checkpoints(const Scenario& scenario, const std::string& output) 
   }
 }
 
+/// True for a file that does not begin as one of HDF5, nor with the zeros of one whose beginning is not written yet.
+bool begins_as_something_else(const std::string& path) {
+  constexpr std::array<unsigned char, 8> signature = {0x89, 'H', 'D', 'F', '\r', '\n', 0x1a, '\n'}, zeros{};
+  std::array<unsigned char, 8> begin{};
+  std::ifstream file(path, std::ios::binary);
+  file.read(reinterpret_cast<char*>(begin.data()), begin.size());
+  const auto found = std::span(begin).first(static_cast<std::size_t>(file.gcount()));
+  return !std::ranges::equal(found, std::span(signature).first(found.size())) &&
+         !std::ranges::equal(found, std::span(zeros).first(found.size()));
+}
+
+/// Refuses outputs beside which the run would remove a file of the user as the rest of an interrupted write.
+void refuse_no_partial_files(const Scenario& scenario, const std::string& output) {
+  for (const std::string& path : partial_files(scenario, output))
+    if (fs::is_regular_file(path) && begins_as_something_else(path))
+      throw InputError(fmt::format("--output {}: {} would be removed, which is no part of a run, allowed: another "
+                                   "--output",
+                                   one_line(output), one_line(path)));
+}
+
+/// Refuses names that mpfem gives to files beside another run.
+void refuse_endings_of_files_beside_runs(const std::string& output) {
+  for (const std::string_view ending : {".lock", ".partial", "~"})
+    if (output.ends_with(ending))
+      throw InputError(fmt::format("--output {}: found the ending {}, which files beside a run have, allowed: another, "
+                                   "as .h5",
+                                   one_line(output), ending));
+}
+
 } // namespace
 
 void check_output(const Scenario& scenario, const RunOptions& options) {
   const std::string& output = options.output;
   check_output_path("--output", output, OutputKind::binary);
+  refuse_endings_of_files_beside_runs(output);
   for (const std::string& input : inputs_of(scenario, options)) {
     refuse_overwriting("--output", output, input);
     for (const std::string& checkpoint : all_checkpoints(scenario, output))
@@ -89,6 +123,7 @@ void check_output(const Scenario& scenario, const RunOptions& options) {
   }
   refuse_checkpoints_of_other_runs(scenario, output);
   refuse_no_checkpoints(scenario, output);
+  refuse_no_partial_files(scenario, output);
   try_output(output);
 }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <string_view>
 
 #include <fmt/format.h>
 
@@ -31,8 +32,15 @@ std::vector<std::string> of_stages(const Scenario& scenario, const std::string& 
   return paths;
 }
 
-bool is_snapshot_name(const std::string& name) {
-  return name.starts_with("snapshot-") && (name.ends_with(".h5") || name.ends_with(".h5.partial"));
+/// As of snapshot_name(), or a part of such a file.
+bool is_snapshot_name(std::string_view name) {
+  constexpr std::string_view begin = "snapshot-", partial = ".partial", ending = ".h5";
+  if (!name.starts_with(begin)) return false;
+  name.remove_prefix(begin.size());
+  if (name.ends_with(partial)) name.remove_suffix(partial.size());
+  if (!name.ends_with(ending)) return false;
+  name.remove_suffix(ending.size());
+  return !name.empty() && name.find_first_not_of("0123456789") == std::string_view::npos;
 }
 
 /// Removes the run's own files from its folder of snapshots.
@@ -173,12 +181,18 @@ std::vector<std::string> resumable_checkpoints(const Scenario& scenario, const R
   return paths;
 }
 
+std::vector<std::string> partial_files(const Scenario& scenario, const std::string& run_file) {
+  const std::string next = next_checkpoint_path(run_file);
+  std::vector<std::string> files = kept_checkpoints(scenario, run_file);
+  files.insert(files.end(), {run_file, name_of_checkpoint(run_file), next});
+  for (std::string& path : files) path += ".partial";
+  files.push_back(next); // not known to be good
+  return files;
+}
+
 void remove_partial_files(const Scenario& scenario, const std::string& run_file) {
-  std::vector<std::string> written = kept_checkpoints(scenario, run_file);
-  written.insert(written.end(), {run_file, name_of_checkpoint(run_file), next_checkpoint_path(run_file)});
   std::error_code ignored;
-  for (const std::string& path : written) fs::remove(path + ".partial", ignored);
-  fs::remove(next_checkpoint_path(run_file), ignored); // not known to be good
+  for (const std::string& path : partial_files(scenario, run_file)) fs::remove(path, ignored);
   remove_snapshots(run_file, [](const std::string& name) { return name.ends_with(".partial"); });
 }
 

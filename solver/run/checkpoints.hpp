@@ -62,6 +62,9 @@ std::vector<std::string> missing_checkpoints(const std::vector<std::string>& pro
 /// densities, latest first. All exist; only the rolling one may belong to another run.
 std::vector<std::string> resumable_checkpoints(const Scenario& scenario, const RunIdentity& run);
 
+/// Names of the files that interrupted writes of this run may have left.
+std::vector<std::string> partial_files(const Scenario& scenario, const std::string& run_file);
+
 /// Removes partial files that interrupted writes of this run have left.
 void remove_partial_files(const Scenario& scenario, const std::string& run_file);
 

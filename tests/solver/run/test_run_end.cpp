@@ -109,6 +109,60 @@ TEST_CASE("one process at a time works on a run, and the lock of a killed one st
   CHECK_FALSE(fs::exists(folder / "run.lock"));
 }
 
+TEST_CASE("files of the user beside a run are neither removed nor replaced") {
+  const Folder folder;
+  prepare(folder, 3);
+  const auto run = [&](const std::string& output) {
+    return mpfem_command(fmt::format("run {} -o {} --quiet", folder / "scenario.toml", folder / output));
+  };
+  for (const std::string name : {"run.lock", "run.h5.partial", "run.compaction.checkpoint.h5.partial"}) {
+    INFO(name);
+    write_text(folder / name, "notes");
+    const Outcome outcome = run("run.h5");
+    CHECK(outcome.exit_code == 2);
+    CHECK(outcome.one_error_line("mpfem"));
+    CHECK_THAT(outcome.messages, Catch::Contains(name) && Catch::Contains("allowed: another --output"));
+    CHECK(fs::file_size(folder / name) == 5);
+    CHECK_FALSE(fs::exists(folder / "run.h5"));
+    fs::remove(folder / name);
+  }
+  for (const std::string name : {"run.lock", "run.h5.partial", "run.h5~"}) {
+    CHECK(run(name).exit_code == 2);
+    CHECK_FALSE(fs::exists(folder / name));
+  }
+  // Zeros are a write that was killed before the beginning of its file was on disk.
+  write_text(folder / "run.h5.partial", std::string(100, '\0'));
+  fs::create_directory(folder / "run.parts");
+  write_text(folder / "run.parts/snapshot-mine.h5", "notes");
+  CHECK(run("run.h5").exit_code == 0);
+  CHECK_FALSE(fs::exists(folder / "run.h5.partial"));
+  CHECK(fs::exists(folder / "run.parts/snapshot-mine.h5"));
+}
+
+TEST_CASE("a failure at the step of a checkpoint says that the checkpoint is of the failed step") {
+  const Folder folder;
+  // A stage of one step, at whose end the energies of so short a pull do not balance.
+  prepare(folder, 3, R"(packing = "packing.h5"
+[material]
+density = 1.55e-9
+youngs_modulus = 5000
+poissons_ratio = 0.3
+[material.hardening]
+law = "elastic"
+[[stages]]
+type = "grip"
+grip_depth = 0.05
+displacement = 1e-5
+speed = 10000
+)");
+  const Outcome outcome =
+      mpfem_command(fmt::format("run {} -o {} --quiet", folder / "scenario.toml", folder / "run.h5"));
+  INFO(outcome.messages);
+  CHECK(outcome.exit_code == 3);
+  CHECK_THAT(outcome.messages, Catch::Contains("there is no earlier checkpoint (") &&
+                                   Catch::Contains("run.checkpoint.h5 is of the failed step)"));
+}
+
 TEST_CASE("a loading that cannot reach its end exits with 3 and keeps what was computed") {
   const Folder folder;
   prepare(folder, 3, scenario_text + R"(
