@@ -40,10 +40,19 @@ std::optional<Summary::Bonds> bonds_at_end(const HistoryTable& history) {
                         history["mean_damage"].back()};
 }
 
-void add_state_at_end(Summary& s, const HistoryTable& history) {
-  s.steps = static_cast<std::int64_t>(history["step"].back());
+/// The last step of a run. A run that failed ends with a snapshot of its failed state, and has no row of it.
+double last_step(const schema::FileReader& file, const HistoryTable& history) {
+  double last = history["step"].back();
+  for (const std::string& name : file.snapshots())
+    last = std::max(last, static_cast<double>(file.read_scalar(run::snapshots_step, name)));
+  return last;
+}
+
+void add_state_at_end(Summary& s, const schema::FileReader& file, const HistoryTable& history) {
+  const double last = last_step(file, history);
+  s.steps = static_cast<std::int64_t>(last);
   // A branch continues the step count of the run from which it started.
-  if (const double steps = history["step"].back() - history["step"].front(); steps > 0 && s.tets > 0)
+  if (const double steps = last - history["step"].front(); steps > 0 && s.tets > 0)
     s.nanoseconds_per_tet_step = 1e9 * s.wall_time / (steps * static_cast<double>(s.tets));
   s.relative_density = history["relative_density"].back();
   s.mean_stress = history["mean_stress"].back();
@@ -130,7 +139,7 @@ Summary summarise(const schema::FileReader& file) {
   const HistoryTable history(file, NotFinite::kept); // a run that diverged is summarised too
   Summary s;
   add_provenance(s, file);
-  add_state_at_end(s, history);
+  add_state_at_end(s, file, history);
   const std::vector<bool> loaded = loaded_rows(history);
   add_kinetic_share(s, history, loaded);
   add_inertial_number(s, history, loaded, grain_inertia(file, history));

@@ -28,6 +28,16 @@ TEST_CASE("a branch's cost a step is that of its own steps") {
   CHECK(within(s.nanoseconds_per_tet_step, 0.96e9 / (20 * 48), rounding));
 }
 
+TEST_CASE("the steps of a run that failed are those to its failed state, of which it has no row") {
+  const Folder folder;
+  RunContents failed = small_run();
+  failed.numbers["/snapshots/*/step"] = {32};
+  write_run(folder / "run.h5", failed);
+  const Summary s = summarise(schema::FileReader(folder / "run.h5", schema::FileKind::run));
+  CHECK(s.steps == 32);
+  CHECK(within(s.nanoseconds_per_tet_step, 0.96e9 / (32 * 48), rounding));
+}
+
 TEST_CASE("what runs took together adds up their steps, and their time times threads") {
   Summary one, two;
   one.wall_time = 10;
