@@ -105,8 +105,8 @@ double disk_of(const PackingCounts& packing, const Scenario& scenario) {
       (output.snapshot_at_stage_end ? stages : 0.0) + static_cast<double>(output.snapshot_relative_densities.size());
   for (const Stage& stage : scenario.stages) snapshots += std::min(stage.snapshots, output.history_rows);
   const double snapshot = 22 * tets, mesh = 11 * tets;
-  return checkpoints * checkpoint + 2 * snapshots * snapshot + mesh +
-         bytes_of_row(scenario) * output.history_rows * stages;
+  const double history = bytes_of_row(scenario) * output.history_rows * stages; // so far, in checkpoints too
+  return checkpoints * (checkpoint + history) + 2 * snapshots * snapshot + mesh + history;
 }
 
 /// "memory", …: empty, a warning, or InputError.

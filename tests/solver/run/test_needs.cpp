@@ -122,6 +122,15 @@ TEST_CASE("bonds and averaged pressure need memory, mixed precision saves some")
   CHECK(memory(other) < 0.9 * memory(plain));
 }
 
+TEST_CASE("each checkpoint needs disk space for the history so far") {
+  Scenario scenario = one_stage();
+  const double before = needs_of(coarse_grains(10), scenario).disk;
+  constexpr int more = 10000;
+  scenario.output.history_rows += more;
+  // The run file, the checkpoint of the stage, the rolling one, and the one that is being written.
+  CHECK(needs_of(coarse_grains(10), scenario).disk - before == Approx(4 * more * bytes_of_row(scenario)));
+}
+
 TEST_CASE("every snapshot and checkpoint that stays needs disk space") {
   const PackingCounts packing = coarse_grains(1000);
   Scenario scenario = one_stage();
