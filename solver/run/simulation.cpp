@@ -1,6 +1,7 @@
 #include "solver/run/simulation.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <stdexcept>
 
 #include <fmt/format.h>
@@ -361,6 +362,12 @@ void Simulation::renew_step_estimate(const Box& box, bool anew) {
   const auto start = Profile::Clock::now();
   step_estimate_.renew(model_, contact_, {box, tools_}, bounds_, *team_, anew);
   profile_.add_serial(Part::step_estimate, Profile::since(start));
+  if (anew) return; // check_stages() judges the step of a beginning
+  if (const double step = step_estimate_.stable_step(); !(step > 0) || !std::isfinite(step))
+    throw SimulationError(
+        fmt::format("step {}, time {:.4g} s, relative density {:.4f}: the stable step is {:.3g} s: an "
+                    "element has collapsed",
+                    state_.step, state_.time, relative_density(), step));
 }
 
 void Simulation::report_bad_grain() const {

@@ -79,7 +79,8 @@ bool StepEstimate::spectrum_is_due(const Surroundings& now, std::size_t grain) c
 double StepEstimate::compute_spectrum(const Surroundings& now, std::int32_t grain, double step) {
   const std::size_t g = at(grain);
   const Model& model = now.model;
-  const double squared = largest_frequency(model, grain, stiffness_rate_, step, now.rate).squared;
+  double squared = largest_frequency(model, grain, stiffness_rate_, step, now.rate).squared;
+  if (!std::isfinite(squared)) squared = std::numeric_limits<double>::infinity(); // the bound by its tets is left
   grain_steps_.whole[g] = 2.0 / std::sqrt(squared);
   grain_steps_.growth[g] = 1;
   grain_steps_.rate[g] = now.rate;
@@ -107,7 +108,7 @@ void StepEstimate::estimate(const Surroundings& now, std::int32_t grain, bool an
   set_stiffness_rate(now, grain);
   const StableStep of_tets = mpfem::stable_step(now.model, grain, stiffness_rate_, now.rate);
   grain_steps_.step[g] = of_tets.step;
-  grain_steps_.contact_share[g] = of_tets.step / of_tets.step_no_contact;
+  grain_steps_.contact_share[g] = of_tets.step_no_contact > 0 ? of_tets.step / of_tets.step_no_contact : 0.0;
   grain_steps_.strain[g] = 0;
   if (numerics_.step_estimate != StepEstimateMethod::grain) return;
   const double squared = anew || spectrum_is_due(now, g) ? compute_spectrum(now, grain, of_tets.step)
