@@ -30,6 +30,7 @@ bool TimeLoop::loop() {
   for (;;) {
     simulation_.evaluate_forces();
     record();
+    last_sound_step_ = simulation_.state().step;
     if (simulation_.stage_complete()) {
       report_.stage_end(records_.end_stage(), records_.history(), simulation_.stage().damping.rate != 0);
       if (in_last_stage()) return true;
@@ -101,17 +102,27 @@ RunPosition TimeLoop::position() const {
 
 /// The failed state is worth a look: saves a snapshot of it, and everything recorded so far.
 void TimeLoop::save_failed_state(const SimulationError& error) {
-  const auto checkpoints = root_lists(ranks_, [this] { return continuation_.resumable(); });
+  const auto checkpoints = root_lists(ranks_, [this] { return std::vector{text_of_checkpoints()}; });
   try {
     records_.save_snapshot();
     records_.write_result(fmt::format("failed: {}", error.what()));
   } catch (const StorageError& storage) {
     throw SimulationError(fmt::format("{}; its state could not be saved: {}", error.what(), storage.what()));
   }
-  throw SimulationError(fmt::format("{}; history and last state are in {}; {}", error.what(), options_.output,
-                                    checkpoints.empty()
-                                        ? "there is no earlier checkpoint"
-                                        : "the last checkpoint before the failure is " + checkpoints.front()));
+  throw SimulationError(
+      fmt::format("{}; history and last state are in {}; {}", error.what(), options_.output, checkpoints.front()));
+}
+
+/// Which checkpoint is the last before a failure. A checkpoint is written before the forces of its step are evaluated,
+/// so it may be of the failed step.
+std::string TimeLoop::text_of_checkpoints() const {
+  std::string failed;
+  for (const std::string& path : continuation_.resumable())
+    if (CheckpointReader(path).step() <= last_sound_step_)
+      return fmt::format("the last checkpoint before the failure is {}{}", path, failed);
+    else if (failed.empty())
+      failed = fmt::format(" ({} is of the failed step)", path);
+  return "there is no earlier checkpoint" + failed;
 }
 
 void TimeLoop::complete() {

@@ -37,6 +37,7 @@ private:
   void report_progress();
   RunPosition position() const;
   [[noreturn]] void save_failed_state(const SimulationError& error);
+  std::string text_of_checkpoints() const;
   void complete();
 
   const RunOptions& options_;
@@ -50,6 +51,7 @@ private:
   RunPace pace_;
   Redistribution redistribution_;
   Owners new_owners_;
+  std::int64_t last_sound_step_ = -1; ///< whose forces and history row raised no error
 };
 
 } // namespace mpfem
