@@ -35,12 +35,20 @@ struct Arguments {
   RunOptions run;
 };
 
+/// The text of a TOML string; other text as it is.
+std::string without_quotes(const std::string& value) {
+  if (value.empty() || (value.front() != '"' && value.front() != '\'')) return value;
+  TomlDocument document = TomlDocument::from_text("", "");
+  document.set("packing=" + value);
+  return TableReader(document).string("packing");
+}
+
 /// A packing on the command line is relative to the working folder, one in the scenario to the scenario's folder: the
 /// former is rewritten to be like the latter.
 std::string relative_to_scenario(const std::string& assignment, const std::string& scenario) {
   constexpr std::string_view key = "packing=";
   if (!assignment.starts_with(key)) return assignment;
-  const std::filesystem::path path = assignment.substr(key.size());
+  const std::filesystem::path path = without_quotes(assignment.substr(key.size()));
   if (path.empty() || path.is_absolute()) return assignment;
   const auto folder = std::filesystem::absolute(scenario).lexically_normal().parent_path();
   return std::string(key) + std::filesystem::absolute(path).lexically_normal().lexically_proximate(folder).string();

@@ -305,6 +305,22 @@ TEST_CASE("A packing that cannot be read is refused at its key in the scenario, 
   }
 }
 
+TEST_CASE("A packing on the command line is relative to the working folder, with quotes or without") {
+  const Folder folder;
+  std::filesystem::create_directory(folder / "scenarios");
+  write_text(folder / "scenarios/scenario.toml", good_scenario);
+  std::vector<std::string> messages;
+  for (const std::string packing : {"none.h5", R"("none.h5")", "'none.h5'"}) {
+    const Outcome outcome =
+        run_command(fmt::format(R"(cd '{}' && '{}' check scenarios/scenario.toml --set packing={})", folder / ".",
+                                MPFEM_EXECUTABLE, packing[0] == '\'' ? '"' + packing + '"' : '\'' + packing + '\''));
+    CHECK(outcome.exit_code == 2);
+    CHECK_THAT(outcome.messages, Catch::Contains("key 'packing': ") && Catch::Contains("none.h5: no such file"));
+    messages.push_back(outcome.messages);
+  }
+  CHECK(messages == std::vector<std::string>(3, messages[0]));
+}
+
 TEST_CASE("A scenario as large as is read is refused within the memory that it may take") {
   Scenarios scenarios;
   std::string text = "packing = [";
