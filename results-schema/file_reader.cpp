@@ -282,12 +282,16 @@ std::vector<std::string> members_in(hid_t file, const std::string& path) {
   return names;
 }
 
-std::vector<std::string> FileReader::snapshots() const {
-  std::vector<std::string> names = members_in(state_->file, "/snapshots");
+std::vector<std::string> snapshots_in(hid_t file) {
+  std::vector<std::string> names = members_in(file, "/snapshots");
   // Numbers have at least four digits: 10000 comes after 9999.
   std::stable_sort(names.begin(), names.end(),
                    [](const std::string& a, const std::string& b) { return a.size() < b.size(); });
   return names;
+}
+
+std::vector<std::string> FileReader::snapshots() const {
+  return snapshots_in(state_->file);
 }
 
 std::vector<std::string> FileReader::tools() const {

@@ -29,6 +29,8 @@ std::unique_ptr<FileReader::State> open_unchecked(const std::string& path);
 std::string wrong_list(const FileReader::State& state);
 /// Names of the links in a group, ascending; empty where there is no such group.
 std::vector<std::string> members_in(hid_t file, const std::string& group);
+/// Names of the snapshots, by number.
+std::vector<std::string> snapshots_in(hid_t file);
 
 /// Calls f(T{}) with the C++ type of an element type.
 template <class F>

@@ -23,7 +23,7 @@ class Examination {
 public:
   using Report = std::function<void(const std::string& finding)>;
   Examination(const FileReader::State& state, Report report)
-      : state_(state), file_(state.file), report_(std::move(report)) {}
+      : state_(state), file_(state.file), report_(std::move(report)), failed_(failed_snapshot()) {}
 
   void check(const DatasetDescription& dataset, const std::string& snapshot) {
     const std::string path = path_of(dataset, snapshot);
@@ -85,6 +85,19 @@ public:
   }
 
 private:
+  /// Group of the last snapshot of a run that failed, which is that of its failed state; otherwise empty.
+  std::string failed_snapshot() const {
+    const std::string path = path_of(run::provenance_status, "");
+    if (state_.kind != FileKind::run || !path_exists(file_, path)) return "";
+    const Handle set(H5Dopen2(file_, path.c_str(), H5P_DEFAULT), H5Dclose);
+    std::string status;
+    if (!set || !has_type(set, ElementType::string) || !extents_of(set).empty() ||
+        !state_.read(run::provenance_status, path, &status).empty())
+      return "";
+    const auto snapshots = snapshots_in(file_);
+    return status.starts_with("failed") && !snapshots.empty() ? "/snapshots/" + snapshots.back() + "/" : "";
+  }
+
   void finding(const std::string& path, const std::string& what) { report_(one_line(path + " " + what)); }
 
   /// False if the extent is wrong in itself.
@@ -112,7 +125,7 @@ private:
     return true;
   }
 
-  /// Reads the values once: checks their checksum and that they are finite, and keeps what check_integers() needs.
+  /// Reads the values once: checks their checksum and that they are finite (but not of a failed state), and keeps what check_integers() needs.
   void check_values(const DatasetDescription& dataset, const std::string& path, const std::vector<hsize_t>& extents) {
     std::size_t count = 1;
     for (const hsize_t extent : extents) count *= extent;
@@ -122,6 +135,7 @@ private:
       if (const std::string wrong = state_.read(dataset, path, values.data()); !wrong.empty())
         return finding(path, wrong);
       if constexpr (std::is_floating_point_v<T>) {
+        if (!failed_.empty() && path.starts_with(failed_)) return;
         const auto bad = std::find_if_not(values.begin(), values.end(), [](T value) { return std::isfinite(value); });
         if (bad != values.end()) finding(path, fmt::format("holds {} at value {}", *bad, bad - values.begin()));
       }
@@ -144,6 +158,7 @@ private:
   const FileReader::State& state_;
   hid_t file_;
   Report report_;
+  std::string failed_;
   std::set<std::string> known_;
   std::map<std::string, std::pair<std::size_t, std::string>> extents_;
   std::vector<Integers> integers_;
