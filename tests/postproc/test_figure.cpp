@@ -409,8 +409,9 @@ TEST_CASE("a curve has at most the points that its table allows, evenly spaced f
   CHECK(stresses("points = 3") == all);
   CHECK(stresses("points = 1000") == all);
   CHECK_THROWS_WITH(stresses("points = 1"), Contains("points") && Contains("found 1"));
-  CHECK_THROWS_WITH(toolkit.figure("title = \"x\"\n[[tables]]\nname = \"t\"\npoints = 5\ncolumns = [\"a [1] = {b}\"]\n"),
-                    Contains("points") && Contains("found without 'curves'"));
+  CHECK_THROWS_WITH(
+      toolkit.figure("title = \"x\"\n[[tables]]\nname = \"t\"\npoints = 5\ncolumns = [\"a [1] = {b}\"]\n"),
+      Contains("points") && Contains("found without 'curves'"));
 }
 
 TEST_CASE("a table has the numbers of its runs, and an empty cell for what could not be measured") {
