@@ -36,6 +36,8 @@ double EnergyCheck::take(const HistoryRow& row) {
     sum += row.*term;
   }
   if (!std::isfinite(sum + row.energy_residual)) return std::numeric_limits<double>::quiet_NaN();
+  if (!begin_) begin_ = row.step;
+  if (row.step - *begin_ < first_steps) return 0.0;
   return largest_ > negligible_ ? std::abs(row.energy_residual) / largest_ : 0.0;
 }
 

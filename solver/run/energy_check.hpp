@@ -1,6 +1,9 @@
 #pragma once
 // Watches whether the energy balance of a run closes: an unstable step shows there first.
 
+#include <optional>
+#include <vector>
+
 #include "solver/run/simulation.hpp"
 
 namespace mpfem {
@@ -13,7 +16,9 @@ namespace mpfem {
 /// appears from nothing and grows without limit. Terms below 1e-7 of the solid's volume times Young's modulus, the
 /// energy of a strain of 3e-4, are ignored: with such small energies the residual consists of rounding and of the first
 /// contacts, whose work is summed over whole steps although walls and nodes meet within one. That error is as large as
-/// the contact's energy, occurs once, and is soon small in comparison.
+/// the contact's energy, occurs once, and is soon small in comparison. For the same reason the first steps of a run are
+/// not judged: grips or walls that start at full speed do work within a step. An unstable motion grows from step to
+/// step, and is found soon after.
 class EnergyCheck {
 public:
   static constexpr double allowed = 0.1;        ///< of the largest term: beyond, the run fails
@@ -24,14 +29,18 @@ public:
   /// Of a run with these grains whose history so far is given.
   EnergyCheck(const Model& model, const std::vector<HistoryRow>& history);
 
-  /// Residual over the largest term so far, 0 while that is negligible; NaN if a term is not finite.
+  /// Residual over the largest term so far, 0 in the first steps and while that is negligible; NaN if a term is not
+  /// finite.
   double take(const HistoryRow& row);
   /// The same; throws SimulationError if it is more than allowed: the run is meaningless.
   double require(const HistoryRow& row);
 
 private:
-  double negligible_;  ///< mJ
-  double largest_ = 0; ///< mJ
+  static constexpr double first_steps = 10;
+
+  double negligible_;           ///< mJ
+  std::optional<double> begin_; ///< step of the first row
+  double largest_ = 0;          ///< mJ
 };
 
 } // namespace mpfem

@@ -141,7 +141,22 @@ TEST_CASE("files of the user beside a run are neither removed nor replaced") {
 
 TEST_CASE("a failure at the step of a checkpoint says that the checkpoint is of the failed step") {
   const Folder folder;
-  // A stage of one step, at whose end the energies of so short a pull do not balance.
+  prepare(folder, 3);
+  // An unstable step, and a checkpoint after each.
+  const Outcome outcome =
+      mpfem_command(fmt::format("run {} -o {} --quiet --set element.type=tet4 --set numerics.time_step_factor=2 --set "
+                                "output.checkpoint_interval=1e-6",
+                                folder / "scenario.toml", folder / "run.h5"));
+  INFO(outcome.messages);
+  CHECK(outcome.exit_code == 3);
+  CHECK_THAT(outcome.messages, Catch::Contains("the last checkpoint before the failure is ") &&
+                                   Catch::Contains("run.checkpoint.previous.h5 (") &&
+                                   Catch::Contains("run.checkpoint.h5 is of the failed step)"));
+}
+
+TEST_CASE("a stage of a few steps is not judged by the energies of its start") {
+  const Folder folder;
+  // Grips pull an elastic grain by a small part of its size at full speed.
   prepare(folder, 3, R"(packing = "packing.h5"
 [material]
 density = 1.55e-9
@@ -152,15 +167,13 @@ law = "elastic"
 [[stages]]
 type = "grip"
 grip_depth = 0.05
-displacement = 1e-5
+displacement = 1e-3
 speed = 10000
 )");
   const Outcome outcome =
       mpfem_command(fmt::format("run {} -o {} --quiet", folder / "scenario.toml", folder / "run.h5"));
   INFO(outcome.messages);
-  CHECK(outcome.exit_code == 3);
-  CHECK_THAT(outcome.messages, Catch::Contains("there is no earlier checkpoint (") &&
-                                   Catch::Contains("run.checkpoint.h5 is of the failed step)"));
+  CHECK(outcome.exit_code == 0);
 }
 
 TEST_CASE("a loading that cannot reach its end exits with 3 and keeps what was computed") {
