@@ -12,7 +12,7 @@ namespace {
 bool is_driven(const Scenario& scenario, std::size_t tool) {
   return std::ranges::any_of(scenario.stages, [tool](const Stage& stage) {
     const auto* loading = std::get_if<ToolLoading>(&stage.type);
-    return loading != nullptr &&
+    return loading != nullptr && (loading->speed > 0 || loading->servo_speed > 0) &&
            std::ranges::any_of(loading->drives, [tool](const ToolDrive& drive) { return drive.tool == tool; });
   });
 }
