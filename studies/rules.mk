@@ -253,7 +253,7 @@ $(declared_packings): | $(BIN)/pack-gen
 	$(BIN)/pack-gen $(command) -o $(@D)/new-packing.h5
 	mv $(@D)/new-packing.h5 $@
 
-$(declared_runs:.h5=.settings) $(declared_packings:.h5=.settings) $(metric_settings):
+$(declared_runs:.h5=.settings) $(declared_packings:.h5=.settings) $(metric_commands):
 	@mkdir -p $(@D)
 	printf '%s\n' '$(settings)' > $@.partial
 	mv $@.partial $@

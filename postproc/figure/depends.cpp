@@ -266,12 +266,20 @@ private:
       throw InputError(fmt::format("{}: metric '{}' is '{}' here, but '{}' in another figure", current_->path, metric,
                                    full, known->second));
     if (!added) return file;
-    const std::string settings = fmt::format("{}/metrics/{}.settings", request_.results.path, metric);
-    text_ += fmt::format("{}: {} {}\n", file, file_of_run(run), settings);
-    variable(file, "measure", full);
-    if (lists_["metric_settings"].insert(settings).second) stamp(settings, command);
-    lists_["metric_files"].insert(file);
+    add_metric_rules(file, file_of_run(run), full);
     return file;
+  }
+
+  /// A metric is measured again when its run is new, or its command, with the case's values in it, is another one.
+  void add_metric_rules(const std::string& file, const std::string& run, const std::string& measure) {
+    const std::string command_file = file.substr(0, file.size() - 4) + "command";
+    text_ += fmt::format("{}: {} {}\n", file, run, command_file);
+    variable(file, "measure", measure);
+    std::string settings = measure;
+    std::erase(settings, '\''); // as make writes it to the file
+    stamp(command_file, settings);
+    lists_["metric_commands"].insert(command_file);
+    lists_["metric_files"].insert(file);
   }
 
   /// A settings file. Where the file on disk has other settings, it depends on FORCE, so that what depends on it is

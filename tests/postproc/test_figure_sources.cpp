@@ -171,6 +171,44 @@ columns = ["p = pressed/stress-at-densities.at_0.80", "q = pressed/stress-{limit
   CHECK(table.rows.at(0)[1].text == "0.3");
 }
 
+TEST_CASE("a metric is measured again only where its command is another one, with the case's values in it") {
+  const Studies studies;
+  const auto rules_with = [&](const std::string& density) {
+    return studies.rules(studies.figure(fmt::format(R"([[cases]]
+x = [1, 2]
+[defaults]
+density = {}
+[[runs]]
+name = "r"
+programme = "press"
+folder = "r{{x}}"
+[metrics]
+m = "stress --at {{density}} --name 'case {{x}}'"
+[[tables]]
+name = "t"
+columns = ["y = r/m.value"]
+)",
+                                                    density)));
+  };
+  const auto command_of = [&](const std::string& run) {
+    const std::string file = studies.path("out/" + run + "/m");
+    return std::pair{file + ".command", fmt::format("postproc stress {}/run.h5 --at 0.7 --name case {}\n",
+                                                    studies.path("out/" + run), run.back())};
+  };
+  const std::string rules = rules_with("0.7");
+  for (const char* run : {"r1", "r2"}) {
+    const auto [file, command] = command_of(run);
+    CHECK_THAT(rules,
+               Contains(fmt::format("/{}/m.json: {}/run.h5 {}\n", run, studies.path("out/" + std::string(run)), file)));
+    CHECK_THAT(rules, Contains(file + ": private settings := " + command) && Contains(file + ": FORCE\n"));
+    write_text(file, command);
+  }
+  CHECK_THAT(rules_with("0.7"), !Contains("m.command: FORCE"));
+  write_text(command_of("r2").first, "postproc stress of another case\n");
+  CHECK_THAT(rules_with("0.7"), !Contains("r1/m.command: FORCE") && Contains("r2/m.command: FORCE"));
+  CHECK_THAT(rules_with("0.8"), Contains("r1/m.command: FORCE") && Contains("r2/m.command: FORCE"));
+}
+
 TEST_CASE("a metric whose command does not exist is refused with its line before anything is made") {
   const Studies studies;
   const std::string begin = "[[cases]]\nx = 1\n[[runs]]\nname = \"r\"\nprogramme = \"press\"\n";
