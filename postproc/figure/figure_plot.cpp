@@ -218,13 +218,19 @@ private:
     if (!with_error.empty()) draw(with_error, "using 1:2:3 with yerrorbars" + look, "");
   }
 
+  /// Of the rows that the series shows; the table of spreads has the same rows as the series' own.
   void add_spread(const SeriesSpec& s) {
     const TextTable table = read_text_table(fmt::format("{}/{}.spread.csv", folder_, s.table));
+    const TextTable& own = data_->table(s.table);
+    if (table.rows.size() != own.rows.size())
+      s.place.fail(fmt::format("{} has {} rows, allowed: {}, as in the table '{}'", table.path, table.rows.size(),
+                               own.rows.size(), s.table));
     const std::size_t x = table.column(s.x, s.place), y = table.column(s.y, s.place),
                       deviation = table.column(s.y + "_deviation", s.place);
     std::string block;
     DrawnLine line;
-    for (const auto& row : table.rows) {
+    for (const std::size_t shown : own.rows_of(s.where, s.place)) {
+      const auto& row = table.rows[shown];
       if (!row[x].number || !row[y].number || !row[deviation].number) continue;
       const double at = *row[x].number * s.x_scale, mean = *row[y].number * s.y_scale,
                    spread = *row[deviation].number * s.y_scale;

@@ -782,6 +782,33 @@ series = [
   CHECK_NOTHROW(run_gnuplot(nothing_drawn));
 }
 
+TEST_CASE("the spread over packings is drawn for the rows that a series shows") {
+  const Toolkit toolkit;
+  const Figure figure = toolkit.figure(replace(tablets, "columns", "spread = [\"density\", \"strength\"]\ncolumns") +
+                                       R"([[plots]]
+name = "p"
+x = { label = "D" }
+y = { label = "s" }
+[[plots.series]]
+table = "strength"
+x = "density"
+y = "strength"
+spread = true
+where = { strength = { at_least = 4 } }
+)");
+  const std::string folder = toolkit.path("out");
+  write_text(folder + "/strength.csv", "name,density [1],strength [MPa]\na,1,3\nb,2,5\n");
+  write_text(folder + "/strength.spread.csv", "name,packings,density [1],density_deviation [1],strength [MPa],"
+                                              "strength_deviation [MPa]\na,2,1,0,3.5,0.1\nb,2,2,0,5.5,0.2\n");
+  FigureData data(figure, folder);
+  const std::string script = plot_script(figure.plots[0], data, folder, "svg", "p.svg", 2);
+  CHECK_THAT(script, Contains("<< EOD\n2 5.5 0.2\nEOD"));
+  write_text(folder + "/strength.spread.csv", "name,packings,density [1],density_deviation [1],strength [MPa],"
+                                              "strength_deviation [MPa]\na,2,1,0,3.5,0.1\n");
+  CHECK_THROWS_WITH(plot_script(figure.plots[0], data, folder, "svg", "p.svg", 2),
+                    Contains("strength.spread.csv has 1 rows, allowed: 2, as in the table 'strength'"));
+}
+
 TEST_CASE("a point whose error is not known is drawn without a bar, the others with theirs") {
   const Toolkit toolkit;
   const Figure figure = toolkit.figure(tablets + R"([[plots]]
