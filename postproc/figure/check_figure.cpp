@@ -7,7 +7,7 @@
 #include <fmt/ranges.h>
 
 #include "common/nearest_word.hpp"
-#include "postproc/figure/run_graph.hpp"
+#include "postproc/figure/figure_table.hpp"
 #include "postproc/figure/verdict.hpp"
 #include "postproc/fits/fit.hpp"
 
@@ -153,6 +153,17 @@ void check_stages(const Figure& figure, const TableSpec& table) {
   }
 }
 
+/// The spread over packings is that of rows which are found in the tables of all of them.
+void check_rows_of_spread(const Figure& figure, const TableSpec& table) {
+  if (table.spread.empty()) return;
+  for (const std::string& column : table.spread) check_column(figure, table.name, column, table.place);
+  if (!table.curves.empty())
+    table.place.fail("spread: found with 'curves', allowed: a table with a row for each case, or a list");
+  if (columns_of_same_row(table).empty())
+    table.place.fail("spread: found rows that have no name, allowed: a table with 'row', a column 'name' or a value of "
+                     "the case");
+}
+
 void check_tables(const Figure& figure) {
   for (const TableSpec& table : figure.tables) {
     check_columns_once(table);
@@ -168,7 +179,7 @@ void check_tables(const Figure& figure) {
     else if (!table.list.empty())
       table.place.fail(fmt::format("list: found '{}', allowed: RUN/METRIC", table.list));
     check_filters(figure, table.name, table.keep, table.place);
-    for (const std::string& column : table.spread) check_column(figure, table.name, column, table.place);
+    check_rows_of_spread(figure, table);
   }
 }
 

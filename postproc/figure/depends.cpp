@@ -181,6 +181,19 @@ private:
     filled_at(table.place, table.row, values);
   }
 
+  /// Refuses cases whose rows the spread over packings could not tell apart. Rows of lists are known only later.
+  static void check_same_rows(const TableSpec& table, const std::vector<Case>& cases) {
+    if (table.spread.empty() || table.distinct || !table.list.empty()) return;
+    std::set<std::string> rows;
+    for (const Case& row : cases) {
+      std::string cells = filled_at(table.place, table.row, row.values);
+      for (const ColumnSpec& column : table.columns)
+        if (column.run.empty())
+          cells += (cells.empty() ? "" : " ") + filled_at(table.place, column.pattern, row.values);
+      if (!rows.insert(cells).second) refuse_same_rows(table, cells);
+    }
+  }
+
   /// The files from which a table is read. Adds the runs on which they are measured.
   std::vector<std::string> needs_of(const TableSpec& table) {
     std::vector<std::string> needed;
@@ -190,8 +203,10 @@ private:
     const auto belongs = [&](const std::string& name, const Case& row) {
       return belongs_to(current_->run(name, table.place), row);
     };
-    for (const Case& row :
-         available_cases(*current_, table.series, table.where, runs_of(table), request_.results, table.place)) {
+    const auto cases =
+        available_cases(*current_, table.series, table.where, runs_of(table), request_.results, table.place);
+    check_same_rows(table, cases);
+    for (const Case& row : cases) {
       check_patterns(table, row);
       for (const std::string& name : table.curves)
         if (belongs(name, row)) add(file_of_run(run_of(name, row, table.place)));

@@ -402,14 +402,43 @@ std::optional<std::vector<double>> numbers_of(const std::vector<Value>& row, con
   return numbers;
 }
 
+/// The cells of a row by which it is found in the tables of other packings, separated by line ends.
+std::string same_row(const TableSpec& spec, const TextTable& table, const std::vector<Value>& row) {
+  std::string cells;
+  for (const std::string& name : columns_of_same_row(spec)) cells += row[table.column(name)].text + '\n';
+  return cells;
+}
+
+/// The text under "name" in a table of spreads: the row's own, otherwise the cells by which it is found.
+std::string name_of_same_row(const TextTable& table, const std::vector<Value>& row, std::string cells) {
+  if (table.has("name")) return row[table.column("name")].text;
+  cells.pop_back();
+  std::replace(cells.begin(), cells.end(), '\n', ' ');
+  return cells;
+}
+
 } // namespace
+
+std::vector<std::string> columns_of_same_row(const TableSpec& spec) {
+  std::vector<std::string> names;
+  if (!spec.row.empty()) names.emplace_back("name");
+  for (const ColumnSpec& column : spec.columns)
+    if ((column.run.empty() && column.history.empty()) || column.name == "name") names.push_back(column.name);
+  return names;
+}
+
+void refuse_same_rows(const TableSpec& spec, const std::string& name) {
+  spec.place.fail(fmt::format("spread: found two rows '{}', allowed: rows that differ in 'row', in a column 'name' or "
+                              "in a value of the case",
+                              one_line(name)));
+}
 
 TextTable spread_of(const TableSpec& spec, const std::vector<std::string>& files) {
   TextTable result;
   result.path = spec.name;
   result.add_column("name");
   result.add_column("packings");
-  std::vector<std::string> order;
+  std::vector<std::pair<std::string, std::string>> rows; // of the first table: name, and cells by which it is found
   std::map<std::string, RowMoments> moments;
   for (const std::string& path : files) {
     const TextTable table = read_text_table(path);
@@ -420,12 +449,15 @@ TextTable spread_of(const TableSpec& spec, const std::vector<std::string>& files
       if (own) add_spread_columns(result, name, table.titles[columns.back()]);
     }
     for (const auto& row : table.rows) {
-      if (own) order.push_back(row.front().text);
-      if (const auto numbers = numbers_of(row, columns)) moments[row.front().text].add(*numbers);
+      const std::string cells = same_row(spec, table, row);
+      const auto [known, added] = moments.try_emplace(cells);
+      if (own && !added) refuse_same_rows(spec, name_of_same_row(table, row, cells));
+      if (own) rows.emplace_back(name_of_same_row(table, row, cells), cells);
+      if (const auto numbers = numbers_of(row, columns)) known->second.add(*numbers);
     }
   }
-  for (const std::string& name : order) {
-    const RowMoments& m = moments[name];
+  for (const auto& [name, cells] : rows) {
+    const RowMoments& m = moments[cells];
     std::vector<Value> row = {{name, {}}, Value::of(static_cast<double>(m.count()))};
     for (std::size_t c = 0; c < spec.spread.size(); ++c)
       for (Value& cell : m.mean_and_deviation(c)) row.push_back(std::move(cell));

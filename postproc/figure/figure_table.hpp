@@ -36,8 +36,15 @@ TextTable make_table(const Figure& figure, const TableSpec& spec, const ResultsF
 /// For the help: columns of curves beyond those of the history, with name, unit and meaning.
 std::string curve_help();
 
-/// Mean and standard deviation (of the sample, N - 1) over packings of the columns `spec.spread`, by the rows' names.
-/// The first table is that of the current packing and determines the rows.
+/// Columns in which a row of several packings is the same: its name, and values of the case. Empty if there is none.
+std::vector<std::string> columns_of_same_row(const TableSpec& spec);
+
+/// Refuses two rows that are the same in these columns: both are called `name`.
+[[noreturn]] void refuse_same_rows(const TableSpec& spec, const std::string& name);
+
+/// Mean and standard deviation (of the sample, N - 1) over packings of the columns `spec.spread`, for each row of the
+/// first table, that of the current packing, in its order. Throws InputError where two of its rows are the same in
+/// `columns_of_same_row`.
 TextTable spread_of(const TableSpec& spec, const std::vector<std::string>& files);
 
 } // namespace mpfem

@@ -440,6 +440,7 @@ TEST_CASE("a table has the numbers of its runs, and an empty cell for what could
 TEST_CASE("the spread over packings is the sample's mean and deviation, and a single one has no deviation") {
   const Toolkit toolkit;
   TableSpec spec;
+  spec.row = "{sample}";
   spec.spread = {"y"};
   write_text(toolkit.path("one.csv"), "name,y [MPa]\na,1\nb,5\n");
   write_text(toolkit.path("two.csv"), "name,y [MPa]\na,3\nb,\n");
@@ -449,6 +450,44 @@ TEST_CASE("the spread over packings is the sample's mean and deviation, and a si
   CHECK(*spread.rows[0][3].number == Approx(std::sqrt(2.0)).epsilon(1e-9));
   CHECK(spread.rows[1][1].text == "1");
   CHECK(spread.rows[1][3].text.empty());
+}
+
+TEST_CASE("rows of several packings belong together by name and by the values of their cases, in any order") {
+  const Toolkit toolkit;
+  const std::string table = R"(title = "x"
+[[cases]]
+p = [5, 10]
+E = [1, 2]
+[[runs]]
+name = "r"
+programme = "press"
+[[tables]]
+name = "t"
+columns = ["p [MPa] = {p}", "E [MPa] = {E}", "y [1] = r/strength.value"]
+spread = ["E", "y"]
+)";
+  const Figure figure = toolkit.figure(table);
+  const std::vector<std::string> files = {toolkit.path("one.csv"), toolkit.path("two.csv")};
+  write_text(files[0], "p [MPa],E [MPa],y [1]\n5,1,10\n5,2,20\n10,1,30\n");
+  write_text(files[1], "p [MPa],E [MPa],y [1]\n10,1,34\n5,2,22\n5,1,16\n");
+  const TextTable spread = spread_of(figure.tables[0], files);
+  REQUIRE(spread.rows.size() == 3);
+  CHECK(spread.rows[0][0].text == "5 1");
+  const std::size_t y = spread.column("y");
+  CHECK(*spread.rows[0][y].number == 13);
+  CHECK(*spread.rows[1][y].number == 21);
+  CHECK(*spread.rows[2][y].number == 32);
+  write_text(files[0], "p [MPa],E [MPa],y [1]\n5,1,10\n5,1,20\n");
+  CHECK_THROWS_WITH(spread_of(figure.tables[0], files), Contains("spread: found two rows '5 1', allowed: rows that"));
+  const Figure alike = toolkit.figure(replace(table, "\"E [MPa] = {E}\", ", "\"E [MPa] = r/E.value\", "));
+  CHECK_THROWS_WITH(make_rules({alike}, {toolkit.results(), "packing.h5", {}, {}}),
+                    Contains("study.toml:10") && Contains("spread: found two rows"));
+  const std::string nameless = replace(table, "{p}", "r/p.value");
+  CHECK_THROWS_WITH(toolkit.figure(replace(nameless, "{E}", "r/E.value")),
+                    Contains("spread: found rows that have no name, allowed: a table with 'row', a column 'name'"));
+  const std::string with_curves = replace(table, "spread", "curves = [\"r\"]\nspread");
+  CHECK_THROWS_WITH(toolkit.figure(replace(with_curves, "r/strength.value", "mean_stress")),
+                    Contains("spread: found with 'curves'"));
 }
 
 TEST_CASE("a figure's fits leave empty rows out, and one that the points do not allow says why") {
