@@ -114,10 +114,10 @@ private:
     lists_["spread_files"].insert(file);
   }
 
-  void check_mesh(const std::string& name, const Place& place) const {
+  void check_mesh(const std::string& name, const Place& place, const char* key = "meshes") const {
     const auto& known = request_.meshes;
     if (known.empty() || std::ranges::find(known, name) != known.end()) return;
-    place.fail(fmt::format("meshes: found '{}'{}", one_line(name), suggestion(name, known)));
+    place.fail(fmt::format("{}: found '{}'{}", key, one_line(name), suggestion(name, known)));
   }
 
   void check_meshes() const {
@@ -126,6 +126,15 @@ private:
     for (const StatementSpec& statement : current_->statements)
       for (const std::string& mesh : statement.meshes) check_mesh(mesh, statement.place);
     for (const std::string& mesh : current_->beside.meshes) check_mesh(mesh, current_->beside.place);
+    for (const RunTemplate& run : current_->runs) check_mesh_of_run(run);
+  }
+
+  /// A run of a mesh that does not exist would leave out every row.
+  void check_mesh_of_run(const RunTemplate& run) const {
+    if (run.mesh.empty()) return;
+    if (run.mesh.find('{') == std::string::npos) check_mesh(run.mesh, run.place, "mesh");
+    for (const Case& row : cases_of(*current_, run.series, {}, request_.results.mesh, run.place))
+      check_mesh(filled_at(run.place, run.mesh, row.values), run.place, "mesh");
   }
 
   /// True if a script makes the file `name` of the results with any mesh: a figure may have no cases with this one.

@@ -294,6 +294,9 @@ TEST_CASE("selectors that match nothing, and values that define no study, are re
   refused(cases + run + table +
               "[[statements]]\ntext = \"s\"\npaper = \"p\"\nours = \"o\"\nquantities = {}\nmeshes = [\"medum\"]\n",
           "meshes: found 'medum', allowed: coarse, smoke");
+  const std::string other_mesh = "folder = \"c\"\nmesh = ";
+  refused(cases + run + other_mesh + "\"corse\"\n" + table, "mesh: found 'corse'; did you mean 'coarse'?");
+  refused(cases + "of = \"smok\"\n" + run + other_mesh + "\"{of}\"\n" + table, "mesh: found 'smok'; did you mean");
   refused("[[cases]]\nx = [20, 30, 2e1]\n" + run + table, "found 20 twice, allowed: every value once");
   refused("[[cases]]\nx = 1\n[follows.x]\n\"1\" = { y = 1 }\n[follows.y]\n\"1\" = { x = 1 }\n" + run + table,
           "from which 'x' follows, allowed: only one way");
