@@ -184,14 +184,19 @@ private:
   std::optional<TableReader> last_powder_; ///< of the file read last, for messages
 };
 
+/// That of the file, or of the folder for "NAME/figure.toml", also where the path leaves the folder out.
+std::string name_of_figure(const filesystem::path& path) {
+  const filesystem::path file = filesystem::absolute(path).lexically_normal();
+  const std::string folder = file.parent_path().filename().string();
+  return file.filename() == "figure.toml" && !folder.empty() ? folder : file.stem().string();
+}
+
 } // namespace
 
 Figure read_figure(const std::string& path, const std::string& programmes) {
   Figure figure;
   figure.path = path;
-  const filesystem::path file(path);
-  figure.name = (file.filename() == "figure.toml" && file.has_parent_path()) ? file.parent_path().filename().string()
-                                                                             : file.stem().string();
+  figure.name = name_of_figure(path);
   FigureReader(figure, programmes).read(path);
   check_names(figure);
   return figure;

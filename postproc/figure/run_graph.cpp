@@ -239,7 +239,8 @@ bool belongs_to(const RunTemplate& run, const Case& row) {
 }
 
 std::string folder_of_file(const std::string& path) {
-  return std::filesystem::path(path).parent_path().string();
+  const std::string folder = std::filesystem::path(path).parent_path().string();
+  return folder.empty() ? "." : folder;
 }
 
 std::string folder_of(const Figure& figure, const RunTemplate& run, const Case& row) {

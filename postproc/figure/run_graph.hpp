@@ -43,7 +43,7 @@ using RunGraph = std::map<std::string, RunInstance>;
 /// True if a run or packing is meant for this case.
 bool belongs_to(const RunTemplate& run, const Case& row);
 
-/// The folder of a figure's file: {here} in its commands.
+/// The folder of a figure's file, "." for one in the current folder: {here} in its commands.
 std::string folder_of_file(const std::string& path);
 
 /// The folder of a case's run, in the results' folder: as given in the file, otherwise "FIGURE/runs/RUN-VALUE-VALUE…"

@@ -147,6 +147,23 @@ columns = ["tets = mesh/quality.tets", "p = pressed/strength.value:.2f", "z = fi
   CHECK(table.rows[0][1].text == "1.24");
 }
 
+TEST_CASE("a figure named without its folder has the same name, and {here} is the current folder") {
+  const Studies studies;
+  write_text(studies.path("tablet/figure.toml"), "title = \"x\"\n");
+  write_text(studies.path("tablet/mine.toml"), "title = \"x\"\n");
+  const auto before = std::filesystem::current_path();
+  std::filesystem::current_path(studies.path("tablet"));
+  const std::string here = read_figure("figure.toml", ".").name, dotted = read_figure("./figure.toml", ".").name,
+                    mine = read_figure("mine.toml", ".").name;
+  std::filesystem::current_path(before);
+  CHECK(here == "tablet");
+  CHECK(dotted == "tablet");
+  CHECK(mine == "mine");
+  CHECK(folder_of_file("mine.toml") == ".");
+  CHECK(folder_of_file("./mine.toml") == ".");
+  CHECK(folder_of_file("sub/mine.toml") == "sub");
+}
+
 TEST_CASE("a metric's key may hold dots, and its name a value with a dot") {
   const Studies studies;
   const Figure figure = studies.figure(R"([[cases]]
