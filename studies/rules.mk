@@ -44,8 +44,8 @@ help:
 	  echo 'ELEMENT to out/MESH-SURFACE/, out/MESH-ELEMENT/; a study with its own powder has own instead of MESH.'
 
 # -------------------------------------------------------------------------------- settings
-# $(call allowed,NAME,VALUES): fails if NAME has another value.
-allowed = $(if $(filter $($(1)),$(2)),,$(error $(1)=$($(1)): allowed: $(2)))
+# $(call allowed,NAME,VALUES): fails if NAME is not one of the values.
+allowed = $(if $(and $(filter 1,$(words $($(1)))),$(filter $(2),$($(1)))),,$(error $(1)=$($(1)): allowed: one of $(2)))
 # $(call others_than,CHARACTERS,NAME): the characters that the value of NAME, as given, has beside these (as tr knows
 # them).
 others_than = $(shell printf %s '$(subst ','\'',$(value $(2)))' | LC_ALL=C tr -d '$(1)')
@@ -94,6 +94,9 @@ $(call allowed,SURFACE,facets smooth)
 #: BESIDE=NAME      draw the results of these settings into the plots, dashed, instead of those that the figure's file
 #:                  names, e.g. BESIDE=coarse-tet4: those of out/NAME, or the kept ones of studies/results/NAME
 BESIDE ?=
+ifneq ($(filter-out 0 1,$(words $(BESIDE))),)
+  $(error BESIDE=$(BESIDE): allowed: one name, without spaces)
+endif
 ifneq ($(BESIDE),)
   beside_folder := $(firstword $(wildcard out/$(BESIDE) $(studies)/results/$(BESIDE)))
   $(if $(beside_folder),,$(error BESIDE=$(value BESIDE): neither out/$(value BESIDE) nor $(studies)/results/$(value \
@@ -106,6 +109,9 @@ SEED ?=
 SEEDS ?=
 ifneq ($(call others_than,0-9 ,SEED)$(call others_than,0-9 ,SEEDS),)
   $(error SEEDS=$(value SEED)$(value SEEDS): allowed: whole numbers, e.g. SEEDS='2 3 4')
+endif
+ifneq ($(filter-out 0 1,$(words $(SEED))),)
+  $(error SEED=$(SEED): found several, allowed: one; SEEDS='$(SEED)' makes packings of several)
 endif
 ifneq ($(words $(sort $(SEEDS))),$(words $(SEEDS)))
   $(error SEEDS=$(SEEDS): found a seed twice, allowed: once)

@@ -34,6 +34,11 @@ study+=(STUDY=my.toml)
 for threads in x 0 1.5 "'" '2 x'; do
   refused "THREADS=$threads: allowed: a whole" "${study[@]}" THREADS="$threads"
 done
+for setting in MESH='coarse paper' MESH=% MESH= SURFACE='facets smooth' ELEMENT='tet4 tet4-anp'; do
+  refused "$setting: allowed: one of" "${study[@]}" "$setting"
+done
+refused 'SEED=2 3: found several, allowed: one' "${study[@]}" SEED='2 3'
+refused 'BESIDE=a b: allowed: one name' "${study[@]}" BESIDE='a b'
 for seeds in x "'" '2 x'; do refused "SEEDS=$seeds: allowed: whole" "${study[@]}" SEEDS="$seeds"; done
 refused 'BIN=my studies: allowed: a path without spaces' "${study[@]}" BIN='my studies'
 refused 'SEEDS=1: 1 is the seed of my.toml itself' "${study[@]}" SEEDS=1
