@@ -302,7 +302,7 @@ $(picture_files): | $(BIN)/postproc
 
 # Sections are drawn pixel by pixel; so are their SVGs.
 $(traced_files): %.svg: $(studies)/common/picture-in-svg.sh %.png
-	sh $^ > $@.partial
+	sh $(filter-out FORCE,$^) > $@.partial
 	mv $@.partial $@
 
 $(verdict_files): | $(BIN)/postproc

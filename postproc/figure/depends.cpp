@@ -71,6 +71,7 @@ public:
       }
     for (const PictureSpec& picture : figure.pictures) add_picture(picture);
     rule(folder_ + "/verdict.json", data, "verdict_files");
+    force_missing_files();
     add_runs(graph_, runs_, figure.path);
     const std::string& name = figure.name;
     // The slash keeps these variables apart from all others, whatever the name of a study.
@@ -96,6 +97,13 @@ private:
     variable(file, "figure", current_->path);
     lists_[list].insert(file);
     files_.push_back(file);
+  }
+
+  /// A result that was removed is made again: make would take it for a file on the way to others, which need not exist
+  /// where those are new enough (.SECONDARY).
+  void force_missing_files() {
+    for (const std::string& file : files_)
+      if (!std::filesystem::exists(file)) text_ += fmt::format("{}: FORCE\n", file);
   }
 
   void variable(const std::string& file, const char* name, const std::string& value) {

@@ -98,6 +98,20 @@ TEST_CASE("a run whose checkpoint is lost is made again, with those before it, o
   CHECK_THAT(studies.rules(figure), Contains(second + "/run.h5: FORCE"));
 }
 
+TEST_CASE("a result that is missing is made again, whatever is made from it") {
+  const Studies studies;
+  const std::string plot = "[[plots]]\nname = \"p\"\nx = { label = \"x\" }\ny = { label = \"y\" }\n"
+                           "series = [{ table = \"t\", x = \"y\", y = \"y\" }]\n";
+  const Figure figure = studies.figure(chain + plot);
+  const std::string out = studies.path("out/study/");
+  for (const char* file : {"t.csv", "p.png", "p.svg", "verdict.json"}) {
+    CAPTURE(file);
+    CHECK_THAT(studies.rules(figure), Contains(out + file + ": FORCE\n"));
+    write_text(out + file, "");
+    CHECK_THAT(studies.rules(figure), !Contains(out + file + ": FORCE\n"));
+  }
+}
+
 TEST_CASE("a packing of a case's own is made by its command or size, a run begins at it, and metrics measure it") {
   const Studies studies;
   const Figure figure = studies.figure(R"([[cases]]
