@@ -127,6 +127,9 @@ endif
 variant := $(MESH)$(patsubst %,-%,$(filter-out facets,$(SURFACE)) $(filter-out tet4-anp,$(ELEMENT)))
 variant := $(subst $(space),,$(variant))
 
+# Notes once: make starts again when it has written the rules, and calls itself for further packings.
+said_already := $(if $(MAKE_RESTARTS)$(SEED),--quiet)
+
 # -------------------------------------------------------------------------------- which packing
 # A study with a powder of its own has its own packing; all others share that of the figures.
 STUDY ?=
@@ -146,8 +149,8 @@ packing_smoke := smoke
 packing := $(or $(packing_$(MESH)),full)
 ifneq ($(of_powder),)
   out := out/$(patsubst $(MESH)%,own%,$(variant))$(SEED:%=-seed%)
-  ifneq ($(and $(filter command line environment,$(origin MESH)),$(if $(MAKE_RESTARTS),,first)),)
-    $(info $(makefile): MESH=$(MESH) has no effect on $(STUDY): its [powder] has an element_size)
+  ifneq ($(and $(filter command line environment,$(origin MESH)),$(if $(said_already),,first)),)
+    $(info $(makefile): note: MESH=$(MESH) selects cases of $(STUDY), not its mesh: its [powder] has an element_size)
   endif
   packings := $(out)/$(study_name)/packing
   description := $(out)/$(study_name)/powder.toml
@@ -219,8 +222,6 @@ ifneq ($(if $(recorded_study),$(filter-out |$(subst $(space),|,$(study_path)),|$
     rename its file or folder, or remove those results)
 endif
 of_mesh := --results $(out) --mesh $(MESH) --programmes $(studies)/branches
-# Notes once: make starts again when it has written the rules, and calls itself for further packings.
-said_already := $(if $(MAKE_RESTARTS)$(SEED),--quiet)
 goals := $(or $(MAKECMDGOALS),help)
 ifneq ($(filter-out help clean clean-figures,$(goals)),)
 # postproc is not a prerequisite: make -B -n, with which times.sh lists runs, would execute its rule.
