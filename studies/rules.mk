@@ -292,6 +292,8 @@ $(fit_files): | $(BIN)/postproc
 $(eval $(call stamp,$(out)/beside.settings,beside $(BESIDE)))
 # Figures of which the other results have nothing are drawn without them.
 beside_of = $(if $(BESIDE),$(if $(wildcard $(beside_folder)/$(notdir $(@D))),--beside $(BESIDE)=$(beside_folder)))
+tables_beside = $(wildcard $(beside_folder)/$(notdir $(patsubst %/,%,$(dir $(1))))/*.csv)
+$(if $(BESIDE),$(foreach p,$(plot_files),$(eval $(p): $(call tables_beside,$(p)))))
 $(plot_files): $(out)/beside.settings | $(BIN)/postproc
 	$(BIN)/postproc plot $(figure) $(basename $(@F)) $(of_mesh) $(beside_of) \
 	  $(if $(and $(SEEDS),$(filter $@,$(spread_plots))),--packings $(words own $(SEEDS))) -o $@

@@ -58,6 +58,19 @@ make -n "${study[@]}" STUDY=spread.toml SEEDS='2 3' BIN="$bin" >plan 2>&1 || { c
 grep -q 'SEED=2 out/own-seed2/spread/strength.csv' plan || { echo "settings.sh: SEEDS makes no packings" && code=1; }
 ! grep -q "$note" plan || { echo "settings.sh: make says that SEEDS of spread.toml has no effect" && code=1; }
 
+# MESH does not change the mesh of a study with its own powder; make says so once, also where it calls itself.
+note='note: MESH=smoke selects cases of my.toml, not its mesh'
+make -n "${study[@]}" MESH=smoke SEEDS=2 BIN="$bin" >plan 2>&1 || { cat plan && code=1; }
+[[ $(grep -c "$note" plan) == 1 ]] || { echo "settings.sh: make does not say once: $note" && code=1; }
+
+# Plots depend on the tables that are drawn beside them.
+mkdir -p out/other/my
+touch out/other/my/strength.csv
+make -n -p "${study[@]}" BESIDE=other BIN="$bin" >plan 2>&1 || true
+grep -q '^out/own/my/strength.png:.* out/other/my/strength.csv' plan ||
+  { echo 'settings.sh: strength.png does not depend on the table of BESIDE' && code=1; }
+rm -r out
+
 # What SURFACE and ELEMENT replace in a scenario of the study's own is said, once.
 sed 's/^surface = .*/surface = "smooth"/' "$here/studies/branches/press-and-crush.toml" >press.toml
 sed 's/^programme = .*/programme = "press.toml"/' my.toml >own-scenario.toml
