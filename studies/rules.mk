@@ -162,6 +162,17 @@ else
   description := $(examples)/$(if $(filter smoke,$(packing)),mcc_ph102_smoke,mcc_ph102).toml
   size := $(size_$(MESH))
 endif
+# Names of targets, and of folders in out/MESH that the toolkit's own figures use.
+names_of_targets := FORCE help study note-on-seeds quickstart smoke all report forecast keep clean clean-figures \
+  animation bonding hard-cases contact-surface nodal-pressure accuracy
+names_of_results := $(if $(of_powder),,compaction compactions branches packings \
+  $(patsubst $(studies)/%/figure.toml,%,$(wildcard $(studies)/fig*/figure.toml)))
+own_figure := $(abspath $(studies)/$(study_name)/figure.toml)
+ifneq ($(and $(STUDY),$(filter $(names_of_targets) $(names_of_results),$(study_name)),$(filter-out \
+    $(own_figure),$(lastword $(study_path)))),)
+  $(error STUDY=$(STUDY): the toolkit itself has something called $(study_name), allowed: a study with another name; \
+    rename its file or folder)
+endif
 mesh := $(packings)/mesh-$(size).h5
 threads := $(if $(THREADS),--threads $(THREADS))
 ifneq ($(SEEDS),)

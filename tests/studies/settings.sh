@@ -30,6 +30,15 @@ for name in 'my study' "a\$b" 'a#b' 'a%b' 'a:b' "a'b"; do
   refused "STUDY=$name.toml: allowed: a path of letters" "${study[@]}" STUDY="$name.toml"
 done
 refused "STUDY=none.toml: allowed: the file of a study" "${study[@]}" STUDY=none.toml
+mkdir other
+for name in fig06 compaction; do
+  echo 'title = "without a powder"' >"other/$name.toml"
+  refused "STUDY=other/$name.toml: the toolkit itself has something called $name" "${study[@]}" STUDY="other/$name.toml"
+done
+for name in report hard-cases FORCE; do
+  cp my.toml "$name.toml"
+  refused "STUDY=$name.toml: the toolkit itself has something called $name" "${study[@]}" STUDY="$name.toml"
+done
 study+=(STUDY=my.toml)
 for threads in x 0 1.5 "'" '2 x'; do
   refused "THREADS=$threads: allowed: a whole" "${study[@]}" THREADS="$threads"
