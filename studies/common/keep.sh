@@ -22,6 +22,7 @@ for figure in "$@"; do
     -exec cp {} "$kept/$figure/" \;
   copied=$copied${copied:+, }$figure
 done
+[ -n "$copied" ] || { echo "keep.sh: found no figure in out/$mesh, allowed: one or more, made before" >&2 && exit 2; }
 {
   echo "# Verdicts, MESH=$mesh"
   echo

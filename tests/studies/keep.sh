@@ -1,5 +1,6 @@
 #!/usr/bin/env bash
-# keep.sh POSTPROC: what is kept of one figure leaves the provenance of the others as it was. Exit code 1: it does not.
+# keep.sh POSTPROC: what is kept of one figure, or of none, leaves the provenance of the others as it was. Exit code 1:
+# it does not.
 set -euo pipefail
 bin=$(dirname "$(realpath "$1")")
 here=$(realpath "$(dirname "${BASH_SOURCE[0]}")/../..")
@@ -36,4 +37,9 @@ merged=('0.1 (commit old); fig12: 0.2 (commit middle); fig10: 9.9 (commit abc)' 
   'out/smoke/branches/a/run: programme 1 --set a=1' "$mesh" "$b")
 kept "${merged[@]}"
 kept "${merged[@]}"
+
+# Without figures nothing is kept, and what was kept stays.
+! sh studies/common/keep.sh smoke bin fig11 2>message || { echo 'keep.sh: keeps what is not there' && code=1; }
+grep -q 'found no figure in out/smoke, allowed' message || { cat message && code=1; }
+diff <(printf '%s\n' "${merged[@]}") studies/results/smoke/provenance.txt || { echo 'keep.sh: see above' && code=1; }
 exit "$code"
