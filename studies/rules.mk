@@ -56,7 +56,7 @@ comma := ,
 
 #: MESH=NAME        nominal element size: smoke (0.03 mm, small packing), coarse (0.03 mm, the default),
 #:                  intermediate (0.025 mm), medium (0.015 mm), paper (0.0075 mm): those of the paper's Fig. 7;
-#:                  coarser (0.04 mm) for SURFACE=smooth, which needs no more; fig10 to fig26
+#:                  coarser (0.04 mm) for SURFACE=smooth, which needs no more; not fig04 and fig05
 MESH ?= coarse
 meshes := smoke coarser coarse intermediate medium paper
 $(call allowed,MESH,$(meshes))
@@ -292,6 +292,9 @@ $(script_files): | $(BIN)/mpfem $(BIN)/postproc
 	@mkdir -p $(@D)
 	$(script)
 	mv $@.partial $@
+
+$(files_without_cases):
+	@echo '$(makefile): $(figure) has no cases with MESH=$(MESH), allowed: $(its_meshes)' >&2; exit 1
 
 $(table_files): | $(BIN)/postproc
 	@mkdir -p $(@D)

@@ -145,20 +145,32 @@ private:
       check_mesh(filled_at(run.place, run.mesh, row.values), run.place, "mesh");
   }
 
-  /// True if a script makes the file `name` of the results with any mesh: a figure may have no cases with this one.
-  bool is_made_with_another_mesh(const std::string& name) const {
+  /// The meshes with which a script makes the file `name` of the results.
+  std::vector<std::string> meshes_that_make(const std::string& name) const {
+    std::vector<std::string> meshes;
+    const auto makes = [&](const ScriptSpec& script, const std::string& mesh) {
+      return std::ranges::any_of(cases_of(*current_, script.series, script.where, mesh, script.place),
+                                 [&](const Case& row) { return name_of_script_file(script, row.values) == name; });
+    };
     for (const std::string& mesh : request_.meshes)
-      for (const ScriptSpec& script : current_->scripts)
-        for (const Case& row : cases_of(*current_, script.series, script.where, mesh, script.place))
-          if (name_of_script_file(script, row.values) == name) return true;
-    return false;
+      if (std::ranges::any_of(current_->scripts, [&](const ScriptSpec& script) { return makes(script, mesh); }))
+        meshes.push_back(mesh);
+    return meshes;
   }
 
-  /// Refuses a file that neither lies next to the figure's file nor is made by a script.
-  void check_file(const TableSpec& table) const {
+  /// Refuses a file that neither lies next to the figure's file nor is made by a script. Where only cases of other
+  /// meshes make it, make says so when it needs the file.
+  void check_file(const TableSpec& table) {
     const std::string path = path_of_table(table, folder_);
     if (table.beside || std::ranges::find(files_, path) != files_.end() || std::filesystem::exists(path)) return;
-    if (is_made_with_another_mesh(table.file)) return;
+    if (const std::vector<std::string> meshes = meshes_that_make(table.file); !meshes.empty()) {
+      variable(path, "figure", current_->path);
+      variable(path, "its_meshes", fmt::format("{}", fmt::join(meshes, " ")));
+      lists_["files_without_cases"].insert(path);
+      lists_["figures_without_cases"].insert(current_->name);
+      files_.insert(files_.begin(), path); // make says so first
+      return;
+    }
     table.place.fail(fmt::format("found '{}', allowed: a file next to {}, or one that [[scripts]] make",
                                  one_line(table.file), current_->path));
   }

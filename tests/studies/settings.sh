@@ -80,6 +80,12 @@ grep -q '^out/own/my/strength.png:.* out/other/my/strength.csv' plan ||
   { echo 'settings.sh: strength.png does not depend on the table of BESIDE' && code=1; }
 rm -r out
 
+# A figure without cases for a mesh says so.
+message=$(make -f "$here/studies/rules.mk" fig04 MESH=coarser BIN="$bin" 2>&1) && code=1
+[[ $message == *"fig04/figure.toml has no cases with MESH=coarser, allowed: smoke coarse"* ]] ||
+  { echo "settings.sh: make fig04 MESH=coarser says: $message" && code=1; }
+rm -r out
+
 # What SURFACE and ELEMENT replace in a scenario of the study's own is said, once.
 sed 's/^surface = .*/surface = "smooth"/' "$here/studies/branches/press-and-crush.toml" >press.toml
 sed 's/^programme = .*/programme = "press.toml"/' my.toml >own-scenario.toml
