@@ -1,6 +1,7 @@
 #include "postproc/figure/depends.hpp"
 
 #include <algorithm>
+#include <array>
 #include <filesystem>
 #include <fstream>
 #include <optional>
@@ -50,6 +51,7 @@ public:
     sources_ = fmt::format("{}", fmt::join(figure.files, " "));
     files_.clear();
     runs_.clear();
+    commands_.clear();
     for (const ScriptSpec& script : figure.scripts) add_script(script);
     std::string data = sources_;
     for (const TableSpec& table : figure.tables) {
@@ -66,6 +68,7 @@ public:
     for (const PlotSpec& plot : figure.plots)
       for (const char* format : {"png", "svg"}) {
         const std::string file = fmt::format("{}/{}.{}", folder_, plot.name, format);
+        refuse_taken(file, plot.place);
         rule(file, data_of(plot), "plot_files");
         add_spread(plot, file);
       }
@@ -115,6 +118,7 @@ private:
       check_file(table);
       return;
     }
+    refuse_taken(path_of_table(table, folder_), table.place);
     rule(path_of_table(table, folder_), fmt::format("{} {}", sources_, fmt::join(needs_of(table), " ")), "table_files");
     if (table.spread.empty()) return;
     const std::string file = fmt::format("{}/{}.spread.csv", folder_, table.name);
@@ -335,7 +339,6 @@ private:
 
   /// One rule for each file. Cases may share a picture only where they would draw the same.
   void add_picture(const PictureSpec& picture) {
-    std::map<std::string, std::string> commands;
     const auto cases =
         available_cases(*current_, picture.series, picture.where, {picture.run}, request_.results, picture.place);
     for (const Case& row : cases) {
@@ -346,13 +349,15 @@ private:
       words["folder"] = {folder_, {}};
       const std::string file = fmt::format("{}/{}", folder_, filled_at(picture.place, picture.name, words));
       const std::string command = filled_at(picture.place, picture.command, words);
-      const auto [known, added] = commands.try_emplace(file, command);
+      const auto [known, added] = commands_.try_emplace(file, command);
       if (!added && known->second != command)
         picture.place.fail(
-            fmt::format("found the name '{}' for different pictures of two cases, allowed: a name with a "
-                        "setting that differs, e.g. 'density-{{pressure}}.png'",
+            fmt::format("found the name '{}' for different pictures, allowed: a name with a setting that differs, "
+                        "e.g. 'density-{{pressure}}.png'",
                         one_line(picture.name)));
-      if (!added || std::find(files_.begin(), files_.end(), file) != files_.end()) continue;
+      if (!added) continue;
+      if (is_made_otherwise(file.substr(folder_.size() + 1))) refuse_name(picture.name, picture.place);
+      refuse_taken(file, picture.place);
       check_words(fmt::format("{} -o picture.png", command), "command: ", picture.place);
       const std::string_view program = std::string_view(command).substr(0, command.find(' '));
       const bool draws = program == "section" || program == "density-map" || program == "picture";
@@ -365,6 +370,7 @@ private:
       files_.push_back(file);
       if (!file.ends_with(".png")) continue;
       const std::string svg = file.substr(0, file.size() - 3) + "svg";
+      refuse_taken(svg, picture.place);
       lists_["traced_files"].insert(svg);
       files_.push_back(svg);
     }
@@ -372,7 +378,6 @@ private:
 
   /// One rule for each file; where several cases make the same file, it depends on the inputs of all of them.
   void add_script(const ScriptSpec& script) {
-    std::map<std::string, std::string> commands;
     for (const Case& row : cases_of(*current_, script.series, script.where, request_.results.mesh, script.place)) {
       Words words = row.values;
       words["here"] = {folder_of_file(current_->path), {}};
@@ -389,7 +394,7 @@ private:
       const std::string file = fmt::format("{}/{}", folder_, name_of_script_file(script, words));
       words["file"] = {"$@.partial", {}};
       const std::string command = filled_at(script.place, script.command, words);
-      const auto [known, added] = commands.try_emplace(file, command);
+      const auto [known, added] = commands_.try_emplace(file, command);
       if (!added && known->second != command)
         script.place.fail(fmt::format("two commands make {}: '{}' and '{}'", file, known->second, command));
       text_ += fmt::format("{}: {}{}\n", file, added ? sources_ : "", needed);
@@ -400,6 +405,24 @@ private:
     }
   }
 
+  /// True for files in a figure's folder that neither plots, pictures nor scripts make.
+  bool is_made_otherwise(const std::string& name) const {
+    const auto of_table = [&](const TableSpec& table) {
+      return table.file.empty() && (name == table.name + ".csv" || name == table.name + ".spread.csv");
+    };
+    constexpr std::array others = {"index.html", "verdict.json", "fits.json", "study.mk", "study.path", "powder.toml"};
+    return std::ranges::any_of(current_->tables, of_table) || std::ranges::find(others, name) != others.end();
+  }
+
+  [[noreturn]] static void refuse_name(const std::string& name, const Place& place) {
+    place.fail(fmt::format("name: found '{}', which is made in another way, allowed: another name", one_line(name)));
+  }
+
+  /// Refuses a second rule for a file of the figure.
+  void refuse_taken(const std::string& file, const Place& place) const {
+    if (std::ranges::find(files_, file) != files_.end()) refuse_name(file.substr(folder_.size() + 1), place);
+  }
+
   /// Refuses a file that is outside the figure's folder, or that another rule makes.
   std::string name_of_script_file(const ScriptSpec& script, const Words& words) const {
     const std::filesystem::path name = filled_at(script.place, script.name, words);
@@ -407,11 +430,7 @@ private:
     if (name.empty() || name.is_absolute() || std::ranges::any_of(name, is_up))
       script.place.fail(fmt::format("name: found '{}', allowed: a file in the figure's folder", name.string()));
     const std::string own = name.string();
-    const bool of_table = std::ranges::any_of(
-        current_->tables, [&](const TableSpec& table) { return table.file.empty() && own == table.name + ".csv"; });
-    if (of_table || own == "index.html" || own == "verdict.json" || own == "fits.json" || own == "study.mk" ||
-        own == "powder.toml")
-      script.place.fail(fmt::format("name: found '{}', which is made in another way, allowed: another name", own));
+    if (is_made_otherwise(own)) refuse_name(own, script.place);
     if (script.command.find("{file}") == std::string::npos)
       script.place.fail("command: found no {file}, allowed: a command that writes it");
     return own;
@@ -500,6 +519,7 @@ private:
   const Figure* current_ = nullptr; ///< the next members belong to it: folder, sources, files made, runs
   std::string folder_, sources_;
   std::vector<std::string> files_;
+  std::map<std::string, std::string> commands_; ///< of the current figure's pictures and scripts, by file
   RunGraph runs_;
   RunGraph graph_;                    ///< runs of all figures
   std::set<std::string> outstanding_; ///< folders of runs that are to be made

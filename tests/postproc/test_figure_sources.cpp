@@ -356,6 +356,18 @@ TEST_CASE("stages, values, pictures and files that cannot be there are refused b
   CHECK_NOTHROW(
       studies.rules(studies.figure(begin + "[[tables]]\nname = \"t\"\nfile = \"made-1.csv\"\ncolumns = [\"p [MPa]\"]\n"
                                            "[[scripts]]\nname = \"made-{x}.csv\"\ncommand = \"true > {file}\"\n")));
+  const std::string taken = "which is made in another way, allowed: another name";
+  const std::string script = "[[scripts]]\ncommand = \"true > {file}\"\nname = ";
+  const std::string plot = "[[tables]]\nname = \"t\"\ncolumns = [\"x = {x}\"]\n[[plots]]\nname = \"p\"\nx = {}\n"
+                           "y = {}\nseries = [{ table = \"t\", x = \"x\", y = \"x\" }]\n";
+  refused(plot + script + "\"p.png\"\n", "found 'p.png', " + taken);
+  refused(plot + script + "\"t.spread.csv\"\n", "found 't.spread.csv', " + taken);
+  refused(plot + "[[pictures]]\nname = \"p.png\"\nrun = \"r\"\ncommand = \"section {run}\"\n",
+          "found 'p.png', " + taken);
+  refused("[[pictures]]\nname = \"index.html\"\nrun = \"r\"\ncommand = \"view {run}\"\n",
+          "found 'index.html', " + taken);
+  refused(script + "\"study.path\"\n", "found 'study.path', " + taken);
+  refused(script + "\"two\"\n[[scripts]]\ncommand = \"false > {file}\"\nname = \"two\"\n", "two commands make ");
   refused("[[pictures]]\nname = \"p.svg\"\nrun = \"r\"\ncommand = \"section {run}\"\n",
           "name: found 'p.svg', but postproc section draws PNG, allowed: a name that ends in .png");
 }
