@@ -262,6 +262,14 @@ void keep_rows(TextTable& table, const Figure& figure, const TableSpec& spec) {
   table.rows = std::move(kept);
 }
 
+/// Lists of cases that share a run are the same.
+void drop_repeated_rows(TextTable& table) {
+  std::vector<std::vector<Value>> rows;
+  for (auto& row : table.rows)
+    if (std::find(rows.begin(), rows.end(), row) == rows.end()) rows.push_back(std::move(row));
+  table.rows = std::move(rows);
+}
+
 void add_row(TextTable& table, const Figure& figure, const TableSpec& spec, const ResultsFolder& results,
              const Case& row, MetricFiles& files) {
   std::vector<Value> cells;
@@ -281,8 +289,7 @@ void add_row(TextTable& table, const Figure& figure, const TableSpec& spec, cons
       value = Value::of_text(filled_at(spec.place, fmt::format("{{value:{}}}", column.format), {{"value", value}}));
     cells.push_back(std::move(value));
   }
-  if (!spec.distinct || std::find(table.rows.begin(), table.rows.end(), cells) == table.rows.end())
-    table.rows.push_back(std::move(cells));
+  table.rows.push_back(std::move(cells));
 }
 
 } // namespace
@@ -345,6 +352,7 @@ TextTable make_table(const Figure& figure, const TableSpec& spec, const ResultsF
       add_list(table, figure, spec, results, row);
     else if (spec.curves.empty())
       add_row(table, figure, spec, results, row, files);
+  if (spec.distinct) drop_repeated_rows(table);
   keep_rows(table, figure, spec);
   const auto metrics = files.paths();
   table.sources.insert(table.sources.end(), metrics.begin(), metrics.end());

@@ -1,10 +1,14 @@
 // Plots of a figure's file, and what other commands make: pictures and scripts.
 
 #include <algorithm>
+#include <sstream>
 #include <utility>
 
 #include <fmt/format.h>
 
+#include "common/nearest_word.hpp"
+#include "common/one_line.hpp"
+#include "common/trimmed.hpp"
 #include "postproc/figure/read_specs.hpp"
 #include "postproc/fits/fit.hpp"
 
@@ -12,12 +16,52 @@ namespace mpfem {
 
 namespace {
 
+/// A distance, or numbers in brackets, as gnuplot takes them.
+bool are_ticks(std::string_view text) {
+  const bool brackets = text.starts_with('(') && text.ends_with(')');
+  if (brackets) text = text.substr(1, text.size() - 2);
+  std::size_t numbers = 0;
+  for (std::size_t begin = 0; begin <= text.size(); ++numbers) {
+    const std::size_t end = std::min(text.find(',', begin), text.size());
+    const std::string number(trimmed(text.substr(begin, end - begin), " "));
+    if (!Value::of_text(number).number) return false;
+    begin = end + 1;
+  }
+  return brackets || numbers <= 3; // first, distance, last
+}
+
+/// Refuses what gnuplot does not take as the place of a key.
+void check_key(TableReader& r, const std::string& key) {
+  static const std::vector<std::string> known = {
+      "left",    "right",   "center", "top",        "bottom",   "inside",  "outside",   "lmargin", "rmargin",
+      "tmargin", "bmargin", "above",  "over",       "below",    "under",   "off",       "Left",    "Right",
+      "reverse", "invert",  "width",  "horizontal", "vertical", "height",  "noreverse", "maxcols", "maxrows",
+      "columns", "box",     "nobox",  "opaque",     "noopaque", "samplen", "spacing",   "noinvert"};
+  std::istringstream words(key);
+  for (std::string word; words >> word;)
+    if (!Value::of_text(word).number && std::find(known.begin(), known.end(), word) == known.end())
+      r.fail("key", fmt::format("found '{}'{}", one_line(word), suggestion(word, known)));
+}
+
+LineSpec read_line(TableReader line, const Words& words) {
+  Texts t(line, words);
+  LineSpec spec{t.number("y"), t.number("x"), t.number("slope"), t.shown("title")};
+  const int given = int{spec.y.has_value()} + int{spec.x.has_value()} + int{spec.slope.has_value()};
+  if (given != 1) Place(line, "").fail(fmt::format("lines: found {} of y, x and slope, allowed: one", given));
+  line.finish();
+  return spec;
+}
+
 AxisSpec read_axis(TableReader reader, const Words& words) {
   Texts t(reader, words);
   AxisSpec axis;
   axis.label = t.shown("label");
   axis.format = t.optional("format");
   axis.ticks = t.optional("ticks");
+  if (!axis.ticks.empty() && !are_ticks(axis.ticks))
+    reader.fail("ticks", fmt::format("found '{}', allowed: a distance such as '0.1', or numbers in brackets such as "
+                                     "'(1, 2, 5)'",
+                                     one_line(axis.ticks)));
   axis.low = t.number("low");
   axis.high = t.number("high");
   axis.logarithmic = reader.boolean_or("logarithmic", false);
@@ -127,6 +171,7 @@ PlotSpec read_plot(Texts& t) {
   plot.name = t.name("name");
   plot.title = t.shown("title");
   plot.key = t.optional("key");
+  check_key(r, plot.key);
   plot.key_title = t.shown("key_title");
   plot.caption = t.shown("caption");
   plot.x = read_axis(r.table("x"), t.words());
@@ -136,11 +181,7 @@ PlotSpec read_plot(Texts& t) {
     plot.surface = true;
   }
   plot.series = read_all_series(t);
-  for (TableReader& line : r.tables("lines")) {
-    Texts words(line, t.words());
-    plot.lines.push_back({words.number("y"), words.number("x"), words.number("slope"), words.shown("title")});
-    line.finish();
-  }
+  for (TableReader& line : r.tables("lines")) plot.lines.push_back(read_line(line, t.words()));
   if (auto inset = r.optional_table("inset")) plot.inset = read_inset(*inset, t.words());
   return plot;
 }

@@ -141,6 +141,8 @@ StatementSpec read_statement(Texts& t) {
   for (const std::string& key : quantities.keys())
     s.quantities.push_back(read_quantity(quantities.table(key), key, t.words()));
   for (TableReader& condition : r.tables("require")) s.require.push_back(read_condition(condition, t.words()));
+  if (r.has("require") && s.require.empty())
+    r.fail("require", "found no condition, allowed: one or more; without 'require' a statement is not judged");
   for (TableReader& condition : r.tables("judged_if")) s.judged_if.push_back(read_condition(condition, t.words()));
   return s;
 }

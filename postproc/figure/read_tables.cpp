@@ -100,11 +100,16 @@ std::vector<int> read_stages(TableReader& reader) {
   return {stages.begin(), stages.end()};
 }
 
-/// The largest number of rows of each curve; 0: all.
-std::size_t read_points(TableReader& reader) {
-  if (!reader.has("points")) return 0;
-  if (!reader.has("curves")) reader.fail("points", "found without 'curves', allowed: with it");
-  return static_cast<std::size_t>(reader.integer("points", Range::between(2, 1e6)));
+/// Refuses keys that would have no effect beside the others.
+void check_kind(const TableReader& reader) {
+  const bool curves = reader.has("curves"), list = reader.has("list");
+  for (const char* key : {"stage", "stages", "points", "digits"})
+    if (reader.has(key) && !curves) reader.fail(key, "found without 'curves', allowed: with it");
+  if (curves && list) reader.fail("list", "found with 'curves', allowed: one of the two");
+  if (reader.has("row") && (curves || list))
+    reader.fail("row", fmt::format("found with '{}', allowed: a column instead", curves ? "curves" : "list"));
+  if (reader.has("distinct") && curves)
+    reader.fail("distinct", "found with 'curves', allowed: without it; the curve of a run is there only once");
 }
 
 } // namespace
@@ -112,6 +117,7 @@ std::size_t read_points(TableReader& reader) {
 TableSpec read_table(Texts& t, const ColumnLists& lists) {
   TableSpec spec;
   spec.place = Place(t.reader(), "columns");
+  check_kind(t.reader());
   spec.name = t.name("name");
   spec.row = t.optional("row");
   spec.series = t.list("series");
@@ -120,7 +126,8 @@ TableSpec read_table(Texts& t, const ColumnLists& lists) {
   spec.list = t.optional("list");
   spec.keep = t.filters("keep");
   spec.stages = read_stages(t.reader());
-  spec.points = read_points(t.reader());
+  if (t.reader().has("points"))
+    spec.points = static_cast<std::size_t>(t.reader().integer("points", Range::between(2, 1e6)));
   spec.digits = static_cast<int>(t.reader().integer_or("digits", 6, Range::between(1, 17)));
   spec.distinct = t.reader().boolean_or("distinct", false);
   spec.spread = t.list("spread");

@@ -372,6 +372,58 @@ TEST_CASE("stages, values, pictures and files that cannot be there are refused b
           "name: found 'p.svg', but postproc section draws PNG, allowed: a name that ends in .png");
 }
 
+TEST_CASE("keys of a table, a plot or a statement that have no effect together are refused") {
+  const Studies studies;
+  const std::string begin = "[[cases]]\nx = [1, 2]\n[[runs]]\nname = \"r\"\nprogramme = \"press\"\n";
+  const std::string table = "[[tables]]\nname = \"t\"\ncolumns = [\"x = {x}\"]\n";
+  const auto refused = [&](const std::string& text, const std::string& message) {
+    CAPTURE(text);
+    CHECK_THROWS_WITH(studies.figure(begin + text), Contains("study.toml:") && Contains(message));
+  };
+  for (const std::string key : {"stage", "digits", "points"})
+    for (const std::string list : {"", "list = \"r/m\"\n"})
+      refused(table + list + key + " = 2\n", "." + key + "': found without 'curves', allowed: with it");
+  refused(table + "stages = [0]\n", "stages': found without 'curves'");
+  refused(table + "curves = [\"r\"]\nlist = \"r/m\"\n", "list': found with 'curves', allowed: one of the two");
+  refused(table + "curves = [\"r\"]\nrow = \"a\"\n", "row': found with 'curves', allowed: a column instead");
+  refused(table + "list = \"r/m\"\nrow = \"a\"\n", "row': found with 'list', allowed: a column instead");
+  refused(table + "curves = [\"r\"]\ndistinct = true\n", "distinct': found with 'curves', allowed: without it");
+  const auto plot = [&](const std::string& keys) {
+    return table + "[[plots]]\nname = \"p\"\nx = { ticks = \"0, 0.1, 0.4\" }\ny = {}\n" + keys;
+  };
+  refused(plot("lines = [{ title = \"a\" }]\n"), "lines: found 0 of y, x and slope, allowed: one");
+  refused(plot("lines = [{ y = 1, x = 2 }]\n"), "lines: found 2 of y, x and slope, allowed: one");
+  refused(plot("key = \"right bottm\"\n"), "key': found 'bottm'; did you mean 'bottom'?");
+  CHECK_NOTHROW(studies.figure(begin + plot("key = \"outside center above maxcols 1\"\n")));
+  for (const std::string ticks : {"abc", "1, 2, 3, 4", "(1, 2", "1,", "()"})
+    refused(plot("z = { ticks = \"" + ticks + "\" }\n"), "ticks': found '" + ticks + "', allowed: a distance such as");
+  CHECK_NOTHROW(studies.figure(begin + plot("z = { ticks = \"(1, 2, 5, 1e3)\" }\n")));
+  refused("[[statements]]\ntext = \"s\"\npaper = \"p\"\nours = \"o\"\nquantities = {}\nrequire = []\n",
+          "require': found no condition, allowed: one or more");
+}
+
+TEST_CASE("distinct rows of a list are there once where cases share their run") {
+  const Studies studies;
+  const Figure figure = studies.figure(R"([[cases]]
+x = [1, 2]
+[[runs]]
+name = "r"
+programme = "press"
+[[tables]]
+name = "all"
+list = "r/m"
+columns = ["y = y"]
+[[tables]]
+name = "once"
+list = "r/m"
+columns = ["y = y"]
+distinct = true
+)");
+  write_text(studies.path("out/study/runs/r/m.csv"), "y [1]\n1\n2\n");
+  CHECK(make_table(figure, figure.tables[0], studies.results()).rows.size() == 4);
+  CHECK(make_table(figure, figure.tables[1], studies.results()).rows.size() == 2);
+}
+
 TEST_CASE("cases share a picture only if they draw the same one") {
   const Studies studies;
   const auto rules = [&](const std::string& name) {
