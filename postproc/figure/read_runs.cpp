@@ -5,8 +5,10 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "common/errors.hpp"
 #include "common/nearest_word.hpp"
 #include "postproc/figure/read_specs.hpp"
+#include "postproc/figure/shell_words.hpp"
 
 namespace mpfem {
 
@@ -64,6 +66,11 @@ RunTemplate read_packing(TableReader& r) {
   packing.size = r.string_or("size", "");
   packing.command = r.string_or("command", "");
   packing.series = r.strings_or("series", {});
+  try {
+    shell_words(packing.command);
+  } catch (const InputError& error) {
+    r.fail("command", error.what());
+  }
   if (!packing.size.empty() && !packing.command.empty())
     r.fail("command", "cannot be used with 'size', allowed: one of both");
   r.finish();

@@ -178,6 +178,40 @@ TEST_CASE("a figure named without its folder has the same name, and {here} is th
   CHECK(folder_of_file("sub/mine.toml") == "sub");
 }
 
+TEST_CASE("packings, metrics and runs are made again when a file that they name is new") {
+  const Studies studies;
+  write_text(studies.path("pk.toml"), "");
+  write_text(studies.path("limits.csv"), "");
+  write_text(studies.path("post.stl"), "");
+  write_text(studies.path("other.stl"), "");
+  write_text(studies.path("mine.toml"), "[[tools]]\nfile = \"post.stl\"\n[[tools]]\n[[stages]]\nname = \"s\"\n");
+  const std::string data = studies.path("out/r/m.csv");
+  write_text(data, "");
+  const std::string rules = studies.rules(studies.figure(R"([[cases]]
+x = 1
+[[packings]]
+name = "pair"
+command = "spheres {here}/pk.toml"
+[[runs]]
+name = "r"
+folder = "r"
+programme = "mine.toml"
+packing = "pair"
+settings = { "tools.1.file" = "other.stl" }
+[metrics]
+m = "stress --limits {here}/limits.csv --data {folder}/m.csv"
+[[tables]]
+name = "t"
+columns = ["y = r/m.value"]
+)"));
+  const std::string out = studies.path("out"), pair = out + "/study/packings/pair/packing";
+  CHECK_THAT(rules, Contains(fmt::format("{0}.h5: {0}.settings {1}\n", pair, studies.path("pk.toml"))));
+  CHECK_THAT(rules, Contains(fmt::format("{0}/r/m.json: {0}/r/run.h5 {1} {0}/r/m.command\n", out,
+                                         studies.path("limits.csv"))));
+  CHECK_THAT(rules, Contains(fmt::format("{0}/r/run.h5: {1}.h5 {0}/r/run.settings {2} {3}\n", out, pair,
+                                         studies.path("post.stl"), studies.path("other.stl"))));
+}
+
 TEST_CASE("a metric's key may hold dots, and its name a value with a dot") {
   const Studies studies;
   const Figure figure = studies.figure(R"([[cases]]
@@ -450,6 +484,8 @@ command = "section {{run}} --data {{folder}}/s{{x}}.csv"
 
 TEST_CASE("a packing is a size or a command, and a run begins at one") {
   const Studies studies;
+  CHECK_THROWS_WITH(studies.figure("[[packings]]\nname = \"p\"\ncommand = \"spheres 'a\"\n"),
+                    Contains("study.toml:4") && Contains("found 'spheres "));
   CHECK_THROWS_WITH(studies.figure("[[packings]]\nname = \"p\"\nsize = \"1\"\ncommand = \"spheres\"\n"),
                     Contains("study.toml:5") && Contains("cannot be used with 'size'"));
   CHECK_THROWS_WITH(studies.figure("[[runs]]\nname = \"r\"\nprogramme = \"press\"\npacking = \"r\"\n"),
