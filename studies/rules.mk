@@ -143,7 +143,8 @@ endif
 # Of the whole path, so that ./figure.toml has the name of its folder. The path may have spaces before STUDY.
 study_path := $(abspath $(STUDY))
 study_name := $(patsubst %.toml,%,$(notdir $(patsubst %/figure.toml,%.toml,$(lastword $(study_path)))))
-powder = $(BIN)/postproc powder '$(STUDY)' --programmes $(studies)/branches
+# As seen from out/own/NAME, as from out/own-smooth/NAME.
+powder = $(BIN)/postproc powder '$(STUDY)' --results out/own --programmes $(studies)/branches
 of_powder := $(if $(STUDY),$(shell $(powder) | sed -n '1s/^# element_size = //p'))
 packing_smoke := smoke
 packing := $(or $(packing_$(MESH)),full)

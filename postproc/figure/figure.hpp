@@ -4,6 +4,7 @@
 #include <array>
 #include <map>
 #include <memory>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -252,6 +253,7 @@ struct Figure {
   std::vector<StatementSpec> statements;
   std::string powder; ///< TOML of a packing's description, if the study has its own
   double element_size = 0;
+  std::set<std::string> powder_files;                         ///< named in the description, with their whole path
   std::vector<std::shared_ptr<const TomlDocument>> documents; ///< to which the places refer
 
   /// A run or a packing.

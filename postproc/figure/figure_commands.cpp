@@ -14,6 +14,7 @@
 #include "postproc/figure/depends.hpp"
 #include "postproc/figure/figure_plot.hpp"
 #include "postproc/figure/filter_notes.hpp"
+#include "postproc/figure/powder_text.hpp"
 #include "postproc/figure/report.hpp"
 #include "postproc/figure/verdict_pages.hpp"
 #include "postproc/files/gnuplot.hpp"
@@ -202,7 +203,8 @@ struct FigureCommands::State {
 
   void powder() const {
     const Figure f = read(figure);
-    deliver(f.powder.empty() ? "" : fmt::format("# element_size = {}\n{}", f.element_size, f.powder));
+    refuse_overwriting_any({f.powder_files.begin(), f.powder_files.end()});
+    deliver(powder_text(f, folder(f)));
   }
 
   void table() const {
@@ -312,8 +314,11 @@ FigureCommands::FigureCommands(CLI::App& app, std::function<void(const std::vect
   s.check_words = std::move(check_words);
   s.program = &app;
   s.add_depends(app);
-  s.add_on_figure(app, "powder", "Print the packing of a study as input for pack-gen; nothing if the study has none.",
-                  [&s] { s.powder(); });
+  s.add_on_figure(
+      app, "powder",
+      "Print the packing of a study as input for pack-gen, with names of files as seen from its results; nothing "
+      "if the study has none.",
+      [&s] { s.powder(); });
   s.add_table(app);
   s.add_on_figure(app, "fits", "Make all fits of a figure from its tables, as JSON.", [&s] { s.fits(); }, {".json"});
   s.add_plot(app);

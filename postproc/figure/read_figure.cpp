@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "common/one_line.hpp"
 #include "postproc/figure/check_figure.hpp"
 #include "postproc/figure/read_specs.hpp"
 
@@ -59,8 +60,8 @@ private:
       read_heading(root);
     else
       for (const char* heading : {"title", "question", "source"}) root.value(heading); // not taken over
-    if (root.has("powder")) read_powder(root);
     const filesystem::path folder = filesystem::path(path).parent_path();
+    if (root.has("powder")) read_powder(root, folder);
     read_runs(root, folder);
     read_tables(root, folder);
     read_plots(root);
@@ -102,7 +103,7 @@ private:
   void repeat_powder(const std::string& path, const TomlDocument& document) {
     TableReader root(document);
     for (const std::string& file : included_files(root, path)) include(file);
-    if (root.has("powder")) read_powder(root);
+    if (root.has("powder")) read_powder(root, filesystem::path(path).parent_path());
   }
 
   void read_heading(TableReader& root) {
@@ -112,10 +113,27 @@ private:
   }
 
   /// Adds a file's [powder] to that of the files which were read before: those that it includes.
-  void read_powder(TableReader& root) {
+  void read_powder(TableReader& root, const filesystem::path& folder) {
     last_powder_ = root.table("powder");
-    merge(powder_, *root.value("powder")->as_table());
+    toml::table powder = *root.value("powder")->as_table();
+    name_from_anywhere(powder, *last_powder_, "surface_file", folder);
+    if (toml::table* sizes = powder["size_distribution"].as_table())
+      name_from_anywhere(*sizes, last_powder_->table("size_distribution"), "file", folder);
+    merge(powder_, powder);
     figure_.element_size = last_powder_->number_or("element_size", figure_.element_size, Range::positive());
+  }
+
+  /// Replaces a name in [powder], as seen from the folder of its file, by one that holds in every folder.
+  void name_from_anywhere(toml::table& table, const TableReader& reader, const char* key,
+                          const filesystem::path& folder) {
+    const auto name = table[key].value<std::string>();
+    if (!name) return;
+    const filesystem::path file = filesystem::absolute(folder / *name).lexically_normal();
+    if (!filesystem::is_regular_file(file))
+      reader.fail(
+          key, fmt::format("found '{}', but there is no such file, allowed: a file beside this one", one_line(*name)));
+    table.insert_or_assign(key, file.string());
+    figure_.powder_files.insert(file.string());
   }
 
   void finish_powder() {

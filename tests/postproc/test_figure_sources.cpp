@@ -8,6 +8,7 @@
 
 #include "postproc/figure/depends.hpp"
 #include "postproc/figure/figure_plot.hpp"
+#include "postproc/figure/powder_text.hpp"
 #include "postproc/figure/report.hpp"
 #include "postproc/figure/verdict_pages.hpp"
 #include "postproc/files/gnuplot.hpp"
@@ -531,6 +532,26 @@ TEST_CASE("an included file may have a heading, must exist and must not include 
   write_text(studies.path("b.toml"), "include = [\"a.toml\"]\n");
   CHECK_THROWS_WITH(studies.figure("include = [\"a.toml\"]\n"),
                     Contains("b.toml:1") && Contains("'a.toml', which includes this file"));
+}
+
+TEST_CASE("files that a study's powder names are found from its results, and their content is part of its text") {
+  const Studies studies;
+  write_text(studies.path("parts/cube.stl"), "solid a");
+  write_text(studies.path("sizes.csv"), "size [mm]\n1\n");
+  write_text(studies.path("parts/powder.toml"), "[powder]\nsurface_file = \"cube.stl\"\n");
+  const std::string text = "include = [\"parts/powder.toml\"]\n[powder]\nelement_size = 0.1\n"
+                           "[powder.size_distribution]\nfile = \"sizes.csv\"\n";
+  const Figure figure = studies.figure(text);
+  CHECK(figure.powder_files == std::set{studies.path("parts/cube.stl"), studies.path("sizes.csv")});
+  const std::string powder = powder_text(figure, studies.path("out/own/study"));
+  CHECK_THAT(powder, Contains("surface_file = '../../../parts/cube.stl'") && Contains("file = '../../../sizes.csv'"));
+  CHECK(powder.starts_with("# element_size = 0.1\n"));
+  write_text(studies.path("parts/cube.stl"), "solid b");
+  CHECK(powder_text(figure, studies.path("out/own/study")) != powder);
+  std::filesystem::remove(studies.path("sizes.csv"));
+  CHECK_THROWS_WITH(studies.figure(text),
+                    Contains("study.toml:6") && Contains("powder.size_distribution.file': found "
+                                                         "'sizes.csv', but there is no such file"));
 }
 
 TEST_CASE("a powder without the size of its elements is refused where it stands") {
