@@ -124,6 +124,7 @@ private:
     const std::string file = fmt::format("{}/{}.spread.csv", folder_, table.name);
     variable(file, "figure", current_->path);
     lists_["spread_files"].insert(file);
+    if (!std::filesystem::exists(file)) text_ += fmt::format("{}: $(if $(SEEDS),FORCE)\n", file);
   }
 
   void check_mesh(const std::string& name, const Place& place, const char* key = "meshes") const {
@@ -445,7 +446,7 @@ private:
     return files;
   }
 
-  /// The STL files of a run's tools, a blank before each. They lie beside the scenario, also where a setting names them.
+  /// The STL files of a run's tools, a blank before each: relative to the scenario, also where a setting names them.
   static std::string surfaces_of(const RunInstance& run, const TomlDocument& scenario) {
     std::vector<std::string> names;
     if (const toml::array* tools = scenario.root()["tools"].as_array())
