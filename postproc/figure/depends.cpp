@@ -16,6 +16,7 @@
 #include "common/one_line.hpp"
 #include "common/run_stem.hpp"
 #include "common/table_reader.hpp"
+#include "postproc/figure/named_files.hpp"
 #include "postproc/figure/shell_words.hpp"
 
 namespace mpfem {
@@ -315,7 +316,7 @@ private:
       throw InputError(fmt::format("{}: metric '{}' is '{}' here, but '{}' in another figure", current_->path, metric,
                                    full, known->second));
     if (!added) return file;
-    add_metric_rules(file, file_of_run(run) + files_in(full), full);
+    add_metric_rules(file, file_of_run(run) + files_in_command(full, request_.results.path), full);
     return file;
   }
 
@@ -438,36 +439,12 @@ private:
     return own;
   }
 
-  /// The files that a command names, a blank before each; results are none of them: the command may write them.
-  std::string files_in(const std::string& command) const {
-    std::string files;
-    for (const std::string& word : shell_words(command).value_or(std::vector<std::string>()))
-      if (!word.starts_with(request_.results.path + "/") && std::filesystem::is_regular_file(word)) files += ' ' + word;
-    return files;
-  }
-
-  /// The STL files of a run's tools, a blank before each: relative to the scenario, also where a setting names them.
-  static std::string surfaces_of(const RunInstance& run, const TomlDocument& scenario) {
-    std::vector<std::string> names;
-    if (const toml::array* tools = scenario.root()["tools"].as_array())
-      for (const toml::node& tool : *tools)
-        if (tool.is_table()) names.push_back((*tool.as_table())["file"].value_or(std::string()));
-    for (const auto& [key, value] : run.settings)
-      if (key.starts_with("tools.") && key.ends_with(".file")) names.push_back(value);
-    std::string files;
-    for (const std::string& name : names) {
-      const std::string file = (std::filesystem::path(run.programme).parent_path() / name).lexically_normal().string();
-      if (std::filesystem::is_regular_file(file)) files += ' ' + file;
-    }
-    return files;
-  }
-
   /// Packings given by an element size have their rule in rules.mk; those with their own command have a settings
   /// file.
   void add_packing_rules(const RunInstance& packing) {
     if (packing.command.empty()) return;
     const std::string file = file_of_run(packing), settings = file.substr(0, file.size() - 2) + "settings";
-    text_ += fmt::format("{}: {}{}\n", file, settings, files_in(packing.command));
+    text_ += fmt::format("{}: {}{}\n", file, settings, files_in_command(packing.command, request_.results.path));
     variable(file, "command", packing.command);
     stamp(settings, packing.command);
     lists_["declared_packings"].insert(file);
@@ -496,7 +473,7 @@ private:
     std::erase(settings_text, '\''); // as make writes it to the file
     const std::string parent = run.parent.empty() ? packing : request_.results.of(run.parent) + "/run.h5";
     // A branch reads the packing, too. A new one makes its parent again, so it need not be newer for the branch.
-    text_ += fmt::format("{}: {} {}{}{}\n", file, parent, settings_file, surfaces_of(run, scenario),
+    text_ += fmt::format("{}: {} {}{}{}\n", file, parent, settings_file, surfaces_of_tools(run, scenario),
                          run.parent.empty() ? "" : " | " + packing);
     variable(file, "programme", run.programme);
     variable(file, "options", options);

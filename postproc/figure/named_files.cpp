@@ -1,0 +1,32 @@
+#include "postproc/figure/named_files.hpp"
+
+#include <filesystem>
+#include <vector>
+
+#include "postproc/figure/shell_words.hpp"
+
+namespace mpfem {
+
+std::string files_in_command(const std::string& command, const std::string& results) {
+  std::string files;
+  for (const std::string& word : shell_words(command).value_or(std::vector<std::string>()))
+    if (!word.starts_with(results + "/") && std::filesystem::is_regular_file(word)) files += ' ' + word;
+  return files;
+}
+
+std::string surfaces_of_tools(const RunInstance& run, const TomlDocument& scenario) {
+  std::vector<std::string> names;
+  if (const toml::array* tools = scenario.root()["tools"].as_array())
+    for (const toml::node& tool : *tools)
+      if (tool.is_table()) names.push_back((*tool.as_table())["file"].value_or(std::string()));
+  for (const auto& [key, value] : run.settings)
+    if (key.starts_with("tools.") && key.ends_with(".file")) names.push_back(value);
+  std::string files;
+  for (const std::string& name : names) {
+    const std::string file = (std::filesystem::path(run.programme).parent_path() / name).lexically_normal().string();
+    if (std::filesystem::is_regular_file(file)) files += ' ' + file;
+  }
+  return files;
+}
+
+} // namespace mpfem
