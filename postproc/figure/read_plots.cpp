@@ -30,6 +30,16 @@ bool are_ticks(std::string_view text) {
   return brackets || numbers <= 3; // first, distance, last
 }
 
+/// Whether gnuplot takes a text as the format of an axis' numbers: after each "%" flags and a letter, or a second "%".
+bool is_axis_format(const std::string& text) {
+  for (std::size_t at = text.find('%'); at != std::string::npos; at = text.find('%', at + 1)) {
+    at = text.find_first_not_of("-+ #0123456789.'", at + 1);
+    if (at == std::string::npos || std::string_view("fFeEgGxXoOtTlLsScbBPhH%").find(text[at]) == std::string_view::npos)
+      return false;
+  }
+  return true;
+}
+
 /// Refuses what gnuplot does not take as the place of a key.
 void check_key(TableReader& r, const std::string& key) {
   static const std::vector<std::string> known = {
@@ -57,6 +67,8 @@ AxisSpec read_axis(TableReader reader, const Words& words) {
   AxisSpec axis;
   axis.label = t.shown("label");
   axis.format = t.optional("format");
+  if (!is_axis_format(axis.format))
+    reader.fail("format", fmt::format("found '{}', allowed: a format such as '%.2f'", one_line(axis.format)));
   axis.ticks = t.optional("ticks");
   if (!axis.ticks.empty() && !are_ticks(axis.ticks))
     reader.fail("ticks", fmt::format("found '{}', allowed: a distance such as '0.1', or numbers in brackets such as "

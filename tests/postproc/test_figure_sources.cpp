@@ -432,7 +432,9 @@ TEST_CASE("keys of a table, a plot or a statement that have no effect together a
   CHECK_NOTHROW(studies.figure(begin + plot("key = \"outside center above maxcols 1\"\n")));
   for (const std::string ticks : {"abc", "1, 2, 3, 4", "(1, 2", "1,", "()"})
     refused(plot("z = { ticks = \"" + ticks + "\" }\n"), "ticks': found '" + ticks + "', allowed: a distance such as");
-  CHECK_NOTHROW(studies.figure(begin + plot("z = { ticks = \"(1, 2, 5, 1e3)\" }\n")));
+  CHECK_NOTHROW(studies.figure(begin + plot("z = { ticks = \"(1, 2, 5, 1e3)\", format = \"10^{%L} or %+.2f %%\" }\n")));
+  for (const std::string format : {"%q", "%.2", "%d mm"})
+    refused(plot("z = { format = \"" + format + "\" }\n"), "format': found '" + format + "', allowed: a format such");
   refused("[[statements]]\ntext = \"s\"\npaper = \"p\"\nours = \"o\"\nquantities = {}\nrequire = []\n",
           "require': found no condition, allowed: one or more");
 }
