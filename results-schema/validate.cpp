@@ -125,7 +125,8 @@ private:
     return true;
   }
 
-  /// Reads the values once: checks their checksum and that they are finite (but not of a failed state), and keeps what check_integers() needs.
+  /// Reads the values once: checks their checksum and that they are finite (but not of a failed state), and keeps what
+  /// check_integers() needs.
   void check_values(const DatasetDescription& dataset, const std::string& path, const std::vector<hsize_t>& extents) {
     std::size_t count = 1;
     for (const hsize_t extent : extents) count *= extent;

@@ -104,7 +104,7 @@ TEST_CASE("a run that was killed while it tidied up is complete, and what was le
   fs::create_directories(folder / "run.parts");
   write_text(folder / "run.parts/snapshot-0001.h5", "of the time before");
   for (const std::string left : {"run.h5.partial", "run.checkpoint.next.h5", "run.first.checkpoint.h5.partial"})
-    write_text(folder / left, "half written");
+    write_text(folder / left, "\x89HDF\r\n\x1a\n half written");
   CHECK(run_stages(folder, "run.h5", "--resume").exit_code == 0);
   for (const std::string left :
        {"run.parts", "run.h5.partial", "run.checkpoint.next.h5", "run.first.checkpoint.h5.partial"})

@@ -242,8 +242,8 @@ void ToolLoadingControl::observe(const StageObservation& observation) {
   if (state_.ended_by == ToolEnd::none &&
       seen.time > longest_time * std::max(expected_duration_, fewest_steps * seen.step))
     throw SimulationError(
-        fmt::format("stage '{}': its end was not reached after {:g} times the expected time: travel {:.4g} mm, relative "
-                    "density {:.4f}, axial stress {:.4g} MPa, force on the watched tool {:.4g} N",
+        fmt::format("stage '{}': its end was not reached after {:g} times the expected time: travel {:.4g} mm, "
+                    "relative density {:.4f}, axial stress {:.4g} MPa, force on the watched tool {:.4g} N",
                     label_.name, longest_time, state_.travelled, seen.density, seen.axial_stress, seen.push));
 }
 
