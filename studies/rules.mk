@@ -164,7 +164,7 @@ else
   size := $(size_$(MESH))
 endif
 # Names of targets, and of folders in out/MESH that the toolkit's own figures use.
-names_of_targets := FORCE help study note-on-seeds quickstart smoke all report forecast keep clean clean-figures \
+names_of_targets := FORCE help note-on-seeds quickstart smoke all report forecast keep clean clean-figures \
   animation bonding hard-cases contact-surface nodal-pressure accuracy
 names_of_results := $(if $(of_powder),,compaction compactions branches packings \
   $(patsubst $(studies)/%/figure.toml,%,$(wildcard $(studies)/fig*/figure.toml)))
