@@ -9,13 +9,15 @@ results=studies/results
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 finest=$work/finest paper_mesh=$work/paper-mesh
-mkdir -p "$finest/fig07" "$finest/fig08" "$finest/fig09" "$paper_mesh/fig11" "$paper_mesh/fig22"
+mkdir -p "$finest/fig07" "$finest/fig08" "$finest/fig09"
+for figure in fig10 fig11 fig22; do mkdir -p "$paper_mesh/$figure"; done
 cp $results/paper/fig07/verdict.json "$finest/fig07/"
 as_list() { awk '{ sub(/,$/, ""); printf "%s%s", NR == 1 ? "[\n" : ",\n", $0 } END { print "\n]" }'; }
 statements() { grep '"statement":' $results/"$1"/verdict.json; }
 statements own/finest-mesh | grep 'von Mises' | as_list >"$finest/fig08/verdict.json"
 statements own/finest-mesh | grep -v 'von Mises' | as_list >"$finest/fig09/verdict.json"
-# So has the mesh that it uses from fig10 on: energies belong to fig11, strengths to fig22.
+# So has the mesh that it uses from fig10 on: recovery belongs to fig10, energies to fig11, strengths to fig22.
+statements medium-tet4/recovery | as_list >"$paper_mesh/fig10/verdict.json"
 statements medium-tet4/paper-mesh | grep ' energy' | grep -v trength | as_list >"$paper_mesh/fig11/verdict.json"
 statements medium-tet4/paper-mesh | grep trength | as_list >"$paper_mesh/fig22/verdict.json"
 # The densities between which samples saturate at the paper's modulus, in the words of that study's statement.
@@ -92,7 +94,7 @@ settings only |
 - \`plain\` is \`coarse\` with plain tetrahedra, the paper's element (\`ELEMENT=tet4\`). The others have averaged nodal
   pressure from fig10 on.
 - \`paper-mesh\` is the paper's own choice from fig10 on, plain tetrahedra of 0.015 mm. A round of all figures would
-  take days; these are the energies and strengths of [paper-mesh](../studies/paper-mesh/README.md).
+  take days; these are recovery, energies and strengths of [paper-mesh](../studies/paper-mesh/README.md).
 - \`smooth\` is the packing of 329 grains with smooth surfaces at 0.04 mm (\`MESH=coarser SURFACE=smooth\`). Its mean
   stresses are the closest to the converged ones ([speed against error](speed-against-error/README.md)).
 - The reasons begin with *the paper's choice* (an unstated choice, identified here, explains the difference), *the
