@@ -1,12 +1,29 @@
 #include "solver/run/time_loop.hpp"
 
+#include <optional>
+
 #include <fmt/format.h>
 
+#include "common/errors.hpp"
+#include "solver/output/checkpoint.hpp"
 #include "solver/parallel/root.hpp"
 #include "solver/run/checkpoints.hpp"
 #include "solver/run/untouched_tools.hpp"
 
 namespace mpfem {
+
+namespace {
+
+/// The step of a checkpoint; none if it cannot be read.
+std::optional<std::int64_t> step_of(const std::string& checkpoint) {
+  try {
+    return CheckpointReader(checkpoint).step();
+  } catch (const InputError&) {
+    return std::nullopt;
+  }
+}
+
+} // namespace
 
 TimeLoop::TimeLoop(Simulation& simulation, RunRecords& records, const Continuation& continuation, RunReport& report,
                    const RunOptions& options, double preparation, std::optional<PaceOrigin>& origin)
@@ -117,11 +134,12 @@ void TimeLoop::save_failed_state(const SimulationError& error) {
 /// so it may be of the failed step.
 std::string TimeLoop::text_of_checkpoints() const {
   std::string failed;
-  for (const std::string& path : continuation_.resumable())
-    if (CheckpointReader(path).step() <= last_sound_step_)
+  for (const std::string& path : continuation_.resumable()) {
+    const std::optional<std::int64_t> step = step_of(path);
+    if (step && *step <= last_sound_step_)
       return fmt::format("the last checkpoint before the failure is {}{}", path, failed);
-    else if (failed.empty())
-      failed = fmt::format(" ({} is of the failed step)", path);
+    if (step && failed.empty()) failed = fmt::format(" ({} is of the failed step)", path);
+  }
   return "there is no earlier checkpoint" + failed;
 }
 
