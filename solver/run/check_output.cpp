@@ -1,11 +1,9 @@
 #include "solver/run/check_output.hpp"
 
-#include <algorithm>
 #include <array>
 #include <filesystem>
 #include <fstream>
 #include <optional>
-#include <span>
 #include <string_view>
 #include <variant>
 #include <vector>
@@ -83,13 +81,10 @@ void refuse_no_checkpoints(const Scenario& scenario, const std::string& output) 
 
 /// True for a file that does not begin as one of HDF5, nor with the zeros of one whose beginning is not written yet.
 bool begins_as_something_else(const std::string& path) {
-  constexpr std::array<unsigned char, 8> signature = {0x89, 'H', 'D', 'F', '\r', '\n', 0x1a, '\n'}, zeros{};
-  std::array<unsigned char, 8> begin{};
-  std::ifstream file(path, std::ios::binary);
-  file.read(reinterpret_cast<char*>(begin.data()), begin.size());
-  const auto found = std::span(begin).first(static_cast<std::size_t>(file.gcount()));
-  return !std::ranges::equal(found, std::span(signature).first(found.size())) &&
-         !std::ranges::equal(found, std::span(zeros).first(found.size()));
+  if (is_hdf5(path)) return false;
+  std::array<char, 8> begin{};
+  std::ifstream(path, std::ios::binary).read(begin.data(), begin.size());
+  return begin != std::array<char, 8>{};
 }
 
 /// Refuses outputs beside which the run would remove a file of the user as the rest of an interrupted write.
