@@ -25,10 +25,7 @@ void check_once(const std::vector<Item>& items, const char* kind) {
 
 void check_column(const Figure& figure, const std::string& table, const std::string& column, const Place& place) {
   if (column.empty()) return;
-  const TableSpec& spec = figure.table(table, place);
-  std::vector<std::string> names;
-  if (!spec.row.empty()) names.emplace_back("name");
-  for (const ColumnSpec& c : spec.columns) names.push_back(c.name);
+  const std::vector<std::string> names = figure.table(table, place).column_names();
   if (std::find(names.begin(), names.end(), column) != names.end()) return;
   place.fail(fmt::format("table '{}' has no column '{}'{}", table, column, suggestion(column, names)));
 }

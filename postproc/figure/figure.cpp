@@ -56,6 +56,13 @@ bool Filter::accepts(const Value& value) const {
   return equal.empty() || std::find(equal.begin(), equal.end(), value) != equal.end();
 }
 
+std::vector<std::string> TableSpec::column_names() const {
+  std::vector<std::string> names;
+  if (!row.empty()) names.emplace_back("name");
+  for (const ColumnSpec& column : columns) names.push_back(column.name);
+  return names;
+}
+
 const RunTemplate& Figure::run(const std::string& wanted, const Place& place) const {
   return by_name(runs, wanted, "run", place);
 }

@@ -101,6 +101,9 @@ struct TableSpec {
   bool beside = false;             ///< it lies next to the figure's file, otherwise in the folder of its results
   std::vector<std::string> spread; ///< columns whose mean and deviation over packings are drawn
   Place place;
+
+  /// Of its columns, "name" included where it has a name for each row.
+  std::vector<std::string> column_names() const;
 };
 
 /// A fit of a model through rows of a table; x, y and z are names of columns.

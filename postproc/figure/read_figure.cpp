@@ -36,6 +36,36 @@ void merge(toml::table& into, const toml::table& other) {
   }
 }
 
+template <class Item>
+void append(std::vector<Item>& items, const std::vector<Item>& others) {
+  items.insert(items.end(), others.begin(), others.end());
+}
+
+template <class Item>
+bool has_name(const std::vector<Item>& items, const std::string& name) {
+  return std::any_of(items.begin(), items.end(), [&](const Item& item) { return item.name == name; });
+}
+
+/// Whether the figure has the fit, or the table with the columns, that a quantity is taken from.
+bool has_source_of(const Figure& figure, const QuantitySpec& quantity) {
+  if (!quantity.fit.empty()) return has_name(figure.fits, quantity.fit);
+  if (quantity.table.empty()) return true; // of other quantities
+  const auto table = std::find_if(figure.tables.begin(), figure.tables.end(),
+                                  [&](const TableSpec& t) { return t.name == quantity.table; });
+  if (table == figure.tables.end()) return false;
+  std::vector<std::string> used = {quantity.column, quantity.over, quantity.by};
+  for (const Filter& filter : quantity.where) used.push_back(filter.name);
+  const std::vector<std::string> columns = table->column_names();
+  return std::all_of(used.begin(), used.end(), [&](const std::string& name) {
+    return name.empty() || std::find(columns.begin(), columns.end(), name) != columns.end();
+  });
+}
+
+bool has_sources_of(const Figure& figure, const StatementSpec& statement) {
+  return std::all_of(statement.quantities.begin(), statement.quantities.end(),
+                     [&](const QuantitySpec& quantity) { return has_source_of(figure, quantity); });
+}
+
 /// Reads a file into the figure, after the files that it includes.
 class FigureReader {
 public:
@@ -46,7 +76,7 @@ public:
     read(path, true);
     finish_powder();
     // Statements of included files follow the figure's own.
-    figure_.statements.insert(figure_.statements.end(), included_statements_.begin(), included_statements_.end());
+    append(figure_.statements, included_statements_);
   }
 
 private:
@@ -67,25 +97,53 @@ private:
     read_plots(root);
     if (root.has("beside")) read_beside(root.table("beside"), folder);
     append_each(root, "statements", read_statement, main ? figure_.statements : included_statements_);
+    if (main)
+      read_statements_of_others(root, path);
+    else
+      root.value("statements_of"); // not taken over
     root.finish();
   }
 
-  /// The files that a file includes: beside it, or in the folder of programmes.
-  std::vector<std::string> included_files(TableReader& root, const std::string& path) const {
+  /// Adds the statements of other figures that this one can judge: it has the columns and fits that they need.
+  void read_statements_of_others(TableReader& root, const std::string& path) {
+    for (const std::string& other : named_files(root, "statements_of", path)) {
+      figure_.files.push_back(other);
+      const auto document = std::make_shared<const TomlDocument>(TomlDocument::from_file(other));
+      figure_.documents.push_back(document);
+      TableReader of_other(*document);
+      std::vector<StatementSpec> statements;
+      append_each(of_other, "statements", read_statement, statements);
+      std::erase_if(statements, [&](const StatementSpec& s) { return !has_sources_of(figure_, s); });
+      if (statements.empty())
+        root.fail("statements_of", fmt::format("found '{}', but each of its statements needs a column or fit that this "
+                                               "file does not have, allowed: figures that name theirs as this one",
+                                               other));
+      append(figure_.statements, statements);
+    }
+  }
+
+  /// The files that a key names: beside the file that has it, or in the folder of programmes.
+  std::vector<std::string> named_files(TableReader& root, const char* key, const std::string& path) const {
     std::vector<std::string> files;
-    for (const std::string& other : root.strings_or("include", {})) {
+    for (const std::string& other : root.strings_or(key, {})) {
       const filesystem::path beside = filesystem::path(path).parent_path() / other;
       const bool plain = filesystem::path(other).parent_path().empty() && !filesystem::exists(beside);
       const filesystem::path file = (plain ? filesystem::path(programmes_) / other : beside).lexically_normal();
       if (!filesystem::is_regular_file(file))
-        root.fail("include",
-                  fmt::format("found '{}', but there is no such file, allowed: a file beside this one, or in "
-                              "the folder '{}'",
-                              other, programmes_));
+        root.fail(key, fmt::format("found '{}', but there is no such file, allowed: a file beside this one, or in "
+                                   "the folder '{}'",
+                                   other, programmes_));
       files.push_back(file.string());
-      if (std::find(including_.begin(), including_.end(), files.back()) != including_.end())
-        root.fail("include", fmt::format("found '{}', which includes this file, allowed: files that do not", other));
     }
+    return files;
+  }
+
+  std::vector<std::string> included_files(TableReader& root, const std::string& path) const {
+    std::vector<std::string> files = named_files(root, "include", path);
+    for (std::size_t i = 0; i < files.size(); ++i)
+      if (std::find(including_.begin(), including_.end(), files[i]) != including_.end())
+        root.fail("include", fmt::format("found '{}', which includes this file, allowed: files that do not",
+                                         root.strings_or("include", {})[i]));
     return files;
   }
 

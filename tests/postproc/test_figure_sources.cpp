@@ -536,6 +536,56 @@ TEST_CASE("an included file may have a heading, must exist and must not include 
                     Contains("b.toml:1") && Contains("'a.toml', which includes this file"));
 }
 
+TEST_CASE("a study has the statements of another figure whose columns and fits it has, and only those") {
+  const Studies studies;
+  const std::string statements = R"(title = "figure"
+[[tables]]
+name = "strength"
+series = ["slow"]
+columns = ["x [1] = {x}", "y [1] = {x}"]
+[[tables]]
+name = "modulus"
+columns = ["x [1] = {x}"]
+[[statements]]
+text = "rises"
+paper = "p"
+ours = "{x}"
+quantities.x = { table = "strength", column = "x", take = "first" }
+require = [{ quantity = "x", above = 0 }]
+[[statements]]
+text = "of another table"
+paper = "p"
+ours = "{x}"
+quantities.x = { table = "modulus", column = "x", take = "first" }
+[[statements]]
+text = "of another column"
+paper = "p"
+ours = "{y}"
+quantities.y = { table = "strength", column = "y", take = "first" }
+[[statements]]
+text = "of a fit"
+paper = "p"
+ours = "{b}"
+quantities.x = { table = "strength", column = "x", take = "first" }
+quantities.b = { fit = "line", coefficient = "b" }
+)";
+  write_text(studies.path("figure/figure.toml"), statements);
+  const std::string of_figure = "statements_of = [\"figure/figure.toml\"]\n[[cases]]\nx = [1, 2]\n[[tables]]\n"
+                                "columns = [\"x [1] = {x}\"]\nname = ";
+  const Figure figure = studies.figure(of_figure + "\"strength\"\n");
+  REQUIRE(figure.statements.size() == 1);
+  CHECK(figure.statements[0].text == "rises");
+  CHECK(figure.tables.size() == 1);
+  // A change of the other file makes the verdict again.
+  CHECK_THAT(studies.rules(figure), Contains(studies.path("figure/figure.toml")));
+
+  CHECK_THROWS_WITH(studies.figure(of_figure + "\"other\"\n"),
+                    Contains("study.toml:2") && Contains("figure/figure.toml', but each of its statements needs a "
+                                                         "column or fit that this file does not have"));
+  CHECK_THROWS_WITH(studies.figure("statements_of = [\"none.toml\"]\n"),
+                    Contains("key 'statements_of': found 'none.toml', but there is no such file"));
+}
+
 TEST_CASE("files that a study's powder names are found from its results, and their content is part of its text") {
   const Studies studies;
   write_text(studies.path("parts/cube.stl"), "solid a");
