@@ -4,22 +4,32 @@ set -eu
 postproc=$1
 results=studies/results
 
-# The paper's finest mesh has two sources: fig07, and studies/finest-mesh, whose statements on the von Mises stress
-# belong to fig08 and whose others to fig09. Statements stand one a line in verdict.json.
+# Columns of studies that repeat parts of figures. `add COLUMN STUDY FIGURE…` puts each statement of a study to the
+# first of these figures that has a statement of the same text with MESH=coarse, and the others to the last one.
+# Statements stand one a line in verdict.json.
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
-finest=$work/finest paper_mesh=$work/paper-mesh
-mkdir -p "$finest/fig07" "$finest/fig08" "$finest/fig09"
-for figure in fig10 fig11 fig22; do mkdir -p "$paper_mesh/$figure"; done
-cp $results/paper/fig07/verdict.json "$finest/fig07/"
-as_list() { awk '{ sub(/,$/, ""); printf "%s%s", NR == 1 ? "[\n" : ",\n", $0 } END { print "\n]" }'; }
 statements() { grep '"statement":' $results/"$1"/verdict.json; }
-statements own/finest-mesh | grep 'von Mises' | as_list >"$finest/fig08/verdict.json"
-statements own/finest-mesh | grep -v 'von Mises' | as_list >"$finest/fig09/verdict.json"
-# So has the mesh that it uses from fig10 on: recovery belongs to fig10, energies to fig11, strengths to fig22.
-statements medium-tet4/recovery | as_list >"$paper_mesh/fig10/verdict.json"
-statements medium-tet4/paper-mesh | grep ' energy' | grep -v trength | as_list >"$paper_mesh/fig11/verdict.json"
-statements medium-tet4/paper-mesh | grep trength | as_list >"$paper_mesh/fig22/verdict.json"
+texts() { statements "$1" | sed 's/,"paper":.*//'; }
+as_list() { awk '{ sub(/,$/, ""); printf "%s%s", NR == 1 ? "[\n" : ",\n", $0 } END { print "\n]" }'; }
+add() {
+  column=$1 study=$2
+  shift 2
+  statements "$study" >"$work/left"
+  for figure in "$@"; do
+    mkdir -p "$work/$column/$figure"
+    { if [ $# = 1 ]; then echo; else texts "coarse/$figure"; fi; } >"$work/texts" # an empty line matches all
+    grep -Ff "$work/texts" "$work/left" | as_list >"$work/$column/$figure/verdict.json"
+    grep -vFf "$work/texts" "$work/left" >"$work/rest" || true
+    mv "$work/rest" "$work/left"
+    shift
+  done
+}
+add paper-mesh medium-tet4/paper-mesh fig10 fig11 fig12 fig22
+add stiff-bonds own/paper-bonds fig22
+add finest own/finest-mesh fig09 fig08
+mkdir "$work/finest/fig07"
+cp $results/paper/fig07/verdict.json "$work/finest/fig07/"
 # The densities between which samples saturate at the paper's modulus, in the words of that study's statement.
 saturated=$(statements coarse/saturated-modulus |
   sed -n 's/.*samples compacted to \([0-9.]*\) and to \([0-9.]*\), .*/\1 to \2/p')
@@ -94,9 +104,11 @@ settings only |
 - \`plain\` is \`coarse\` with plain tetrahedra, the paper's element (\`ELEMENT=tet4\`). The others have averaged nodal
   pressure from fig10 on.
 - \`paper-mesh\` is the paper's own choice from fig10 on, plain tetrahedra of 0.015 mm. A round of all figures would
-  take days; these are recovery, energies and strengths of [paper-mesh](../studies/paper-mesh/README.md).
+  take days; these are the parts of figures in [paper-mesh](../studies/paper-mesh/README.md).
 - \`smooth\` is the packing of 329 grains with smooth surfaces at 0.04 mm (\`MESH=coarser SURFACE=smooth\`). Its mean
   stresses are the closest to the converged ones ([speed against error](speed-against-error/README.md)).
+- \`stiff-bonds\` is \`smooth\` with bonds as stiff as those of the paper's mesh, and with slower walls
+  ([paper-bonds](../studies/paper-bonds/README.md)).
 - The reasons begin with *the paper's choice* (an unstated choice, identified here, explains the difference), *the
   paper's error* (the number belongs to the method and not to the grains) or *open*.
 - Where a cell is empty, the figure was not made with this mesh, or the statement needs another one.
@@ -115,6 +127,7 @@ settings only |
 
 END
   "$postproc" verdicts coarse=$results/coarse plain=$results/coarse-tet4 smooth=$results/coarser-smooth \
-    paper-mesh="$paper_mesh" medium=$results/medium finest="$finest" smoke=$results/smoke
+    stiff-bonds="$work/stiff-bonds" paper-mesh="$work/paper-mesh" medium=$results/medium finest="$work/finest" \
+    smoke=$results/smoke
 } >docs/verdicts.md.partial
 mv docs/verdicts.md.partial docs/verdicts.md
