@@ -61,7 +61,9 @@ bool has_source_of(const Figure& figure, const QuantitySpec& quantity) {
   });
 }
 
-bool has_sources_of(const Figure& figure, const StatementSpec& statement) {
+/// Whether the figure can judge a statement of another one. Statements without a verdict are of that one only.
+bool can_judge(const Figure& figure, const StatementSpec& statement) {
+  if (!statement.judged || statement.require.empty()) return false;
   return std::all_of(statement.quantities.begin(), statement.quantities.end(),
                      [&](const QuantitySpec& quantity) { return has_source_of(figure, quantity); });
 }
@@ -113,7 +115,7 @@ private:
       TableReader of_other(*document);
       std::vector<StatementSpec> statements;
       append_each(of_other, "statements", read_statement, statements);
-      std::erase_if(statements, [&](const StatementSpec& s) { return !has_sources_of(figure_, s); });
+      std::erase_if(statements, [&](const StatementSpec& s) { return !can_judge(figure_, s); });
       if (statements.empty())
         root.fail("statements_of", fmt::format("found '{}', but each of its statements needs a column or fit that this "
                                                "file does not have, allowed: figures that name theirs as this one",

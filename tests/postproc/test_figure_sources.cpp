@@ -557,17 +557,25 @@ text = "of another table"
 paper = "p"
 ours = "{x}"
 quantities.x = { table = "modulus", column = "x", take = "first" }
+require = [{ quantity = "x", above = 0 }]
+[[statements]]
+text = "without a verdict"
+paper = "p"
+ours = "{x}"
+quantities.x = { table = "strength", column = "x", take = "first" }
 [[statements]]
 text = "of another column"
 paper = "p"
 ours = "{y}"
 quantities.y = { table = "strength", column = "y", take = "first" }
+require = [{ quantity = "y", above = 0 }]
 [[statements]]
 text = "of a fit"
 paper = "p"
 ours = "{b}"
 quantities.x = { table = "strength", column = "x", take = "first" }
 quantities.b = { fit = "line", coefficient = "b" }
+require = [{ quantity = "x", above = 0 }]
 )";
   write_text(studies.path("figure/figure.toml"), statements);
   const std::string of_figure = "statements_of = [\"figure/figure.toml\"]\n[[cases]]\nx = [1, 2]\n[[tables]]\n"
