@@ -26,7 +26,7 @@ add() {
   done
 }
 add paper-mesh medium-tet4/paper-mesh fig10 fig11 fig12 fig22
-add stiff-bonds own/paper-bonds fig22
+add stiff-bonds own/paper-bonds fig20 fig22
 add finest own/finest-mesh fig09 fig08
 mkdir "$work/finest/fig07"
 cp $results/paper/fig07/verdict.json "$work/finest/fig07/"
