@@ -2,6 +2,7 @@
 // Facets of a model as contact sees them: gathered corners, the closest of several, and which side a node is on.
 
 #include <algorithm>
+#include <bit>
 #include <cstdint>
 #include <limits>
 #include <span>
@@ -28,14 +29,33 @@ inline Facet facet_geometry(const Model& model, std::int32_t facet) {
   return result;
 }
 
-/// True if a node is on the outer side of the facet's surface. `offset` is node minus closest point, mm. Nodal normals
-/// lie elsewhere in memory; they are read only if the closest point is on an edge or corner.
+/// The corners of `facet` that are also corners of `other`, there among `some`.
+inline Corners shared_corners(const std::int32_t* facet, const Facet& other, Corners some) {
+  Corners shared = 0;
+  for (unsigned c = 0; c < 3; ++c)
+    for (unsigned i = 0; i < 3; ++i)
+      if ((some >> i & 1U) != 0 && facet[c] == other.node[i]) shared |= 1U << c;
+  return shared;
+}
+
+/// Outward direction (rad) on an edge or at a corner of a facet, `place`. `facets` must contain those that meet there.
+inline Vector3<double> direction_at(const Model& model, const Facet& facet, Corners place,
+                                    std::span<const std::int32_t> facets) {
+  Vector3<double> direction{0, 0, 0};
+  for (const std::int32_t other : facets) {
+    const Corners shared = shared_corners(&model.facet[3 * at(other)], facet, place);
+    if (std::popcount(shared) != std::popcount(place)) continue;
+    direction = direction + share_of_direction(facet_geometry(model, other).x, shared);
+  }
+  return direction;
+}
+
+/// True if a node is on the outer side of the facet's surface. `offset` is node minus closest point, mm. `candidates`
+/// are the node's candidates: all facets of the surface that are as close as the closest point are among them.
 inline bool is_outside(const Model& model, const Vector3<double>& offset, const ClosestPoint<double>& closest,
-                       const Facet& facet) {
-  if (closest.inside) return dot(offset, facet_direction(facet.x)) >= 0;
-  const Vector3<double> normal[3] = {model.normal_of(at(facet.node[0])), model.normal_of(at(facet.node[1])),
-                                     model.normal_of(at(facet.node[2]))};
-  return dot(offset, edge_direction(closest, normal)) >= 0;
+                       const Facet& facet, std::span<const std::int32_t> candidates) {
+  const Corners place = closest.between;
+  return dot(offset, place == interior ? facet_direction(facet.x) : direction_at(model, facet, place, candidates)) >= 0;
 }
 
 /// The closest of some facets, and the distance of the second closest.

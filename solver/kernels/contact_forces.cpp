@@ -93,7 +93,7 @@ private:
     const Vector3<double> offset = x - closest.point;
     const double distance = norm(offset);
     // 2. Outside.
-    if (distance == 0 || is_outside(model_, offset, closest, geometry)) {
+    if (distance == 0 || is_outside(model_, offset, closest, geometry, candidates_of(point))) {
       if constexpr (has_friction) release_friction(point, closest.point, sums);
       return evaluate_open_point(pair, point, node, x, distance);
     }
@@ -119,15 +119,18 @@ private:
     }
   }
 
+  /// The facets that may be closest to a point.
+  std::span<const std::int32_t> candidates_of(std::int32_t point) const {
+    const std::vector<std::int32_t>& offset = contact_.candidates.point_facet_offset;
+    const std::int32_t first = offset[at(point)];
+    return {contact_.candidates.point_facet.data() + first, static_cast<std::size_t>(offset[at(point) + 1] - first)};
+  }
+
   /// The facet stays the closest until the travel of both grains could make up its lead on the second closest.
   std::int32_t update_closest_facet(const PairOfGrains& pair, std::int32_t point, const Vector3<double>& x) {
     std::int32_t& facet = contact_.point_facet[at(point)];
     if (facet >= 0 && pair.travel < contact_.point_facet_until[at(point)]) return facet;
-    const ContactCandidates& candidates = contact_.candidates;
-    const std::int32_t first = candidates.point_facet_offset[at(point)],
-                       last = candidates.point_facet_offset[at(point) + 1];
-    const ClosestFacet closest =
-        closest_facet(model_, x, {candidates.point_facet.data() + first, static_cast<std::size_t>(last - first)});
+    const ClosestFacet closest = closest_facet(model_, x, candidates_of(point));
     facet = closest.facet;
     // Facets that are not candidates were farther away than the margin at the search.
     const double others = std::min(closest.second_distance, pair.limit - pair.travel);

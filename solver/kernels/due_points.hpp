@@ -62,11 +62,7 @@ private:
   }
   void prefetch_nodes(std::int32_t facet) const {
     if (facet < 0) return;
-    for (std::size_t c = 0; c < 3; ++c) {
-      const std::size_t node = at(model_.facet[3 * at(facet) + c]);
-      prefetch(&model_.position[4 * node]);
-      prefetch(&model_.normal[4 * node]);
-    }
+    for (std::size_t c = 0; c < 3; ++c) prefetch(&model_.position[4 * at(model_.facet[3 * at(facet) + c])]);
   }
   const Model& model_;
   const Contact& contact_;
