@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "common/index.hpp"
+#include "solver/model/normals.hpp"
 #include "solver/parallel/totals.hpp"
 #include "solver/physics/penalty.hpp"
 
@@ -33,9 +34,10 @@ double share_of_point(const Model& model, const Contact& contact, std::int32_t p
 double contact_area(const Model& model, const Contact& contact, int grain) {
   double area = 0;
   const ContactCandidates& candidates = contact.candidates;
+  const SurfaceNormals normals(model, grain);
   const auto g = static_cast<std::size_t>(grain);
   for (std::int32_t pair = candidates.outgoing_offset[g]; pair < candidates.outgoing_offset[g + 1]; ++pair)
-    for (const ContactForce& point : contact.active_points(pair)) area += model.normal[4 * at(point.node) + 3];
+    for (const ContactForce& point : contact.active_points(pair)) area += normals.area(at(point.node));
   return area;
 }
 
@@ -86,8 +88,8 @@ GrainPair grains_of(const HalfContact& half) {
   return std::minmax(half.pair.first, half.pair.second);
 }
 
-/// Force on the grain, half of the area, bonds and friction at its nodes.
-HalfContact half_contact(const Model& model, const Contact& contact, std::int32_t pair) {
+/// Force on the grain with these normals, half of the area, bonds and friction at its nodes.
+HalfContact half_contact(const Model& model, const SurfaceNormals& normals, const Contact& contact, std::int32_t pair) {
   const auto p = at(pair);
   const ContactCandidates& candidates = contact.candidates;
   HalfContact half{{candidates.pair_first[p], candidates.pair_second[p], {}, 0, bond_sums(model, contact, pair), {}}};
@@ -96,7 +98,7 @@ HalfContact half_contact(const Model& model, const Contact& contact, std::int32_
   for (const auto points : {touching, pulling})
     for (const ContactForce& point : points)
       for (int axis = 0; axis < 3; ++axis) half.pair.force[axis] += point.force[axis];
-  for (const ContactForce& point : touching) half.pair.area += 0.5 * model.normal[4 * at(point.node) + 3];
+  for (const ContactForce& point : touching) half.pair.area += 0.5 * normals.area(at(point.node));
   if (!contact.has_friction()) return half;
   for (std::int32_t i = candidates.pair_point_offset[p]; i < candidates.pair_point_offset[p + 1]; ++i)
     add_terms(half.pair.friction, {contact.point_friction[at(i)].stored, contact.point_friction[at(i)].dissipated});
@@ -107,11 +109,13 @@ HalfContact half_contact(const Model& model, const Contact& contact, std::int32_
 std::vector<HalfContact> halves_at_own_nodes(const Model& model, const Contact& contact) {
   std::vector<HalfContact> halves;
   const ContactCandidates& candidates = contact.candidates;
-  for (const std::int32_t grain : model.own())
+  for (const std::int32_t grain : model.own()) {
+    const SurfaceNormals normals(model, grain);
     for (std::int32_t pair = candidates.outgoing_offset[at(grain)]; pair < candidates.outgoing_offset[at(grain) + 1];
          ++pair)
-      if (const HalfContact half = half_contact(model, contact, pair); half.shown || contact.has_friction())
+      if (const HalfContact half = half_contact(model, normals, contact, pair); half.shown || contact.has_friction())
         halves.push_back(half);
+  }
   for (const auto& [grains, lost] : contact.friction_of_former_points)
     halves.push_back({{grains.first, grains.second, {}, 0, {}, {0, lost}}});
   return halves;

@@ -4,12 +4,10 @@
 #include <limits>
 
 #include "solver/kernels/contact_facet.hpp"
-#include "solver/model/normals.hpp"
 
 namespace mpfem {
 
-Bounds update_surface(Model& model, int grain) {
-  set_normals(model, grain);
+Bounds surface_bounds(const Model& model, int grain) {
   const std::size_t first = model.first_node(grain),
                     end = first + static_cast<std::size_t>(model.surface_node_count[static_cast<std::size_t>(grain)]);
   const double infinity = std::numeric_limits<double>::infinity();

@@ -1,13 +1,12 @@
 #pragma once
-// What a step needs of a grain's surface: its normals and where it is.
+// Where a grain's surface is, and how large.
 
 #include "solver/model/model.hpp"
 
 namespace mpfem {
 
-/// Sets model.normal of the grain's surface nodes at the current positions (solver/model/normals.hpp). Returns the
-/// bounding box of the surface, mm.
-Bounds update_surface(Model& model, int grain);
+/// Bounding box of the grain's surface nodes at the current positions, mm.
+Bounds surface_bounds(const Model& model, int grain);
 
 /// Sum of the grain's facet areas, mm^2.
 double surface_area(const Model& model, int grain);

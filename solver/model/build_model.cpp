@@ -133,7 +133,7 @@ Model empty_model(const MeshedPacking& packing, const Scenario& scenario, const 
   const Pages pages = model.pages();
   model.file_node = LazyArray<Index>(nodes, pages);
   model.file_tet = LazyArray<Index>(tets, pages);
-  for (LazyArray<double>* rows : {&model.position, &model.velocity, &model.force, &model.normal})
+  for (LazyArray<double>* rows : {&model.position, &model.velocity, &model.force})
     *rows = LazyArray<double>(4 * nodes, pages);
   model.inverse_mass = LazyArray<double>(nodes, pages);
   model.reference_area = LazyArray<double>(nodes, pages);

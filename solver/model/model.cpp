@@ -31,10 +31,10 @@ PackedMesh MeshedPacking::mesh_of(int grain) const {
 
 std::size_t Model::memory() const {
   const auto bytes = [](const auto& v) { return v.size() * sizeof(v[0]); };
-  return bytes(position) + bytes(velocity) + bytes(force) + bytes(normal) + bytes(inverse_mass) +
-         bytes(reference_area) + std::visit(bytes, blocks) + bytes(inverse_nodal_volume) + bytes(nodal_mean) +
-         bytes(inverse_patch_volume) + bytes(inner_node) + bytes(inward) + bytes(mass_factor) + bytes(refinement) +
-         bytes(facet) + bytes(file_node) + bytes(file_tet);
+  return bytes(position) + bytes(velocity) + bytes(force) + bytes(inverse_mass) + bytes(reference_area) +
+         std::visit(bytes, blocks) + bytes(inverse_nodal_volume) + bytes(nodal_mean) + bytes(inverse_patch_volume) +
+         bytes(inner_node) + bytes(inward) + bytes(mass_factor) + bytes(refinement) + bytes(facet) + bytes(file_node) +
+         bytes(file_tet);
 }
 
 std::array<std::int32_t, 4> Model::nodes_of_tet(int grain, std::int32_t tet) const {

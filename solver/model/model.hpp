@@ -46,7 +46,6 @@ struct Model {
   LazyArray<double> position;       ///< mm
   LazyArray<double> velocity;       ///< mm/s, at the half step before the position
   LazyArray<double> force;          ///< N, internal and contact forces at the position
-  LazyArray<double> normal;         ///< unit outward normal of surface nodes and, fourth, tributary area mm^2
   LazyArray<double> reference_area; ///< [nodes]: tributary area of surface nodes at the start, mm^2
   LazyArray<double> inverse_mass;   ///< [nodes], 1/tonne
   TetBlocks blocks;
@@ -116,7 +115,6 @@ struct Model {
   }
   Vector3<double> point(std::size_t node) const { return vector_of(&position[4 * node]); }       ///< mm
   Vector3<double> velocity_of(std::size_t node) const { return vector_of(&velocity[4 * node]); } ///< mm/s
-  Vector3<double> normal_of(std::size_t node) const { return vector_of(&normal[4 * node]); }     ///< of a surface node
   /// Where the gap of a surface node is measured, mm.
   double contact_coordinate(std::size_t node, std::size_t axis) const {
     const double x = position[4 * node + axis];

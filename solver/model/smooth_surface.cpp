@@ -21,7 +21,7 @@ constexpr double largest_share = 0.25;
 constexpr double least_cosine = 0.5;
 
 /// Height of the smooth surface above the facets around each surface node of a grain, averaged by area, mm.
-std::vector<double> heights(const Model& model, std::size_t grain) {
+std::vector<double> heights(const Model& model, const SurfaceNormals& normals, std::size_t grain) {
   const auto first = static_cast<std::size_t>(model.node_offset[grain]);
   std::vector<double> height(static_cast<std::size_t>(model.surface_node_count[grain]), 0.0);
   for (auto f = 3 * static_cast<std::size_t>(model.facet_offset[grain]);
@@ -35,7 +35,7 @@ std::vector<double> heights(const Model& model, std::size_t grain) {
     double of_facet = 0;
     for (std::size_t i = 0; i < 3; ++i) {
       const std::size_t j = (i + 1) % 3;
-      of_facet += dot(model.normal_of(node[j]) - model.normal_of(node[i]), x[j] - x[i]) / 24.0;
+      of_facet += dot(normals.normal(node[j]) - normals.normal(node[i]), x[j] - x[i]) / 24.0;
     }
     const double third = norm(cross(x[1] - x[0], x[2] - x[0])) / 6.0; // of its area: the share of a node
     for (const std::size_t n : node) height[n - first] += third * of_facet / model.reference_area[n];
@@ -57,7 +57,8 @@ bool is_sphere_of_that_volume(const Model& model, std::size_t grain, const Vecto
 
 /// Chooses for each surface node of a grain the node of its tets that lies straightest beneath it, and sets how far its
 /// contact point lies towards that node: `height` [surface nodes], mm, along the normal.
-void place_contact_points(Model& model, std::size_t grain, const std::vector<double>& height) {
+void place_contact_points(Model& model, const SurfaceNormals& normals, std::size_t grain,
+                          const std::vector<double>& height) {
   const auto first = static_cast<std::size_t>(model.node_offset[grain]),
              count = static_cast<std::size_t>(model.surface_node_count[grain]);
   std::vector<double> cosine(count, 0.0); // between the normal and the direction to the inner node, reversed
@@ -68,7 +69,7 @@ void place_contact_points(Model& model, std::size_t grain, const std::vector<dou
         if (static_cast<std::size_t>(a) >= count || a == b) continue;
         const std::size_t n = first + static_cast<std::size_t>(a), inner = first + static_cast<std::size_t>(b);
         const Vector3<double> edge = model.point(n) - model.point(inner);
-        const double along = dot(edge, model.normal_of(n)) / norm(edge);
+        const double along = dot(edge, normals.normal(n)) / norm(edge);
         if (along > cosine[n - first])
           cosine[n - first] = along, model.inner_node[n] = static_cast<std::int32_t>(inner);
       }
@@ -103,10 +104,11 @@ void find_smooth_surface(Model& model, const std::vector<char>& grains) {
   model.inward = LazyArray<double>(nodes, model.pages());
   for (const std::int32_t grain : model.own()) {
     const auto g = static_cast<std::size_t>(grain);
-    set_normals(model, grain);
     std::iota(model.inner_node.data() + model.node_offset[g], model.inner_node.data() + model.node_offset[g + 1],
               model.node_offset[g]);
-    if (grains[g]) place_contact_points(model, g, heights(model, g));
+    if (!grains[g]) continue;
+    const SurfaceNormals normals(model, grain);
+    place_contact_points(model, normals, g, heights(model, normals, g));
   }
 }
 

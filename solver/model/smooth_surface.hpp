@@ -27,9 +27,8 @@ namespace mpfem {
 std::vector<char> smooth_grains(const Model& model, const MeshedPacking& packing, ContactSurface surface,
                                 const Communicator& ranks = Communicator());
 
-/// Sets model.inner_node and model.inward of these grains ([grains]) from the mesh as it is, and also
-/// model.normal; does nothing if there are none. Nodes in concave places keep their place, and so do nodes on flat
-/// faces an element away from edges.
+/// Sets model.inner_node and model.inward of these grains ([grains]) from the mesh as it is; does nothing if there are
+/// none. Nodes in concave places keep their place, and so do nodes on flat faces an element away from edges.
 void find_smooth_surface(Model& model, const std::vector<char>& grains);
 
 /// Largest distance (mm) of an own node from its contact point at present; 0 where contact takes the nodes themselves.

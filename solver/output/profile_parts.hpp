@@ -12,7 +12,7 @@ enum class Part : std::size_t { elements, contact, contact_search, integration, 
 inline constexpr std::size_t profile_parts = 7;
 /// Their names in tables and run files, in the same order.
 inline constexpr std::array<const char*, profile_parts> part_names = {
-    "element forces",  "contact forces", "contact search", "integration and walls",
-    "surface normals", "step estimate",  "output"};
+    "element forces", "contact forces", "contact search", "integration and walls",
+    "surface bounds", "step estimate",  "output"};
 
 } // namespace mpfem

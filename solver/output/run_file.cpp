@@ -13,6 +13,7 @@
 #include "common/version.hpp"
 #include "results-schema/descriptors.hpp"
 #include "solver/kernels/grain_state.hpp"
+#include "solver/model/normals.hpp"
 #include "solver/output/bond_laws.hpp"
 #include "solver/output/gathered_file.hpp"
 #include "solver/output/tool_geometry.hpp"
@@ -57,12 +58,13 @@ void for_pairs_of(const ContactCandidates& candidates, Index grain, Visit&& visi
   for (; incoming < incoming_end; ++incoming) visit(candidates.incoming_pair[at(incoming)]);
 }
 
-/// N, the sum of contact and bond forces on the nodes of a grain along their inward normals.
-std::vector<double> contact_push(const Model& model, const Contact& contact, Index grain) {
+/// N, the sum of contact and bond forces on the nodes of a grain along their inward normals, opposite to `normals`.
+std::vector<double> contact_push(const Model& model, const SurfaceNormals& normals, const Contact& contact,
+                                 Index grain) {
   const Index first = model.node_offset[at(grain)];
   std::vector<double> push(at(model.node_offset[at(grain) + 1] - first), 0.0);
   const auto add = [&](Index node, double share, const ContactForce& point) {
-    const double* normal = &model.normal[4 * at(node)];
+    const Vector3<double> normal = normals.normal(at(node));
     for (std::size_t axis = 0; axis < 3; ++axis) push[at(node - first)] -= share * point.force[axis] * normal[axis];
   };
   for_pairs_of(contact.candidates, grain, [&](Index pair) {
@@ -86,10 +88,11 @@ void write_contact_pressure(GatheredFile& file, const std::string& name, const S
       run::snapshots_contact_pressure, rows_of_grains(model.node_offset),
       [&](Index grain, std::span<float> pressure) {
         std::ranges::fill(pressure, 0.0F);
-        const std::vector<double> contact = contact_push(model, state.contact, grain);
+        const SurfaceNormals normals(model, grain);
+        const std::vector<double> contact = contact_push(model, normals, state.contact, grain);
         const std::size_t first = model.first_node(grain);
         for (std::size_t node = first; node < first + at(model.surface_node_count[at(grain)]); ++node) {
-          const double area = model.normal[4 * node + 3];
+          const double area = normals.area(node);
           const double push = contact[node - first] + state.box.wall_force_on_node(model, node, grain) +
                               state.tools.push_on_node(model, node, grain);
           pressure[place_in_grain(model, grain, node)] = area > 0 ? static_cast<float>(push / area) : 0.0F;

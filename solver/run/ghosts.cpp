@@ -4,7 +4,6 @@
 
 #include "common/index.hpp"
 #include "solver/kernels/contact_candidates.hpp"
-#include "solver/kernels/surface.hpp"
 #include "solver/run/profile.hpp"
 
 namespace mpfem {
@@ -164,10 +163,7 @@ void Ghosts::choose(std::vector<Index> grains, Model& model) {
         partner(rank).sent_grains.push_back(g);
         for_each_moving_part(model, g, velocities_, appended_to(message));
       },
-      [&](Index g, const auto& take) {
-        for_each_moving_part(model, g, velocities_, take);
-        update_surface(model, g);
-      });
+      [&](Index g, const auto& take) { for_each_moving_part(model, g, velocities_, take); });
 }
 
 void Ghosts::share_pairs(Model& model, Contact& contact) {

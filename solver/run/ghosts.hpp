@@ -37,7 +37,7 @@ public:
   }
   /// Starts to send positions, velocities and travel of own grains at the border, and to receive those of ghosts.
   void start_motion(const Model& model, const Contact& contact);
-  /// Sets the ghosts' positions, velocities and travel; not their normals (update_surface).
+  /// Sets the ghosts' positions, velocities and travel.
   void finish_motion(Model& model, Contact& contact);
   /// Starts to send records of forces on ghosts, and to receive those on own grains.
   void start_forces(const Contact& contact);

@@ -71,10 +71,10 @@ double bytes_of_boundaries(const Scenario& scenario) {
 /// Bytes of one rank.
 double memory_of(const PackingCounts& packing, const Scenario& scenario, int ranks) {
   const NumericsParameters& numerics = scenario.numerics;
-  // Position, velocity, force and normal; inverse mass, reference area, number in the file; volume and mean of averaged
+  // Position, velocity and force; inverse mass, reference area, number in the file; volume and mean of averaged
   // pressure; the inner node and its share where contact is by the smooth surface.
   constexpr double row = 4 * sizeof(double);
-  double node = 4 * row + 2 * sizeof(double) + sizeof(std::int32_t);
+  double node = 3 * row + 2 * sizeof(double) + sizeof(std::int32_t);
   if (numerics.element == ElementType::tet4_anp) node += 2 * sizeof(double);
   if (scenario.contact.surface != ContactSurface::facets) node += sizeof(std::int32_t) + sizeof(double);
   const double block = numerics.precision == Precision::mixed ? bytes_of_tet<float>() : bytes_of_tet<double>();

@@ -54,7 +54,7 @@ Simulation::Simulation(Model model, const Scenario& scenario, ThreadTeam& team, 
   margin_ = scenario.contact.search_margin * *std::max_element(model_.element_size.begin(), model_.element_size.end());
 
   order_grains();
-  update_surfaces();
+  find_bounds();
   find_candidates();
   check_apart(model_, contact_, box_, bounds_, scenario.packing_file, ranks);
   ghosts_.start_forces(contact_);
@@ -77,10 +77,10 @@ void Simulation::order_grains() {
   for (const std::int32_t grain : model_.own()) put(grain, by_number_);
 }
 
-void Simulation::update_surfaces() {
+void Simulation::find_bounds() {
   team_->for_each(static_cast<int>(model_.own().size()), [&](int item, int) {
     const std::int32_t grain = model_.own()[at(item)];
-    bounds_[at(grain)] = update_surface(model_, grain);
+    bounds_[at(grain)] = surface_bounds(model_, grain);
   });
 }
 
@@ -323,11 +323,6 @@ void Simulation::move_and_strain(const Advance& update) {
   ghosts_.start_motion(model_, contact_);
   move_and_strain(by_number_.inside, update);
   ghosts_.finish_motion(model_, contact_);
-  team_->for_each(static_cast<int>(ghosts_.grains().size()), [&](int item, int thread) {
-    Stopwatch watch(profile_, thread);
-    update_surface(model_, ghosts_.grains()[at(item)]);
-    watch.mark(Part::surface);
-  });
 }
 
 void Simulation::move_and_strain(std::span<const std::int32_t> grains, const Advance& update) {
@@ -340,7 +335,7 @@ void Simulation::move_and_strain(std::span<const std::int32_t> grains, const Adv
     contact_.travel[at(grain)] += travel_in_step(contact_, update, sums.advance.largest_relative_speed);
     sums.travel = travel_since_search(contact_, at(grain));
     watch.mark(Part::integration);
-    bounds_[at(grain)] = update_surface(model_, grain);
+    bounds_[at(grain)] = surface_bounds(model_, grain);
     watch.mark(Part::surface);
     sums.elements = element_forces(model_, grain, update.step);
     sums.strain_since_estimate = step_estimate_.add_strain(grain, sums.elements.largest_strain);

@@ -189,7 +189,7 @@ private:
   void move_and_strain(const Advance& update);
   void move_and_strain(std::span<const std::int32_t> grains, const Advance& update);
   StepEstimate::StrainOfStep add_up_step();
-  void update_surfaces();
+  void find_bounds();
   /// Axes whose walls are away in a stage.
   Axes withdrawn_in(std::int64_t stage) const;
   void change_walls(const Axes& withdrawn);
@@ -226,7 +226,7 @@ private:
     std::vector<std::int32_t> border, inside;
   };
   Order in_space_, by_number_;
-  std::vector<Bounds> bounds_;          ///< [grains], of own grains and ghosts; of all after a search
+  std::vector<Bounds> bounds_;          ///< [grains], of own grains; of all after a search
   std::vector<ForceSums> force_sums_;   ///< [grains], of own grains
   std::vector<MotionSums> motion_sums_; ///< [grains], of own grains
   ForceSums force_total_;               ///< of all grains of all ranks

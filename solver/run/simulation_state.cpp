@@ -46,7 +46,7 @@ Grips* Simulation::prepare_grips() {
 void Simulation::set_grain_steps(GrainSteps grain_steps) {
   step_estimate_.restore(std::move(grain_steps));
   travel_since_search_ = largest_travel_since_search(contact_); // a checkpoint has that of all grains
-  update_surfaces();
+  find_bounds();
   ghosts_.share_pairs(model_, contact_);
   order_grains();
 }

@@ -8,6 +8,7 @@
 
 #include <Eigen/Dense>
 
+#include "solver/model/normals.hpp"
 #include "solver/run/simulation.hpp"
 
 namespace mpfem::test {
@@ -21,6 +22,21 @@ struct SurfacePressure {
   std::vector<double> net_moment; ///< [3], N mm, about the origin
   std::vector<std::vector<int>> neighbour; ///< surface nodes that share a facet
 };
+
+/// Unit normal and tributary area (mm^2) of every node of a model; zeros inside grains.
+inline std::vector<double> normal_rows(const Model& model) {
+  std::vector<double> rows(4 * static_cast<std::size_t>(model.nodes()), 0.0);
+  for (int grain = 0; grain < model.grains; ++grain) {
+    const SurfaceNormals normals(model, grain);
+    const std::size_t first = model.first_node(grain);
+    for (std::size_t n = first;
+         n < first + static_cast<std::size_t>(model.surface_node_count[static_cast<std::size_t>(grain)]); ++n) {
+      for (std::size_t axis = 0; axis < 3; ++axis) rows[4 * n + axis] = normals.normal(n)[axis];
+      rows[4 * n + 3] = normals.area(n);
+    }
+  }
+  return rows;
+}
 
 inline SurfacePressure surface_pressure(const Model& model, const Contact& contact) {
   const auto nodes = static_cast<std::size_t>(model.nodes());
@@ -41,6 +57,7 @@ inline SurfacePressure surface_pressure(const Model& model, const Contact& conta
       result.own[node] += 2 * std::sqrt(square); // a pass carries half of the stiffness
       result.touching[node] = 1;
     }
+  const std::vector<double> normals = normal_rows(model);
   for (std::size_t n = 0; n < nodes; ++n) {
     const double* x = &model.position[4 * n];
     const double* f = &force[3 * n];
@@ -49,7 +66,7 @@ inline SurfacePressure surface_pressure(const Model& model, const Contact& conta
       result.net_force[a] += f[a];
       result.net_moment[a] += x[b] * f[c] - x[c] * f[b];
     }
-    const double* normal = &model.normal[4 * n];
+    const double* normal = &normals[4 * n];
     if (normal[3] <= 0) continue;
     result.total[n] = -(f[0] * normal[0] + f[1] * normal[1] + f[2] * normal[2]) / normal[3];
     result.own[n] /= normal[3];
@@ -67,13 +84,14 @@ inline SurfacePressure surface_pressure(const Model& model, const Contact& conta
 inline SurfacePressure wall_pressure(const Simulation& simulation, SurfacePressure surface) {
   const Model& model = simulation.model();
   const Box& box = simulation.box();
+  const std::vector<double> normals = normal_rows(model);
   std::fill(surface.total.begin(), surface.total.end(), 0.0);
   std::fill(surface.touching.begin(), surface.touching.end(), 0);
   for (int grain = 0; grain < model.grains; ++grain) {
     const auto g = static_cast<std::size_t>(grain);
     for (auto n = static_cast<std::size_t>(model.node_offset[g]);
          n < static_cast<std::size_t>(model.node_offset[g + 1]); ++n)
-      if (const double push = box.wall_force_on_node(model, n, grain), area = model.normal[4 * n + 3];
+      if (const double push = box.wall_force_on_node(model, n, grain), area = normals[4 * n + 3];
           push > 0 && area > 0) {
         surface.touching[n] = 1;
         surface.total[n] = push / area;
@@ -97,6 +115,7 @@ struct PressureOscillation {
 inline PressureOscillation oscillation(const Model& model, const SurfacePressure& surface,
                                        const std::vector<double>& pressure, int grain = -1) {
   PressureOscillation result;
+  const std::vector<double> normals = normal_rows(model);
   const auto first = static_cast<std::size_t>(grain < 0 ? 0 : model.node_offset[static_cast<std::size_t>(grain)]);
   const auto end =
       static_cast<std::size_t>(grain < 0 ? model.nodes() : model.node_offset[static_cast<std::size_t>(grain) + 1]);
@@ -105,7 +124,7 @@ inline PressureOscillation oscillation(const Model& model, const SurfacePressure
     bool inner = surface.touching[n] != 0 && ring.size() >= 4;
     for (const int m : ring) inner = inner && surface.touching[static_cast<std::size_t>(m)] != 0;
     if (!inner) continue;
-    const double* normal = &model.normal[4 * n];
+    const double* normal = &normals[4 * n];
     const Eigen::Vector3d axis(normal[0], normal[1], normal[2]);
     const Eigen::Vector3d across = axis.unitOrthogonal(), third = axis.cross(across);
     double sum = 0, area = 0;
@@ -113,7 +132,7 @@ inline PressureOscillation oscillation(const Model& model, const SurfacePressure
     Eigen::VectorXd value(ring.size());
     for (std::size_t i = 0; i < ring.size(); ++i) {
       const auto m = static_cast<std::size_t>(ring[i]);
-      sum += model.normal[4 * m + 3] * pressure[m], area += model.normal[4 * m + 3];
+      sum += normals[4 * m + 3] * pressure[m], area += normals[4 * m + 3];
       const Eigen::Vector3d offset(model.position[4 * m] - model.position[4 * n],
                                    model.position[4 * m + 1] - model.position[4 * n + 1],
                                    model.position[4 * m + 2] - model.position[4 * n + 2]);

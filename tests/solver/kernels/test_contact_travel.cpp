@@ -33,7 +33,7 @@ void follow(Model& model, const Advance& field) {
 /// Contact of the same model without anything remembered: all candidates are searched for and looked at.
 Contact searched_afresh(Model& model, const Contact& contact, ThreadTeam& team) {
   std::vector<Bounds> bounds;
-  for (const std::int32_t grain : model.own()) bounds.push_back(update_surface(model, grain));
+  for (const std::int32_t grain : model.own()) bounds.push_back(surface_bounds(model, grain));
   const double reach = contact.margin + max_contact_offset(model);
   Contact fresh = contact;
   renew_candidates(model, {contact.margin, reach, bounds, find_near_grains(bounds, reach, model.own(), team)}, team,

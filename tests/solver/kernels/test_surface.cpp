@@ -1,4 +1,4 @@
-// Normals and tributary areas of surface nodes.
+// Normals, tributary areas and bounds of surface nodes.
 
 #include <algorithm>
 #include <cmath>
@@ -8,6 +8,7 @@
 #include <catch2/catch.hpp>
 
 #include "solver/kernels/surface.hpp"
+#include "solver/model/normals.hpp"
 #include "tests/support/meshes.hpp"
 #include "tests/support/tolerances.hpp"
 
@@ -19,7 +20,7 @@ namespace {
 /// Rows of the unit normals and tributary areas of all surface nodes, from one facet after another.
 std::vector<double> plain_normals(const Model& model) {
   const auto point = [&](std::int32_t node) { return model.point(static_cast<std::size_t>(node)); };
-  std::vector<Vector3<double>> area(model.normal.size() / 4, {0, 0, 0});
+  std::vector<Vector3<double>> area(static_cast<std::size_t>(model.nodes()), {0, 0, 0});
   for (std::size_t f = 0; f < model.facet.size(); f += 3) {
     const std::int32_t* node = &model.facet[f];
     const Vector3<double> of_facet = cross(point(node[1]) - point(node[0]), point(node[2]) - point(node[0]));
@@ -44,19 +45,20 @@ TEST_CASE("normals computed in packs equal those computed singly, and the bounds
   scale(second, 0.15);
   move(first, {0.3, 0.5, 0.5});
   move(second, {0.75, 0.5, 0.5});
-  Model model = build_model(pack({first, second}, {1, 1, 1}), holding_scenario(1e-9), "test");
+  const Model model = build_model(pack({first, second}, {1, 1, 1}), holding_scenario(1e-9), "test");
   const std::vector<double> plain = plain_normals(model);
   for (int grain = 0; grain < 2; ++grain) {
-    const Bounds bounds = update_surface(model, grain);
+    const Bounds bounds = surface_bounds(model, grain);
+    const SurfaceNormals normals(model, grain);
     const auto begin = static_cast<std::size_t>(model.node_offset[static_cast<std::size_t>(grain)]);
     const auto count = static_cast<std::size_t>(model.surface_node_count[static_cast<std::size_t>(grain)]);
     for (std::size_t n = begin; n < begin + count; ++n) {
       for (std::size_t axis = 0; axis < 3; ++axis) {
-        CHECK(std::abs(model.normal[4 * n + axis] - plain[4 * n + axis]) < rounding);
+        CHECK(std::abs(normals.normal(n)[axis] - plain[4 * n + axis]) < rounding);
         CHECK(model.position[4 * n + axis] >= bounds.low[axis]);
         CHECK(model.position[4 * n + axis] <= bounds.high[axis]);
       }
-      CHECK(within(model.normal[4 * n + 3], plain[4 * n + 3], rounding));
+      CHECK(within(normals.area(n), plain[4 * n + 3], rounding));
     }
   }
 }
@@ -65,15 +67,15 @@ TEST_CASE("the normals of a ball's mesh point outwards, and its tributary areas 
   constexpr double radius = 0.2;
   GrainMesh ball = ball_mesh(6, radius);
   move(ball, {0.5, 0.5, 0.5});
-  Model model = build_model(pack({ball}, {1, 1, 1}), holding_scenario(1e-9), "test");
-  update_surface(model, 0);
+  const Model model = build_model(pack({ball}, {1, 1, 1}), holding_scenario(1e-9), "test");
+  const SurfaceNormals normals(model, 0);
   double area = 0;
   for (std::size_t n = 0; n < static_cast<std::size_t>(model.surface_node_count[0]); ++n) {
     double outwards = 0;
     for (std::size_t axis = 0; axis < 3; ++axis)
-      outwards += model.normal[4 * n + axis] * (model.position[4 * n + axis] - 0.5) / radius;
+      outwards += normals.normal(n)[axis] * (model.position[4 * n + axis] - 0.5) / radius;
     CHECK(outwards > 0.99); // the mesh is not the same all around a node
-    area += model.normal[4 * n + 3];
+    area += normals.area(n);
   }
   const double sphere = 4 * std::numbers::pi * radius * radius;
   CHECK(area < sphere);

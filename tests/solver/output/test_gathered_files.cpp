@@ -15,6 +15,7 @@
 
 #include "common/errors.hpp"
 #include "common/table_reader.hpp"
+#include "solver/model/normals.hpp"
 #include "solver/model/tets.hpp"
 #include "solver/output/checkpoint.hpp"
 #include "solver/output/run_file.hpp"
@@ -110,8 +111,7 @@ void spoil_grain(Model& model, Index grain) {
   const auto g = static_cast<std::size_t>(grain);
   for (auto n = static_cast<std::size_t>(model.node_offset[g]); n < static_cast<std::size_t>(model.node_offset[g + 1]);
        ++n) {
-    for (std::size_t i = 4 * n; i < 4 * n + 4; ++i)
-      model.position[i] = model.velocity[i] = model.force[i] = model.normal[i] = spoilt;
+    for (std::size_t i = 4 * n; i < 4 * n + 4; ++i) model.position[i] = model.velocity[i] = model.force[i] = spoilt;
     model.file_node[n] = -1;
     model.reference_area[n] = spoilt;
   }
@@ -495,18 +495,20 @@ TEST_CASE("the pressure at nodes and the forces of pairs are sums over all conta
   const Contact& contact = simulation.contact();
   std::vector<double> push(static_cast<std::size_t>(model.nodes()), 0.0); // N, along the inward normal
   std::map<std::pair<Index, Index>, std::array<double, 3>> force;         // N, of the second on the first
-  const auto add = [&](Index node, double share, const ContactForce& point) {
+  std::vector<SurfaceNormals> normals;
+  for (Index grain = 0; grain < model.grains; ++grain) normals.emplace_back(model, grain);
+  const auto add = [&](Index grain, Index node, double share, const ContactForce& point) {
+    const Vector3<double> normal = normals[static_cast<std::size_t>(grain)].normal(static_cast<std::size_t>(node));
     for (std::size_t axis = 0; axis < 3; ++axis)
-      push[static_cast<std::size_t>(node)] -=
-          share * point.force[axis] * model.normal[4 * static_cast<std::size_t>(node) + axis];
+      push[static_cast<std::size_t>(node)] -= share * point.force[axis] * normal[axis];
   };
   for (std::size_t p = 0; p < contact.active.size(); ++p) {
     const auto pair = static_cast<Index>(p);
     const Index first = contact.candidates.pair_first[p], second = contact.candidates.pair_second[p];
     for (const auto points : {contact.active_points(pair), contact.pulling_bonds(pair)})
       for (const ContactForce& point : points) {
-        add(point.node, 1.0, point);
-        for (int c = 0; c < 3; ++c) add(point.facet_node[c], -point.weight(c), point);
+        add(first, point.node, 1.0, point);
+        for (int c = 0; c < 3; ++c) add(second, point.facet_node[c], -point.weight(c), point);
         for (std::size_t axis = 0; axis < 3; ++axis)
           force[std::minmax(first, second)][axis] += (first < second ? 1 : -1) * point.force[axis];
       }
@@ -524,7 +526,8 @@ TEST_CASE("the pressure at nodes and the forces of pairs are sums over all conta
       const double sum = push[n] + simulation.box().wall_force_on_node(model, n, grain) +
                          simulation.tools().push_on_node(model, n, grain);
       CHECK(pressure[static_cast<std::size_t>(model.file_node[n])] ==
-            static_cast<float>(sum / model.normal[4 * n + 3])); // every bit: in the order of pairs
+            static_cast<float>(sum /
+                               normals[static_cast<std::size_t>(grain)].area(n))); // every bit: in the order of pairs
     }
   }
   const auto grains = file.read(schema::run::snapshots_pair_grains, "0000");

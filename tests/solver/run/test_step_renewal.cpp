@@ -19,7 +19,7 @@ namespace {
 double step_computed_afresh(const Simulation& simulation, const Scenario& scenario, ThreadTeam& team) {
   Model model = simulation.model();
   std::vector<Bounds> bounds;
-  for (const std::int32_t grain : model.own()) bounds.push_back(update_surface(model, grain));
+  for (const std::int32_t grain : model.own()) bounds.push_back(surface_bounds(model, grain));
   StepEstimate estimate(model, scenario.numerics, simulation.ranks());
   estimate.restore(simulation.step_estimate().state());
   estimate.renew(model, simulation.contact(), {simulation.box(), simulation.tools()}, bounds, team, true);
