@@ -15,6 +15,8 @@ public:
       : table_(std::move(table)), keys_(std::move(keys)) {}
   /// "FILE:LINE:COLUMN: " of a key, or of the table if it has no such key; empty if there is no file.
   std::string prefix(const std::string& key) const;
+  /// Whether the table has the key; without it, its default applies.
+  bool has(const std::string& key) const { return keys_.contains(key); }
 
 private:
   std::string table_; ///< place of the table itself

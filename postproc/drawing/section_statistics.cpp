@@ -68,6 +68,10 @@ Measurement measure_section_stress(const schema::FileReader& file, int number, i
   std::vector<std::pair<double, double>> values;
   for (const SectionPolygon& polygon : cut(snapshot, middle(snapshot, axis)))
     values.emplace_back(field.values[static_cast<std::size_t>(polygon.tet)], area(polygon));
+  if (std::ranges::none_of(values, [](const auto& polygon) { return polygon.second > 0; }))
+    throw InputError(fmt::format("{}: found no grain on the middle plane of snapshot {}, normal to {}, allowed: a "
+                                 "snapshot or axis with grains there",
+                                 one_line(file.path()), number, "xyz"[axis]));
   const SectionStress s = section_stress(std::move(values), threshold);
   Measurement m = of_section("section-stress", file, number);
   m.value = s.mean;

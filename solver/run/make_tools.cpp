@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "common/errors.hpp"
 #include "common/hash.hpp"
 #include "solver/model/material.hpp"
 #include "surfaces/stl.hpp"
@@ -145,9 +146,16 @@ ToolSurface make_surface(const ToolShape& shape, const std::array<double, 3>& lo
 Tools make_tools(const Scenario& scenario, const Model& model) {
   std::vector<Tool> tools;
   for (const ToolParameters& parameters : scenario.tools) {
-    Tool tool{.name = parameters.name,
-              .surface = make_surface(parameters.shape, model.box_low, model.box_high),
-              .friction = parameters.friction};
+/// The surface of a scenario's tool in the packing's box. A refusal names the key of its STL file.
+ToolSurface surface_in(const Model& model, const ToolParameters& tool) {
+  try {
+    return make_surface(tool.shape, model.box_low, model.box_high);
+  } catch (const InputError& error) {
+    throw InputError(fmt::format("{}tool '{}': key 'file': {}", tool.places.prefix("file"), tool.name, error.what()));
+  }
+}
+
+    Tool tool{.name = parameters.name, .surface = surface_in(model, parameters), .friction = parameters.friction};
     if (const auto* body = std::get_if<BodySurface>(&tool.surface)) tool.triangles = hash_of(*body->mesh);
     if (const auto size = size_of(parameters.shape, tool.surface))
       tool.size = size_beside(*size, "the packing's box", box_of(model));

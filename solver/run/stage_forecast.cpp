@@ -49,6 +49,47 @@ void check_stable_step(double step) {
                     step, smallest));
 }
 
+/// A key of a stage and its value, as messages name them.
+struct SpeedKey {
+  std::string place; ///< "FILE:LINE:COLUMN: "
+  std::string key;
+  double speed = 0;     ///< mm/s
+  bool is_given = true; ///< false: by default
+};
+
+/// The key of a stage's own speed: that of its walls, grips or tools.
+SpeedKey speed_key(const Stage& stage) {
+  const char* key = std::holds_alternative<GripMotion>(stage.type)    ? "speed"
+                    : std::holds_alternative<ToolLoading>(stage.type) ? "drive"
+                                                                      : "wall_speed";
+  return {stage.places.prefix(key), key, driven_speed(stage.type)};
+}
+
+/// The key of the largest speed at which a stage may be driven.
+SpeedKey fastest_key(const Stage& stage) {
+  if (!stage.quasi_static) return speed_key(stage);
+  const KeyPlaces& places = stage.quasi_static->places;
+  return {places.prefix("fastest_speed"), "quasi_static.fastest_speed", stage.quasi_static->fastest_speed,
+          places.has("fastest_speed")};
+}
+
+/// The key of the largest speed of walls or tools that are held at a stress.
+SpeedKey servo_key(const Stage& stage, double speed) {
+  if (std::holds_alternative<ToolLoading>(stage.type)) return {stage.places.prefix("drive"), "drive", speed};
+  return {stage.places.prefix("servo_speed"), "servo_speed", speed, stage.places.has("servo_speed")};
+}
+
+/// "stage 'press': key 'wall_speed': found 5 mm/s": what a message says first of a stage that is too slow. Stages that
+/// drive nothing have a duration (s), or tools that hold a push.
+std::string slow_text(const Stage& stage, double duration) {
+  const bool drives = driven_speed(stage.type) > 0;
+  if (!drives && stage.places.has("duration"))
+    return fmt::format("{}stage '{}': key 'duration': found {:g} s", stage.places.prefix("duration"), stage.name,
+                       duration);
+  const SpeedKey key = drives ? speed_key(stage) : servo_key(stage, servo_speed(stage.type).value_or(0));
+  return fmt::format("{}stage '{}': key '{}': found {:g} mm/s", key.place, stage.name, key.key, key.speed);
+}
+
 /// A run that would not end within years is refused: a core does some 1e9 steps of the smallest model a day.
 void check_steps(const Scenario& scenario, std::int64_t first_stage, const std::vector<StageForecast>& stages,
                  double stable_step) {
@@ -59,10 +100,10 @@ void check_steps(const Scenario& scenario, std::int64_t first_stage, const std::
     steps += own;
     if (!(steps <= most))
       throw InputError(
-          fmt::format("stage '{}': takes {:.3g} steps of {:.3g} s ({:.3g} s), allowed: at most {:g} steps in "
-                      "all stages; raise its speed or shorten it{}",
-                      scenario.stages[static_cast<std::size_t>(first_stage) + i].name, own, stable_step,
-                      stages[i].duration, most, implausible_values_hint(scenario)));
+          fmt::format("{}, which takes {:.3g} steps of {:.3g} s ({:.3g} s), allowed: at most {:g} steps in all stages; "
+                      "raise its speed or shorten it{}",
+                      slow_text(scenario.stages[static_cast<std::size_t>(first_stage) + i], stages[i].duration), own,
+                      stable_step, stages[i].duration, most, implausible_values_hint(scenario)));
   }
 }
 
@@ -74,22 +115,26 @@ void check_history(const Scenario& scenario, std::int64_t first_stage) {
   const double rows = stages * most_rows(scenario.output.history_rows);
   const double memory = static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGESIZE));
   if (const double needed = copies * rows * bytes_of_row(scenario); needed > largest_part * memory)
-    throw InputError(
-        fmt::format("key 'output.history_rows': found {}, up to {:.3g} rows in {:.0f} stages may need {:.3g} "
-                    "GB, allowed: up to half of the machine's {:.3g} GB",
-                    scenario.output.history_rows, rows, stages, 1e-9 * needed, 1e-9 * memory));
+    throw InputError(fmt::format(
+        "{}key 'output.history_rows': {} {}, up to {:.3g} rows in {:.0f} stages may need {:.3g} GB, allowed: up to "
+        "half of the machine's {:.3g} GB",
+        scenario.output_places.prefix("history_rows"),
+        scenario.output_places.has("history_rows") ? "found" : "missing, by default", scenario.output.history_rows,
+        rows, stages, 1e-9 * needed, 1e-9 * memory));
 }
 
-/// Refuses a speed (mm/s) at which walls would hit grains hard within one step. `hint` ends the message.
-void check_speed(const Stage& stage, const char* key, double speed, double size, double stable_step,
+/// Refuses a speed at which walls would hit grains hard within one step. `faster`: by how much quasi_static may raise
+/// it. `hint` ends the message.
+void check_speed(const Stage& stage, const SpeedKey& key, double faster, double size, double stable_step,
                  const std::string& hint) {
   constexpr double largest_travel = 0.05; // of h a step; a penetration of that size in one step is an impact
-  if (const double fastest = largest_travel * size / stable_step; speed > fastest)
-    throw InputError(
-        fmt::format("{}stage '{}': key '{}': found {:g} mm/s, allowed: at most {:.4g} mm/s here ({} of an element in a "
-                    "stable step of {:.3g} s){}",
-                    stage.places.prefix(std::string(key).substr(0, std::string(key).find('.'))), stage.name, key, speed,
-                    fastest, largest_travel, stable_step, hint));
+  const double allowed = largest_travel * size / stable_step;
+  if (faster * key.speed <= allowed) return;
+  throw InputError(fmt::format("{}stage '{}': key '{}': {} {:g} mm/s{}, allowed: at most {:.4g} mm/s here ({} of an "
+                               "element in a stable step of {:.3g} s){}",
+                               key.place, stage.name, key.key, key.is_given ? "found" : "missing, by default",
+                               key.speed, faster > 1 ? fmt::format(" times {:g} with quasi_static", faster) : "",
+                               allowed, largest_travel, stable_step, hint));
 }
 
 } // namespace
@@ -141,17 +186,12 @@ void check_stages(const Scenario& scenario, std::int64_t first_stage, const Cell
   const std::string hint = implausible_values_hint(scenario);
   for (auto s = static_cast<std::size_t>(first_stage); s < scenario.stages.size(); ++s) {
     const Stage& stage = scenario.stages[s];
-    const double speed = driven_speed(stage.type),
-                 fastest = stage.quasi_static ? stage.quasi_static->fastest_speed : speed;
-    const char* key = stage.quasi_static                                ? "quasi_static.fastest_speed"
-                      : std::holds_alternative<GripMotion>(stage.type)  ? "speed"
-                      : std::holds_alternative<ToolLoading>(stage.type) ? "drive"
-                                                                        : "wall_speed";
-    check_speed(stage, key, fastest, size, stable_step, hint);
+    const SpeedKey fastest = fastest_key(stage);
+    check_speed(stage, fastest, 1, size, stable_step, hint);
     // Servos speed up in the same ratio as the stage.
+    const double speed = driven_speed(stage.type), faster = speed > 0 ? std::max(1.0, fastest.speed / speed) : 1.0;
     if (const auto servo = servo_speed(stage.type))
-      check_speed(stage, "servo_speed", *servo * (speed > 0 ? std::max(1.0, fastest / speed) : 1.0), size, stable_step,
-                  hint);
+      check_speed(stage, servo_key(stage, *servo), faster, size, stable_step, hint);
   }
 }
 

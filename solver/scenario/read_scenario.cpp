@@ -242,7 +242,11 @@ Scenario read_scenario(const TomlDocument& document) {
   scenario.numerics.element = default_element;
   scenario.numerics.own_pressure = usual_own_pressure(default_element);
   if (auto table = root.optional_table("element")) read_element(*table, scenario.numerics);
-  if (auto table = root.optional_table("output")) scenario.output = read_output(*table);
+  scenario.output_places = scenario.places;
+  if (auto table = root.optional_table("output")) {
+    scenario.output_places = table->places();
+    scenario.output = read_output(*table);
+  }
   if (auto table = root.optional_table("initial")) read_initial(*table, scenario);
   if (auto table = root.optional_table("gravity")) read_gravity(*table, scenario);
   scenario.stages = read_stages(root, {scenario.material.youngs_modulus, scenario.tools, scenario.container});

@@ -307,6 +307,7 @@ std::optional<QuasiStatic> read_quasi_static(TableReader& stage, double speed, d
   return q;
 }
 
+  q.places = table->places();
 Stage read_stage(TableReader table, std::size_t number, const StageContext& context) {
   std::vector<std::string> types, all_keys;
   for (const StageKeyword& keyword : stage_keywords()) {

@@ -151,7 +151,9 @@ struct Scenario {
   std::vector<Stage> stages;
   KeyPlaces places;      ///< of the keys outside of tables
   KeyPlaces bond_places; ///< of the keys of [bond]
-  std::string text;      ///< the TOML text, with values set on the command line
+  /// Of the keys of [output]; of those outside of tables if there is no such table.
+  KeyPlaces output_places;
+  std::string text; ///< the TOML text, with values set on the command line
 
   /// Whether there is friction between grains, at walls or at tools.
   bool has_friction() const;

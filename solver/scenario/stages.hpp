@@ -156,6 +156,7 @@ struct QuasiStatic {
   double slowest_speed = 0;        ///< mm/s
   double fastest_speed = 0;        ///< mm/s
   double loose_stress = 0;         ///< MPa: below this wall stress the packing is loose and the speed stays as it is
+  KeyPlaces places{};              ///< of its keys in the scenario
 };
 
 /// One entry of [[stages]].

@@ -101,6 +101,17 @@ TEST_CASE("a section says which snapshot it cuts, at which stress and in which s
   CHECK(section.snapshot->stage == 0);
 }
 
+TEST_CASE("a section without grains is refused with the run's file, the snapshot and the axis") {
+  const Folder folder;
+  RunContents run = small_run();
+  for (double& coordinate : run.numbers["/snapshots/*/node"]) coordinate += 100; // mm, outside of the box
+  write_run(folder / "run.h5", run);
+  const schema::FileReader file(folder / "run.h5", schema::FileKind::run);
+  CHECK_THROWS_WITH(measure_section_stress(file, 0, 2, 10),
+                    folder / "run.h5" + ": found no grain on the middle plane of snapshot 0, normal to z, allowed: a "
+                                        "snapshot or axis with grains there");
+}
+
 TEST_CASE("a section's damage is weighted by length, and what was never bonded does not count") {
   const auto segment = [](double length, double from, double to) {
     return BoundarySegment{{0, 0}, {length, 0}, from, to, 0};

@@ -14,6 +14,7 @@
 
 using namespace mpfem;
 using namespace mpfem::test;
+using Catch::Contains;
 namespace fs = std::filesystem;
 
 TEST_CASE("grains of another material are named by numbers that the packing has, each once") {
@@ -129,6 +130,46 @@ TEST_CASE("keys of loadings are checked like all others") {
 
 TEST_CASE("every bad input is refused with one clear line and exit code 2") {
   const Folder folder;
+TEST_CASE("a default that does not fit other keys is not reported as found") {
+  const Folder folder;
+  prepare(folder, 2);
+  const std::string loading = "type = 'triaxial_compression'\naxial_strain = 0.1\nwall_speed = ";
+  const auto refused = [&](const std::string& keys) {
+    write_text(folder / "scenario.toml", scenario_text + "[[stages]]\n" + loading + keys + "\n");
+    const Outcome outcome = mpfem_command("check " + (folder / "scenario.toml"));
+    INFO(outcome.messages);
+    CHECK(outcome.exit_code == 2);
+    CHECK(outcome.one_error_line("mpfem"));
+    return outcome.messages;
+  };
+  CHECK_THAT(refused("2e5"), Contains("key 'servo_speed': missing, by default 2e+06 mm/s, allowed: at most"));
+  CHECK_THAT(refused("2e5\nservo_speed = 3e6"), Contains("key 'servo_speed': found 3e+06 mm/s, allowed: at most"));
+  CHECK_THAT(refused("2e4\nservo_speed = 2e5\nquasi_static = { fastest_speed = 2e5 }"),
+             Contains("key 'servo_speed': found 200000 mm/s times 10 with quasi_static, allowed: at most"));
+  CHECK_THAT(refused("5e5\nservo_speed = 5e5\nquasi_static = {}"),
+             Contains("key 'quasi_static.fastest_speed': missing, by default 2e+06 mm/s, allowed: at most"));
+}
+
+TEST_CASE("what makes a run too long or its history too large, and an STL file, is named by its place and key") {
+  const Folder folder;
+  prepare(folder, 2);
+  const auto refused = [&](const std::string& text) {
+    write_text(folder / "scenario.toml", text);
+    const Outcome outcome = mpfem_command("check " + (folder / "scenario.toml"));
+    INFO(outcome.messages);
+    CHECK(outcome.exit_code == 2);
+    CHECK(outcome.one_error_line("mpfem"));
+    return outcome.messages;
+  };
+  const std::string place = "scenario.toml:";
+  CHECK_THAT(refused(replaced(scenario_text, "wall_speed = 20000", "wall_speed = 1e-6")),
+             Contains(place) && Contains(": key 'wall_speed': found 1e-06 mm/s, which takes "));
+  CHECK_THAT(refused(scenario_text + "[[stages]]\ntype = 'hold'\nduration = 1e3\n"),
+             Contains(place) && Contains(": key 'duration': found 1000 s, which takes "));
+  CHECK_THAT(refused(scenario_text + "[[tools]]\nname = 'die'\ntype = 'stl'\nscale = 1\nfile = 'none.stl'\n"),
+             Contains(place) && Contains("tool 'die': key 'file': ") && Contains("none.stl: no such file"));
+}
+
   prepare(folder, 2);
   const std::string good = folder / "packing.h5";
   MeshedPacking inverted = eight_grains(2);
