@@ -169,7 +169,8 @@ void print_stages(const Scenario& scenario, Simulation& simulation, int threads,
   fmt::print("estimate       {:.3g} ms per step measured here on {} thread{}{}; {:.0f} steps: {}, with an average step "
              "of {:.3g} ms and {:.2g} s for the history\n",
              1e3 * measured.step, threads, threads == 1 ? "" : "s", of_ranks, all.steps,
-             wall_time_text(all.cost * measured.step + rows), 1e3 * measured.step * all.cost / all.steps, rows);
+             wall_time_text(all.cost * measured.step + rows),
+             1e3 * measured.step * (all.steps > 0 ? all.cost / all.steps : 1), rows);
 }
 
 } // namespace

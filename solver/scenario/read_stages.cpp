@@ -37,7 +37,11 @@ LoadingEnds read_ends(TableReader& table, std::string_view type) {
   constexpr Range strain{.low = -0.5, .high = 0.5}; // a larger one is a typing error
   LoadingEnds ends;
   ends.axial_strain = table.optional_number("axial_strain", strain);
-  if (ends.axial_strain == 0.0) table.fail("axial_strain", "found 0, allowed: > 0 (compression) or < 0 (extension)");
+  constexpr double smallest_strain = 1e-6; // a thousand times the tolerance with which walls arrive
+  if (ends.axial_strain && std::abs(*ends.axial_strain) < smallest_strain)
+    table.fail("axial_strain", fmt::format("found {:g}, allowed: at least {:g} (compression) or at most -{:g} "
+                                           "(extension)",
+                                           *ends.axial_strain, smallest_strain, smallest_strain));
   ends.relative_density = table.optional_number("relative_density", target_density);
   ends.axial_stress = table.optional_number("axial_stress", stress_or_zero);
   ends.mean_stress = table.optional_number("mean_stress", stress_or_zero);
@@ -303,11 +307,11 @@ std::optional<QuasiStatic> read_quasi_static(TableReader& stage, double speed, d
   q.slowest_speed = table->number_or("slowest_speed", slower * speed, {.low = 1e-13, .high = speed});
   q.fastest_speed = table->number_or("fastest_speed", faster * speed, {.low = speed, .high = 1e13});
   q.loose_stress = table->number_or("loose_stress", loose * youngs_modulus, stress_or_zero);
+  q.places = table->places();
   table->finish();
   return q;
 }
 
-  q.places = table->places();
 Stage read_stage(TableReader table, std::size_t number, const StageContext& context) {
   std::vector<std::string> types, all_keys;
   for (const StageKeyword& keyword : stage_keywords()) {

@@ -11,6 +11,9 @@ inline constexpr double expected_strain = 0.05;
 inline constexpr double arrived = 1e-9;
 /// No loading may last longer than this many times the expected time.
 inline constexpr double longest_time = 50;
+/// Steps that a loading is expected to take at least: also a target nearer than a step's travel takes some, because the
+/// stage begins at rest.
+inline constexpr double fewest_steps = 20;
 
 /// A speed that changes no faster than a ramp allows.
 struct DrivenSpeed {

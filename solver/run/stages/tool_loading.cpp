@@ -237,8 +237,6 @@ void ToolLoadingControl::observe(const StageObservation& observation) {
   if (stage_.container && seen.density > largest_relative_density)
     throw SimulationError(fmt::format("stage '{}': relative density {:.4f}, which is above the largest allowed, {:g}",
                                       label_.name, seen.density, largest_relative_density));
-  // A target that is nearer than a step's travel takes some steps all the same: the stage begins at rest.
-  constexpr double fewest_steps = 20;
   if (state_.ended_by == ToolEnd::none &&
       seen.time > longest_time * std::max(expected_duration_, fewest_steps * seen.step))
     throw SimulationError(

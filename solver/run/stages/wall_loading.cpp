@@ -118,7 +118,7 @@ void WallLoading::check_limits(const ObservedSample& seen) const {
 }
 
 void WallLoading::check_time(const ObservedSample& seen) const {
-  if (seen.time > longest_time * expected_duration_)
+  if (seen.time > longest_time * std::max(expected_duration_, fewest_steps * seen.step))
     fail(seen, fmt::format("after {:g} times the expected time", longest_time));
 }
 

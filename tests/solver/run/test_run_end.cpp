@@ -12,6 +12,7 @@
 #include "solver/output/run_lock.hpp"
 #include "tests/support/bonded_pair.hpp"
 #include "tests/support/small_runs.hpp"
+#include "tests/support/tolerances.hpp"
 
 using namespace mpfem;
 using namespace mpfem::test;
@@ -174,6 +175,21 @@ speed = 10000
       mpfem_command(fmt::format("run {} -o {} --quiet", folder / "scenario.toml", folder / "run.h5"));
   INFO(outcome.messages);
   CHECK(outcome.exit_code == 0);
+}
+
+TEST_CASE("a strain that is shorter than a step's way is reached") {
+  const Folder folder;
+  prepare(folder, 2, scenario_text.substr(0, scenario_text.find("[[stages]]")) + R"([[stages]]
+type = "die_compression"
+wall_speed = 1e5
+axial_strain = 1e-6
+)");
+  const std::string run = folder / "run.h5";
+  const Outcome outcome = mpfem_command(fmt::format("run {} -o {} --quiet", folder / "scenario.toml", run));
+  INFO(outcome.messages);
+  REQUIRE(outcome.exit_code == 0);
+  const auto strain = schema::FileReader(run, schema::FileKind::run).read(schema::run::history_axial_strain);
+  CHECK(within(strain.back(), 1e-6, 2e-3)); // walls have arrived when they are within a strain of 1e-9
 }
 
 TEST_CASE("a loading that cannot reach its end exits with 3 and keeps what was computed") {

@@ -88,6 +88,8 @@ TEST_CASE("keys of loadings are checked like all others") {
       {"type = 'unconfined_compression'\nwall_speed = 1", {"without an end", "axial_strain"}},
       {"type = 'unconfined_compression'\nwall_speed = 1\naxial_strain = 0", {"axial_strain", "found 0"}},
       {"type = 'unconfined_compression'\nwall_speed = 1\naxial_strain = 2", {"axial_strain", "2"}},
+      {"type = 'unconfined_compression'\nwall_speed = 1\naxial_strain = 1e-9",
+       {"axial_strain", "found 1e-09", "at least 1e-06", "at most -1e-06"}},
       {"type = 'unconfined_compression'\nwall_speed = 1\naxial_strain = 0.1\nhold = 'force'",
        {"hold", "cannot be used", "unconfined_compression"}},
       {"type = 'unconfined_compression'\nwall_speed = 1\nstress_drop = 1", {"stress_drop", "< 1"}},
@@ -128,8 +130,6 @@ TEST_CASE("keys of loadings are checked like all others") {
   CHECK_THAT(outcome.messages, Catch::Contains("checkpoint_relative_densities") && Catch::Contains("0.001"));
 }
 
-TEST_CASE("every bad input is refused with one clear line and exit code 2") {
-  const Folder folder;
 TEST_CASE("a default that does not fit other keys is not reported as found") {
   const Folder folder;
   prepare(folder, 2);
@@ -170,6 +170,8 @@ TEST_CASE("what makes a run too long or its history too large, and an STL file, 
              Contains(place) && Contains("tool 'die': key 'file': ") && Contains("none.stl: no such file"));
 }
 
+TEST_CASE("every bad input is refused with one clear line and exit code 2") {
+  const Folder folder;
   prepare(folder, 2);
   const std::string good = folder / "packing.h5";
   MeshedPacking inverted = eight_grains(2);
