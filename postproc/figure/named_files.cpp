@@ -3,14 +3,40 @@
 #include <filesystem>
 #include <vector>
 
+#include "common/errors.hpp"
 #include "postproc/figure/shell_words.hpp"
 
 namespace mpfem {
 
+namespace {
+
+/// What a packing's description names: the STL file of its container and the list of sizes, relative to its folder. A
+/// description that cannot be read names nothing here; pack-gen will refuse it.
+std::vector<std::string> files_in_description(const std::string& description) {
+  std::vector<std::string> files;
+  try {
+    const TomlDocument document = TomlDocument::from_file(description);
+    const std::filesystem::path folder = std::filesystem::path(description).parent_path();
+    for (const char* key : {"surface_file", "size_distribution.file"})
+      if (const auto name = document.root().at_path(key).value<std::string>())
+        files.push_back((folder / *name).lexically_normal().string());
+  } catch (const InputError&) {
+    return {};
+  }
+  return files;
+}
+
+} // namespace
+
 std::string files_in_command(const std::string& command, const std::string& results) {
   std::string files;
   for (const std::string& word : shell_words(command).value_or(std::vector<std::string>()))
-    if (!word.starts_with(results + "/") && std::filesystem::is_regular_file(word)) files += ' ' + word;
+    if (!word.starts_with(results + "/") && std::filesystem::is_regular_file(word)) {
+      files += ' ' + word;
+      if (!word.ends_with(".toml")) continue;
+      for (const std::string& file : files_in_description(word))
+        if (std::filesystem::is_regular_file(file)) files += ' ' + file;
+    }
   return files;
 }
 

@@ -181,7 +181,9 @@ TEST_CASE("a figure named without its folder has the same name, and {here} is th
 
 TEST_CASE("packings, metrics and runs are made again when a file that they name is new") {
   const Studies studies;
-  write_text(studies.path("pk.toml"), "");
+  write_text(studies.path("pk.toml"), "surface_file = \"die.stl\"\n[size_distribution]\nfile = \"sizes.csv\"\n");
+  write_text(studies.path("die.stl"), "");
+  write_text(studies.path("sizes.csv"), "");
   write_text(studies.path("limits.csv"), "");
   write_text(studies.path("post.stl"), "");
   write_text(studies.path("other.stl"), "");
@@ -206,7 +208,8 @@ name = "t"
 columns = ["y = r/m.value"]
 )"));
   const std::string out = studies.path("out"), pair = out + "/study/packings/pair/packing";
-  CHECK_THAT(rules, Contains(fmt::format("{0}.h5: {0}.settings {1}\n", pair, studies.path("pk.toml"))));
+  CHECK_THAT(rules, Contains(fmt::format("{0}.h5: {0}.settings {1} {2} {3}\n", pair, studies.path("pk.toml"),
+                                         studies.path("die.stl"), studies.path("sizes.csv"))));
   CHECK_THAT(rules, Contains(fmt::format("{0}/r/m.json: {0}/r/run.h5 {1} {0}/r/m.command\n", out,
                                          studies.path("limits.csv"))));
   CHECK_THAT(rules, Contains(fmt::format("{0}/r/run.h5: {1}.h5 {0}/r/run.settings {2} {3}\n", out, pair,
