@@ -95,6 +95,8 @@ public:
     return "# Written by postproc depends.\n" + text_;
   }
 
+  const RunGraph& graph() const { return graph_; }
+
 private:
   void rule(const std::string& file, const std::string& needed, const std::string& list) {
     text_ += fmt::format("{}: {}\n", file, needed);
@@ -540,6 +542,12 @@ std::string make_rules(const std::vector<Figure>& figures, const DependsRequest&
   Rules rules(request);
   for (const Figure& figure : figures) rules.add(figure);
   return rules.text();
+}
+
+RunGraph runs_of(const Figure& figure, const DependsRequest& request) {
+  Rules rules(request);
+  rules.add(figure);
+  return rules.graph();
 }
 
 } // namespace mpfem

@@ -28,4 +28,7 @@ struct DependsRequest {
 /// among `commands`, metrics and pictures with options that `check_words` refuses, files that nothing makes.
 std::string make_rules(const std::vector<Figure>& figures, const DependsRequest& request);
 
+/// The runs of a figure, with those at which they begin. Throws InputError as make_rules does.
+RunGraph runs_of(const Figure& figure, const DependsRequest& request);
+
 } // namespace mpfem

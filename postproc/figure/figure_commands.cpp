@@ -14,6 +14,7 @@
 #include "postproc/figure/depends.hpp"
 #include "postproc/figure/figure_plot.hpp"
 #include "postproc/figure/filter_notes.hpp"
+#include "postproc/figure/other_studies.hpp"
 #include "postproc/figure/powder_text.hpp"
 #include "postproc/figure/report.hpp"
 #include "postproc/figure/verdict_pages.hpp"
@@ -195,6 +196,7 @@ struct FigureCommands::State {
         throw InputError(fmt::format("--set: found '{}', allowed: KEY=VALUE", one_line(setting)));
       request.common_settings.emplace_back(setting.substr(0, equals), setting.substr(equals + 1));
     }
+    if (figures.size() == 1) refuse_runs_of_other_studies(figures.front(), request);
     const std::string text = make_rules(figures, request);
     std::ifstream old(output);
     if (std::string(std::istreambuf_iterator<char>(old), {}) == text) return; // unchanged: make need not read it again

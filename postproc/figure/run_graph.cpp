@@ -175,13 +175,13 @@ void add_origin(RunGraph& graph, const Figure& figure, const RunTemplate& run, c
   }
 }
 
+} // namespace
+
 bool same_run(const RunInstance& a, const RunInstance& b) {
   return a.packing == b.packing && a.size == b.size && a.command == b.command && a.parent == b.parent &&
          a.checkpoint == b.checkpoint && a.programme == b.programme && a.settings == b.settings &&
          a.common_settings == b.common_settings;
 }
-
-} // namespace
 
 std::vector<std::string> stage_names(const std::string& programme) {
   const TomlDocument document = TomlDocument::from_file(programme);

@@ -50,6 +50,9 @@ std::string folder_of_file(const std::string& path);
 /// with the values of the case on which the run depends.
 std::string folder_of(const Figure& figure, const RunTemplate& run, const Case& row);
 
+/// Whether two runs have the same settings, packing and beginning.
+bool same_run(const RunInstance& a, const RunInstance& b);
+
 /// Adds a case's run and all runs at which it begins. Throws InputError: invalid chains, a folder that a run with other
 /// settings has too.
 const RunInstance& add_run(RunGraph& graph, const Figure& figure, const RunTemplate& run, const Case& row);

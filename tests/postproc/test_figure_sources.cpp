@@ -8,6 +8,7 @@
 
 #include "postproc/figure/depends.hpp"
 #include "postproc/figure/figure_plot.hpp"
+#include "postproc/figure/other_studies.hpp"
 #include "postproc/figure/powder_text.hpp"
 #include "postproc/figure/report.hpp"
 #include "postproc/figure/verdict_pages.hpp"
@@ -214,6 +215,38 @@ columns = ["y = r/m.value"]
                                          studies.path("limits.csv"))));
   CHECK_THAT(rules, Contains(fmt::format("{0}/r/run.h5: {1}.h5 {0}/r/run.settings {2} {3}\n", out, pair,
                                          studies.path("post.stl"), studies.path("other.stl"))));
+}
+
+TEST_CASE("a run's folder that another study has for a different run is refused, and shared for the same run") {
+  const Studies studies;
+  const auto text = [](int modulus) {
+    return fmt::format(R"([[cases]]
+x = 1
+[[runs]]
+name = "r"
+folder = "shared"
+programme = "press"
+settings = {{ "material.youngs_modulus" = {} }}
+[[tables]]
+name = "t"
+columns = ["y = r/strength.value"]
+)",
+                       modulus);
+  };
+  const std::string other = studies.path("other.toml");
+  write_text(studies.path("out/other/study.path"), other + "\n");
+  DependsRequest request{studies.results(), studies.path("packings/mesh-0.03.h5"), "powder.toml", {}};
+  request.programmes = studies.path("programmes");
+  const auto check = [&](int modulus_of_other) {
+    write_text(other, "title = \"y\"\n" + text(modulus_of_other));
+    refuse_runs_of_other_studies(studies.figure(text(5000)), request);
+  };
+  CHECK_NOTHROW(check(5000));
+  CHECK_THROWS_WITH(check(6000),
+                    studies.path("study.toml") + ": folder: found 'shared', where " + other +
+                        " has another run, allowed: a folder of its own; the two would replace each other");
+  write_text(other, "title = ");
+  CHECK_NOTHROW(refuse_runs_of_other_studies(studies.figure(text(5000)), request));
 }
 
 TEST_CASE("a metric's key may hold dots, and its name a value with a dot") {

@@ -139,6 +139,32 @@ message=$(in_folder two) && code=1
 [[ $message == *"has the results of $work/it's a folder/one/s.toml, allowed"* ]] ||
   { echo "settings.sh: two studies of one name in a folder with spaces: $message" && code=1; }
 
+# clean with STUDY removes results of that study alone, with SEEDS those of all packings.
+# cleans WHAT MAKE-ARGUMENTS
+cleans() {
+  local what=$1 plan
+  shift
+  plan=$(cd "$here" && make -n -f Makefile.studies clean BIN="$bin" "$@" 2>&1) || true
+  [[ $plan == "rm -rf $what" ]] || { echo "settings.sh: make clean $* says: $plan" && code=1; }
+}
+cleans out/coarse
+cleans 'out/coarse out/coarse-seed2' SEEDS=2
+cleans out/own/my STUDY="$work/my.toml"
+cleans 'out/own/my out/own-seed2/my out/own-seed3/my' STUDY="$work/my.toml" SEEDS='2 3'
+
+# Two studies must not replace each other's runs in a folder that both name.
+folder='folder = "shared-{compaction_stress}-{fracture_energy}"'
+for name in one two; do sed "s/^programme = .*/&\n$folder/" my.toml >"$name.toml"; done
+mkdir -p out/own/two
+realpath two.toml >out/own/two/study.path
+message=$(make -n -f "$here/studies/rules.mk" study STUDY=one.toml BIN="$bin" 2>&1) && code=1
+[[ $message == *"one.toml: folder: found 'shared-"*"where two.toml has another run, allowed: a folder of its own"* ]] ||
+  { echo "settings.sh: two studies with one folder of runs: $message" && code=1; }
+rm two.toml
+message=$(make -n -f "$here/studies/rules.mk" study STUDY=one.toml BIN="$bin" 2>&1) ||
+  { echo "settings.sh: a study that is no more keeps its folder: $message" && code=1; }
+rm -r out
+
 # A source tree takes its own build, whatever lies in a folder bin beside it; an installation takes its own programs.
 mkdir -p bin tree share/mpfem
 printf '#!/bin/sh\necho "bin beside" >&2\nexit 1\n' >bin/postproc
