@@ -118,10 +118,19 @@ std::string implausible_body(const ToolShape& shape, const Tool& tool, const Mod
   return fmt::format("tool '{}' is far {} than the packing: {}", tool.name, encloses ? "larger" : "smaller", tool.size);
 }
 
+/// Whether a tool is a round wall about the packing.
+bool surrounds(const ToolSurface& surface) {
+  const auto* cylinder = std::get_if<CylinderSurface>(&surface);
+  const auto* sphere = std::get_if<SphereSurface>(&surface);
+  return (cylinder != nullptr && cylinder->inside) || (sphere != nullptr && sphere->inside);
+}
+
 /// A line if the tool of a scenario is so far from the packing that it is probably given in another unit; else empty.
 std::string implausible_distance(const ToolShape& shape, const Tool& tool, const Model& model) {
-  // Lengths in micrometres or metres are wrong by 1,000: then the wall of a die is 500 diameters away.
-  constexpr double unlikely_distance = 100; // mean edges of the packing's box
+  // Lengths in micrometres or metres are wrong by 1,000: then the wall of a die is 500 diameters away. A wall about the
+  // packing is no further away than this, unless the packing fills less than 1 % of it.
+  constexpr double far_wall = 0.5 * unlikely_ratio, far_tool = 100; // mean edges of the packing's box
+  const double unlikely_distance = surrounds(tool.surface) ? far_wall : far_tool;
   const std::array<double, 3> box = box_of(model);
   const double gap = gap_to_corners(tool.surface, model.box_low, model.box_high);
   if (gap <= unlikely_distance * std::cbrt(box[0] * box[1] * box[2])) return {};
@@ -137,15 +146,6 @@ std::uint64_t hash_of(const TriangleMesh& mesh) {
   return hash_bytes(std::as_bytes(std::span(mesh.triangle)), hash_bytes(std::as_bytes(std::span(mesh.vertex))));
 }
 
-} // namespace
-
-ToolSurface make_surface(const ToolShape& shape, const std::array<double, 3>& low, const std::array<double, 3>& high) {
-  return std::visit([&](const auto& of_shape) { return ToolSurface(surface_of(of_shape, low, high)); }, shape);
-}
-
-Tools make_tools(const Scenario& scenario, const Model& model) {
-  std::vector<Tool> tools;
-  for (const ToolParameters& parameters : scenario.tools) {
 /// The surface of a scenario's tool in the packing's box. A refusal names the key of its STL file.
 ToolSurface surface_in(const Model& model, const ToolParameters& tool) {
   try {
@@ -155,6 +155,15 @@ ToolSurface surface_in(const Model& model, const ToolParameters& tool) {
   }
 }
 
+} // namespace
+
+ToolSurface make_surface(const ToolShape& shape, const std::array<double, 3>& low, const std::array<double, 3>& high) {
+  return std::visit([&](const auto& of_shape) { return ToolSurface(surface_of(of_shape, low, high)); }, shape);
+}
+
+Tools make_tools(const Scenario& scenario, const Model& model) {
+  std::vector<Tool> tools;
+  for (const ToolParameters& parameters : scenario.tools) {
     Tool tool{.name = parameters.name, .surface = surface_in(model, parameters), .friction = parameters.friction};
     if (const auto* body = std::get_if<BodySurface>(&tool.surface)) tool.triangles = hash_of(*body->mesh);
     if (const auto size = size_of(parameters.shape, tool.surface))

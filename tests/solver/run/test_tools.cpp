@@ -832,6 +832,10 @@ TEST_CASE("tools a thousand times too large or too far are warned of with their 
     CHECK(warnings(die).front() == "tool 'tool' (cylinder with radius = 800 mm) is 799.3 " + box);
     CHECK(warnings(punch).front() == "tool 'tool' (plane) is 1998 " + box);
   }
+  // A wall about the packing is warned of where the packing fills less than 1 % of it.
+  CHECK(warnings(CylinderShape{.radius = 12}).empty());
+  CHECK(warnings(CylinderShape{.radius = 80}).front() == "tool 'tool' (cylinder with radius = 80 mm) is 79.29 " + box);
+  CHECK(warnings(SphereShape{.centre = {0.5, 0.5, 1}, .radius = 80, .inside = true}).size() == 1);
   // Curved punches may be nearly flat, and a tool may come from afar.
   CHECK(warnings(SphereShape{.centre = {0.5, 0.5, 1002}, .radius = 1000}).empty());
   CHECK(warnings(PlaneShape{.point = {0, 0, 20}, .normal = {0, 0, -1}}).empty());
