@@ -37,6 +37,16 @@ Vector3<double> reference_of(const ToolSurface& surface) {
       surface);
 }
 
+/// The energies (mJ) and the area (mm^2) that all nodes together have.
+template <class Friction, class Sticking>
+void take_sums(ToolLoad& load, const Friction& friction, const Sticking& sticking) {
+  load.friction_energy = friction.energy;
+  load.friction_dissipation = friction.dissipation;
+  load.adhesion_energy = sticking.energy;
+  load.adhesion_dissipation = sticking.dissipation;
+  load.bonded_area = sticking.bonded_area;
+}
+
 } // namespace
 
 Tools::Tools(std::vector<Tool> tools, int grains) : grains_(grains), tools_(std::move(tools)) {
@@ -84,11 +94,7 @@ ToolLoad Tools::add_tool(Model& model, std::size_t index, const Bounds& bounds, 
     });
     if (tool.friction > 0) anchors = friction.finish();
     if (sticky) bonds = sticking.finish();
-    load.friction_energy = friction.energy;
-    load.friction_dissipation = friction.dissipation;
-    load.adhesion_energy = sticking.energy;
-    load.adhesion_dissipation = sticking.dissipation;
-    load.bonded_area = sticking.bonded_area;
+    take_sums(load, friction, sticking);
     return load;
   });
 }

@@ -48,24 +48,37 @@ struct PowerLaw {
     // most packs that yield also contain points that have not yielded yet; if these took part, such packs would take
     // ten times as long.
     const auto loaded = excess > S(0.0);
-    // 1. Small relative increments, the usual case: with (1 + r)^m as its binomial series the equation is
-    //    r + b2 r^2 + b3 r^3 + … = first. Its inverted series gives r to the fourth power, and one Newton step the rest
-    //    to rounding. Points without plastic strain take the second way. So do points whose strain was too small for
-    //    the number type (small exponents in floats): exp() ends near 1e-38, and an r based on that would stay wrong.
-    if (!any(loaded & !((first < S(0.02)) & (old.plastic_strain > tiny)))) {
-      const S a = slope_strain * inverse;
-      const S b2 = c2() * a, b3 = c3() * b2, b4 = c4() * b3, square = b2 * b2;
-      S r = first *
-            (S(1.0) - first * (b2 - first * (S(2.0) * square - b3 - first * (b2 * (S(5.0) * (square - b3)) + b4))));
-      const S tail = c4() * r * (S(1.0) + c5() * r * (S(1.0) + c6() * r * (S(1.0) + c7() * r)));
-      const S residual = r * (S(1.0) + b2 * r * (S(1.0) + c3() * r * (S(1.0) + tail))) - first;
-      const S slope = r * (S(2.0) * b2 + S(3.0) * b3 * r); // below 0.015: 1/(1 + slope) by its series
-      r = r - residual * (S(1.0) - slope * (S(1.0) - slope * (S(1.0) - slope)));
-      const S increment = old.plastic_strain * r;
-      return {trial - S(three_shear) * increment, old.plastic_strain + increment};
-    }
-    // 2. Any increment, from eps_p = 0 too: Newton on the hardening stress, whose equation
-    //    3G ((y/k)^(1/m) - eps_p,n) + y - (q_trial - sigma_y) = 0 is convex with slope >= 1; started above the root.
+    // Points without plastic strain take the second way. So do points whose strain was too small for the number type
+    // (small exponents in floats): exp() ends near 1e-38, and an r based on that would stay wrong.
+    if (!any(loaded & !((first < S(0.02)) & (old.plastic_strain > tiny))))
+      return small_increment(trial, old, three_shear, first, slope_strain * inverse);
+    return any_increment(trial, old, three_shear);
+  }
+
+private:
+  /// Small relative increments r, the usual case: with (1 + r)^m as its binomial series the equation is
+  /// r + b2 r^2 + b3 r^3 + … = first. Its inverted series gives r to the fourth power, and one Newton step the rest to
+  /// rounding. `a`: H' / (3G + H').
+  template <class S>
+  HardeningState<S> small_increment(const S& trial, const HardeningState<S>& old, double three_shear, const S& first,
+                                    const S& a) const {
+    const S b2 = c2() * a, b3 = c3() * b2, b4 = c4() * b3, square = b2 * b2;
+    S r =
+        first * (S(1.0) - first * (b2 - first * (S(2.0) * square - b3 - first * (b2 * (S(5.0) * (square - b3)) + b4))));
+    const S tail = c4() * r * (S(1.0) + c5() * r * (S(1.0) + c6() * r * (S(1.0) + c7() * r)));
+    const S residual = r * (S(1.0) + b2 * r * (S(1.0) + c3() * r * (S(1.0) + tail))) - first;
+    const S slope = r * (S(2.0) * b2 + S(3.0) * b3 * r); // below 0.015: 1/(1 + slope) by its series
+    r = r - residual * (S(1.0) - slope * (S(1.0) - slope * (S(1.0) - slope)));
+    const S increment = old.plastic_strain * r;
+    return {trial - S(three_shear) * increment, old.plastic_strain + increment};
+  }
+
+  /// Any increment, from eps_p = 0 too: Newton on the hardening stress, whose equation
+  /// 3G ((y/k)^(1/m) - eps_p,n) + y - (q_trial - sigma_y) = 0 is convex with slope >= 1; started above the root.
+  template <class S>
+  HardeningState<S> any_increment(const S& trial, const HardeningState<S>& old, double three_shear) const {
+    const S excess = trial - old.flow_stress, tiny(Resolution<S>::tiny);
+    const auto loaded = excess > S(0.0);
     const S distance = trial - S(yield_stress);
     const S bound = old.plastic_strain + excess / S(three_shear);
     S y = min(max(distance, tiny), S(coefficient) * exp(S(exponent) * log(max(bound, tiny))));
@@ -86,7 +99,6 @@ struct PowerLaw {
     return {select(loaded, y + S(yield_stress), old.flow_stress), select(loaded, strain, old.plastic_strain)};
   }
 
-private:
   // (1 + r)^m - 1 = m r (1 + c2 r (1 + c3 r (1 + …))); after c7 the next term is below 0.02^8.
   double c2() const { return (exponent - 1) * (1.0 / 2); }
   double c3() const { return (exponent - 2) * (1.0 / 3); }
