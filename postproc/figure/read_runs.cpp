@@ -34,6 +34,16 @@ Settings read_settings(TableReader reader) {
   return settings;
 }
 
+/// Whether a file is a scenario: the folder of programmes has parts of figures too.
+bool is_scenario(const filesystem::path& file) {
+  if (file.extension() != ".toml") return false;
+  try {
+    return TomlDocument::from_file(file.string()).root().contains("stages");
+  } catch (const InputError&) {
+    return false; // no TOML
+  }
+}
+
 std::string programme_path(TableReader& r, const std::string& name, const filesystem::path& folder,
                            const std::string& programmes) {
   filesystem::path path = name.ends_with(".toml") ? folder / name : filesystem::path(programmes) / (name + ".toml");
@@ -42,7 +52,7 @@ std::string programme_path(TableReader& r, const std::string& name, const filesy
     std::vector<std::string> known;
     std::error_code ignored;
     for (const auto& entry : filesystem::directory_iterator(programmes, ignored))
-      if (entry.path().extension() == ".toml") known.push_back(entry.path().stem().string());
+      if (is_scenario(entry.path())) known.push_back(entry.path().stem().string());
     std::sort(known.begin(), known.end());
     r.fail("programme", fmt::format("found '{}', but there is no {}{}", name, path.string(), suggestion(name, known)));
   }

@@ -25,9 +25,9 @@ namespace {
 
 // The sizes of arrays follow from their types. The other numbers are measured: peak memory and files of nine runs to a
 // relative density of 0.92 (docs/performance.md).
-constexpr double of_program = 19.7e6; // libraries, code, HDF5
-constexpr double of_contact = 102;    // a facet: points, their forces and candidates, with the search's own
-constexpr double of_bonds = 65;       // a facet more
+constexpr double of_program = 22e6; // libraries, code, HDF5
+constexpr double of_contact = 102;  // a facet: points, their forces and candidates, with the search's own
+constexpr double of_bonds = 65;     // a facet more
 // A facet more, as many points as bonds.
 constexpr double of_friction = of_bonds * sizeof(PointFriction) / (sizeof(PointBond) + sizeof(ContactForce));
 constexpr double margin = 0.1; // of the available memory: the error that the forecast may have
