@@ -62,8 +62,8 @@ yes, if samples were compacted to $saturated | these saturate at the paper's val
 density |
 | Unconfined strength grows exponentially with density and with fracture energy, and samples fail in bands ([fig13], \
 [fig14], [fig15], [fig16]) | in part | by Eq. 5 read literally strong bonds outlast the grains, without peak or band, \
-and weak ones fail in bands; by the law of Fig. 3 strong ones fail so too, and strength is exponential in the \
-porosity; with fracture energy it saturates by either law |
+and weak ones fail in bands; by the law of Fig. 3 strong ones fail too, in bands that hardly stand out, and strength \
+is exponential in the porosity; with fracture energy it saturates by either law |
 | Strong bonds make triaxial samples harden and contract, weak ones soften and expand ([fig18], [fig20], [fig21]) | \
 yes | by Eq. 5 read literally; by the law of Fig. 3 samples with strong bonds soften and expand too |
 | Triaxial strength follows Eq. 13 ([fig22]) | in part | the form fits, and strong bonds agree; grains without bonds \
