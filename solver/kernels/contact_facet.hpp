@@ -5,6 +5,7 @@
 #include <bit>
 #include <cstdint>
 #include <limits>
+#include <ranges>
 #include <span>
 
 #include "common/index.hpp"
@@ -39,8 +40,8 @@ inline Corners shared_corners(const std::int32_t* facet, const Facet& other, Cor
 }
 
 /// Outward direction (rad) on an edge or at a corner of a facet, `place`. `facets` must contain those that meet there.
-inline Vector3<double> direction_at(const Model& model, const Facet& facet, Corners place,
-                                    std::span<const std::int32_t> facets) {
+template <std::ranges::range Facets>
+Vector3<double> direction_at(const Model& model, const Facet& facet, Corners place, const Facets& facets) {
   Vector3<double> direction{0, 0, 0};
   for (const std::int32_t other : facets) {
     const Corners shared = shared_corners(&model.facet[3 * at(other)], facet, place);
@@ -50,12 +51,13 @@ inline Vector3<double> direction_at(const Model& model, const Facet& facet, Corn
   return direction;
 }
 
-/// True if a node is on the outer side of the facet's surface. `offset` is node minus closest point, mm. `candidates`
-/// are the node's candidates: all facets of the surface that are as close as the closest point are among them.
-inline bool is_outside(const Model& model, const Vector3<double>& offset, const ClosestPoint<double>& closest,
-                       const Facet& facet, std::span<const std::int32_t> candidates) {
+/// True if a node is on the outer side of the facet's surface. `offset` is node minus closest point, mm. `facets` must
+/// contain all facets of the surface that meet at the closest point.
+template <std::ranges::range Facets>
+bool is_outside(const Model& model, const Vector3<double>& offset, const ClosestPoint<double>& closest,
+                const Facet& facet, const Facets& facets) {
   const Corners place = closest.between;
-  return dot(offset, place == interior ? facet_direction(facet.x) : direction_at(model, facet, place, candidates)) >= 0;
+  return dot(offset, place == interior ? facet_direction(facet.x) : direction_at(model, facet, place, facets)) >= 0;
 }
 
 /// The closest of some facets, and the distance of the second closest.

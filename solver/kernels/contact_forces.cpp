@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <ranges>
 #include <vector>
 
 #include "common/prefetch.hpp"
@@ -93,7 +94,7 @@ private:
     const Vector3<double> offset = x - closest.point;
     const double distance = norm(offset);
     // 2. Outside.
-    if (distance == 0 || is_outside(model_, offset, closest, geometry, candidates_of(point))) {
+    if (distance == 0 || is_outside(pair, point, offset, distance, closest, geometry)) {
       if constexpr (has_friction) release_friction(point, closest.point, sums);
       return evaluate_open_point(pair, point, node, x, distance);
     }
@@ -117,6 +118,17 @@ private:
       sums.depth = distance;
       sums.deepest_in = static_cast<std::int32_t>(pair.other);
     }
+  }
+
+  /// Whether a point is on the outer side of the other grain's surface. Facets that the search left out are farther
+  /// away than its margin less the travel since; a point beyond that may be closest to a corner where such facets
+  /// meet.
+  bool is_outside(const PairOfGrains& pair, std::int32_t point, const Vector3<double>& offset, double distance,
+                  const ClosestPoint<double>& closest, const Facet& facet) const {
+    if (closest.between == interior || distance < pair.limit - pair.travel)
+      return mpfem::is_outside(model_, offset, closest, facet, candidates_of(point));
+    return mpfem::is_outside(model_, offset, closest, facet,
+                             std::views::iota(model_.facet_offset[pair.other], model_.facet_offset[pair.other + 1]));
   }
 
   /// The facets that may be closest to a point.
