@@ -109,6 +109,10 @@ private:
   /// Adds the statements of other figures that this one can judge: it has the columns and fits that they need.
   void read_statements_of_others(TableReader& root, const std::string& path) {
     for (const std::string& other : named_files(root, "statements_of", path)) {
+      if (std::find(figure_.files.begin(), figure_.files.end(), other) != figure_.files.end())
+        root.fail("statements_of", fmt::format("found '{}', whose statements this file has already, allowed: each file "
+                                               "once",
+                                               other));
       figure_.files.push_back(other);
       const auto document = std::make_shared<const TomlDocument>(TomlDocument::from_file(other));
       figure_.documents.push_back(document);
@@ -117,9 +121,10 @@ private:
       append_each(of_other, "statements", read_statement, statements);
       std::erase_if(statements, [&](const StatementSpec& s) { return !can_judge(figure_, s); });
       if (statements.empty())
-        root.fail("statements_of", fmt::format("found '{}', but each of its statements needs a column or fit that this "
-                                               "file does not have, allowed: figures that name theirs as this one",
-                                               other));
+        root.fail("statements_of",
+                  fmt::format("found '{}', but each of its own statements needs a column or fit that this "
+                              "file does not have, allowed: figures that name theirs as this one",
+                              other));
       append(figure_.statements, statements);
     }
   }
