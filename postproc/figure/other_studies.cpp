@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <optional>
+#include <stdexcept>
 
 #include <fmt/format.h>
 
@@ -15,29 +16,38 @@ namespace {
 
 namespace filesystem = std::filesystem;
 
-/// The files of the other studies with results in a folder: each result has its study in study.path (studies/rules.mk).
+/// The study in a record study.path (studies/rules.mk); empty if it cannot be read, or is no file any more.
+std::string recorded_study(const filesystem::path& record) {
+  constexpr std::size_t most_bytes = 1U << 20U;
+  std::error_code error;
+  if (!filesystem::is_regular_file(record, error)) return {};
+  try {
+    std::string study = read_text_file(record.string(), most_bytes);
+    study.erase(study.find_last_not_of('\n') + 1);
+    return filesystem::is_regular_file(study, error) ? study : std::string();
+  } catch (const std::runtime_error&) {
+    return {};
+  }
+}
+
+/// The files of the other studies with results in a folder.
 std::vector<std::string> other_studies(const std::string& results, const std::string& own) {
-  constexpr std::size_t most_bytes = 1U << 16U;
   std::vector<std::string> studies;
   std::error_code error; // the folder does not exist before the first result
   for (const auto& entry : filesystem::directory_iterator(results, error)) {
-    const filesystem::path record = entry.path() / "study.path";
-    if (!filesystem::is_regular_file(record, error)) continue;
-    std::string study = read_text_file(record.string(), most_bytes);
-    study.erase(study.find_last_not_of('\n') + 1);
-    if (!filesystem::is_regular_file(study, error) || filesystem::equivalent(study, own, error)) continue;
-    // As make would be told of it: names of scenarios begin with that of its folder.
-    studies.push_back(filesystem::path(own).is_absolute() ? study : filesystem::relative(study).string());
+    const std::string study = recorded_study(entry.path() / "study.path");
+    if (!study.empty() && !filesystem::equivalent(study, own, error)) studies.push_back(study);
   }
   return studies;
 }
 
-/// None for a study that cannot be read any more; make will say so when it is asked for that study.
-std::optional<RunGraph> runs_of_other(const std::string& path, const DependsRequest& request) {
-  DependsRequest of_other = request;
-  of_other.note = {};
+/// Runs of a study, its scenarios named by their true paths. None for a study that cannot be read any more; make will
+/// say so when it is asked for that study.
+std::optional<RunGraph> runs_of_study(const std::string& path, const DependsRequest& request) {
+  DependsRequest quiet = request;
+  quiet.note = {};
   try {
-    return runs_of(read_figure(path, request.programmes), of_other);
+    return runs_of(read_figure(filesystem::canonical(path).string(), request.programmes), quiet);
   } catch (const InputError&) {
     return std::nullopt;
   }
@@ -46,17 +56,18 @@ std::optional<RunGraph> runs_of_other(const std::string& path, const DependsRequ
 } // namespace
 
 void refuse_runs_of_other_studies(const Figure& figure, const DependsRequest& request) {
-  const RunGraph own = runs_of(figure, request);
+  const auto own = runs_of_study(figure.path, request);
+  if (!own) return; // make_rules() says why
   for (const std::string& path : other_studies(request.results.path, figure.path)) {
-    const auto others = runs_of_other(path, request);
+    const auto others = runs_of_study(path, request);
     if (!others) continue;
-    for (const auto& [folder, run] : own) {
+    for (const auto& [folder, run] : *own) {
       const auto found = others->find(folder);
       // Studies with powders of their own have different packings.
       if (run.is_packing || found == others->end() || (same_run(run, found->second) && figure.powder.empty())) continue;
       throw InputError(
-          fmt::format("{}: folder: found '{}', where {} has another run, allowed: a folder of its own; the "
-                      "two would replace each other",
+          fmt::format("{}: folder: found '{}', where {} has another run, allowed: a folder of its own, or make in "
+                      "another folder; the two would replace each other",
                       one_line(figure.path), folder, one_line(path)));
     }
   }
