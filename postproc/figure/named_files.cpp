@@ -10,6 +10,13 @@ namespace mpfem {
 
 namespace {
 
+/// Whether make can take a file as a prerequisite: it exists, and no character of its name means something to make.
+bool can_be_prerequisite(const std::string& file) {
+  std::error_code ignored; // names that are too long
+  return file.find_first_of(" \t$#:;|%*?[]~\\'\"") == std::string::npos &&
+         std::filesystem::is_regular_file(file, ignored);
+}
+
 /// What a packing's description names: the STL file of its container and the list of sizes, relative to its folder. A
 /// description that cannot be read names nothing here; pack-gen will refuse it.
 std::vector<std::string> files_in_description(const std::string& description) {
@@ -31,11 +38,11 @@ std::vector<std::string> files_in_description(const std::string& description) {
 std::string files_in_command(const std::string& command, const std::string& results) {
   std::string files;
   for (const std::string& word : shell_words(command).value_or(std::vector<std::string>()))
-    if (!word.starts_with(results + "/") && std::filesystem::is_regular_file(word)) {
+    if (!word.starts_with(results + "/") && can_be_prerequisite(word)) {
       files += ' ' + word;
       if (!word.ends_with(".toml")) continue;
       for (const std::string& file : files_in_description(word))
-        if (std::filesystem::is_regular_file(file)) files += ' ' + file;
+        if (can_be_prerequisite(file)) files += ' ' + file;
     }
   return files;
 }

@@ -217,6 +217,19 @@ columns = ["y = r/m.value"]
                                          studies.path("post.stl"), studies.path("other.stl"))));
 }
 
+TEST_CASE("a file whose name means something to make is no prerequisite") {
+  const Studies studies;
+  for (const std::string name : {"my die.stl", "my:die.stl", "$die.stl"}) {
+    write_text(studies.path(name), "");
+    write_text(studies.path("pk.toml"), fmt::format("surface_file = \"{}\"\n", name));
+    const std::string rules = studies.rules(
+        studies.figure("[[cases]]\nx = 1\n[[packings]]\nname = \"p\"\ncommand = \"spheres "
+                       "{here}/pk.toml\"\n[[tables]]\nname = \"t\"\ncolumns = [\"y = p/pores.value\"]\n"));
+    CHECK_THAT(rules, Contains(studies.path("pk.toml")));
+    CHECK_THAT(rules, !Contains("die.stl"));
+  }
+}
+
 TEST_CASE("a run's folder that another study has for a different run is refused, and shared for the same run") {
   const Studies studies;
   const auto text = [](int modulus) {
@@ -242,9 +255,9 @@ columns = ["y = r/strength.value"]
     refuse_runs_of_other_studies(studies.figure(text(5000)), request);
   };
   CHECK_NOTHROW(check(5000));
-  CHECK_THROWS_WITH(check(6000),
-                    studies.path("study.toml") + ": folder: found 'shared', where " + other +
-                        " has another run, allowed: a folder of its own; the two would replace each other");
+  CHECK_THROWS_WITH(check(6000), studies.path("study.toml") + ": folder: found 'shared', where " + other +
+                                     " has another run, allowed: a folder of its own, or make in another folder; the "
+                                     "two would replace each other");
   write_text(other, "title = ");
   CHECK_NOTHROW(refuse_runs_of_other_studies(studies.figure(text(5000)), request));
 }
@@ -624,8 +637,11 @@ require = [{ quantity = "x", above = 0 }]
   CHECK_THAT(studies.rules(figure), Contains(studies.path("figure/figure.toml")));
 
   CHECK_THROWS_WITH(studies.figure(of_figure + "\"other\"\n"),
-                    Contains("study.toml:2") && Contains("figure/figure.toml', but each of its statements needs a "
+                    Contains("study.toml:2") && Contains("figure/figure.toml', but each of its own statements needs a "
                                                          "column or fit that this file does not have"));
+  CHECK_THROWS_WITH(studies.figure("statements_of = [\"figure/figure.toml\", \"figure/figure.toml\"]\n" +
+                                   of_figure.substr(of_figure.find('\n') + 1) + "\"strength\"\n"),
+                    Contains("figure/figure.toml', whose statements this file has already"));
   CHECK_THROWS_WITH(studies.figure("statements_of = [\"none.toml\"]\n"),
                     Contains("key 'statements_of': found 'none.toml', but there is no such file"));
 }
