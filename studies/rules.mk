@@ -137,8 +137,11 @@ STUDY ?=
 ifneq ($(call others_than,A-Za-z0-9._/+\200-\377-,STUDY),)
   $(error STUDY=$(value STUDY): allowed: a path of letters, digits, '.', '_', '-', '+' and '/')
 endif
-ifneq ($(and $(filter study,$(MAKECMDGOALS)),$(if $(wildcard $(STUDY)),,missing)),)
+# `study` needs one, and `clean` takes one.
+ifneq ($(or $(filter study,$(MAKECMDGOALS)),$(and $(STUDY),$(filter clean,$(MAKECMDGOALS)))),)
+ifeq ($(filter %.toml,$(wildcard $(STUDY))),)
   $(error STUDY=$(STUDY): allowed: the file of a study, e.g. make -f $(makefile) study STUDY=my.toml)
+endif
 endif
 # Of the whole path, so that ./figure.toml has the name of its folder. The path may have spaces before STUDY.
 study_path := $(abspath $(STUDY))

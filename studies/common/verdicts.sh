@@ -11,7 +11,9 @@ work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 statements() { grep '"statement":' $results/"$1"/verdict.json; }
 texts() { statements "$1" | sed 's/,"paper":.*//'; }
-as_list() { awk '{ sub(/,$/, ""); printf "%s%s", NR == 1 ? "[\n" : ",\n", $0 } END { print "\n]" }'; }
+as_list() {
+  awk 'BEGIN { printf "[" } { sub(/,$/, ""); printf "%s%s", NR == 1 ? "\n" : ",\n", $0 } END { print "\n]" }'
+}
 add() {
   column=$1 study=$2
   shift 2

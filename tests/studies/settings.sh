@@ -148,6 +148,9 @@ cleans() {
   [[ $plan == "rm -rf $what" ]] || { echo "settings.sh: make clean $* says: $plan" && code=1; }
 }
 cleans out/coarse
+message=$(cd "$here" && make -n -f Makefile.studies clean BIN="$bin" STUDY=none.toml 2>&1) && code=1
+[[ $message == *'STUDY=none.toml: allowed: the file of a study'* ]] ||
+  { echo "settings.sh: make clean STUDY=none.toml says: $message" && code=1; }
 cleans 'out/coarse out/coarse-seed2' SEEDS=2
 cleans out/own/my STUDY="$work/my.toml"
 cleans 'out/own/my out/own-seed2/my out/own-seed3/my' STUDY="$work/my.toml" SEEDS='2 3'
@@ -158,7 +161,7 @@ for name in one two; do sed "s/^programme = .*/&\n$folder/" my.toml >"$name.toml
 mkdir -p out/own/two
 realpath two.toml >out/own/two/study.path
 message=$(make -n -f "$here/studies/rules.mk" study STUDY=one.toml BIN="$bin" 2>&1) && code=1
-[[ $message == *"one.toml: folder: found 'shared-"*"where two.toml has another run, allowed: a folder of its own"* ]] ||
+[[ $message == *"one.toml: folder: found 'shared-"*"/two.toml has another run, allowed: a folder of its own"* ]] ||
   { echo "settings.sh: two studies with one folder of runs: $message" && code=1; }
 rm two.toml
 message=$(make -n -f "$here/studies/rules.mk" study STUDY=one.toml BIN="$bin" 2>&1) ||
