@@ -291,7 +291,6 @@ struct FigureCommands::State {
 
   /// Shows at most six snapshots, so that the page stays small.
   static std::string view_of(const std::string& run) {
-    if (run.empty()) return "";
     return view_page_of_run({run, schema::FileKind::run}, 6, "Compaction in three dimensions");
   }
 
@@ -306,7 +305,12 @@ struct FigureCommands::State {
       for (const ReportRun& r : entries.back().runs) refuse_overwriting_any({r.file});
     }
     const std::string page_folder = std::filesystem::path(output).parent_path().string();
-    deliver(report_page(entries, {results, title, view_of(run), beside, page_folder}));
+    ReportRequest request{results, title, "", beside, page_folder};
+    if (!run.empty()) {
+      report_page(entries, request); // refuses what is missing before the view, which takes minutes for large packings
+      request.view = view_of(run);
+    }
+    deliver(report_page(entries, request));
   }
 };
 

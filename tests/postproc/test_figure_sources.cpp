@@ -981,6 +981,17 @@ TEST_CASE("verdicts of meshes stand side by side, counted, and what a mesh did n
                     Contains("nothing: cannot be read as a folder") && Contains("allowed: a folder of results"));
 }
 
+TEST_CASE("a report without its verdicts is refused before the view of a run is made") {
+  const Studies studies;
+  studies.figure("[[cases]]\nx = 1\n[[tables]]\nname = \"t\"\ncolumns = [\"x [1] = {x}\"]\n");
+  write_text(studies.path("no-run.h5"), "not a run");
+  const test::Outcome report =
+      test::postproc(fmt::format("report '{}' --results '{}' --title S --view '{}' -o '{}'", studies.path("study.toml"),
+                                 studies.path("out"), studies.path("no-run.h5"), studies.path("page.html")));
+  CHECK(report.exit_code == 2);
+  CHECK_THAT(report.messages, Contains("study/verdict.json: no such file"));
+}
+
 namespace {
 
 /// Writes a figure "study.toml" of a run "r", its table "t" and its fit, and all files that it needs.
