@@ -70,9 +70,10 @@ TEST_CASE("a killed run continues from its checkpoint and ends bitwise like a ru
       replaced(scenario_text, "[output]\n", fmt::format("[output]\ncheckpoint_interval = {}\n", whole.seconds / 20)));
   int kills = 0;
   for (int code = -1; code != 0;) {
-    code = run_command(fmt::format("timeout -s KILL {} '{}' {} --resume", whole.seconds / 3, MPFEM_EXECUTABLE,
-                                   common + (folder / "killed.h5")))
-               .exit_code;
+    const Outcome run = run_command(fmt::format("timeout -s KILL {} '{}' {} --resume", whole.seconds / 3,
+                                                MPFEM_EXECUTABLE, common + (folder / "killed.h5")));
+    code = run.exit_code;
+    CAPTURE(code, run.messages);
     REQUIRE((code == 0 || code == 137));
     kills += code != 0;
     REQUIRE(kills < 100);
