@@ -305,11 +305,8 @@ struct FigureCommands::State {
       for (const ReportRun& r : entries.back().runs) refuse_overwriting_any({r.file});
     }
     const std::string page_folder = std::filesystem::path(output).parent_path().string();
-    ReportRequest request{results, title, "", beside, page_folder};
-    if (!run.empty()) {
-      report_page(entries, request); // refuses what is missing before the view, which takes minutes for large packings
-      request.view = view_of(run);
-    }
+    ReportRequest request{results, title, {}, beside, page_folder};
+    if (!run.empty()) request.view = [this] { return view_of(run); };
     deliver(report_page(entries, request));
   }
 };

@@ -330,9 +330,9 @@ std::string report_page(const std::vector<ReportEntry>& entries, const ReportReq
   if (judged) page += "<section><h3 id=\"verdicts\">Verdicts</h3>\n" + summary + "</section>\n";
   if (!request.beside.empty()) page += table_of_page(request);
   page += "</div>\n";
-  if (!request.view.empty())
+  if (request.view)
     page += fmt::format("<iframe class=\"view\" title=\"Grains in three dimensions\" srcdoc=\"{}\"></iframe>\n",
-                        html_text(request.view));
+                        html_text(request.view()));
   for (const ReportEntry& entry : entries) {
     const std::filesystem::path folder = std::filesystem::path(request.results) / entry.name;
     page += fmt::format("<h2 id=\"{}\">{}</h2>\n<p>{}</p>\n<div class=\"pictures\">\n", entry.name,

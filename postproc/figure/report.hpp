@@ -1,6 +1,7 @@
 #pragma once
 // One HTML page for several figures: their questions, pictures, verdicts and runs.
 
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -33,7 +34,8 @@ std::vector<std::string> files_on_page(const ReportEntry& entry, const std::stri
 /// Content and place of the page; links are relative to `page_folder`.
 struct ReportRequest {
   std::string results, title;
-  std::string view = {};   ///< a complete page (view_page), shown below the tables; empty: none
+  /// Makes a complete page (view_page) that is shown below the tables, once all verdicts are there; empty: none.
+  std::function<std::string()> view = {};
   std::string beside = {}; ///< Markdown file whose title and first table are shown next to the verdicts; empty: none
   std::string page_folder = {};
 };

@@ -1212,7 +1212,7 @@ TEST_CASE("a report has settings and quality of each run, and links that are rel
   const std::string unused = "[[runs]]\nname = \"unused\"\nfolder = \"p{pressure}\"\nprogramme = \"press\"\n";
   CHECK(runs_of_figure(studies.figure(chain + unused), studies.results()).size() == 3);
   const std::string page = report_page({{"study", "s", "q", studies.path("study.toml"), runs}},
-                                       {studies.path("out"), "Studies", "", "", studies.path("out/report")});
+                                       {studies.path("out"), "Studies", {}, "", studies.path("out/report")});
   CHECK_THAT(page, Contains("Settings and provenance of 3 runs"));
   // of small_run: 48 tets, kinetic over internal energy 2 % under load, residual 0.06 of 4 mJ, 0.96 s on 2 threads
   CHECK_THAT(page, Contains("<td>48</td>") && Contains("<td>2 %</td><td>1.5 %</td><td>0.96 s × 2</td>"));
@@ -1284,10 +1284,10 @@ TEST_CASE("a report shows the first table of a page beside the verdicts") {
   write_text(studies.path("out/fig03/verdict.json"), "[]");
   write_text(studies.path("page.md"), "# Speed <1>\n\n| a | `b` |\n|---|---|\n| 1 < 2 |  |\n\n| other |\n");
   const std::vector<ReportEntry> entries = {{"fig03", "bonds", "q"}};
-  const std::string page = report_page(entries, {studies.path("out"), "S", "", studies.path("page.md"), ""});
+  const std::string page = report_page(entries, {studies.path("out"), "S", {}, studies.path("page.md"), ""});
   CHECK_THAT(page, Contains("<h3>Speed &lt;1&gt;</h3>") && Contains("<tr><th>a</th><th><code>b</code></th></tr>") &&
                        Contains(R"(<tr><td data-heading="a">1 &lt; 2</td><td data-heading="b"></td></tr>)") &&
                        !Contains(">other"));
-  CHECK_THROWS_WITH(report_page(entries, {studies.path("out"), "S", "", studies.path("none.md"), ""}),
+  CHECK_THROWS_WITH(report_page(entries, {studies.path("out"), "S", {}, studies.path("none.md"), ""}),
                     Contains("found no table"));
 }

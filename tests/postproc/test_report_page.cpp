@@ -50,7 +50,9 @@ struct StudyReport {
   StudyReport() {
     write_results();
     ReportRequest request{folder / "out", "Studies"};
-    request.view = view_page_of_run({run_file(), schema::FileKind::run}, snapshots, "Compaction in three dimensions");
+    request.view = [&] {
+      return view_page_of_run({run_file(), schema::FileKind::run}, snapshots, "Compaction in three dimensions");
+    };
     request.beside = folder / "page.md";
     request.page_folder = folder / "out/report";
     const ReportRun run{"fig03/press", run_file(), folder / "press.toml"};
