@@ -41,8 +41,8 @@ std::vector<std::string> other_studies(const std::string& results, const std::st
   return studies;
 }
 
-/// Runs of a study, its scenarios named by their true paths. None for a study that cannot be read any more; make will
-/// say so when it is asked for that study.
+/// Runs of a study, its scenarios named by their true paths. None for a study that cannot be read any more; make
+/// reports that when it makes this study.
 std::optional<RunGraph> runs_of_study(const std::string& path, const DependsRequest& request) {
   DependsRequest quiet = request;
   quiet.note = {};
